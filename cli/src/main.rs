@@ -1,0 +1,3 @@
+//! The program `binspace`.
+
+fn main() {}

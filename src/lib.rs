@@ -1,0 +1,5 @@
+//! Exact back-to-front orders of polygons from one BSP tree.
+
+pub mod scene;
+
+pub use glam;
