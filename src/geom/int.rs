@@ -1,0 +1,256 @@
+//! Signed integers of fixed width, on the stack.
+
+use std::cmp::Ordering;
+
+/// A signed integer of `64 * N` bits, in two's complement, least significant limb first.
+///
+/// The predicates know in advance how many bits their results take (see [`exact`](super::exact)),
+/// so nothing here checks for overflow in release builds: each product names its own width.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Int<const N: usize>([u64; N]);
+
+impl<const N: usize> Int<N> {
+    /// Zero.
+    pub const ZERO: Self = Self([0; N]);
+
+    /// The value of the limbs, least significant first, in two's complement.
+    pub const fn from_limbs(limbs: [u64; N]) -> Self {
+        Self(limbs)
+    }
+
+    /// The limbs, least significant first, in two's complement.
+    pub const fn limbs(&self) -> &[u64; N] {
+        &self.0
+    }
+
+    /// Whether the value is below zero.
+    #[inline]
+    pub const fn is_negative(&self) -> bool {
+        (self.0[N - 1] as i64) < 0
+    }
+
+    /// How the value compares with zero.
+    #[inline]
+    pub fn sign(&self) -> Ordering {
+        if self.is_negative() {
+            Ordering::Less
+        } else if self.0.iter().all(|&limb| limb == 0) {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
+    }
+
+    /// The same value in `M` limbs; `M` must suffice.
+    #[inline]
+    pub fn resize<const M: usize>(&self) -> Int<M> {
+        let fill = if self.is_negative() { u64::MAX } else { 0 };
+        let mut limbs = [fill; M];
+        let shared = N.min(M);
+        limbs[..shared].copy_from_slice(&self.0[..shared]);
+        let result = Int(limbs);
+        debug_assert!(
+            self.0[shared..].iter().all(|&limb| limb == fill)
+                && result.is_negative() == self.is_negative(),
+            "the value does not fit the narrower integer"
+        );
+        result
+    }
+
+    /// The product, in `R` limbs; `R` must suffice.
+    #[inline]
+    pub fn times<const M: usize, const R: usize>(&self, other: &Int<M>) -> Int<R> {
+        let (a, b) = (self.magnitude(), other.magnitude());
+        let mut limbs = [0u64; R];
+        for (i, &x) in a.iter().enumerate().take(R) {
+            let mut carry = 0u128;
+            for (limb, &y) in limbs[i..].iter_mut().zip(&b) {
+                carry += u128::from(x) * u128::from(y) + u128::from(*limb);
+                *limb = carry as u64;
+                carry >>= 64;
+            }
+            if let Some(limb) = limbs.get_mut(i + M) {
+                *limb = carry as u64;
+            }
+        }
+        let product = Int(limbs);
+        if self.is_negative() == other.is_negative() {
+            product
+        } else {
+            -product
+        }
+    }
+
+    /// The value times two to the power of `shift`, in `R` limbs; `R` must suffice.
+    pub fn shifted<const R: usize>(&self, shift: u32) -> Int<R> {
+        let wide: Int<R> = self.resize();
+        let (limb_shift, bit_shift) = ((shift / 64) as usize, shift % 64);
+        let limbs = std::array::from_fn(|i| {
+            let at = |k: usize| if k <= i { wide.0[i - k] } else { 0 };
+            let low = if bit_shift == 0 {
+                0
+            } else {
+                at(limb_shift + 1) >> (64 - bit_shift)
+            };
+            (at(limb_shift) << bit_shift) | low
+        });
+        Int(limbs)
+    }
+
+    /// The nearest `f64`, ties to even; infinite beyond its range.
+    pub fn to_f64(&self) -> f64 {
+        let magnitude = self.magnitude();
+        let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else {
+            return 0.0;
+        };
+        // The 64 leading bits, with a sticky last bit that stands for all those below them:
+        // the conversion to f64 then rounds once, as if it saw every bit.
+        let lead = magnitude[top].leading_zeros();
+        let mut bits = magnitude[top] << lead;
+        let mut sticky = false;
+        if top > 0 {
+            if lead > 0 {
+                bits |= magnitude[top - 1] >> (64 - lead);
+            }
+            sticky = (lead < 64 && (magnitude[top - 1] << lead) != 0)
+                || magnitude[..top - 1].iter().any(|&limb| limb != 0);
+        }
+        let exponent = 64 * top as i32 - lead as i32;
+        let value = (bits | u64::from(sticky)) as f64 * 2f64.powi(exponent);
+        if self.is_negative() { -value } else { value }
+    }
+
+    /// The limbs of the absolute value. (That of the least value is its own two's complement,
+    /// which as an unsigned number is right.)
+    #[inline]
+    fn magnitude(&self) -> [u64; N] {
+        if self.is_negative() {
+            (-*self).0
+        } else {
+            self.0
+        }
+    }
+}
+
+impl<const N: usize> std::ops::Neg for Int<N> {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        let mut carry = true;
+        Int(self.0.map(|limb| {
+            let (sum, overflow) = (!limb).overflowing_add(u64::from(carry));
+            carry = overflow;
+            sum
+        }))
+    }
+}
+
+impl<const N: usize> std::ops::Add for Int<N> {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        let mut carry = false;
+        let mut limbs = [0; N];
+        for ((sum, a), b) in limbs.iter_mut().zip(self.0).zip(other.0) {
+            let (partial, first) = a.overflowing_add(b);
+            let (total, second) = partial.overflowing_add(u64::from(carry));
+            *sum = total;
+            carry = first | second;
+        }
+        Int(limbs)
+    }
+}
+
+impl<const N: usize> std::ops::Sub for Int<N> {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        let mut borrow = false;
+        let mut limbs = [0; N];
+        for ((difference, a), b) in limbs.iter_mut().zip(self.0).zip(other.0) {
+            let (partial, first) = a.overflowing_sub(b);
+            let (total, second) = partial.overflowing_sub(u64::from(borrow));
+            *difference = total;
+            borrow = first | second;
+        }
+        Int(limbs)
+    }
+}
+
+impl<const N: usize> From<i64> for Int<N> {
+    #[inline]
+    fn from(value: i64) -> Self {
+        Int::<1>([value as u64]).resize()
+    }
+}
+
+impl<const N: usize> From<i128> for Int<N> {
+    /// `N` must be at least 2, unless the value fits one limb.
+    #[inline]
+    fn from(value: i128) -> Self {
+        Int::<2>([value as u64, (value >> 64) as u64]).resize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Int;
+    use num_bigint::BigInt;
+    use num_traits::ToPrimitive;
+    use proptest::prelude::*;
+
+    fn big<const N: usize>(value: &Int<N>) -> BigInt {
+        let bytes: Vec<u8> = value
+            .limbs()
+            .iter()
+            .flat_map(|limb| limb.to_le_bytes())
+            .collect();
+        BigInt::from_signed_bytes_le(&bytes)
+    }
+
+    /// Limbs that are often all ones or all zeros, where carries run through.
+    fn limb() -> impl Strategy<Value = u64> {
+        prop_oneof![
+            Just(0),
+            Just(u64::MAX),
+            Just(1 << 63),
+            0..4u64,
+            any::<u64>()
+        ]
+    }
+
+    fn int3() -> impl Strategy<Value = Int<3>> {
+        [limb(), limb(), limb()].prop_map(Int::from_limbs)
+    }
+
+    proptest! {
+        #[test]
+        fn agrees_with_a_bignum(a in int3(), b in int3(), shift in 0u32..190) {
+            let (x, y): (Int<4>, Int<4>) = (a.resize(), b.resize());
+            prop_assert_eq!(big(&(x + y)), big(&a) + big(&b));
+            prop_assert_eq!(big(&(x - y)), big(&a) - big(&b));
+            prop_assert_eq!(big(&-x), -big(&a));
+            prop_assert_eq!(big(&a.times::<3, 6>(&b)), big(&a) * big(&b));
+            prop_assert_eq!(big(&a.times::<3, 8>(&b)), big(&a) * big(&b));
+            prop_assert_eq!(big(&a.shifted::<6>(shift)), big(&a) << shift);
+            prop_assert_eq!(a.sign(), big(&a).cmp(&BigInt::ZERO));
+        }
+
+        #[test]
+        fn rounds_to_the_nearest_float(a in int3()) {
+            // An independent rounding: through the decimal digits.
+            let expected: f64 = big(&a).to_string().parse().unwrap();
+            prop_assert_eq!(a.to_f64(), expected);
+            prop_assert!((a.to_f64() - big(&a).to_f64().unwrap()).abs() <= expected.abs() * 1e-15);
+        }
+
+        #[test]
+        fn takes_machine_integers(a in any::<i64>(), b in any::<i128>()) {
+            prop_assert_eq!(big(&Int::<3>::from(a)), BigInt::from(a));
+            prop_assert_eq!(big(&Int::<2>::from(b)), BigInt::from(b));
+        }
+    }
+}

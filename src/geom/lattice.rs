@@ -1,0 +1,177 @@
+//! The scene lattice: the one rounding that everything else is exact after.
+
+use glam::DVec3;
+
+/// The largest magnitude of a lattice coordinate.
+pub const LIMIT: f64 = (1u64 << 51) as f64;
+
+/// A cubic grid laid over a scene, fine enough that rounding its corners to it moves none by more
+/// than 2⁻⁵² of the scene's extent.
+///
+/// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an
+/// `f64`, and so is the difference of two. The grid's spacing is a power of two, so scenes given in
+/// `f32`, on integers, or far from the origin are usually not moved at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Lattice coordinate = world coordinate · 2^exponent − origin.
+    exponent: i32,
+    origin: [i128; 3],
+}
+
+impl Lattice {
+    /// The lattice of a scene with the given bounding box, whose corners must be finite.
+    pub fn new(min: DVec3, max: DVec3) -> Self {
+        // Halved before they are combined, so that nothing overflows.
+        let centre = min * 0.5 + max * 0.5;
+        // Not half the extent: a box a few ulps wide has its centre rounded to one of its sides.
+        let radius = (max - centre).max(centre - min).max_element();
+        // The radius comes out below 2^51 by at least a quarter; the rounding of the centre and of
+        // a corner, half a step each, then reach 2^51 at most.
+        let size = if radius > 0.0 {
+            radius
+        } else {
+            centre.abs().max_element()
+        };
+        let exponent = if size > 0.0 {
+            50 - exponent_of(size)
+        } else {
+            0
+        };
+        let origin = centre
+            .to_array()
+            .map(|c| scale(c, exponent).round() as i128);
+        Self { exponent, origin }
+    }
+
+    /// The lattice point nearest to a point of the scene's bounding box.
+    pub fn snap(&self, point: DVec3) -> [f64; 3] {
+        let world = point.to_array();
+        std::array::from_fn(|axis| {
+            let steps = scale(world[axis], self.exponent).round() as i128;
+            (steps - self.origin[axis]) as f64
+        })
+    }
+
+    /// A point anywhere, in lattice units, rounded to `f64` once; may be far out, even infinite.
+    pub fn to_lattice(&self, point: DVec3) -> [f64; 3] {
+        let world = point.to_array();
+        std::array::from_fn(|axis| {
+            let scaled = scale(world[axis], self.exponent);
+            if scaled.abs() < 1e30 && scaled.fract() == 0.0 {
+                (scaled as i128 - self.origin[axis]) as f64
+            } else {
+                scaled - self.origin[axis] as f64
+            }
+        })
+    }
+
+    /// The world position of a point given in lattice units, rounded to `f64`.
+    pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|axis| {
+            let whole = lattice[axis].floor();
+            let steps = (whole as i128 + self.origin[axis]) as f64;
+            // Clamped: the rounding of a corner at the end of the range must not make it infinite.
+            scale(steps + (lattice[axis] - whole), -self.exponent).clamp(f64::MIN, f64::MAX)
+        }))
+    }
+
+    /// A world length in lattice units.
+    pub fn length_to_lattice(&self, length: f64) -> f64 {
+        scale(length, self.exponent)
+    }
+
+    /// A length in lattice units as a world length.
+    pub fn length_to_world(&self, length: f64) -> f64 {
+        scale(length, -self.exponent)
+    }
+}
+
+/// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.
+fn exponent_of(value: f64) -> i32 {
+    let bits = (value.to_bits() >> 52) as i32;
+    if bits > 0 {
+        bits - 1023
+    } else {
+        exponent_of(value * 2f64.powi(64)) - 64
+    }
+}
+
+/// `value · 2^exponent`, in two steps where one power of two would leave the range of `f64`.
+fn scale(value: f64, exponent: i32) -> f64 {
+    let half = exponent / 2;
+    value * 2f64.powi(half) * 2f64.powi(exponent - half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LIMIT, Lattice};
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    #[test]
+    fn coordinates_on_a_power_of_two_grid_do_not_move() {
+        let (min, max) = (
+            DVec3::new(-4136.0, -1736.0, -96.0),
+            DVec3::new(3544.0, 2816.5, 288.25),
+        );
+        let lattice = Lattice::new(min, max);
+        for point in [
+            min,
+            max,
+            DVec3::ZERO,
+            DVec3::new(0.1f32.into(), 3.3f32.into(), 1.0),
+        ] {
+            assert_eq!(lattice.to_world(lattice.snap(point)), point);
+        }
+    }
+
+    #[test]
+    fn extremes_of_the_range_stay_finite() {
+        for size in [
+            f64::MIN_POSITIVE * 1e-10,
+            1e-300,
+            1e-30,
+            1.0,
+            1e30,
+            f64::MAX,
+        ] {
+            let corner = DVec3::splat(size);
+            let lattice = Lattice::new(-corner, corner);
+            let snapped = lattice.snap(corner);
+            assert!(
+                snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0),
+                "{snapped:?}"
+            );
+            let error = (lattice.to_world(snapped) - corner).abs().max_element();
+            assert!(
+                error <= size * 2f64.powi(-51),
+                "size {size:e}, error {error:e}"
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn rounding_stays_below_the_promise(
+            a in prop::array::uniform3(-1.0..1.0f64),
+            b in prop::array::uniform3(-1.0..1.0f64),
+            offset in prop_oneof![Just(0.0), Just(1e8), Just(-1e15)],
+            scale in prop_oneof![Just(1e-30), Just(1.0), Just(1e30)],
+            t in prop::array::uniform3(0.0..1.0f64),
+        ) {
+            let place = |p: [f64; 3]| (DVec3::from(p) + offset) * scale;
+            let (a, b) = (place(a), place(b));
+            let (min, max) = (a.min(b), a.max(b));
+            let point = (min + (max - min) * DVec3::from(t)).clamp(min, max);
+            let lattice = Lattice::new(min, max);
+            for corner in [min, max, point] {
+                let snapped = lattice.snap(corner);
+                prop_assert!(snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0));
+                let back = lattice.to_world(snapped);
+                let extent = (max - min).max_element();
+                let ulp = corner.abs().max_element() * f64::EPSILON;
+                prop_assert!((back - corner).abs().max_element() <= extent * 2f64.powi(-50) + ulp);
+            }
+        }
+    }
+}

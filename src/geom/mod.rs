@@ -1,0 +1,4 @@
+mod int;
+mod lattice;
+pub use int::Int;
+pub use lattice::Lattice;
