@@ -74,11 +74,7 @@ impl<const N: usize> Int<N> {
             }
         }
         let product = Int(limbs);
-        if self.is_negative() == other.is_negative() {
-            product
-        } else {
-            -product
-        }
+        if self.is_negative() == other.is_negative() { product } else { -product }
     }
 
     /// The value times two to the power of `shift`, in `R` limbs; `R` must suffice.
@@ -87,11 +83,7 @@ impl<const N: usize> Int<N> {
         let (limb_shift, bit_shift) = ((shift / 64) as usize, shift % 64);
         let limbs = std::array::from_fn(|i| {
             let at = |k: usize| if k <= i { wide.0[i - k] } else { 0 };
-            let low = if bit_shift == 0 {
-                0
-            } else {
-                at(limb_shift + 1) >> (64 - bit_shift)
-            };
+            let low = if bit_shift == 0 { 0 } else { at(limb_shift + 1) >> (64 - bit_shift) };
             (at(limb_shift) << bit_shift) | low
         });
         Int(limbs)
@@ -124,11 +116,7 @@ impl<const N: usize> Int<N> {
     /// which as an unsigned number is right.)
     #[inline]
     fn magnitude(&self) -> [u64; N] {
-        if self.is_negative() {
-            (-*self).0
-        } else {
-            self.0
-        }
+        if self.is_negative() { (-*self).0 } else { self.0 }
     }
 }
 
@@ -203,23 +191,13 @@ mod tests {
     use proptest::prelude::*;
 
     fn big<const N: usize>(value: &Int<N>) -> BigInt {
-        let bytes: Vec<u8> = value
-            .limbs()
-            .iter()
-            .flat_map(|limb| limb.to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = value.limbs().iter().flat_map(|limb| limb.to_le_bytes()).collect();
         BigInt::from_signed_bytes_le(&bytes)
     }
 
     /// Limbs that are often all ones or all zeros, where carries run through.
     fn limb() -> impl Strategy<Value = u64> {
-        prop_oneof![
-            Just(0),
-            Just(u64::MAX),
-            Just(1 << 63),
-            0..4u64,
-            any::<u64>()
-        ]
+        prop_oneof![Just(0), Just(u64::MAX), Just(1 << 63), 0..4u64, any::<u64>()]
     }
 
     fn int3() -> impl Strategy<Value = Int<3>> {

@@ -27,19 +27,14 @@ impl Lattice {
         let radius = (max - centre).max(centre - min).max_element();
         // The radius comes out below 2^51 by at least a quarter; the rounding of the centre and of
         // a corner, half a step each, then reach 2^51 at most.
-        let size = if radius > 0.0 {
-            radius
-        } else {
-            centre.abs().max_element()
-        };
-        let exponent = if size > 0.0 {
-            50 - exponent_of(size)
+        let exponent = if radius > 0.0 {
+            50 - exponent_of(radius)
+        } else if centre != DVec3::ZERO {
+            52 - exponent_of(centre.abs().max_element())
         } else {
             0
         };
-        let origin = centre
-            .to_array()
-            .map(|c| scale(c, exponent).round() as i128);
+        let origin = centre.to_array().map(|c| scale(c, exponent).round() as i128);
         Self { exponent, origin }
     }
 
@@ -89,11 +84,7 @@ impl Lattice {
 /// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.
 fn exponent_of(value: f64) -> i32 {
     let bits = (value.to_bits() >> 52) as i32;
-    if bits > 0 {
-        bits - 1023
-    } else {
-        exponent_of(value * 2f64.powi(64)) - 64
-    }
+    if bits > 0 { bits - 1023 } else { exponent_of(value * 2f64.powi(64)) - 64 }
 }
 
 /// `value · 2^exponent`, in two steps where one power of two would leave the range of `f64`.
@@ -110,43 +101,22 @@ mod tests {
 
     #[test]
     fn coordinates_on_a_power_of_two_grid_do_not_move() {
-        let (min, max) = (
-            DVec3::new(-4136.0, -1736.0, -96.0),
-            DVec3::new(3544.0, 2816.5, 288.25),
-        );
+        let (min, max) = (DVec3::new(-4136.0, -1736.0, -96.0), DVec3::new(3544.0, 2816.5, 288.25));
         let lattice = Lattice::new(min, max);
-        for point in [
-            min,
-            max,
-            DVec3::ZERO,
-            DVec3::new(0.1f32.into(), 3.3f32.into(), 1.0),
-        ] {
+        for point in [min, max, DVec3::ZERO, DVec3::new(0.1f32.into(), 3.3f32.into(), 1.0)] {
             assert_eq!(lattice.to_world(lattice.snap(point)), point);
         }
     }
 
     #[test]
     fn extremes_of_the_range_stay_finite() {
-        for size in [
-            f64::MIN_POSITIVE * 1e-10,
-            1e-300,
-            1e-30,
-            1.0,
-            1e30,
-            f64::MAX,
-        ] {
+        for size in [f64::MIN_POSITIVE * 1e-10, 1e-300, 1e-30, 1.0, 1e30, f64::MAX] {
             let corner = DVec3::splat(size);
             let lattice = Lattice::new(-corner, corner);
             let snapped = lattice.snap(corner);
-            assert!(
-                snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0),
-                "{snapped:?}"
-            );
+            assert!(snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0), "{snapped:?}");
             let error = (lattice.to_world(snapped) - corner).abs().max_element();
-            assert!(
-                error <= size * 2f64.powi(-51),
-                "size {size:e}, error {error:e}"
-            );
+            assert!(error <= size * 2f64.powi(-51), "size {size:e}, error {error:e}");
         }
     }
 
