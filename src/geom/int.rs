@@ -89,6 +89,19 @@ impl<const N: usize> Int<N> {
         Int(limbs)
     }
 
+    /// The value of an `f64`, rounded towards zero; it must be finite and fit.
+    pub fn from_f64(value: f64) -> Self {
+        let bits = value.abs().to_bits();
+        let exponent = (bits >> 52) as i32 - 1075;
+        let fraction = if bits >> 52 == 0 { 0 } else { bits & ((1 << 52) - 1) | 1 << 52 };
+        let result: Self = if exponent > 0 {
+            Int::<2>::from_limbs([fraction, 0]).shifted(exponent as u32)
+        } else {
+            Int::<2>::from_limbs([fraction.checked_shr(-exponent as u32).unwrap_or(0), 0]).resize()
+        };
+        if value < 0.0 { -result } else { result }
+    }
+
     /// The nearest `f64`, ties to even; infinite beyond its range.
     pub fn to_f64(&self) -> f64 {
         let magnitude = self.magnitude();
@@ -187,7 +200,7 @@ impl<const N: usize> From<i128> for Int<N> {
 mod tests {
     use super::Int;
     use num_bigint::BigInt;
-    use num_traits::ToPrimitive;
+    use num_traits::{FromPrimitive, ToPrimitive};
     use proptest::prelude::*;
 
     fn big<const N: usize>(value: &Int<N>) -> BigInt {
@@ -229,6 +242,14 @@ mod tests {
         fn takes_machine_integers(a in any::<i64>(), b in any::<i128>()) {
             prop_assert_eq!(big(&Int::<3>::from(a)), BigInt::from(a));
             prop_assert_eq!(big(&Int::<2>::from(b)), BigInt::from(b));
+        }
+
+        #[test]
+        fn takes_floats(x in -1e57..1e57f64, small in -3.0..3.0f64) {
+            for value in [x, small, 0.0, 1e-300] {
+                let expected = BigInt::from_f64(value).unwrap();
+                prop_assert_eq!(big(&Int::<3>::from_f64(value)), expected);
+            }
         }
     }
 }

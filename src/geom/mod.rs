@@ -1,4 +1,27 @@
+//! Exact geometry: the lattice, faces, planes, predicates, and how pieces are cut.
+
+mod exact;
+mod exact_kernel;
+mod eye;
+mod faces;
+mod float_kernel;
 mod int;
+mod kernel;
+mod label;
 mod lattice;
+mod polygon;
+mod prepare;
+mod split;
+mod triangulate;
+
+pub use exact_kernel::{Exact, ExactSplitter, ExactStored, ExactVertex};
+pub use eye::{Eye, Viewpoint};
+pub use faces::Faces;
+pub use float_kernel::{Float, FloatSplitter, FloatVertex, Precision};
 pub use int::Int;
+pub use kernel::{Kernel, Piece, Side, Vertex};
+pub use label::{Line, MAX_LABELS, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::Lattice;
+pub use polygon::{Point, Polygon};
+pub use prepare::{DEFAULT_TOLERANCE, Preparation};
+pub use split::split;

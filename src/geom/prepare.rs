@@ -1,0 +1,265 @@
+//! From the polygons of an input to convex planar faces on the lattice.
+
+use glam::DVec3;
+
+use super::exact::{Plane, cross};
+use super::faces::{Face, Faces, Frame};
+use super::label::MAX_LABELS;
+use super::polygon::Polygon;
+use super::{Lattice, triangulate};
+use crate::Error;
+
+/// The default coplanar tolerance as a share of the scene's extent, the longest side of its
+/// bounding box.
+///
+/// Larger, and thin layers that are meant to be apart count as coplanar; smaller, and faces that
+/// are coplanar but for the rounding of their coordinates cut each other into slivers.
+pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+
+/// The largest coplanar tolerance that counts, about 1/256 of the extent, in lattice units: what is
+/// moved onto a plane must stay within the bits that the exact predicates have room for.
+const LARGEST_TOLERANCE: f64 = super::lattice::LIMIT / 128.0;
+
+/// What became of the polygons of an input.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Preparation {
+    /// How many polygons were given.
+    pub polygons: usize,
+    /// Polygons without area, of which no face remains.
+    pub dropped: usize,
+    /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
+    pub triangulated: usize,
+}
+
+impl Faces {
+    /// Takes polygons to convex planar faces.
+    ///
+    /// The tolerance is a length in the polygons' own unit; `None` stands for
+    /// [`DEFAULT_TOLERANCE`] of the extent. More than 1/256 of the extent counts as that.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate is not finite, the tolerance is negative or not a number, there are more
+    /// than 2²⁹ corners, or a polygon is not convex and the feature `triangulate` is off.
+    pub fn new<P: Polygon>(
+        polygons: impl IntoIterator<Item = P>,
+        tolerance: Option<f64>,
+    ) -> Result<(Self, Preparation), Error> {
+        if let Some(value) = tolerance.filter(|&value| value.is_nan() || value < 0.0) {
+            return Err(Error::tolerance(value));
+        }
+        let (points, ends) = collect(polygons)?;
+        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (min, max) = points.iter().fold(empty, |(min, max), &p| (min.min(p), max.max(p)));
+        let (min, max) = if points.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (min, max) };
+        let lattice = Lattice::new(min, max);
+        let extent = DVec3::from(lattice.snap(max)) - DVec3::from(lattice.snap(min));
+        let tolerance = match tolerance {
+            Some(length) => lattice.length_to_lattice(length).min(LARGEST_TOLERANCE),
+            None => DEFAULT_TOLERANCE * extent.max_element(),
+        };
+        let mut builder = Builder {
+            faces: Faces {
+                lattice,
+                tolerance,
+                corners: Vec::with_capacity(points.len()),
+                numbers: Vec::new(),
+                faces: Vec::with_capacity(ends.len()),
+            },
+            kept: Vec::new(),
+        };
+        let mut report = Preparation { polygons: ends.len(), ..Preparation::default() };
+        let mut start = 0;
+        for (polygon, &end) in ends.iter().enumerate() {
+            match builder.add(polygon, &points[start..end as usize])? {
+                Outcome::Whole => {}
+                Outcome::Triangulated => report.triangulated += 1,
+                Outcome::Dropped => report.dropped += 1,
+            }
+            start = end as usize;
+        }
+        Ok((builder.faces, report))
+    }
+}
+
+/// All corners, and where those of each polygon end.
+fn collect<P: Polygon>(
+    polygons: impl IntoIterator<Item = P>,
+) -> Result<(Vec<DVec3>, Vec<u32>), Error> {
+    let polygons = polygons.into_iter();
+    let expected = polygons.size_hint().0;
+    let (mut points, mut ends) = (Vec::with_capacity(expected * 3), Vec::with_capacity(expected));
+    for (index, polygon) in polygons.enumerate() {
+        for point in polygon.corners() {
+            if !point.is_finite() {
+                return Err(Error::non_finite(index));
+            }
+            points.push(point);
+        }
+        if points.len() >= MAX_LABELS {
+            return Err(Error::too_many_corners());
+        }
+        ends.push(points.len() as u32);
+    }
+    Ok((points, ends))
+}
+
+enum Outcome {
+    Whole,
+    Triangulated,
+    Dropped,
+}
+
+struct Builder {
+    faces: Faces,
+    /// The corners of the polygon at hand on the lattice, repeated ones left out, each with its
+    /// number.
+    kept: Vec<([f64; 3], u32)>,
+}
+
+impl Builder {
+    fn add(&mut self, polygon: usize, points: &[DVec3]) -> Result<Outcome, Error> {
+        self.keep_distinct(points);
+        let Some([second, third]) = self.widest_triangle() else {
+            return Ok(Outcome::Dropped);
+        };
+        if self.kept.len() == 3 {
+            self.push(polygon, 0..3, Frame::TRIANGLE)?;
+            return Ok(Outcome::Whole);
+        }
+        let convex = self.is_convex(second, third);
+        if convex
+            && self.kept.len() <= Frame::MAX_CORNERS
+            && let Some(frame) = self.planar_frame(second, third)
+        {
+            self.push(polygon, 0..self.kept.len(), frame)?;
+            return Ok(Outcome::Whole);
+        }
+        let corners: Vec<[f64; 3]> = self.kept.iter().map(|&(point, _)| point).collect();
+        let triangles = if convex {
+            triangulate::convex(&corners)
+        } else {
+            triangulate::any(&corners).map_err(|_| Error::not_convex(polygon))?
+        };
+        let before = self.faces.len();
+        for triple in triangles {
+            let [p, q, r] = triple.map(|k| corners[k]);
+            if cross(p, q, r) != [0; 3] {
+                self.push(polygon, triple.into_iter(), Frame::TRIANGLE)?;
+            }
+        }
+        let any = self.faces.len() > before;
+        Ok(if any { Outcome::Triangulated } else { Outcome::Dropped })
+    }
+
+    fn keep_distinct(&mut self, points: &[DVec3]) {
+        self.kept.clear();
+        for (number, &point) in points.iter().enumerate() {
+            let point = self.faces.lattice.snap(point);
+            if self.kept.last().is_none_or(|&(last, _)| last != point) {
+                self.kept.push((point, number as u32));
+            }
+        }
+        while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
+            self.kept.pop();
+        }
+    }
+
+    /// The numbers of two corners that, with corner 0, span the largest triangle found; `None` if
+    /// all corners lie on one line.
+    fn widest_triangle(&self) -> Option<[usize; 2]> {
+        let point = |k: usize| DVec3::from(self.kept[k].0);
+        let (origin, n) = (self.kept.first().map(|_| point(0))?, self.kept.len());
+        let distance = |&k: &usize| point(k).distance_squared(origin);
+        let far = (1..n).max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let arm = point(far) - origin;
+        let area = |&k: &usize| arm.cross(point(k) - origin).length_squared();
+        let exact = |k: usize| cross(self.kept[0].0, self.kept[far].0, self.kept[k].0) != [0; 3];
+        let best = (1..n).filter(|&k| k != far).max_by(|a, b| area(a).total_cmp(&area(b)))?;
+        // Rounded areas of nearly straight polygons may name a corner exactly on the line.
+        let third = if exact(best) { best } else { (1..n).find(|&k| exact(k))? };
+        Some([far.min(third), far.max(third)])
+    }
+
+    /// The frame of the polygon, if it is planar within the tolerance.
+    fn planar_frame(&self, second: usize, third: usize) -> Option<Frame> {
+        let triangle = [0, second, third].map(|k| self.kept[k].0);
+        let plane = Plane::through(triangle);
+        let normal = plane.normal_f64();
+        let limit = self.faces.tolerance * normal.length();
+        let mut exact = true;
+        for (point, _) in &self.kept {
+            let value = plane.at(point);
+            if value.sign().is_ne() {
+                exact = false;
+                if value.to_f64().abs() > limit {
+                    return None;
+                }
+            }
+        }
+        let drop = normal.abs().max_position();
+        Some(Frame::new(second, third, if exact { None } else { Some(drop) }))
+    }
+
+    /// Whether the polygon, seen along the axis in which its plane is least steep, is convex and
+    /// winds once. Exact.
+    fn is_convex(&self, second: usize, third: usize) -> bool {
+        let at = |k: usize| self.kept[k % self.kept.len()].0;
+        let normal = cross(at(0), at(second), at(third));
+        let drop = (0..3).max_by_key(|&axis| normal[axis].unsigned_abs()).unwrap_or(2);
+        let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
+        let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
+        // Corners that the projection folds onto one another have no direction to turn from.
+        let mut rises = 0;
+        let mut turn = 0i8;
+        let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
+        for k in 0..self.kept.len() {
+            let (a, b) = (step(k), step(k + 1));
+            if a == [0.0; 2] || b == [0.0; 2] {
+                return false;
+            }
+            let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
+            let area = product(a[0], b[1]) - product(a[1], b[0]);
+            let backwards = area == 0 && product(a[0], b[0]) + product(a[1], b[1]) < 0;
+            let sign = area.signum() as i8;
+            if backwards || sign * turn < 0 {
+                return false;
+            }
+            turn |= sign;
+            rises += u32::from(!ascending(a) && ascending(b));
+        }
+        // A polygon that turns one way only and goes up once goes round once.
+        rises == 1
+    }
+
+    fn push(
+        &mut self,
+        polygon: usize,
+        kept: impl Iterator<Item = usize>,
+        frame: Frame,
+    ) -> Result<(), Error> {
+        let faces = &mut self.faces;
+        let start = faces.corners.len();
+        if start + self.kept.len() >= MAX_LABELS {
+            return Err(Error::too_many_corners());
+        }
+        for (k, index) in kept.enumerate() {
+            let (point, number) = self.kept[index];
+            if faces.numbers.is_empty() && number as usize != k {
+                // The first corner that breaks the count: write out all that kept it.
+                let counts = (0..faces.faces.len() as u32).map(|face| faces.corners(face).len());
+                faces.numbers = counts.flat_map(|len| 0..len as u32).collect();
+                faces.numbers.extend(0..k as u32);
+            }
+            if !faces.numbers.is_empty() {
+                faces.numbers.push(number);
+            }
+            faces.corners.push(point);
+        }
+        faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
+        if let Some(axis) = frame.drop_axis() {
+            faces.flatten_last(axis);
+        }
+        Ok(())
+    }
+}

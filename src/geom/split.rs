@@ -1,0 +1,51 @@
+//! Cutting one piece of a face in two.
+
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
+use super::kernel::{Kernel, Vertex};
+use super::{Faces, Line, PlaneId};
+
+/// Cuts a piece by a plane that has some of its vertices in front and some behind, and appends
+/// the vertices of the two parts to `front` and `back`, in the piece's orientation.
+///
+/// Vertices on the plane go to both parts. New vertices are made only between two that are on
+/// different sides, by the same line and plane for both parts, so the parts share them bit for
+/// bit. A convex piece has at most two; a piece of `n` vertices takes O(n).
+pub fn split<K: Kernel>(
+    kernel: &K,
+    faces: &Faces,
+    (plane, splitter): (PlaneId, &K::Splitter),
+    face: u32,
+    vertices: &[K::Vertex],
+    front: &mut Vec<K::Vertex>,
+    back: &mut Vec<K::Vertex>,
+) {
+    let cut = |side: Ordering| Line::cut(plane, side.is_lt());
+    let sides: SmallVec<[Ordering; 8]> =
+        vertices.iter().map(|vertex| kernel.side(faces, splitter, face, vertex)).collect();
+    for (i, vertex) in vertices.iter().enumerate() {
+        let j = if i + 1 == vertices.len() { 0 } else { i + 1 };
+        let (here, next) = (sides[i], sides[j]);
+        // The part on the other side of `next` leaves its outline here and follows the cut.
+        let along = |side: Ordering| {
+            let leaves = here.is_eq() && next == side.reverse();
+            if leaves { vertex.with_line(cut(side)) } else { *vertex }
+        };
+        if here.is_ge() {
+            front.push(along(Ordering::Greater));
+        }
+        if here.is_le() {
+            back.push(along(Ordering::Less));
+        }
+        if here.is_ne() && next == here.reverse() {
+            let crossing = kernel.cut(faces, splitter, face, [vertex, &vertices[j]]);
+            let (leaving, entering) =
+                (crossing.with_line(cut(here)), crossing.with_line(vertex.line()));
+            let forward = here.is_gt();
+            front.push(if forward { leaving } else { entering });
+            back.push(if forward { entering } else { leaving });
+        }
+    }
+}
