@@ -20,6 +20,8 @@ mod cuboid;
 mod layers;
 mod material;
 mod newell;
+#[cfg(feature = "obj")]
+mod obj;
 mod random;
 mod sphere;
 mod teapot;
@@ -34,6 +36,8 @@ pub use crossing::crossing;
 pub use layers::layers;
 pub use material::Material;
 pub use newell::newell_bars;
+#[cfg(feature = "obj")]
+pub use obj::{ObjError, ObjReport};
 pub use random::random_triangles;
 pub use sphere::sphere;
 pub use teapot::teapot;
