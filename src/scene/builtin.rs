@@ -117,8 +117,8 @@ impl Builtin {
     pub fn sizes(self) -> Option<RangeInclusive<u32>> {
         match self {
             Self::Newell | Self::Cornell => None,
-            // 32 · 790² = 19 971 200.
-            Self::Teapot => Some(1..=790),
+            // 32 · 790² = 19 971 200 polygons.
+            Self::Teapot => Some(2..=790),
             _ => Some(1..=MOST),
         }
     }

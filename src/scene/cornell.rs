@@ -23,7 +23,7 @@ const TALL_BLOCK: [DVec3; 4] = [
 /// Computer Graphics ("Cornell Box Data"), with its camera position. The room's
 /// walls face inwards, the blocks outwards, and the blocks have no underside.
 /// As measured, the walls are not square and the red one is not quite planar;
-/// the lamp lies in the plane of the ceiling. Order: floor, lamp, ceiling, back
+/// the lamp lies in the plane of the ceiling. Order: floor, ceiling, lamp, back
 /// wall, green wall, red wall, short block, tall block (top, then sides).
 /// Colours are for display and do not derive from the measured spectra.
 pub fn cornell_box() -> Scene {
@@ -56,6 +56,8 @@ pub fn cornell_box() -> Scene {
         dvec3(0.0, 548.8, 0.0),
     ];
     scene.push(floor, white);
+    // Before the lamp: of coplanar polygons the later one shows.
+    scene.push(top, ceiling);
     scene.push(
         [
             dvec3(343.0, 548.8, 227.0),
@@ -65,7 +67,6 @@ pub fn cornell_box() -> Scene {
         ],
         lamp,
     );
-    scene.push(top, ceiling);
     scene.push([floor[3], floor[2], top[2], top[1]], back);
     scene.push([floor[2], floor[1], top[3], top[2]], green);
     scene.push([floor[0], floor[3], top[1], top[0]], red);

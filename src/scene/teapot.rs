@@ -86,8 +86,8 @@ const SPOUT_UPPER: Tube = [
 /// There are 32 · `segments`² polygons, of which the 8 · `segments` at the top
 /// of the lid and the middle of the bottom are triangles. They face outwards.
 /// Neighbouring patches share corners bit for bit. As published, the lid leaves
-/// a gap to the rim, and handle and spout pierce the body. `segments` of 0
-/// counts as 1.
+/// a gap to the rim, and handle and spout pierce the body. Fewer than 2
+/// `segments` count as 2, as the spout's lip would fold flat.
 pub fn teapot(segments: u32) -> Scene {
     let mut scene = Scene::new(format!("teapot:{segments}"), DVec3::Z)
         .with_view(DVec3::new(3.5, -9.5, 5.5), DVec3::new(0.2, 0.0, 1.3));
@@ -114,7 +114,7 @@ pub fn teapot(segments: u32) -> Scene {
         ),
         ("bottom", [0.60, 0.58, 0.54], revolve(BOTTOM).to_vec()),
     ];
-    let weights = bernstein(segments.max(1));
+    let weights = bernstein(segments.max(2));
     for (name, color, patches) in parts {
         let material = scene.add_material(Material::new(name, color));
         for patch in patches {
@@ -168,12 +168,21 @@ fn bernstein(n: u32) -> Vec<[f64; 4]> {
         .collect()
 }
 
+/// A point of a cubic Bézier curve. It lies in the box of the control points;
+/// holding it there against rounding keeps poles single points and level rows
+/// level.
+fn curve_point(w: &[f64; 4], [a, b, c, d]: [DVec3; 4]) -> DVec3 {
+    let low = a.min(b).min(c.min(d));
+    let high = a.max(b).max(c.max(d));
+    (a * w[0] + b * w[1] + c * w[2] + d * w[3]).clamp(low, high)
+}
+
 fn push_patch(scene: &mut Scene, patch: &Patch, weights: &[[f64; 4]], material: u32) {
-    let sum = |w: &[f64; 4], p: [DVec3; 4]| p[0] * w[0] + p[1] * w[1] + p[2] * w[2] + p[3] * w[3];
     let points = |w: &[f64; 4]| -> Vec<DVec3> {
         let [a, b, c, d] = *patch;
-        let curve = [0, 1, 2, 3].map(|column| sum(w, [a[column], b[column], c[column], d[column]]));
-        weights.iter().map(|v| sum(v, curve)).collect()
+        let curve =
+            [0, 1, 2, 3].map(|column| curve_point(w, [a[column], b[column], c[column], d[column]]));
+        weights.iter().map(|v| curve_point(v, curve)).collect()
     };
     let mut upper = points(&weights[0]);
     for w in &weights[1..] {
