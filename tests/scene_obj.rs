@@ -1,5 +1,7 @@
 //! Reading OBJ files: what is kept, what is refused, and that nothing panics.
 #![cfg(feature = "obj")]
+// A skipped test says so.
+#![allow(clippy::print_stderr)]
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::scene::{self, Material, ObjError, ObjReport, Scene};
@@ -170,6 +172,18 @@ fn bad_coordinates_are_refused_with_their_line() {
         assert_eq!((line, face), (Some(7), None), "{vertex}");
         assert!(message.starts_with("test.obj, line 7: "), "{message}");
         assert!(message.contains(reason), "{message}");
+    }
+}
+
+/// tobj's own number type would turn it into infinity where that is `f32`.
+#[test]
+fn a_coordinate_beyond_32_bits_is_read_or_refused_but_never_infinite() {
+    match read(with_corners("v 1e39 0 0\nf 1 2 6")) {
+        Ok((scene, _)) => assert_eq!(scene.polygon(0)[2].x, 1e39),
+        Err(error) => {
+            assert_eq!(error.line(), Some(6));
+            assert!(error.to_string().contains("too large for 32 bits"));
+        }
     }
 }
 

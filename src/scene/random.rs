@@ -51,7 +51,7 @@ pub fn random_triangles(count: u32, seed: u64) -> Scene {
     scene
 }
 
-/// Draws until the triangle fits. One draw in about 15 does; a thousand misses
+/// Draws until the triangle fits. One draw in about 16 does; a thousand misses
 /// in a row are as good as impossible, and then a fixed triangle ends the loop.
 fn triangle(random: &mut SplitMix64) -> [DVec3; 3] {
     for _ in 0..1000 {
