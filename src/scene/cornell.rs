@@ -1,0 +1,85 @@
+use super::{Material, Scene};
+use glam::{DVec3, dvec3};
+
+/// The corners of the short block's top, counter-clockwise from above.
+const SHORT_BLOCK: [DVec3; 4] = [
+    dvec3(130.0, 165.0, 65.0),
+    dvec3(82.0, 165.0, 225.0),
+    dvec3(240.0, 165.0, 272.0),
+    dvec3(290.0, 165.0, 114.0),
+];
+
+/// The corners of the tall block's top, counter-clockwise from above.
+const TALL_BLOCK: [DVec3; 4] = [
+    dvec3(423.0, 330.0, 247.0),
+    dvec3(265.0, 330.0, 296.0),
+    dvec3(314.0, 330.0, 456.0),
+    dvec3(472.0, 330.0, 406.0),
+];
+
+/// The Cornell box: 16 quads in millimetres, up is y, open towards −z.
+///
+/// The measurements are those published by the Cornell University Program of
+/// Computer Graphics ("Cornell Box Data"), with its camera position. The room's
+/// walls face inwards, the blocks outwards, and the blocks have no underside.
+/// As measured, the walls are not square and the red one is not quite planar;
+/// the lamp lies in the plane of the ceiling. Order: floor, ceiling, lamp, back
+/// wall, green wall, red wall, short block, tall block (top, then sides).
+/// Colours are for display and do not derive from the measured spectra.
+pub fn cornell_box() -> Scene {
+    let mut scene = Scene::new("cornell", DVec3::Y).with_view(
+        // Published: direction 0 0 1. The room is 559.2 deep.
+        dvec3(278.0, 273.0, -800.0),
+        dvec3(278.0, 273.0, 279.6),
+    );
+    let white = scene.add_material(Material::new("white", [0.85, 0.84, 0.80]));
+    let ceiling = scene.add_material(Material::new("ceiling", [0.70, 0.69, 0.66]));
+    let back = scene.add_material(Material::new("back wall", [0.77, 0.76, 0.73]));
+    let lamp = scene.add_material(Material::new("lamp", [1.00, 0.97, 0.80]));
+    let green = scene.add_material(Material::new("green", [0.25, 0.55, 0.22]));
+    let red = scene.add_material(Material::new("red", [0.68, 0.14, 0.12]));
+    let shades = [0.92, 0.55, 0.62, 0.70, 0.62].map(|grey| {
+        let color = [grey, grey * 0.98, grey * 0.94];
+        scene.add_material(Material::new("block", color))
+    });
+
+    let floor = [
+        dvec3(552.8, 0.0, 0.0),
+        dvec3(0.0, 0.0, 0.0),
+        dvec3(0.0, 0.0, 559.2),
+        dvec3(549.6, 0.0, 559.2),
+    ];
+    let top = [
+        dvec3(556.0, 548.8, 0.0),
+        dvec3(556.0, 548.8, 559.2),
+        dvec3(0.0, 548.8, 559.2),
+        dvec3(0.0, 548.8, 0.0),
+    ];
+    scene.push(floor, white);
+    // Before the lamp: of coplanar polygons the later one shows.
+    scene.push(top, ceiling);
+    scene.push(
+        [
+            dvec3(343.0, 548.8, 227.0),
+            dvec3(343.0, 548.8, 332.0),
+            dvec3(213.0, 548.8, 332.0),
+            dvec3(213.0, 548.8, 227.0),
+        ],
+        lamp,
+    );
+    scene.push([floor[3], floor[2], top[2], top[1]], back);
+    scene.push([floor[2], floor[1], top[3], top[2]], green);
+    scene.push([floor[0], floor[3], top[1], top[0]], red);
+    push_block(&mut scene, SHORT_BLOCK, shades);
+    push_block(&mut scene, TALL_BLOCK, shades);
+    scene
+}
+
+fn push_block(scene: &mut Scene, top: [DVec3; 4], shades: [u32; 5]) {
+    scene.push(top, shades[0]);
+    for side in 0..4 {
+        let (a, b) = (top[side], top[(side + 1) % 4]);
+        let (under_a, under_b) = (dvec3(a.x, 0.0, a.z), dvec3(b.x, 0.0, b.z));
+        scene.push([under_a, under_b, b, a], shades[side + 1]);
+    }
+}
