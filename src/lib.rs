@@ -1,9 +1,13 @@
 //! Exact back-to-front orders of polygons from one BSP tree.
 
+mod bsp;
 mod error;
 pub mod geom;
 pub mod scene;
 
+pub use bsp::{
+    BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Stats,
+};
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};
 pub use glam;

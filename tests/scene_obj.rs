@@ -48,15 +48,9 @@ fn polygons_keep_their_sides_order_and_place() {
     let (scene, report) = read(text).unwrap();
     assert_eq!(sides(&scene), [4, 3, 1, 0, 3, 5, 3, 3]);
     assert_eq!((report.faces, report.degenerate_faces), (8, 3));
-    assert_eq!(
-        scene.polygon(4),
-        [dvec3(1., 0., 0.), dvec3(1., 1., 0.), dvec3(0., 0., 5.)]
-    );
+    assert_eq!(scene.polygon(4), [dvec3(1., 0., 0.), dvec3(1., 1., 0.), dvec3(0., 0., 5.)]);
     let names: Vec<&str> = (0..8).map(|i| scene.material(i).name.as_str()).collect();
-    assert_eq!(
-        names,
-        ["", "red", "red", "blue", "blue", "red", "red", "red"]
-    );
+    assert_eq!(names, ["", "red", "red", "blue", "blue", "red", "red", "red"]);
     assert_eq!(report.missing_materials, ["red", "blue"]);
 }
 
@@ -118,9 +112,7 @@ fn normals_texture_weights_and_colours_are_left_out() {
     for face in faces {
         assert_eq!(read(with_corners(face)).expect(face), plain, "{face}");
     }
-    let weighted = CORNERS
-        .replace("v 1 0 0", "v 1 0 0 2")
-        .replace("v 0 1 0", "v 0 1 0 1 0.5 0");
+    let weighted = CORNERS.replace("v 1 0 0", "v 1 0 0 2").replace("v 0 1 0", "v 0 1 0 1 0.5 0");
     let weighted = format!("{weighted}f 1 2 3\nf 3 4 5");
     assert_eq!(read(weighted).unwrap(), plain);
 }
@@ -134,18 +126,10 @@ fn bytes_that_are_no_utf8_may_stand_in_names() {
 
 #[test]
 fn wrong_encodings_are_named() {
-    let utf16: Vec<u8> = with_corners("f 1 2 3")
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    let big: Vec<u8> = utf16
-        .chunks(2)
-        .flat_map(|pair| [pair[1], pair[0]])
-        .collect();
-    for marked in [
-        [b"\xff\xfe", &utf16[..]].concat(),
-        [b"\xfe\xff", &big[..]].concat(),
-    ] {
+    let utf16: Vec<u8> =
+        with_corners("f 1 2 3").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = utf16.chunks(2).flat_map(|pair| [pair[1], pair[0]]).collect();
+    for marked in [[b"\xff\xfe", &utf16[..]].concat(), [b"\xfe\xff", &big[..]].concat()] {
         assert!(refused(marked).2.contains("UTF-16; save it as UTF-8"));
     }
     for unmarked in [utf16, big] {
@@ -206,23 +190,14 @@ fn bad_corners_are_refused_with_line_and_face() {
         let (line, face, message) =
             refused(with_corners(&format!("f 1 2 3\n\nf 1 2 {corner}\nf 3 4 5")));
         assert_eq!((line, face), (Some(8), Some(1)), "{corner}");
-        assert!(
-            message.starts_with("test.obj, line 8, face 1 (from 0): "),
-            "{message}"
-        );
+        assert!(message.starts_with("test.obj, line 8, face 1 (from 0): "), "{message}");
         assert!(message.contains(reason), "{message}");
     }
 }
 
 #[test]
 fn a_file_without_faces_is_refused() {
-    for text in [
-        "",
-        "\n\n",
-        "# nothing",
-        CORNERS,
-        &with_corners("l 1 2 3\np 1"),
-    ] {
+    for text in ["", "\n\n", "# nothing", CORNERS, &with_corners("l 1 2 3\np 1")] {
         assert!(refused(text).2.contains("no faces"), "{text:?}");
     }
 }
@@ -242,17 +217,10 @@ fn materials_come_from_the_library() {
                    newmtl both\nd 0.5\nTr 0.9\nnewmtl plain\nKd 1 2 -3\n";
     let faces =
         ["red", "grey one", "both", "plain"].map(|name| format!("usemtl {name}\nf 1 2 3\n"));
-    let text = with_corners(&format!(
-        "mtllib a file.mtl\nmtllib a file.mtl\n{}",
-        faces.concat()
-    ));
+    let text = with_corners(&format!("mtllib a file.mtl\nmtllib a file.mtl\n{}", faces.concat()));
     let (scene, report) = read_with(&text, &[("a file.mtl", library)]);
     assert!(report.is_clean(), "{report}");
-    let looks: Vec<_> = scene
-        .materials()
-        .iter()
-        .map(|m| (m.color, m.opacity))
-        .collect();
+    let looks: Vec<_> = scene.materials().iter().map(|m| (m.color, m.opacity)).collect();
     let expected = [
         ([0.9, 0.1, 0.0], 0.5),
         ([0.25; 3], 0.25),
@@ -276,10 +244,7 @@ fn missing_libraries_and_materials_are_reported() {
 #[test]
 fn several_libraries_may_stand_in_one_line() {
     let text = with_corners("mtllib a.mtl sub\\b.mtl\nmtllib sub\\b.mtl\nusemtl red\nf 1 2 3");
-    let (scene, report) = read_with(
-        &text,
-        &[("a.mtl", ""), ("sub/b.mtl", "newmtl red\nKd 1 0 0")],
-    );
+    let (scene, report) = read_with(&text, &[("a.mtl", ""), ("sub/b.mtl", "newmtl red\nKd 1 0 0")]);
     assert_eq!(scene.material(0).color, [1.0, 0.0, 0.0]);
     assert_eq!(report.missing_libraries, ["a.mtl sub\\b.mtl"]);
 }
@@ -289,10 +254,8 @@ fn several_libraries_may_stand_in_one_line() {
 fn bad_lines_in_a_library_spoil_nothing_else() {
     let library = "Kd 1 1 1\nnewmtl\nKd 0 0 0\nnewmtl red\nKd 1 x\nKd 1 2\nKd nan 0 0\nKd\nd\nNs\n\
                    map_Kd\nillum\nKs 1\nKd spectral file.rfl 1\nd -halo 0.5\nKd 1 0 0\nillum x\n";
-    let (scene, report) = read_with(
-        &with_corners("mtllib a.mtl\nusemtl red\nf 1 2 3"),
-        &[("a.mtl", library)],
-    );
+    let (scene, report) =
+        read_with(&with_corners("mtllib a.mtl\nusemtl red\nf 1 2 3"), &[("a.mtl", library)]);
     assert_eq!(scene.material(0).color, [1.0, 0.0, 0.0]);
     assert_eq!(report.skipped_material_lines, 8);
     assert!(report.missing_materials.is_empty());
@@ -373,12 +336,8 @@ const WORDS: [&str; 44] = [
 fn soup() -> impl Strategy<Value = String> {
     let word = prop::sample::select(&WORDS[..]);
     let gap = prop::sample::select(&["\n", "\n", "\n", " ", "\t", ""][..]);
-    prop::collection::vec((word, gap), 0..60).prop_map(|words| {
-        words
-            .into_iter()
-            .flat_map(|(word, gap)| [word, gap])
-            .collect()
-    })
+    prop::collection::vec((word, gap), 0..60)
+        .prop_map(|words| words.into_iter().flat_map(|(word, gap)| [word, gap]).collect())
 }
 
 proptest! {
@@ -445,19 +404,11 @@ fn real_scenes_match_their_manifest() {
         let (scene, report) = Scene::read_obj(folder.join(&name)).expect(&name);
         let sides = sides(&scene);
         let count = |wanted: fn(usize) -> bool| sides.iter().filter(|&&n| wanted(n)).count();
-        let found = [
-            scene.len(),
-            count(|n| n == 3),
-            count(|n| n == 4),
-            count(|n| n > 4),
-        ];
+        let found = [scene.len(), count(|n| n == 3), count(|n| n == 4), count(|n| n > 4)];
         assert_eq!(found, counts, "{name}");
         let (least, most) = scene.bounds().unwrap_or_default();
         let error = (least - low).abs().max((most - high).abs()).max_element();
-        assert!(
-            error < 1e-4 * (high - low).max_element(),
-            "{name}: {least} {most}"
-        );
+        assert!(error < 1e-4 * (high - low).max_element(), "{name}: {least} {most}");
         assert!(report.is_clean(), "{name}: {report}");
     }
 }
@@ -484,11 +435,7 @@ fn torture_files_are_read_or_refused_with_a_reason() {
         ("regr_3429812.obj", 3, 0),
     ] {
         let (scene, report) = read(name).expect(name);
-        assert_eq!(
-            (scene.len(), report.degenerate_faces),
-            (faces, degenerate),
-            "{name}"
-        );
+        assert_eq!((scene.len(), report.degenerate_faces), (faces, degenerate), "{name}");
     }
     assert!(read("empty_mat.obj").is_ok());
 }

@@ -15,9 +15,7 @@ fn bits(p: DVec3) -> Bits {
 /// The area vector, of twice the area's length.
 fn normal(polygon: &[DVec3]) -> DVec3 {
     let from_first = |i: usize| polygon[i % polygon.len()] - polygon[0];
-    (0..polygon.len())
-        .map(|i| from_first(i).cross(from_first(i + 1)))
-        .sum()
+    (0..polygon.len()).map(|i| from_first(i).cross(from_first(i + 1))).sum()
 }
 
 fn centre(polygon: &[DVec3]) -> DVec3 {
@@ -60,24 +58,8 @@ fn cornell_box_is_as_published() {
     assert_eq!(eye, Some(DVec3::new(278.0, 273.0, -800.0)));
     // One side of each block from the published list, as a set of corners.
     let sides = [
-        (
-            10,
-            [
-                [290., 0., 114.],
-                [290., 165., 114.],
-                [130., 165., 65.],
-                [130., 0., 65.],
-            ],
-        ),
-        (
-            12,
-            [
-                [423., 0., 247.],
-                [423., 330., 247.],
-                [265., 330., 296.],
-                [265., 0., 296.],
-            ],
-        ),
+        (10, [[290., 0., 114.], [290., 165., 114.], [130., 165., 65.], [130., 0., 65.]]),
+        (12, [[423., 0., 247.], [423., 330., 247.], [265., 330., 296.], [265., 0., 296.]]),
     ];
     for (index, published) in sides {
         let published: HashSet<Bits> = published.into_iter().map(|p| bits(p.into())).collect();
@@ -113,10 +95,7 @@ fn cornell_box_walls_face_the_room_and_blocks_the_air() {
         let inside = centre(scene.polygon(block.start)) * DVec3::new(1.0, 0.5, 1.0);
         for index in block {
             let side = scene.polygon(index);
-            assert!(
-                normal(side).dot(centre(side) - inside) > 0.0,
-                "side {index}"
-            );
+            assert!(normal(side).dot(centre(side) - inside) > 0.0, "side {index}");
         }
     }
 }
@@ -128,19 +107,14 @@ fn newell_bars_cover_one_another_in_a_cycle() {
     let bars: Vec<(DVec3, DVec3)> = (0..3)
         .map(|bar| {
             let corners = (6 * bar..6 * bar + 6).flat_map(|face| scene.polygon(face));
-            corners.fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| {
-                (low.min(p), high.max(p))
-            })
+            corners.fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)))
         })
         .collect();
     let inside = |(low, high): (DVec3, DVec3), p: DVec3| p.cmpgt(low).all() && p.cmplt(high).all();
     // Points inside the bars along x, y, z. Two steps of (1, 1, 1) from each,
     // towards the viewer, lies the inside of the next bar.
-    let starts = [
-        DVec3::new(-3.0, 1.0, -1.0),
-        DVec3::new(-1.0, -3.0, 1.0),
-        DVec3::new(1.0, -1.0, -3.0),
-    ];
+    let starts =
+        [DVec3::new(-3.0, 1.0, -1.0), DVec3::new(-1.0, -3.0, 1.0), DVec3::new(1.0, -1.0, -3.0)];
     for bar in 0..3 {
         let next = bars[(bar + 1) % 3];
         assert!(inside(bars[bar], starts[bar]), "bar {bar}");
@@ -203,13 +177,10 @@ fn volume<'a>(
     let pyramid = |a: DVec3, b: DVec3, c: DVec3| a.dot(b.cross(c)) / 6.0;
     let mut sum = 0.0;
     for p in polygons.clone() {
-        sum += (2..p.len())
-            .map(|i| pyramid(p[0], p[i - 1], p[i]))
-            .sum::<f64>();
+        sum += (2..p.len()).map(|i| pyramid(p[0], p[i - 1], p[i])).sum::<f64>();
     }
-    let (first, second): (Vec<_>, Vec<_>) = open_edges(polygons)
-        .into_iter()
-        .partition(|&(a, _)| at_first_end(a));
+    let (first, second): (Vec<_>, Vec<_>) =
+        open_edges(polygons).into_iter().partition(|&(a, _)| at_first_end(a));
     for rim in [first, second] {
         let middle = rim.iter().map(|(a, _)| *a).sum::<DVec3>() / rim.len().max(1) as f64;
         sum += rim.iter().map(|&(a, b)| pyramid(middle, b, a)).sum::<f64>();
@@ -420,18 +391,7 @@ fn bad_specs_say_what_would_do() {
     for text in ["", "tepot", "Teapot", "tepot:3", ":3"] {
         assert!(error(text).contains("newell, cornell, teapot"), "{text}");
     }
-    let sizes = [
-        "",
-        "0",
-        "1",
-        "791",
-        "-1",
-        "1.5",
-        "x",
-        "8:8",
-        " 8",
-        "99999999999999999999",
-    ];
+    let sizes = ["", "0", "1", "791", "-1", "1.5", "x", "8:8", " 8", "99999999999999999999"];
     for size in sizes {
         let error = error(&format!("teapot:{size}"));
         assert!(error.contains("from 2 to 790, such as teapot:8"), "{error}");

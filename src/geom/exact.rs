@@ -36,7 +36,7 @@ pub(super) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
 
 /// A plane in integers: a normal and a lattice point on it.
 #[derive(Clone, Copy, Debug)]
-pub struct Plane {
+pub(crate) struct Plane {
     normal: [i128; 3],
     point: [i64; 3],
 }
@@ -68,9 +68,9 @@ impl Plane {
         DVec3::from_array(self.normal.map(|c| c as f64))
     }
 
-    /// The normal.
-    pub(crate) fn normal(&self) -> [i128; 3] {
-        self.normal
+    /// The scalar product of the normal and a point of the plane, rounded.
+    pub(crate) fn offset_f64(&self) -> f64 {
+        self.along(self.point).to_f64()
     }
 
     /// The signed distance of a lattice point times the length of the normal.

@@ -207,8 +207,17 @@ impl Kernel for Exact {
         ExactStored { symbol: vertex.symbol, line: vertex.line }
     }
 
-    fn load(&self, faces: &Faces, face: u32, stored: &ExactStored) -> (Symbol, Line, [f64; 3]) {
-        (stored.symbol, stored.line, faces.position(face, stored.symbol))
+    fn restore(&self, faces: &Faces, face: u32, stored: &ExactStored) -> ExactVertex {
+        let ExactStored { symbol, line } = *stored;
+        ExactVertex { position: faces.position(face, symbol), symbol, line }
+    }
+
+    fn symbol(stored: &ExactStored) -> Symbol {
+        stored.symbol
+    }
+
+    fn line(stored: &ExactStored) -> Line {
+        stored.line
     }
 
     fn eye_side(&self, faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering {

@@ -13,10 +13,14 @@ pub struct Faces {
     pub(super) lattice: Lattice,
     pub(super) tolerance: f64,
     pub(super) corners: Vec<[f64; 3]>,
-    /// The number within its polygon of every corner; empty while all count up from 0.
+    /// The number within its polygon of every corner, with [`INNER`] where the edge to the next
+    /// is none of the polygon's; empty while all count up from 0.
     pub(super) numbers: Vec<u32>,
     pub(super) faces: Vec<Face>,
 }
+
+/// Marks corners from which the edge to the next is none of the polygon's.
+pub(super) const INNER: u32 = 1 << 31;
 
 /// Where a face's corners begin, what it came from, and which of its corners span its plane.
 #[derive(Clone, Copy, Debug)]
@@ -108,8 +112,24 @@ impl Faces {
         face.frame.triangle().map(|k| face.start + k)
     }
 
+    /// How many corners all faces have together.
+    pub fn corner_count(&self) -> usize {
+        self.corners.len()
+    }
+
     /// The number within its polygon of a face's corner `k`.
     pub fn corner_number(&self, face: u32, k: u32) -> u32 {
+        self.number(face, k) & !INNER
+    }
+
+    /// The number of the polygon's edge that a face's edge `k` is, counted by the corner where it
+    /// begins; `None` for one made by triangulation.
+    pub fn outline_edge(&self, face: u32, k: u32) -> Option<u32> {
+        let number = self.number(face, k);
+        (number & INNER == 0).then_some(number)
+    }
+
+    fn number(&self, face: u32, k: u32) -> u32 {
         if self.numbers.is_empty() {
             k
         } else {

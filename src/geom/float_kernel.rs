@@ -221,8 +221,16 @@ impl<T: Precision> Kernel for Float<T> {
         *vertex
     }
 
-    fn load(&self, _: &Faces, _: u32, stored: &FloatVertex) -> (Symbol, Line, [f64; 3]) {
-        (stored.symbol, stored.line, stored.position)
+    fn restore(&self, _: &Faces, _: u32, stored: &FloatVertex) -> FloatVertex {
+        *stored
+    }
+
+    fn symbol(stored: &FloatVertex) -> Symbol {
+        stored.symbol
+    }
+
+    fn line(stored: &FloatVertex) -> Line {
+        stored.line
     }
 
     fn eye_side(&self, faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering {

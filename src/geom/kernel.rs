@@ -94,8 +94,14 @@ pub trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
     /// A vertex as the finished tree keeps it.
     fn store(&self, vertex: &Self::Vertex) -> Self::Stored;
 
-    /// A stored vertex's definition, its line to the next, and its position in lattice units.
-    fn load(&self, faces: &Faces, face: u32, stored: &Self::Stored) -> (Symbol, Line, [f64; 3]);
+    /// A stored vertex as it was while the tree was built.
+    fn restore(&self, faces: &Faces, face: u32, stored: &Self::Stored) -> Self::Vertex;
+
+    /// A stored vertex's definition.
+    fn symbol(stored: &Self::Stored) -> Symbol;
+
+    /// What bounds the piece from a stored vertex to the next.
+    fn line(stored: &Self::Stored) -> Line;
 
     /// On which side of a plane an eye lies.
     fn eye_side(&self, faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering;

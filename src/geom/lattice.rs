@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// The largest magnitude of a lattice coordinate.
-pub const LIMIT: f64 = (1u64 << 51) as f64;
+pub(crate) const LIMIT: f64 = (1u64 << 51) as f64;
 
 /// A cubic grid laid over a scene, fine enough that rounding its corners to it moves none by more
 /// than 2⁻⁵² of the scene's extent.

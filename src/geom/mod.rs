@@ -21,6 +21,7 @@ pub use float_kernel::{Float, FloatSplitter, FloatVertex, Precision};
 pub use int::Int;
 pub use kernel::{Kernel, Piece, Side, Vertex};
 pub use label::{Line, MAX_LABELS, PlaneId, PlaneKind, Symbol, SymbolKind};
+pub(crate) use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub use polygon::{Point, Polygon};
 pub use prepare::{DEFAULT_TOLERANCE, Preparation};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::exact::{Plane, cross};
-use super::faces::{Face, Faces, Frame};
+use super::faces::{Face, Faces, Frame, INNER};
 use super::label::MAX_LABELS;
 use super::polygon::Polygon;
 use super::{Lattice, triangulate};
@@ -124,7 +124,7 @@ impl Builder {
             return Ok(Outcome::Dropped);
         };
         if self.kept.len() == 3 {
-            self.push(polygon, 0..3, Frame::TRIANGLE)?;
+            self.push(polygon, &[0, 1, 2], Frame::TRIANGLE)?;
             return Ok(Outcome::Whole);
         }
         let convex = self.is_convex(second, third);
@@ -132,7 +132,8 @@ impl Builder {
             && self.kept.len() <= Frame::MAX_CORNERS
             && let Some(frame) = self.planar_frame(second, third)
         {
-            self.push(polygon, 0..self.kept.len(), frame)?;
+            let all: Vec<usize> = (0..self.kept.len()).collect();
+            self.push(polygon, &all, frame)?;
             return Ok(Outcome::Whole);
         }
         let corners: Vec<[f64; 3]> = self.kept.iter().map(|&(point, _)| point).collect();
@@ -145,7 +146,7 @@ impl Builder {
         for triple in triangles {
             let [p, q, r] = triple.map(|k| corners[k]);
             if cross(p, q, r) != [0; 3] {
-                self.push(polygon, triple.into_iter(), Frame::TRIANGLE)?;
+                self.push(polygon, &triple, Frame::TRIANGLE)?;
             }
         }
         let any = self.faces.len() > before;
@@ -232,30 +233,27 @@ impl Builder {
         rises == 1
     }
 
-    fn push(
-        &mut self,
-        polygon: usize,
-        kept: impl Iterator<Item = usize>,
-        frame: Frame,
-    ) -> Result<(), Error> {
+    /// Adds a face of some of the polygon's kept corners, in order around it.
+    fn push(&mut self, polygon: usize, kept: &[usize], frame: Frame) -> Result<(), Error> {
         let faces = &mut self.faces;
         let start = faces.corners.len();
-        if start + self.kept.len() >= MAX_LABELS {
+        if start + kept.len() >= MAX_LABELS {
             return Err(Error::too_many_corners());
         }
-        for (k, index) in kept.enumerate() {
-            let (point, number) = self.kept[index];
-            if faces.numbers.is_empty() && number as usize != k {
-                // The first corner that breaks the count: write out all that kept it.
-                let counts = (0..faces.faces.len() as u32).map(|face| faces.corners(face).len());
-                faces.numbers = counts.flat_map(|len| 0..len as u32).collect();
-                faces.numbers.extend(0..k as u32);
-            }
-            if !faces.numbers.is_empty() {
-                faces.numbers.push(number);
-            }
-            faces.corners.push(point);
+        let number = |k: usize| {
+            let next = kept[(k + 1) % kept.len()];
+            let is_outline = (kept[k] + 1) % self.kept.len() == next;
+            self.kept[kept[k]].1 | if is_outline { 0 } else { INNER }
+        };
+        if faces.numbers.is_empty() && (0..kept.len()).any(|k| number(k) != k as u32) {
+            // The first face that breaks the count: write out what all before it kept to.
+            let counts = (0..faces.faces.len() as u32).map(|face| faces.corners(face).len());
+            faces.numbers = counts.flat_map(|len| 0..len as u32).collect();
+            faces.numbers.extend((0..kept.len()).map(number));
+        } else if !faces.numbers.is_empty() {
+            faces.numbers.extend((0..kept.len()).map(number));
         }
+        faces.corners.extend(kept.iter().map(|&k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
         if let Some(axis) = frame.drop_axis() {
             faces.flatten_last(axis);

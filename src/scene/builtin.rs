@@ -229,10 +229,7 @@ impl FromStr for BuiltinSpec {
             return Err(BuiltinError(Kind::OneSize(scene)));
         };
         match digits.parse() {
-            Ok(size) if sizes.contains(&size) => Ok(Self {
-                scene,
-                size: Some(size),
-            }),
+            Ok(size) if sizes.contains(&size) => Ok(Self { scene, size: Some(size) }),
             _ => Err(BuiltinError(Kind::Size(scene, digits.to_owned()))),
         }
     }

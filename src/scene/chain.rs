@@ -14,12 +14,7 @@ pub fn chain(count: u32) -> Scene {
     for index in 0..count {
         let y = f64::from(index);
         let corner = |x: f64, z: f64| DVec3::new(x, y, z);
-        let square = [
-            corner(-5.0, -5.0),
-            corner(5.0, -5.0),
-            corner(5.0, 5.0),
-            corner(-5.0, 5.0),
-        ];
+        let square = [corner(-5.0, -5.0), corner(5.0, -5.0), corner(5.0, 5.0), corner(-5.0, 5.0)];
         scene.push(square, index % 8);
     }
     scene

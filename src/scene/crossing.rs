@@ -16,12 +16,7 @@ pub fn crossing(count: u32) -> Scene {
     for index in 0..count {
         let reach = unit_circle(index.into(), 2 * u64::from(count));
         let (near, far) = (reach.extend(0.0), -reach.extend(0.0));
-        let square = [
-            far - DVec3::Z,
-            near - DVec3::Z,
-            near + DVec3::Z,
-            far + DVec3::Z,
-        ];
+        let square = [far - DVec3::Z, near - DVec3::Z, near + DVec3::Z, far + DVec3::Z];
         scene.push(square, index % 8);
     }
     scene

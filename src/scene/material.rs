@@ -12,19 +12,11 @@ pub struct Material {
 
 impl Material {
     /// Light grey, opaque, without a name: for polygons without a material.
-    pub const DEFAULT: Self = Self {
-        name: String::new(),
-        color: [0.8; 3],
-        opacity: 1.0,
-    };
+    pub const DEFAULT: Self = Self { name: String::new(), color: [0.8; 3], opacity: 1.0 };
 
     /// An opaque material.
     pub fn new(name: impl Into<String>, color: [f32; 3]) -> Self {
-        Self {
-            name: name.into(),
-            color,
-            opacity: 1.0,
-        }
+        Self { name: name.into(), color, opacity: 1.0 }
     }
 
     /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito,
@@ -40,8 +32,6 @@ impl Material {
             ("reddish purple", [204, 121, 167]),
             ("grey", [153, 153, 153]),
         ];
-        PALETTE
-            .iter()
-            .map(|&(name, rgb)| Self::new(name, rgb.map(|byte| f32::from(byte) / 255.0)))
+        PALETTE.iter().map(|&(name, rgb)| Self::new(name, rgb.map(|byte| f32::from(byte) / 255.0)))
     }
 }

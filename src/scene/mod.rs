@@ -164,10 +164,7 @@ impl Scene {
     /// polygons; `None` without corners. Takes time linear in the corners.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let (&first, rest) = self.corners.split_first()?;
-        Some(
-            rest.iter()
-                .fold((first, first), |(low, high), &p| (low.min(p), high.max(p))),
-        )
+        Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
     /// An eye point and a point to look at, for scenes with a usual or

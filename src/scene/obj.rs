@@ -150,9 +150,7 @@ fn is_degenerate(polygon: &[DVec3]) -> bool {
     };
     match polygon.iter().find(|&&corner| corner != first) {
         None => true,
-        Some(second) => polygon
-            .iter()
-            .all(|corner| corner == second || *corner == first),
+        Some(second) => polygon.iter().all(|corner| corner == second || *corner == first),
     }
 }
 

@@ -26,11 +26,7 @@ impl SplitMix64 {
     }
 
     fn point(&mut self, low: f64, high: f64) -> DVec3 {
-        DVec3::new(
-            self.range(low, high),
-            self.range(low, high),
-            self.range(low, high),
-        )
+        DVec3::new(self.range(low, high), self.range(low, high), self.range(low, high))
     }
 }
 
@@ -82,11 +78,8 @@ mod tests {
     fn splitmix_gives_the_published_sequence() {
         let mut random = SplitMix64::new(1_234_567);
         let first = [random.next(), random.next(), random.next()];
-        let published = [
-            6_457_827_717_110_365_317,
-            3_203_168_211_198_807_973,
-            9_817_491_932_198_370_423,
-        ];
+        let published =
+            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423];
         assert_eq!(first, published);
     }
 }

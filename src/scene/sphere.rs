@@ -16,13 +16,10 @@ pub fn sphere(faces: u32) -> Scene {
     let mut scene = Scene::new(format!("sphere:{faces}"), DVec3::Z);
     let shades = [0.95, 0.75]
         .map(|grey| scene.add_material(Material::new("sphere", [0.5 * grey, 0.7 * grey, grey])));
-    let meridian: Vec<DVec2> = (0..=columns)
-        .map(|step| unit_circle(step, columns))
-        .collect();
+    let meridian: Vec<DVec2> = (0..=columns).map(|step| unit_circle(step, columns)).collect();
     // From the south pole, a quarter turn back, to the north pole.
-    let parallel: Vec<DVec2> = (0..=rows)
-        .map(|row| unit_circle(3 * rows + 2 * row, 4 * rows))
-        .collect();
+    let parallel: Vec<DVec2> =
+        (0..=rows).map(|row| unit_circle(3 * rows + 2 * row, 4 * rows)).collect();
     let corner =
         |row: usize, column: usize| (meridian[column] * parallel[row].x).extend(parallel[row].y);
     for row in 0..rows as usize {

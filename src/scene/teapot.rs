@@ -12,42 +12,17 @@ type Profile = [[f64; 3]; 4];
 /// and z of the other, and half the width.
 type Tube = [[f64; 5]; 4];
 
-const RIM: Profile = [
-    [1.4, 0.784, 2.4],
-    [1.3375, 0.749, 2.53125],
-    [1.4375, 0.805, 2.53125],
-    [1.5, 0.84, 2.4],
-];
-const BODY_UPPER: Profile = [
-    [1.5, 0.84, 2.4],
-    [1.75, 0.98, 1.875],
-    [2.0, 1.12, 1.35],
-    [2.0, 1.12, 0.9],
-];
-const BODY_LOWER: Profile = [
-    [2.0, 1.12, 0.9],
-    [2.0, 1.12, 0.45],
-    [1.5, 0.84, 0.225],
-    [1.5, 0.84, 0.15],
-];
-const LID_KNOB: Profile = [
-    [0.0, 0.0, 3.15],
-    [0.8, 0.45, 3.15],
-    [0.0, 0.0, 2.85],
-    [0.2, 0.112, 2.7],
-];
-const LID: Profile = [
-    [0.2, 0.112, 2.7],
-    [0.4, 0.224, 2.55],
-    [1.3, 0.728, 2.55],
-    [1.3, 0.728, 2.4],
-];
-const BOTTOM: Profile = [
-    [1.5, 0.84, 0.15],
-    [1.5, 0.84, 0.075],
-    [1.425, 0.798, 0.0],
-    [0.0, 0.0, 0.0],
-];
+const RIM: Profile =
+    [[1.4, 0.784, 2.4], [1.3375, 0.749, 2.53125], [1.4375, 0.805, 2.53125], [1.5, 0.84, 2.4]];
+const BODY_UPPER: Profile =
+    [[1.5, 0.84, 2.4], [1.75, 0.98, 1.875], [2.0, 1.12, 1.35], [2.0, 1.12, 0.9]];
+const BODY_LOWER: Profile =
+    [[2.0, 1.12, 0.9], [2.0, 1.12, 0.45], [1.5, 0.84, 0.225], [1.5, 0.84, 0.15]];
+const LID_KNOB: Profile =
+    [[0.0, 0.0, 3.15], [0.8, 0.45, 3.15], [0.0, 0.0, 2.85], [0.2, 0.112, 2.7]];
+const LID: Profile = [[0.2, 0.112, 2.7], [0.4, 0.224, 2.55], [1.3, 0.728, 2.55], [1.3, 0.728, 2.4]];
+const BOTTOM: Profile =
+    [[1.5, 0.84, 0.15], [1.5, 0.84, 0.075], [1.425, 0.798, 0.0], [0.0, 0.0, 0.0]];
 const HANDLE_UPPER: Tube = [
     [-1.6, 2.025, -1.5, 2.25, 0.3],
     [-2.3, 2.025, -2.5, 2.25, 0.3],
@@ -92,26 +67,10 @@ pub fn teapot(segments: u32) -> Scene {
     let mut scene = Scene::new(format!("teapot:{segments}"), DVec3::Z)
         .with_view(DVec3::new(3.5, -9.5, 5.5), DVec3::new(0.2, 0.0, 1.3));
     let parts: [(&str, [f32; 3], Vec<Patch>); 5] = [
-        (
-            "body",
-            [0.82, 0.80, 0.74],
-            [RIM, BODY_UPPER, BODY_LOWER].map(revolve).concat(),
-        ),
-        (
-            "handle",
-            [0.72, 0.62, 0.50],
-            [HANDLE_UPPER, HANDLE_LOWER].map(mirror).concat(),
-        ),
-        (
-            "spout",
-            [0.66, 0.70, 0.74],
-            [SPOUT_LOWER, SPOUT_UPPER].map(mirror).concat(),
-        ),
-        (
-            "lid",
-            [0.76, 0.72, 0.62],
-            [LID_KNOB, LID].map(revolve).concat(),
-        ),
+        ("body", [0.82, 0.80, 0.74], [RIM, BODY_UPPER, BODY_LOWER].map(revolve).concat()),
+        ("handle", [0.72, 0.62, 0.50], [HANDLE_UPPER, HANDLE_LOWER].map(mirror).concat()),
+        ("spout", [0.66, 0.70, 0.74], [SPOUT_LOWER, SPOUT_UPPER].map(mirror).concat()),
+        ("lid", [0.76, 0.72, 0.62], [LID_KNOB, LID].map(revolve).concat()),
         ("bottom", [0.60, 0.58, 0.54], revolve(BOTTOM).to_vec()),
     ];
     let weights = bernstein(segments.max(2));
@@ -159,10 +118,7 @@ fn mirror(tube: Tube) -> [Patch; 2] {
 fn bernstein(n: u32) -> Vec<[f64; 4]> {
     (0..=n)
         .map(|step| {
-            let (t, s) = (
-                f64::from(step) / f64::from(n),
-                f64::from(n - step) / f64::from(n),
-            );
+            let (t, s) = (f64::from(step) / f64::from(n), f64::from(n - step) / f64::from(n));
             [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
         })
         .collect()

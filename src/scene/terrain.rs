@@ -58,9 +58,7 @@ fn noise(seed: u64) -> Vec<Vec<f64>> {
     OCTAVES
         .iter()
         .map(|&(cells, reach)| {
-            (0..(cells + 1) * (cells + 1))
-                .map(|_| random.range(-reach, reach))
-                .collect()
+            (0..(cells + 1) * (cells + 1)).map(|_| random.range(-reach, reach)).collect()
         })
         .collect()
 }

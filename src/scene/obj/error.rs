@@ -29,12 +29,7 @@ pub(super) enum Kind {
 
 impl Kind {
     pub(super) fn at(self, line: Option<usize>, face: Option<u32>) -> ObjError {
-        ObjError {
-            file: String::new(),
-            line,
-            face,
-            kind: self,
-        }
+        ObjError { file: String::new(), line, face, kind: self }
     }
 }
 
@@ -84,24 +79,21 @@ impl fmt::Display for Kind {
                 write!(f, "{found} coordinates; a `v` line must give x, y and z")
             }
             Self::Coordinate(token) => write!(f, "the coordinate {token:?} is not a number"),
-            Self::NotFinite(token) => write!(
-                f,
-                "the coordinate {token:?} is not finite; remove the vertex or correct it"
-            ),
+            Self::NotFinite(token) => {
+                write!(f, "the coordinate {token:?} is not finite; remove the vertex or correct it")
+            }
             Self::TooLarge(token) => write!(
                 f,
                 "the coordinate {token:?} is too large for 32 bits; build with tobj's `use_f64`, \
                  or scale the scene down"
             ),
-            Self::Index(token) => write!(
-                f,
-                "{token:?} names no vertex; write whole numbers such as 3, 3/1 or -1"
-            ),
+            Self::Index(token) => {
+                write!(f, "{token:?} names no vertex; write whole numbers such as 3, 3/1 or -1")
+            }
             Self::ZeroIndex => write!(f, "vertex 0 does not exist; the first is 1"),
-            Self::OutOfRange { index, vertices } => write!(
-                f,
-                "vertex {index} does not exist; there are {vertices} `v` lines"
-            ),
+            Self::OutOfRange { index, vertices } => {
+                write!(f, "vertex {index} does not exist; there are {vertices} `v` lines")
+            }
             Self::Reader(problem) => write!(f, "tobj cannot read it: {problem}"),
         }
     }

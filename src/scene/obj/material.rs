@@ -24,10 +24,9 @@ pub(super) fn load(
         let slashed = library.replace('\\', "/");
         let whole = read(Path::new(library)).or_else(|| read(Path::new(&slashed)));
         let contents: Vec<Option<Vec<u8>>> = match whole {
-            None if library.contains(char::is_whitespace) => library
-                .split_whitespace()
-                .map(|name| read(Path::new(name)))
-                .collect(),
+            None if library.contains(char::is_whitespace) => {
+                library.split_whitespace().map(|name| read(Path::new(name))).collect()
+            }
             whole => vec![whole],
         };
         let mut missing = false;
@@ -50,9 +49,7 @@ fn parse(bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> 
     let cleaned = clean(&text, report);
     let (materials, _) = tobj::load_mtl_buf(&mut cleaned.as_bytes()).ok()?;
     let look = |material: &tobj::Material| Look {
-        color: material
-            .diffuse
-            .map_or(Material::DEFAULT.color, |rgb| rgb.map(narrow)),
+        color: material.diffuse.map_or(Material::DEFAULT.color, |rgb| rgb.map(narrow)),
         opacity: material.dissolve.map_or(1.0, narrow),
     };
     let looks = materials.iter().map(|m| (m.name.clone(), look(m)));

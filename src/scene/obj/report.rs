@@ -31,21 +31,14 @@ impl ObjReport {
     /// Whether all of the file went into the scene, so that there is nothing to
     /// say.
     pub fn is_clean(&self) -> bool {
-        *self
-            == Self {
-                faces: self.faces,
-                ..Self::default()
-            }
+        *self == Self { faces: self.faces, ..Self::default() }
     }
 }
 
 impl fmt::Display for ObjReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counts = [
-            (
-                self.degenerate_faces,
-                "faces with fewer than three different corners",
-            ),
+            (self.degenerate_faces, "faces with fewer than three different corners"),
             (self.skipped_points, "`p` lines skipped"),
             (self.skipped_lines, "`l` lines skipped"),
             (self.skipped_statements, "unknown statements skipped"),
@@ -82,10 +75,7 @@ mod tests {
 
     #[test]
     fn only_what_was_left_out_is_said() {
-        let mut report = ObjReport {
-            faces: 7,
-            ..ObjReport::default()
-        };
+        let mut report = ObjReport { faces: 7, ..ObjReport::default() };
         assert!(report.is_clean());
         assert_eq!(report.to_string(), "");
         report.skipped_points = 2;

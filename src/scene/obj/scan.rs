@@ -73,11 +73,10 @@ impl Scan {
             return Err(Kind::NoFace.at(None, None));
         }
         match &self.ahead {
-            Some(ahead) if ahead.index > self.vertices => Err(Kind::OutOfRange {
-                index: ahead.index.to_string(),
-                vertices: self.vertices,
+            Some(ahead) if ahead.index > self.vertices => {
+                Err(Kind::OutOfRange { index: ahead.index.to_string(), vertices: self.vertices }
+                    .at(Some(ahead.line), Some(ahead.face)))
             }
-            .at(Some(ahead.line), Some(ahead.face))),
             _ => Ok(self),
         }
     }
@@ -121,13 +120,9 @@ impl Scan {
         }
         self.cleaned.push('f');
         for token in words.take_while(|word| !word.starts_with('#')) {
-            let index = self
-                .vertex_number(token)
-                .map_err(|kind| kind.at(Some(line), Some(face)))?;
-            let highest = self
-                .ahead
-                .as_ref()
-                .map_or(self.vertices, |ahead| ahead.index);
+            let index =
+                self.vertex_number(token).map_err(|kind| kind.at(Some(line), Some(face)))?;
+            let highest = self.ahead.as_ref().map_or(self.vertices, |ahead| ahead.index);
             if index > highest.max(self.vertices) {
                 self.ahead = Some(Ahead { index, line, face });
             }
@@ -145,10 +140,8 @@ impl Scan {
     /// beyond the last vertex of the file.
     fn vertex_number(&self, token: &str) -> Result<usize, Kind> {
         let digits = token.split('/').next().unwrap_or_default();
-        let out_of_range = || Kind::OutOfRange {
-            index: digits.to_owned(),
-            vertices: self.vertices,
-        };
+        let out_of_range =
+            || Kind::OutOfRange { index: digits.to_owned(), vertices: self.vertices };
         match digits.parse::<i64>() {
             Ok(0) => Err(Kind::ZeroIndex),
             Ok(index) if index > 0 => usize::try_from(index).map_err(|_| out_of_range()),

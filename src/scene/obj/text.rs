@@ -46,10 +46,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 fn physical_line<'a>(rest: &mut &'a str) -> &'a str {
     let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
     let (line, behind) = rest.split_at(end);
-    *rest = behind
-        .strip_prefix("\r\n")
-        .or(behind.get(1..))
-        .unwrap_or_default();
+    *rest = behind.strip_prefix("\r\n").or(behind.get(1..)).unwrap_or_default();
     line
 }
 
@@ -58,9 +55,7 @@ mod tests {
     use super::*;
 
     fn all(text: &str) -> Vec<(usize, String)> {
-        lines(text)
-            .map(|(number, line)| (number, line.into_owned()))
-            .collect()
+        lines(text).map(|(number, line)| (number, line.into_owned())).collect()
     }
 
     #[test]

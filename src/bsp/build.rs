@@ -1,0 +1,302 @@
+//! Building a tree: a stack of sets of pieces, each split by a plane until one piece is left.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::assemble::{Child, Output, RawNode, assemble};
+use super::choose::Chooser;
+use super::jobs::{self, Job};
+use super::live::Live;
+use super::{BspTree, BuildOptions};
+use crate::Error;
+use crate::geom::{Faces, Kernel, PlaneId, Polygon, Side, split};
+
+/// Sets on both sides of a plane with at least this many pieces are built as jobs of their own.
+/// Smaller: more copies; larger: threads wait for each other at the end.
+const JOB: usize = 1024;
+
+/// Builds a tree of polygons.
+pub(super) fn tree<K: Kernel, P: Polygon>(
+    kernel: K,
+    options: &BuildOptions,
+    polygons: impl IntoIterator<Item = P>,
+) -> Result<BspTree<K>, Error> {
+    let (faces, preparation) = Faces::new(polygons, options.tolerance)?;
+    let live: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
+    let shared = Shared { kernel, faces: &faces, options, fragments: AtomicUsize::new(live.len()) };
+    shared.count(0)?;
+    let outputs = jobs::run(&shared, Job { pieces: live, arena: Vec::new(), depth: 0 })?;
+    let parts = assemble(outputs);
+    Ok(BspTree::new(kernel, faces, preparation, parts))
+}
+
+/// What all jobs of a build share.
+pub(super) struct Shared<'a, K> {
+    kernel: K,
+    faces: &'a Faces,
+    options: &'a BuildOptions,
+    /// How many pieces there are by now, over all jobs.
+    fragments: AtomicUsize,
+}
+
+impl<K> Shared<'_, K> {
+    /// Counts new pieces against the budget.
+    fn count(&self, new: usize) -> Result<(), Error> {
+        let limit = self.options.max_fragments;
+        let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
+        if total > limit { Err(Error::fragments(limit)) } else { Ok(()) }
+    }
+}
+
+/// A set of pieces that is still to be split: a range of the stack of pieces.
+struct Pending {
+    start: usize,
+    end: usize,
+    /// How much of the arena it needs.
+    arena: usize,
+    depth: usize,
+    /// Where it goes instead of being built here.
+    job: Option<usize>,
+}
+
+/// One job's state.
+struct Builder<'a, K: Kernel> {
+    shared: &'a Shared<'a, K>,
+    chooser: Chooser<'a, K>,
+    /// A stack: the sets still to be split, the next one on top.
+    pieces: Vec<Live>,
+    /// The vertices of cut pieces, in the order of the cuts: what belongs to sets already built
+    /// is dropped from its end.
+    arena: Vec<K::Vertex>,
+    pending: Vec<Pending>,
+    output: Output<K::Stored>,
+    scratch: Scratch<K::Vertex>,
+}
+
+/// Lists kept to be used again.
+struct Scratch<V> {
+    own: Vec<Live>,
+    front: Vec<Live>,
+    spanning: Vec<Live>,
+    sides: Vec<Side>,
+    outline: Vec<V>,
+    front_part: Vec<V>,
+    back_part: Vec<V>,
+}
+
+/// Builds the tree of a job's pieces. Sets that are worth it go to `hand_over`, which gives back
+/// a number for them.
+pub(super) fn build<'a, K: Kernel>(
+    shared: &'a Shared<'a, K>,
+    job: Job<K::Vertex>,
+    mut hand_over: impl FnMut(Job<K::Vertex>) -> usize,
+) -> Result<Output<K::Stored>, Error> {
+    let chooser = Chooser::new(shared.kernel, shared.faces, shared.options.heuristic);
+    let end = job.pieces.len();
+    let first = Pending { start: 0, end, arena: job.arena.len(), depth: job.depth, job: None };
+    let scratch = Scratch {
+        own: vec![],
+        front: vec![],
+        spanning: vec![],
+        sides: vec![],
+        outline: vec![],
+        front_part: vec![],
+        back_part: vec![],
+    };
+    let (pieces, arena, output) = (job.pieces, job.arena, Output::default());
+    let mut builder =
+        Builder { shared, chooser, pieces, arena, pending: vec![first], output, scratch };
+    while let Some(pending) = builder.pending.pop() {
+        if let Some(job) = pending.job {
+            builder.output.continue_in(job);
+            continue;
+        }
+        builder.pieces.truncate(pending.end);
+        builder.arena.truncate(pending.arena);
+        builder.step(&pending, &mut hand_over)?;
+    }
+    Ok(builder.output)
+}
+
+/// Whether pieces need no plane to be put in order: pieces of one face never hide each other.
+fn is_leaf(pieces: &[Live]) -> bool {
+    pieces.iter().all(|piece| piece.face == pieces[0].face)
+}
+
+impl<K: Kernel> Builder<'_, K> {
+    /// Emits a node for a set and puts off its two sides.
+    fn step(
+        &mut self,
+        pending: &Pending,
+        hand_over: &mut impl FnMut(Job<K::Vertex>) -> usize,
+    ) -> Result<(), Error> {
+        let depth = pending.depth + 1;
+        if depth > self.shared.options.max_depth {
+            return Err(Error::depth(self.shared.options.max_depth));
+        }
+        let start = pending.start;
+        let set = &self.pieces[start..];
+        let (plane, middle) = if is_leaf(set) {
+            // Only the root can be a leaf here: others went out with their parents.
+            let Some(first) = set.first() else { return Ok(()) };
+            let plane = PlaneId::face(first.face);
+            (plane, self.partition(start, plane)?)
+        } else {
+            let plane = self.chooser.splitter(set, &self.arena);
+            let count = set.len();
+            self.classify(start, plane);
+            if self.makes_progress(count) {
+                (plane, self.divide(start, plane)?)
+            } else {
+                // Counted by rounded distances, a free plane can promise what exact ones deny.
+                let plane = PlaneId::face(self.pieces[start].face);
+                (plane, self.partition(start, plane)?)
+            }
+        };
+        self.emit(plane, start, middle, depth, hand_over);
+        Ok(())
+    }
+
+    fn classify(&mut self, start: usize, plane: PlaneId) {
+        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
+        let splitter = kernel.splitter(faces, plane);
+        let arena = &self.arena;
+        let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
+        self.scratch.sides.clear();
+        self.scratch.sides.extend(self.pieces[start..].iter().map(side));
+    }
+
+    fn makes_progress(&self, count: usize) -> bool {
+        let sides = &self.scratch.sides;
+        let reach = |other: Side| {
+            sides.iter().filter(|&&side| side == other || side == Side::Spanning).count()
+        };
+        reach(Side::Front) < count && reach(Side::Back) < count
+    }
+
+    fn partition(&mut self, start: usize, plane: PlaneId) -> Result<usize, Error> {
+        self.classify(start, plane);
+        self.divide(start, plane)
+    }
+
+    /// Divides the set on top of the stack by the sides just found: behind first, then in front;
+    /// gives where the front begins. What is on the plane is left in `scratch.own`.
+    fn divide(&mut self, start: usize, plane: PlaneId) -> Result<usize, Error> {
+        let scratch = &mut self.scratch;
+        scratch.own.clear();
+        scratch.front.clear();
+        scratch.spanning.clear();
+        let mut back = start;
+        for (i, &side) in scratch.sides.iter().enumerate() {
+            let piece = self.pieces[start + i];
+            match side {
+                Side::Back => {
+                    self.pieces[back] = piece;
+                    back += 1;
+                }
+                Side::Front => scratch.front.push(piece),
+                Side::Coplanar => scratch.own.push(piece),
+                Side::Spanning => scratch.spanning.push(piece),
+            }
+        }
+        self.pieces.truncate(back);
+        self.shared.count(self.scratch.spanning.len())?;
+        self.cut_spanning(plane);
+        let middle = self.pieces.len();
+        self.pieces.extend_from_slice(&self.scratch.front);
+        Ok(middle)
+    }
+
+    fn cut_spanning(&mut self, plane: PlaneId) {
+        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
+        let splitter = kernel.splitter(faces, plane);
+        let scratch = &mut self.scratch;
+        for live in &scratch.spanning {
+            scratch.outline.clear();
+            match live.piece(&self.arena).cut {
+                Some(vertices) => scratch.outline.extend_from_slice(vertices),
+                None => {
+                    let corners = 0..faces.corners(live.face).len() as u32;
+                    scratch.outline.extend(corners.map(|k| kernel.corner(faces, live.face, k)));
+                }
+            }
+            scratch.front_part.clear();
+            scratch.back_part.clear();
+            split(
+                &kernel,
+                faces,
+                (plane, &splitter),
+                live.face,
+                &scratch.outline,
+                &mut scratch.front_part,
+                &mut scratch.back_part,
+            );
+            for (part, list) in
+                [(&scratch.back_part, &mut self.pieces), (&scratch.front_part, &mut scratch.front)]
+            {
+                let start = self.arena.len();
+                self.arena.extend_from_slice(part);
+                list.push(Live::cut::<K>(live.face, &self.arena, start));
+            }
+        }
+    }
+
+    fn emit(
+        &mut self,
+        plane: PlaneId,
+        start: usize,
+        middle: usize,
+        depth: usize,
+        hand_over: &mut impl FnMut(Job<K::Vertex>) -> usize,
+    ) {
+        let end = self.pieces.len();
+        // Coplanar polygons are painted in input order.
+        self.scratch.own.sort_by_key(|piece| piece.face);
+        let own = self.scratch.own.len();
+        for i in 0..own {
+            self.store(self.scratch.own[i]);
+        }
+        let [back, front] = [start..middle, middle..end].map(|range| {
+            let is_leaf = is_leaf(&self.pieces[range.clone()]);
+            (range, is_leaf)
+        });
+        let mut child = |(range, is_leaf): &(std::ops::Range<usize>, bool)| {
+            if !is_leaf {
+                return Child::Node;
+            }
+            for i in range.clone() {
+                self.store(self.pieces[i]);
+            }
+            Child::Leaf(range.len() as u32)
+        };
+        let node = RawNode { plane, own: own as u32, front: child(&front), back: child(&back) };
+        self.output.nodes.push(node);
+        let arena = self.arena.len();
+        if !back.1 {
+            let range = back.0;
+            let both_large = range.len() >= JOB && front.0.len() >= JOB && !front.1;
+            let job = both_large.then(|| hand_over(self.copy(range.clone(), depth)));
+            self.pending.push(Pending { start: range.start, end: range.end, arena, depth, job });
+        }
+        if !front.1 {
+            let (start, end) = (front.0.start, front.0.end);
+            self.pending.push(Pending { start, end, arena, depth, job: None });
+        }
+    }
+
+    /// A set with an arena of its own.
+    fn copy(&self, range: std::ops::Range<usize>, depth: usize) -> Job<K::Vertex> {
+        let mut arena = Vec::new();
+        let pieces = self.pieces[range].iter().map(|live| {
+            let start = arena.len();
+            arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+            live.moved_to(start)
+        });
+        Job { pieces: pieces.collect(), arena, depth }
+    }
+
+    fn store(&mut self, live: Live) {
+        let kernel = self.shared.kernel;
+        let vertices = live.piece(&self.arena).cut.unwrap_or_default();
+        self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)));
+    }
+}

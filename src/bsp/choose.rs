@@ -1,0 +1,193 @@
+//! Choosing the splitter of a set of pieces.
+
+use super::Heuristic;
+use super::axis::Sweep;
+use super::live::Live;
+use crate::geom::{Faces, Kernel, PlaneId, Vertex};
+
+/// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
+/// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
+const OWN_PLANES_BELOW: usize = 400;
+/// How many own planes `auto` tries at a node. More: fewer fragments, for time in proportion.
+const OWN_PLANES: usize = 64;
+/// How many own planes the heuristics that would look at all of them try at most, so that no
+/// node takes quadratic time. They are spread evenly over the set.
+const MOST_CANDIDATES: usize = 256;
+/// The price of a cut in the cost of `auto`, in polygons still to be sorted. Larger trees become
+/// unbalanced, and unbalanced ones split more further down; smaller ones cut for balance.
+const SPLIT_PRICE: f64 = 4.0;
+/// How often a candidate is asked whether it can still win, in pieces.
+const CHECK_EVERY: usize = 64;
+
+/// How many pieces lie in front of a plane, behind it, and across.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub(super) front: usize,
+    pub(super) back: usize,
+    pub(super) splits: usize,
+}
+
+impl Counts {
+    /// What the cuts cost.
+    #[inline]
+    pub(super) fn price(&self) -> f64 {
+        SPLIT_PRICE * self.splits as f64
+    }
+
+    /// The work left on both sides, and the cuts: only grows with each count.
+    #[inline]
+    pub(super) fn cost(&self) -> f64 {
+        work(self.front + self.splits) + work(self.back + self.splits) + self.price()
+    }
+
+    fn imbalance(&self) -> f64 {
+        self.front.abs_diff(self.back) as f64
+    }
+}
+
+/// The work of sorting `n` pieces.
+#[inline]
+pub(super) fn work(n: usize) -> f64 {
+    let n = n as f64;
+    if n > 1.0 { n * n.log2() } else { 0.0 }
+}
+
+/// Chooses the splitters of one tree.
+#[derive(Debug)]
+pub(super) struct Chooser<'a, K: Kernel> {
+    kernel: K,
+    faces: &'a Faces,
+    heuristic: Heuristic,
+    sweep: Sweep,
+}
+
+impl<'a, K: Kernel> Chooser<'a, K> {
+    pub(super) fn new(kernel: K, faces: &'a Faces, heuristic: Heuristic) -> Self {
+        Self { kernel, faces, heuristic, sweep: Sweep::default() }
+    }
+
+    /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
+    /// both its sides have fewer pieces than the set.
+    pub(super) fn splitter(&mut self, pieces: &[Live], arena: &[K::Vertex]) -> PlaneId {
+        let own = |piece: &Live| PlaneId::face(piece.face);
+        let lowest = || pieces.iter().min_by_key(|piece| piece.face).unwrap_or(&pieces[0]);
+        match self.heuristic {
+            Heuristic::First => own(lowest()),
+            Heuristic::Random { seed } => {
+                let set = u64::from(lowest().face) << 32 | pieces.len() as u64;
+                own(&pieces[(mix(seed ^ mix(set)) % pieces.len() as u64) as usize])
+            }
+            Heuristic::FewestSplits => self.scored(pieces, arena, MOST_CANDIDATES, |c, _| {
+                c.splits as f64 * 1e9 + c.imbalance()
+            }),
+            Heuristic::Balanced => self.scored(pieces, arena, MOST_CANDIDATES, |c, _| {
+                c.imbalance() * 1e9 + c.splits as f64
+            }),
+            Heuristic::Weighted { splits, balance, axial } => {
+                let bonus = axial * pieces.len() as f64;
+                self.scored(pieces, arena, MOST_CANDIDATES, |c, is_axial| {
+                    let reward = if is_axial { bonus } else { 0.0 };
+                    splits * c.splits as f64 + balance * c.imbalance() - reward
+                })
+            }
+            Heuristic::Sampled { candidates } => {
+                self.scored(pieces, arena, candidates as usize, |c, _| {
+                    8.0 * c.splits as f64 + c.imbalance()
+                })
+            }
+            Heuristic::FreePlanes => self.free_or_own(pieces, arena, false),
+            Heuristic::Auto => self.free_or_own(pieces, arena, pieces.len() < OWN_PLANES_BELOW),
+        }
+    }
+
+    /// The best of a sample of own planes by a score, lower being better; the earliest of equals.
+    fn scored(
+        &self,
+        pieces: &[Live],
+        arena: &[K::Vertex],
+        candidates: usize,
+        score: impl Fn(&Counts, bool) -> f64,
+    ) -> PlaneId {
+        let mut best = (f64::INFINITY, PlaneId::face(pieces[0].face));
+        for piece in sample(pieces, candidates) {
+            let plane = PlaneId::face(piece.face);
+            let counts = self.count(plane, pieces, arena, f64::INFINITY);
+            let is_axial = (0..3).any(|axis| piece.min[axis] == piece.max[axis]);
+            let score = counts.map_or(f64::INFINITY, |counts| score(&counts, is_axial));
+            if score < best.0 {
+                best = (score, plane);
+            }
+        }
+        best.1
+    }
+
+    fn free_or_own(&mut self, pieces: &[Live], arena: &[K::Vertex], both: bool) -> PlaneId {
+        let free = self.sweep.best(pieces, self.faces.tolerance());
+        let free = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
+        if let (Some((_, plane)), false) = (free, both) {
+            return plane;
+        }
+        let mut best = free.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
+        for piece in sample(pieces, OWN_PLANES) {
+            let plane = PlaneId::face(piece.face);
+            if let Some(counts) = self.count(plane, pieces, arena, best.0) {
+                let cost = counts.cost();
+                if cost < best.0 {
+                    best = (cost, plane);
+                }
+            }
+        }
+        best.1
+    }
+
+    /// How a plane divides the pieces, by rounded distances: what is decided here is only which
+    /// plane is taken. `None` once the cost exceeds a limit.
+    fn count(
+        &self,
+        plane: PlaneId,
+        pieces: &[Live],
+        arena: &[K::Vertex],
+        limit: f64,
+    ) -> Option<Counts> {
+        let splitter = self.kernel.splitter(self.faces, plane);
+        let slack = K::slack(&splitter);
+        let mut counts = Counts::default();
+        for chunk in pieces.chunks(CHECK_EVERY) {
+            for live in chunk {
+                let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                let mut see = |position| {
+                    let s = K::distance(&splitter, position);
+                    low = low.min(s);
+                    high = high.max(s);
+                };
+                match live.piece(arena).cut {
+                    None => self.faces.corners(live.face).iter().for_each(|&c| see(c)),
+                    Some(vertices) => vertices.iter().for_each(|v| see(v.position())),
+                }
+                let (front, back) = (high > slack, low < -slack);
+                counts.splits += usize::from(front & back);
+                counts.front += usize::from(front & !back);
+                counts.back += usize::from(back & !front);
+            }
+            if counts.cost() >= limit {
+                return None;
+            }
+        }
+        Some(counts)
+    }
+}
+
+/// At most `count` of the pieces, spread evenly.
+fn sample(pieces: &[Live], count: usize) -> impl Iterator<Item = &Live> {
+    let count = count.min(pieces.len());
+    (0..count).map(move |i| &pieces[i * pieces.len() / count])
+}
+
+/// A well-mixed function of a number (SplitMix64's finalizer: Steele, Lea and Flood, “Fast
+/// splittable pseudorandom number generators”, 2014).
+fn mix(value: u64) -> u64 {
+    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

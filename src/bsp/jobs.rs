@@ -1,0 +1,74 @@
+//! Subtrees that are built side by side.
+
+use super::assemble::Output;
+use super::build::{Shared, build};
+use super::live::Live;
+use crate::Error;
+use crate::geom::Kernel;
+
+/// A set of pieces with their vertices, to be built into a subtree.
+pub(super) struct Job<V> {
+    pub(super) pieces: Vec<Live>,
+    pub(super) arena: Vec<V>,
+    /// How many nodes lie above it.
+    pub(super) depth: usize,
+}
+
+/// Builds a job and all those that it hands over; the first output is that of the job itself,
+/// the others are numbered as it and they refer to them.
+#[cfg(feature = "parallel")]
+pub(super) fn run<K: Kernel>(
+    shared: &Shared<'_, K>,
+    job: Job<K::Vertex>,
+) -> Result<Vec<Output<K::Stored>>, Error> {
+    use std::sync::Mutex;
+
+    type Slot<T> = Option<Result<T, Error>>;
+
+    fn spawn<'s, K: Kernel>(
+        scope: &rayon::Scope<'s>,
+        shared: &'s Shared<'s, K>,
+        slots: &'s Mutex<Vec<Slot<Output<K::Stored>>>>,
+        job: Job<K::Vertex>,
+    ) -> usize {
+        let number = push(slots, None);
+        scope.spawn(move |scope| {
+            let output = build(shared, job, |job| spawn(scope, shared, slots, job));
+            let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            slots[number] = Some(output);
+        });
+        number
+    }
+
+    fn push<T>(slots: &Mutex<Vec<T>>, slot: T) -> usize {
+        let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        slots.push(slot);
+        slots.len() - 1
+    }
+
+    let slots = Mutex::new(Vec::new());
+    rayon::scope(|scope| spawn(scope, shared, &slots, job));
+    let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    // The scope has waited for every job, so every slot is filled.
+    slots.into_iter().flatten().collect()
+}
+
+/// Builds a job and all those that it hands over; the first output is that of the job itself,
+/// the others are numbered as it and they refer to them.
+#[cfg(not(feature = "parallel"))]
+pub(super) fn run<K: Kernel>(
+    shared: &Shared<'_, K>,
+    job: Job<K::Vertex>,
+) -> Result<Vec<Output<K::Stored>>, Error> {
+    let mut jobs = std::collections::VecDeque::from([job]);
+    let mut outputs = Vec::new();
+    while let Some(job) = jobs.pop_front() {
+        let done = outputs.len() + 1;
+        let output = build(shared, job, |job| {
+            jobs.push_back(job);
+            done + jobs.len() - 1
+        })?;
+        outputs.push(output);
+    }
+    Ok(outputs)
+}

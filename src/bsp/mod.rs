@@ -1,0 +1,26 @@
+//! The tree: building, orders, statistics, validation.
+
+mod assemble;
+mod axis;
+mod build;
+mod choose;
+mod fragment;
+mod heuristic;
+mod jobs;
+mod live;
+mod node;
+mod options;
+mod order;
+mod stats;
+mod traverse;
+mod tree;
+mod validate;
+mod walk;
+
+pub use fragment::Fragment;
+pub use heuristic::{Heuristic, ParseHeuristicError};
+pub use options::BuildOptions;
+pub use stats::Stats;
+pub use traverse::Ordered;
+pub use tree::BspTree;
+pub use validate::Invalid;

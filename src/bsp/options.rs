@@ -1,0 +1,101 @@
+//! How a tree is to be built.
+
+use super::{BspTree, Heuristic};
+use crate::Error;
+use crate::geom::{Exact, Kernel, Polygon};
+
+/// How a tree is to be built: [`BspTree::build`] with other than the defaults.
+///
+/// ```
+/// use binspace::{BuildOptions, Heuristic};
+///
+/// let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let options = BuildOptions::DEFAULT
+///     .with_heuristic(Heuristic::FewestSplits)
+///     .with_tolerance(1e-6)
+///     .with_max_fragments(1000);
+/// assert_eq!(options.build([square])?.len(), 1);
+/// # Ok::<(), binspace::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BuildOptions {
+    /// How splitters are chosen. Default: [`Heuristic::Auto`].
+    pub heuristic: Heuristic,
+    /// The coplanar tolerance, a length in the polygons' unit: polygons no further than this from
+    /// a plane count as lying on it. 0 is allowed, and then nothing but exactly coplanar polygons
+    /// are. Default: `None`, [`DEFAULT_TOLERANCE`](crate::geom::DEFAULT_TOLERANCE) (1e-9) of the
+    /// longest side of the scene's bounding box.
+    pub tolerance: Option<f64>,
+    /// The most fragments that a tree may have; more is an error. Default: 2²⁵ (33 554 432, about
+    /// 5 GB).
+    pub max_fragments: usize,
+    /// The most nodes on a path from the root; more is an error. Default: unlimited, as nothing
+    /// recurses over the tree.
+    pub max_depth: usize,
+}
+
+impl BuildOptions {
+    /// The defaults.
+    pub const DEFAULT: Self = Self {
+        heuristic: Heuristic::Auto,
+        tolerance: None,
+        max_fragments: 1 << 25,
+        max_depth: usize::MAX,
+    };
+
+    /// With another way to choose splitters.
+    #[must_use]
+    pub const fn with_heuristic(self, heuristic: Heuristic) -> Self {
+        Self { heuristic, ..self }
+    }
+
+    /// With another coplanar tolerance, a length of 0 or more.
+    #[must_use]
+    pub const fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance: Some(tolerance), ..self }
+    }
+
+    /// With another limit to the number of fragments.
+    #[must_use]
+    pub const fn with_max_fragments(self, max_fragments: usize) -> Self {
+        Self { max_fragments, ..self }
+    }
+
+    /// With another limit to the depth.
+    #[must_use]
+    pub const fn with_max_depth(self, max_depth: usize) -> Self {
+        Self { max_depth, ..self }
+    }
+
+    /// Builds a tree of polygons; see [`BspTree::build`].
+    ///
+    /// # Errors
+    ///
+    /// If a polygon cannot be read or a budget runs out; see [`Error`].
+    pub fn build<P: Polygon>(
+        &self,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<BspTree, Error> {
+        self.build_with(Exact, polygons)
+    }
+
+    /// Builds a tree whose decisions another kernel makes.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build`](Self::build).
+    pub fn build_with<K: Kernel, P: Polygon>(
+        &self,
+        kernel: K,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<BspTree<K>, Error> {
+        super::build::tree(kernel, self, polygons)
+    }
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
