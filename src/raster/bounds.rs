@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::rays::{Rays, float};
-use crate::raster::rays::Pencil;
+use super::rays::{Pencil, Rays, float};
 
 /// Columns and rows of pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,16 +67,9 @@ impl Rays {
     /// for parallel rays), with bounds on their errors.
     #[inline]
     fn in_picture(&self, point: [f64; 3]) -> (DVec3, DVec3) {
-        let origin = DVec3::from_array(self.origin_from(point));
         let (arm, parallel) = match self.pencil {
-            Pencil::From { .. } => (-origin, false),
-            Pencil::Along { .. } => {
-                let half = [0.5, 0.5].map(|c| c);
-                let [width, height] = self.size.map(f64::from);
-                let middle = float(self.right) * (half[0] * (width - 1.0))
-                    + float(self.down) * (half[1] * (height - 1.0));
-                (-(origin + middle), true)
-            }
+            Pencil::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
+            Pencil::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
         };
         // The matrix is the inverse of one whose columns are all but perpendicular: its entries,
         // and their products with the arm, are good to far more than the 2⁻⁴⁶ allowed here.

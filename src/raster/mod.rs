@@ -6,16 +6,22 @@
 //! Nothing here knows how an order was found: this module judges those that find one.
 
 mod bounds;
+mod compare;
 mod coverage;
 mod image;
 mod line;
 mod painter;
+mod picture;
 mod plane;
 mod rays;
 mod runs;
+#[cfg(test)]
+mod tests;
 mod zbuffer;
 
+pub use compare::{Comparison, Verdict, compare};
 pub use image::{Image, NONE};
 pub use painter::{Order, Outline, Painter, Piece, paint};
+pub use picture::{colour_of, depth_map, difference, picture};
 pub use rays::Rays;
 pub use zbuffer::{DepthImage, zbuffer};

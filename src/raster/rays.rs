@@ -26,6 +26,8 @@ pub struct Rays {
     pub(super) base: [i64; 3],
     pub(super) right: [i64; 3],
     pub(super) down: [i64; 3],
+    /// What the ray through the middle of the picture is given by.
+    pub(super) middle: [i64; 3],
     /// Takes a point relative to the eye, or to the middle of the picture, to multiples of right,
     /// down, and the direction through the middle.
     pub(super) to_picture: [DVec3; 3],
@@ -72,35 +74,41 @@ impl Rays {
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, CameraError> {
         let lattice = faces.lattice();
         let eye = Eye::new(camera.viewpoint(), lattice);
-        let [width, height] = camera.size().map(f64::from);
-        let pixel = camera.pixel_size();
-        let (middle, centre, scale, pencil, depth_unit);
+        let (forward, pixel) = (camera.forward(), camera.pixel_size());
         match (camera.projection(), eye.shift()) {
             (Projection::Perspective { .. }, Some(shift)) if shift <= FURTHEST => {
-                middle = camera.forward();
-                let reach = DVec3::new(0.5 * width * pixel, 0.5 * height * pixel, 1.0);
-                scale = DIRECTION / reach.length();
-                centre = DVec3::ZERO;
-                pencil = Pencil::From { eye: eye.integer(), shift };
-                depth_unit = lattice.length_to_world(scale);
+                let [x, y] = camera.size().map(|c| 0.5 * f64::from(c) * pixel);
+                let reach = DVec3::new(x, y, 1.0).length();
+                // A power of two, so that simple views of simple scenes have simple rays.
+                let scale = (DIRECTION / reach).log2().floor().exp2();
+                let pencil = Pencil::From { eye: eye.integer(), shift };
+                let depth_unit = lattice.length_to_world(scale);
+                Self::build(camera, pencil, forward * scale, pixel * scale, depth_unit)
             }
-            (Projection::Parallel { centre: point, .. }, None) => {
+            (Projection::Parallel { centre, .. }, None) => {
                 let direction = eye.integer().map(|c| -c);
-                let point = DVec3::from_array(lattice.to_lattice(*point));
-                middle = float(direction);
+                let centre = DVec3::from_array(lattice.to_lattice(*centre));
                 // In the plane through the middle of the scene.
-                centre = point - camera.forward() * point.dot(camera.forward());
-                scale = lattice.length_to_lattice(1.0);
-                pencil = Pencil::Along { direction };
-                depth_unit = lattice.length_to_world(middle.length());
+                let middle = centre - forward * centre.dot(forward);
+                let step = lattice.length_to_lattice(pixel);
+                let depth_unit = lattice.length_to_world(float(direction).length());
+                Self::build(camera, Pencil::Along { direction }, middle, step, depth_unit)
             }
-            _ => return Err(CameraProblem::TooFar.into()),
+            _ => Err(CameraProblem::TooFar.into()),
         }
-        let step = pixel * scale;
+    }
+
+    /// Rays of which the middle one is given by `middle`, with pixels of size `step`.
+    fn build(
+        camera: &Camera,
+        pencil: Pencil,
+        middle: DVec3,
+        step: f64,
+        depth_unit: f64,
+    ) -> Result<Self, CameraError> {
+        let [width, height] = camera.size().map(f64::from);
         let (right, down) = (camera.right() * step, camera.up() * -step);
-        let forward = if matches!(pencil, Pencil::From { .. }) { middle * scale } else { centre };
-        let base = forward - right * (0.5 * width - 0.5) - down * (0.5 * height - 0.5);
-        let reach = base.abs() + right.abs() * width + down.abs() * height;
+        let reach = middle.abs() + right.abs() * width + down.abs() * height;
         let fits = reach.max_element() < REGION;
         if !fits {
             return Err(CameraProblem::TooWide.into());
@@ -109,19 +117,19 @@ impl Rays {
             return Err(CameraProblem::TooNarrow.into());
         }
         let integer = |v: DVec3| v.to_array().map(|c| c.round() as i64);
-        let (base, right, down) = (integer(base), integer(right), integer(down));
-        let third = if matches!(pencil, Pencil::From { .. }) { forward } else { middle };
-        let to_picture = inverse([float(right), float(down), third]);
-        Ok(Self {
-            size: camera.size(),
-            front_only: false,
-            pencil,
-            base,
-            right,
-            down,
-            to_picture,
-            depth_unit,
-        })
+        // Even steps: then the middle of the picture is where it should be, whatever its size.
+        let even = |v: DVec3| integer(v * 0.5).map(|c| 2 * c);
+        let (right, down, middle) = (even(right), even(down), integer(middle));
+        let [columns, rows] = camera.size().map(|c| i64::from(c) - 1);
+        let base =
+            std::array::from_fn(|i| middle[i] - (right[i] / 2) * columns - (down[i] / 2) * rows);
+        let third = match pencil {
+            Pencil::From { .. } => middle,
+            Pencil::Along { direction } => direction,
+        };
+        let to_picture = inverse([right, down, third].map(float));
+        let (size, front_only) = (camera.size(), false);
+        Ok(Self { size, front_only, pencil, base, right, down, middle, to_picture, depth_unit })
     }
 
     /// The same rays, that meet only the fronts of faces: the sides from which their corners run
@@ -148,6 +156,14 @@ impl Rays {
         match self.pencil {
             Pencil::From { .. } => Given::Step(v),
             Pencil::Along { .. } => Given::Point(v),
+        }
+    }
+
+    /// The unit vector along the ray of a pixel, rounded.
+    pub(super) fn direction(&self, x: u32, y: u32) -> DVec3 {
+        match (self.pencil, self.pixel(x, y)) {
+            (Pencil::Along { direction }, _) => float(direction).normalize(),
+            (_, Given::Step(v) | Given::Point(v)) => float(v).normalize(),
         }
     }
 
