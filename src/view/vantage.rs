@@ -7,7 +7,9 @@ use super::error::CameraError;
 
 /// The field of view of cameras that stand around a scene, in radians.
 const AROUND: f64 = 0.7;
-/// That of cameras inside: wide, as a room has to be seen from within.
+/// The share of the picture that stays free around a scene that is to show whole.
+const BORDER: f64 = 0.05;
+/// The field of view of cameras inside: wide, as a room has to be seen from within.
 const INSIDE: f64 = 1.4;
 
 impl Camera {
@@ -57,7 +59,8 @@ pub fn views(
         .collect()
 }
 
-/// A camera that looks at the middle of a box `from` a direction; at distance 1 all of it shows.
+/// A camera that looks at the middle of a box `from` a direction; at distance 1 all of the box just
+/// shows.
 fn around(
     [min, max]: [DVec3; 2],
     up: DVec3,
@@ -67,17 +70,23 @@ fn around(
 ) -> Result<Camera, CameraError> {
     let centre = min * 0.5 + max * 0.5;
     let half = max * 0.5 - min * 0.5;
-    let largest = half.abs().max_element();
     // A scene that is a single point still has a direction to be seen from.
-    let radius = if largest > 0.0 {
-        largest * (half / largest).length()
-    } else {
-        centre.abs().max_element().max(1.0)
+    let points = [half.abs().max_element(), centre.abs().max_element(), 1.0];
+    let largest = points.into_iter().find(|&size| size > 0.0).unwrap_or(1.0);
+    let from = unit(from).unwrap_or(DVec3::ZERO);
+    let orientation = Camera::perspective(from, DVec3::ZERO, up, AROUND, size)?;
+    let [width, height] = size.map(f64::from);
+    let rise = (AROUND * 0.5).tan() * (1.0 - BORDER);
+    let run = rise * width / height;
+    // A corner at c from the centre is at depth d − c·from: it must be within the slopes there.
+    let needs = |corner: usize| {
+        let sign = |axis: usize| if corner >> axis & 1 == 0 { 1.0 } else { -1.0 };
+        let c = half / largest * DVec3::new(sign(0), sign(1), sign(2));
+        let (x, y) = (c.dot(orientation.right()).abs(), c.dot(orientation.up()).abs());
+        c.dot(from) + (x / run).max(y / rise)
     };
-    let narrow = (f64::from(size[0]) / f64::from(size[1].max(1))).min(1.0);
-    let half_angle = ((AROUND * 0.5).tan() * narrow).atan();
-    let step = unit(from).unwrap_or(DVec3::ZERO) * (radius * distance / half_angle.sin());
-    Camera::perspective(centre + step, centre, up, AROUND, size)
+    let step = (0..8).map(needs).fold(1e-3, f64::max) * distance;
+    Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
 }
 
 /// A camera in the middle four fifths of a box that looks at another point of it.

@@ -1,5 +1,6 @@
 //! The raster against exact rationals, by hand, and by conservation.
 
+mod camera;
 mod hand;
 mod mesh;
 mod oracle;
@@ -58,11 +59,11 @@ pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<C
         let (axis, up) = [(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::NEG_Z, DVec3::X)]
             [random.below(3) as usize];
         let (eye, target) = match kind {
-            0 => (random.point() * 3.0, random.point()),
+            0 => (random.point() * 3.0, random.point() * 0.2),
             1 => (axis * 4.0, DVec3::ZERO),
             2 => (axis + up, up),
-            3 => (random.point(), random.point()),
-            4 => (random.point() + axis * 1e5, random.point()),
+            3 => (random.point(), random.point() * 0.2),
+            4 => (random.point() + axis * 1e5, random.point() * 0.2),
             _ => (random.grid(2) / 4.0, random.grid(2) / 4.0 + axis * 8.0),
         };
         let up = if up.cross(target - eye).length() < 1e-6 { DVec3::ONE } else { up };

@@ -8,6 +8,7 @@ use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays, zbuffer};
 
 const PIXELS: [u32; 2] = [8, 6];
+const ROUNDS: u64 = 120;
 
 /// Triangles and quads: in general position, on a coarse grid, planar only within the tolerance,
 /// or slivers; and the tolerance to take them with.
@@ -39,7 +40,7 @@ fn scene(random: &mut Random, kind: u64, size: f64) -> Faces {
 
 fn for_each_case(seed: u64, mut check: impl FnMut(&Rays, &Faces, &str)) {
     let mut random = Random(seed);
-    for round in 0..10 {
+    for round in 0..ROUNDS {
         let (kind, size) = (round % 5, [1.0, 1e-30, 1e30, 64.0][round as usize % 4]);
         let faces = scene(&mut random, kind, size);
         for (i, camera) in cameras(&mut random, size, PIXELS).iter().enumerate() {
