@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::faces;
-use crate::geom::Faces;
+use crate::geom::{Faces, Line, PlaneId};
 use crate::raster::{
     Comparison, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare, depth_map,
     difference, paint, picture, zbuffer,
@@ -148,4 +148,50 @@ fn near_is_bright_in_a_depth_map() {
     let map = depth_map(&zbuffer(&rays(&scene), &scene));
     let grey = |x: usize| map[3 * x];
     assert!(grey(0) == 255 && grey(3) == 40 && grey(5) == 0, "{:?}", &map[..18]);
+}
+
+#[test]
+fn nothing_behind_the_eye_is_shown_mirrored() {
+    // A floor that reaches behind the eye, with its right edge just right of the eye: of this edge
+    // alone, rays to the left are inside, upwards as well, where they leave the floor behind them.
+    let floor = [(-9.0, 9.0), (0.1, 9.0), (0.1, -9.0), (-9.0, -9.0)];
+    let floor = floor.map(|(x, z)| DVec3::new(x, -1.0, z));
+    let scene = faces(&[floor.to_vec()], None);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, quarter, SIZE).unwrap();
+    let rays = Rays::new(&camera, &scene).unwrap();
+    let lines = [Line::edge(1)];
+    let outline = Outline::Lines { lines: &lines, vertices: scene.corners(0) };
+    let image = paint(&rays, &scene, [Piece { face: 0, outline }]);
+    assert_eq!(drawn(image.faces()), "...... ...... ...... AAA... AAA... AAA...");
+}
+
+#[test]
+fn a_vertex_on_an_edge_belongs_to_the_face_as_the_edge_does() {
+    // Two cuts that meet in (5.5, 2.5), on the right edge, which belongs to what is right of it.
+    let cut = |y: f64| {
+        let [p, q] = [0.0, 1.0].map(|z| DVec3::new(5.5, 2.5, z));
+        vec![p, q, DVec3::new(3.5, y, 0.0)]
+    };
+    let mut lower = cut(0.5);
+    lower.reverse();
+    let scene = faces(&[square([0.0; 2], [5.5; 2], 0.0), cut(4.5), lower], None);
+    let rays = rays(&scene);
+    let corners = scene.corners(0);
+    let show = |lines: &[Line]| {
+        let outline = Outline::Lines { lines, vertices: corners };
+        drawn(paint(&rays, &scene, [Piece { face: 0, outline }]).faces())
+    };
+    let [upper, lower] = [1, 2].map(PlaneId::face);
+    let left = [
+        Line::edge(0),
+        Line::cut(lower, false),
+        Line::cut(upper, false),
+        Line::edge(2),
+        Line::edge(3),
+    ];
+    // Rays through the cuts belong to what is in front of them, except for that through the vertex.
+    assert_eq!(show(&left), "AAA... AAAA.. AAAAA. AAAAA. AAAAA. AAAA..");
+    let below = [Line::edge(0), Line::edge(1), Line::cut(lower, true)];
+    assert_eq!(show(&below), "...... ...... ...... ...... ...... ....A.");
 }

@@ -3,12 +3,15 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, oracle};
-use crate::geom::{Faces, PlaneId};
+use crate::geom::{Faces, Line, PlaneId};
 use crate::raster::coverage::Coverage;
+use crate::raster::line::Seen;
+use crate::raster::plane::kappa;
 use crate::raster::{Outline, Rays, zbuffer};
+use crate::view::Camera;
 
-const PIXELS: [u32; 2] = [8, 6];
-const ROUNDS: u64 = 120;
+const PIXELS: [u32; 2] = [12, 6];
+const ROUNDS: u64 = 60;
 
 /// Triangles and quads: in general position, on a coarse grid, planar only within the tolerance,
 /// or slivers; and the tolerance to take them with.
@@ -38,12 +41,24 @@ fn scene(random: &mut Random, kind: u64, size: f64) -> Faces {
     faces(&polygons, Some(if kind == 2 { 1e-6 * size } else { 0.0 }))
 }
 
+/// A camera whose eye is in the plane of the first face, but for rounding.
+fn in_plane(random: &mut Random, faces: &Faces) -> Option<Camera> {
+    if faces.is_empty() {
+        return None;
+    }
+    let [a, b, c] = faces.reference_triangle(0).map(|c| faces.lattice().to_world(faces.corner(c)));
+    let eye = a + (b - a) * random.unit() + (c - a) * random.unit();
+    Camera::perspective(eye, a, DVec3::new(0.1, 0.7, 0.3), 1.0, PIXELS).ok()
+}
+
 fn for_each_case(seed: u64, mut check: impl FnMut(&Rays, &Faces, &str)) {
     let mut random = Random(seed);
     for round in 0..ROUNDS {
         let (kind, size) = (round % 5, [1.0, 1e-30, 1e30, 64.0][round as usize % 4]);
         let faces = scene(&mut random, kind, size);
-        for (i, camera) in cameras(&mut random, size, PIXELS).iter().enumerate() {
+        let mut cameras = cameras(&mut random, size, PIXELS);
+        cameras.extend(in_plane(&mut random, &faces));
+        for (i, camera) in cameras.iter().enumerate() {
             let Ok(rays) = Rays::new(camera, &faces) else { continue };
             let rays = if random.below(4) == 0 { rays.with_front_faces_only() } else { rays };
             check(&rays, &faces, &format!("round {round} camera {i}: {camera:?}"));
@@ -80,12 +95,13 @@ fn the_filter_never_contradicts_the_integers() {
     for_each_case(2, |rays, faces, case| {
         for face in 0..faces.len() as u32 {
             let plane = PlaneId::face((face + 1) % faces.len() as u32);
-            let lines = [
-                crate::geom::Line::cut(plane, false),
-                crate::geom::Line::cut(PlaneId::axis(1, 2), true),
-                crate::geom::Line::edge(1),
-            ];
+            let lines =
+                [Line::cut(plane, false), Line::cut(PlaneId::axis(1, 2), true), Line::edge(1)];
             let whole = Outline::Lines { lines: &lines, vertices: faces.corners(face) };
+            let side = kappa(rays, &faces.plane(PlaneId::face(face))).sign();
+            let seen = Seen::new(rays, faces, face);
+            assert!(seen.is_none_or(|seen| seen.positive == side.is_gt()), "{face} of {case}");
+            assert!(seen.is_none() || side.is_ne(), "{face} of {case}");
             let Some(coverage) = Coverage::new(rays, faces, face, whole) else { continue };
             for (line, (x, y)) in coverage.lines.iter().flat_map(|line| {
                 (0..PIXELS[0])

@@ -7,7 +7,8 @@ use crate::geom::{Exact, ExactVertex, Faces, Kernel, Line, PlaneId, Vertex, spli
 use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays};
 
-const PIXELS: [u32; 2] = [24, 20];
+/// Powers of two: rays along an axis then pass through points of a binary grid.
+const PIXELS: [u32; 2] = [64, 32];
 
 struct Tile {
     lines: Vec<Line>,
@@ -64,8 +65,8 @@ fn check(faces: &Faces, planes: &[PlaneId], random: &mut Random, size: f64) -> u
         assert!(counts.iter().all(|&count| count == 0), "{camera:?}: {counts:?}");
         met += covered.iter().filter(|&&count| count > 0).count();
         // A sample against the rationals.
-        for _ in 0..4 {
-            let (x, y) = (random.below(24) as u32, random.below(20) as u32);
+        for _ in 0..40 {
+            let (x, y) = (random.below(64) as u32, random.below(32) as u32);
             let Tile { lines, vertices } = &tiles[random.below(tiles.len() as u64) as usize];
             let outline = Outline::Lines { lines, vertices };
             let got = Coverage::new(&rays, faces, 0, outline).is_some_and(|coverage| {
@@ -104,13 +105,16 @@ fn random_cuts_tile_a_square() {
 #[test]
 fn cuts_on_a_grid_tile_a_square() {
     let mut met = 0;
-    for seed in 1..5 {
+    for seed in 1..8 {
         let mut random = Random(seed);
-        let mut polygons = vec![square(1.0, 1.0)];
-        polygons.extend((0..14).map(|_| (0..3).map(|_| random.grid(4) / 4.0).collect::<Vec<_>>()));
+        let mut polygons = vec![square(0.9375, 1.0)];
+        polygons
+            .extend((0..14).map(|_| (0..3).map(|_| random.grid(16) / 16.0).collect::<Vec<_>>()));
         let faces = faces(&polygons, Some(0.0));
         let mut planes: Vec<PlaneId> = (1..faces.len() as u32).map(PlaneId::face).collect();
         planes.extend((0..6).map(|i| PlaneId::axis(i % 3, 7 + i as u32)));
+        planes.reverse();
+        planes.truncate(3 * seed as usize);
         met += check(&faces, &planes, &mut random, 1.0);
     }
     assert!(met > 4000, "only {met} pixels covered");
