@@ -65,8 +65,8 @@ impl Seen<'_> {
             Source::Edge(_) => self.positive == self.rays.is_perspective(),
             // The upright plane faces outwards where the face's normal runs with the axis.
             Source::Upright(_, axis) => {
-                let normal = self.faces.plane(PlaneId::face(self.face)).normal();
-                self.positive == (normal[axis] > 0)
+                let normal = self.faces.plane(PlaneId::face(self.face)).normal_f64();
+                self.positive == (normal[axis] > 0.0)
             }
             Source::Cut(line) => self.positive == line.is_behind(),
             Source::Ahead => self.positive,

@@ -108,9 +108,7 @@ pub(super) fn normal_of([p, q, r]: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
 pub(super) fn kappa(rays: &Rays, plane: &Plane) -> Int<3> {
     match rays.pencil {
         // A plane at the origin is −n·p.
-        Pencil::From { eye, shift } => {
-            Rays::dot_eye(plane.normal(), eye, shift) + plane.at(&[0.0; 3])
-        }
+        Pencil::From { eye, shift } => plane.along(eye).shifted(shift) + plane.at(&[0.0; 3]),
         Pencil::Along { direction } => plane.along(direction),
     }
 }
