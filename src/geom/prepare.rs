@@ -245,13 +245,16 @@ impl Builder {
         }
         for (k, index) in kept.enumerate() {
             let (point, number) = self.kept[index];
-            if faces.numbers.is_empty() && number as usize != k {
-                // The first corner that breaks the count: write out all that kept it.
-                let counts = (0..faces.faces.len() as u32).map(|face| faces.corners(face).len());
-                faces.numbers = counts.flat_map(|len| 0..len as u32).collect();
-                faces.numbers.extend(0..k as u32);
-            }
-            if !faces.numbers.is_empty() {
+            let counts_on = faces.numbers.is_empty() && number as usize == k;
+            if !counts_on {
+                if faces.numbers.is_empty() {
+                    // The first corner that breaks the count: write out all that kept it.
+                    let ends = faces.faces.iter().map(|next| next.start).skip(1);
+                    let ends = ends.chain(std::iter::once(start as u32));
+                    let counts = faces.faces.iter().zip(ends).map(|(face, end)| end - face.start);
+                    faces.numbers = counts.flat_map(|count| 0..count).collect();
+                    faces.numbers.extend(0..k as u32);
+                }
                 faces.numbers.push(number);
             }
             faces.corners.push(point);

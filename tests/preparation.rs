@@ -1,0 +1,326 @@
+//! From polygons of any kind to convex planar faces: what stays whole, what becomes triangles, what
+//! is dropped, and that nothing is lost or panics on the way.
+
+mod support;
+
+use binspace::geom::{Exact, Faces, Kernel, Piece, PlaneId, Preparation, Side, split};
+use binspace::glam::{DMat3, DVec3};
+use num_traits::{Signed, Zero};
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::test_runner::TestCaseError;
+use support::hard::{self, HardScene};
+use support::model::Face;
+use support::rational::{self, Point, Rational};
+use support::shapes::{self, Corners};
+
+fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
+    Faces::new(polygons, None).expect("finite")
+}
+
+fn flat(corners: &[[f64; 2]]) -> Corners {
+    corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
+}
+
+/// Twice the vector area of a polygon's corners on the lattice.
+fn area(faces: &Faces, polygon: &[DVec3]) -> Point {
+    let corners: Vec<Point> =
+        polygon.iter().map(|&p| rational::point(faces.lattice().snap(p))).collect();
+    rational::area(&corners)
+}
+
+fn face_area(faces: &Faces, face: u32) -> Point {
+    let corners: Vec<Point> = faces.corners(face).iter().map(|&c| rational::point(c)).collect();
+    rational::area(&corners)
+}
+
+/// The faces together have the polygon's area, and each faces as it does.
+fn assert_area_is_conserved(faces: &Faces, polygon: &[DVec3]) {
+    let whole = area(faces, polygon);
+    let mut total = rational::point(DVec3::ZERO);
+    for face in 0..faces.len() as u32 {
+        let part = face_area(faces, face);
+        assert!(rational::scalar(&part, &whole).is_positive(), "face {face} faces backwards");
+        total = rational::sum(&total, &part);
+    }
+    assert_eq!(total, whole);
+}
+
+fn l_shape() -> Corners {
+    flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]])
+}
+
+fn star() -> Corners {
+    let outline = [[0, 5], [1, 1], [5, 0], [1, -1], [0, -5], [-1, -1], [-5, 0], [-1, 1]];
+    outline.iter().rev().map(|&[x, y]| DVec3::new(x.into(), y.into(), 0.0)).collect()
+}
+
+fn spiral() -> Corners {
+    let out = [[0, 0], [9, 0], [9, 9], [2, 9], [2, 3], [6, 3], [6, 6], [4, 6], [4, 5]];
+    let back = [[5, 5], [5, 4], [3, 4], [3, 8], [8, 8], [8, 1], [0, 1]];
+    let corner = |&[x, y]: &[i32; 2]| DVec3::new(x.into(), y.into(), 0.0);
+    out.iter().chain(&back).map(corner).collect()
+}
+
+fn pentagram() -> Corners {
+    let around = shapes::regular(5, DMat3::IDENTITY, DVec3::ZERO);
+    (0..5).map(|k| around[2 * k % 5]).collect()
+}
+
+/// Rows that are powers of two times a rotation's, so that integers stay exact.
+fn tilts() -> [DMat3; 4] {
+    let rows = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| DMat3::from_cols_array_2d(&[a, b, c]);
+    [
+        DMat3::IDENTITY,
+        rows([0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
+        rows([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]),
+        rows([1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, -1.0]),
+    ]
+}
+
+#[test]
+fn a_coordinate_that_is_not_finite_names_its_polygon() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for axis in 0..3 {
+            let mut polygons = vec![l_shape(), star(), spiral()];
+            polygons[1][2][axis] = bad;
+            let error = Faces::new(&polygons, None).expect_err("not finite");
+            assert_eq!(error.polygon(), Some(1));
+        }
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_no_length_is_an_error() {
+    for bad in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+        assert!(Faces::new([l_shape()], Some(bad)).is_err());
+    }
+    for good in [0.0, -0.0, 1e300, f64::INFINITY, f64::from_bits(1)] {
+        assert!(Faces::new([l_shape()], Some(good)).is_ok());
+    }
+}
+
+#[test]
+fn polygons_without_area_are_dropped_and_counted() {
+    let [a, b, c] = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(3.0, 6.0, 9.0)];
+    let polygons = [
+        vec![],
+        vec![a],
+        vec![a, b],
+        vec![a, a, a],
+        vec![b; 7],
+        vec![a, b, a],
+        vec![a, a, b],
+        vec![a, b, c],
+        vec![a, b, a, b],
+        vec![a, b, c, b],
+        vec![c, a, b, c, a, b],
+        vec![a, b, c, (a + b) * 0.5, (b + c) * 0.5],
+        vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::X, DVec3::new(1.0, 2.0, 3.0)],
+    ];
+    for polygon in &polygons {
+        // Alone, and beside one that has an area.
+        let (faces, report) = prepare(std::slice::from_ref(polygon));
+        assert_eq!((faces.len(), report.dropped, report.polygons), (0, 1, 1), "{polygon:?}");
+        let (faces, report) = prepare(&[polygon.clone(), l_shape()]);
+        assert_eq!(report.dropped, 1, "{polygon:?}");
+        assert!(faces.len() > 0 && (0..faces.len()).all(|f| faces.polygon(f as u32) == 1));
+    }
+    assert_eq!(prepare(&polygons).1.dropped, polygons.len());
+    assert!(prepare(&[]).0.is_empty());
+}
+
+#[test]
+fn a_triangle_one_lattice_step_high_is_kept() {
+    let step = 2f64.powi(-50);
+    let polygon = flat(&[[-1.0, -1.0], [1.0, 1.0], [1.0, 1.0 - step]]);
+    assert_eq!(prepare(&[polygon]).0.len(), 1);
+    let quad = flat(&[[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0], [0.0, step]]);
+    let (faces, report) = prepare(&[quad]);
+    assert_eq!((faces.len(), report.dropped), (1, 0));
+}
+
+#[test]
+fn pentagrams_and_bow_ties_are_not_taken_for_convex() {
+    let bow_tie = flat(&[[0.0, 0.0], [3.0, 2.0], [3.0, 0.0], [0.0, 1.0]]);
+    let twice_round = [star(), star()].concat();
+    for tilt in tilts() {
+        for polygon in [pentagram(), bow_tie.clone(), twice_round.clone()] {
+            let (faces, report) = prepare(&[polygon.iter().map(|&p| tilt * p).collect()]);
+            assert_eq!(report.triangulated, 1);
+            assert!((0..faces.len()).all(|face| faces.corners(face as u32).len() == 3));
+        }
+    }
+}
+
+#[test]
+fn triangles_cover_shapes_that_are_not_convex() {
+    for shape in [l_shape(), star(), spiral()] {
+        for tilt in tilts() {
+            let mut polygon: Corners = shape.iter().map(|&p| tilt * p).collect();
+            for _ in 0..2 {
+                let (faces, report) = prepare(std::slice::from_ref(&polygon));
+                assert_eq!(report.triangulated, 1);
+                assert!((0..faces.len()).all(|face| faces.polygon(face as u32) == 0));
+                assert_area_is_conserved(&faces, &polygon);
+                polygon.reverse();
+            }
+        }
+    }
+}
+
+#[test]
+fn a_quad_that_is_not_planar_becomes_two_triangles() {
+    let mut quad = shapes::square(DMat3::IDENTITY, DVec3::ZERO);
+    quad[2].z = 1e-3;
+    let (faces, report) = prepare(std::slice::from_ref(&quad));
+    assert_eq!((faces.len(), report.triangulated), (2, 1));
+    assert_area_is_conserved(&faces, &quad);
+    let (faces, report) = Faces::new([&quad], Some(1e-2)).expect("finite");
+    assert_eq!((faces.len(), report.triangulated), (1, 0));
+}
+
+#[test]
+fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
+    let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y + DVec3::Z];
+    let (faces, _) = prepare(&[vec![a, b, c], vec![a, b, b, c, d], vec![a, a, c, d]]);
+    let numbers = |face: u32| -> Vec<u32> {
+        (0..faces.corners(face).len() as u32).map(|k| faces.corner_number(face, k)).collect()
+    };
+    assert_eq!(numbers(0), [0, 1, 2]);
+    assert_eq!(numbers(1), [0, 1, 3, 4]);
+    assert_eq!(numbers(2), [0, 2, 3]);
+}
+
+#[test]
+fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
+    // Cut along its shorter diagonal, from corner 1 to 3.
+    let quad = flat(&[[-2.0, 0.0], [0.0, -1.0], [2.0, 0.0], [0.0, 1.0]]);
+    let bent = quad.iter().map(|&p| p + DVec3::Z * (0.1 * p.x.abs())).collect();
+    let (faces, _) = prepare(&[bent]);
+    assert_eq!([0, 1, 2].map(|k| faces.corner_number(0, k)), [1, 2, 3]);
+    assert_eq!([0, 1, 2].map(|k| faces.corner_number(1, k)), [1, 3, 0]);
+}
+
+/// In rationals, corners moved onto the plane: every edge has a length, all turns are to the left
+/// seen from the front, and they add up to one.
+fn assert_convex_and_planar(faces: &Faces, face: u32) -> Result<(), TestCaseError> {
+    let exact = Face::new(faces, face);
+    let n = exact.corners.len();
+    let edge = |k: usize| rational::difference(&exact.corners[(k + 1) % n], &exact.corners[k % n]);
+    let mut winding = Vec::new();
+    for k in 0..n {
+        prop_assert!(exact.plane.at(&exact.corners[k]).is_zero());
+        prop_assert!(edge(k).iter().any(|c| !c.is_zero()), "an edge without length");
+        let turn =
+            rational::scalar(&rational::product(&edge(k), &edge(k + 1)), &exact.plane.normal);
+        prop_assert!(!turn.is_negative(), "a corner that turns inwards");
+        let ahead = rational::scalar(&edge(k), &edge(k + 1));
+        prop_assert!(turn.is_positive() || ahead.is_positive(), "an edge that turns back");
+        let along = rational::scalar(&edge(0), &edge(k));
+        let across = rational::scalar(&rational::product(&edge(0), &edge(k)), &exact.plane.normal);
+        winding.push(across.is_positive() || (across.is_zero() && along.is_positive()));
+    }
+    let rises = (0..n).filter(|&k| !winding[k] && winding[(k + 1) % n]).count();
+    prop_assert_eq!(rises, 1, "the corners go round once");
+    Ok(())
+}
+
+/// Corners moved onto a plane moved by little, the others not at all.
+fn assert_corners_are_the_input_s(
+    faces: &Faces,
+    face: u32,
+    polygon: &[DVec3],
+) -> Result<(), TestCaseError> {
+    for (k, &corner) in faces.corners(face).iter().enumerate() {
+        let number = faces.corner_number(face, k as u32) as usize;
+        let given = faces.lattice().snap(polygon[number]);
+        let moved = (DVec3::from(corner) - DVec3::from(given)).abs().max_element();
+        prop_assert!(moved <= faces.tolerance() * 1.74 + 1.0, "corner {k} moved by {moved}");
+        let reference = faces
+            .reference_triangle(face)
+            .contains(&(faces.corner_range(face).start as u32 + k as u32));
+        prop_assert!(moved == 0.0 || !reference);
+    }
+    Ok(())
+}
+
+fn with_repeats(mut scene: HardScene, repeats: &[(Index, Index)]) -> HardScene {
+    for (polygon, corner) in repeats {
+        let polygon = polygon.get_mut(&mut scene.polygons);
+        let at = corner.index(polygon.len());
+        polygon.insert(at, polygon[at]);
+    }
+    scene
+}
+
+/// Any finite number, those of every size and those a scene would have.
+fn any_finite() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        any::<f64>().prop_filter("finite", |x| x.is_finite()),
+        any::<u64>().prop_map(|bits| f64::from_bits(bits & !(0x7ff << 52))),
+        prop::sample::select(vec![0.0, -0.0, 1.0, -1.0, 1e300, -1e300, 1e-300, f64::MAX, f64::MIN]),
+        -1.0..1.0f64,
+    ]
+}
+
+/// Every decision that the faces of a scene lead to.
+fn decide_all(faces: &Faces) {
+    for face in 0..faces.len() as u32 {
+        let corners = 0..faces.corners(face).len() as u32;
+        let whole: Vec<_> = corners.clone().map(|k| Exact.corner(faces, face, k)).collect();
+        let planes = (0..faces.len() as u32).map(PlaneId::face);
+        for plane in planes.chain(corners.map(|k| PlaneId::axis(k as usize % 3, k))) {
+            let splitter = Exact.splitter(faces, plane);
+            if Exact.classify(faces, &splitter, Piece { face, cut: None }) == Side::Spanning {
+                let (mut front, mut back) = (Vec::new(), Vec::new());
+                split(&Exact, faces, (plane, &splitter), face, &whole, &mut front, &mut back);
+                assert!(front.len() >= 3 && back.len() >= 3);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn planar_convex_polygons_stay_whole(polygon in hard::lattice_ngon()) {
+        let (faces, report) = prepare(std::slice::from_ref(&polygon));
+        if area(&faces, &polygon).iter().all(Rational::is_zero) {
+            prop_assert_eq!(report.dropped, 1);
+        } else {
+            prop_assert_eq!(report.triangulated, 0);
+            prop_assert_eq!(faces.len(), 1);
+            prop_assert_eq!(faces.corners(0).len(), polygon.len());
+        }
+    }
+
+    #[test]
+    fn rounded_convex_polygons_stay_whole(
+        n in 3..=40usize,
+        turn in hard::turn(),
+        noise in prop::collection::vec(-1e-10..1e-10f64, 40),
+    ) {
+        let mut polygon = shapes::regular(n, turn, DVec3::new(0.3, -0.1, 0.7));
+        for (corner, noise) in polygon.iter_mut().zip(noise) {
+            *corner += turn.z_axis * noise;
+        }
+        let (faces, report) = prepare(&[polygon]);
+        prop_assert_eq!((faces.len(), report.triangulated, report.dropped), (1, 0, 0));
+        prop_assert_eq!(faces.corners(0).len(), n);
+    }
+
+    #[test]
+    fn any_finite_input_is_taken(
+        polygons in prop::collection::vec(
+            prop::collection::vec(prop::array::uniform3(any_finite()), 0..8), 0..5),
+        tolerance in prop::option::of(any_finite().prop_map(f64::abs)),
+    ) {
+        let (faces, _) = Faces::new(&polygons, tolerance).expect("finite");
+        for face in 0..faces.len() as u32 {
+            assert_convex_and_planar(&faces, face)?;
+        }
+        decide_all(&faces);
+    }
+}
