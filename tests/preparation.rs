@@ -202,6 +202,24 @@ fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
     assert_eq!([0, 1, 2].map(|k| faces.corner_number(1, k)), [1, 3, 0]);
 }
 
+#[test]
+fn corners_folded_onto_one_another_are_not_taken_for_convex() {
+    // On the plane x + y = 0, which is as steep along x as along y. The two topmost corners are
+    // apart along one of them only: seen along that one they are one corner.
+    let fold = |along: DVec3| {
+        let [left, right] = [DVec3::new(-1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)];
+        let tip = DVec3::new(0.0, 0.0, 1.05);
+        let beside = tip + along * 2f64.powi(-40);
+        vec![left - DVec3::Z, right - DVec3::Z, right + DVec3::Z, beside, tip, left + DVec3::Z]
+    };
+    for along in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y] {
+        let (faces, _) = prepare(&[fold(along)]);
+        for face in 0..faces.len() as u32 {
+            assert_convex_and_planar(&faces, face).expect("convex and planar");
+        }
+    }
+}
+
 /// In rationals, corners moved onto the plane: every edge has a length, all turns are to the left
 /// seen from the front, and they add up to one.
 fn assert_convex_and_planar(faces: &Faces, face: u32) -> Result<(), TestCaseError> {
@@ -283,6 +301,21 @@ fn decide_all(faces: &Faces) {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn faces_of_hard_scenes_are_convex_planar_and_where_the_input_is(
+        scene in hard::scene(),
+        repeats in prop::collection::vec(any::<(Index, Index)>(), 0..4),
+    ) {
+        let scene = with_repeats(scene, &repeats);
+        let (faces, report) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
+        prop_assert_eq!(report.polygons, scene.polygons.len());
+        for face in 0..faces.len() as u32 {
+            assert_convex_and_planar(&faces, face)?;
+            let polygon = &scene.polygons[faces.polygon(face) as usize];
+            assert_corners_are_the_input_s(&faces, face, polygon)?;
+        }
+    }
 
     #[test]
     fn planar_convex_polygons_stay_whole(polygon in hard::lattice_ngon()) {

@@ -73,6 +73,13 @@ impl Plane {
         self.normal
     }
 
+    /// The axis along which the normal is longest, the first of several: the one in which the
+    /// plane is least steep.
+    pub(crate) fn main_axis(&self) -> usize {
+        let size = |axis: usize| self.normal[axis].unsigned_abs();
+        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    }
+
     /// The signed distance of a lattice point times the length of the normal.
     #[inline]
     pub(crate) fn at(&self, x: &[f64; 3]) -> Int<3> {

@@ -185,8 +185,7 @@ impl Builder {
     fn planar_frame(&self, second: usize, third: usize) -> Option<Frame> {
         let triangle = [0, second, third].map(|k| self.kept[k].0);
         let plane = Plane::through(triangle);
-        let normal = plane.normal_f64();
-        let limit = self.faces.tolerance * normal.length();
+        let limit = self.faces.tolerance * plane.normal_f64().length();
         let mut exact = true;
         for (point, _) in &self.kept {
             let value = plane.at(point);
@@ -197,16 +196,14 @@ impl Builder {
                 }
             }
         }
-        let drop = normal.abs().max_position();
-        Some(Frame::new(second, third, if exact { None } else { Some(drop) }))
+        Some(Frame::new(second, third, if exact { None } else { Some(plane.main_axis()) }))
     }
 
     /// Whether the polygon, seen along the axis in which its plane is least steep, is convex and
     /// winds once. Exact.
     fn is_convex(&self, second: usize, third: usize) -> bool {
         let at = |k: usize| self.kept[k % self.kept.len()].0;
-        let normal = cross(at(0), at(second), at(third));
-        let drop = (0..3).max_by_key(|&axis| normal[axis].unsigned_abs()).unwrap_or(2);
+        let drop = Plane::through([at(0), at(second), at(third)]).main_axis();
         let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
         let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
         // Corners that the projection folds onto one another have no direction to turn from.
