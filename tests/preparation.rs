@@ -154,6 +154,16 @@ fn pentagrams_and_bow_ties_are_not_taken_for_convex() {
 }
 
 #[test]
+fn a_bow_tie_of_equal_halves_is_not_dropped() {
+    let bow_tie = flat(&[[-1.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0]]);
+    for tilt in tilts() {
+        let (faces, report) = prepare(&[bow_tie.iter().map(|&p| tilt * p).collect()]);
+        assert_eq!((report.dropped, report.triangulated), (0, 1), "{tilt:?}");
+        assert!(!faces.is_empty());
+    }
+}
+
+#[test]
 fn triangles_cover_shapes_that_are_not_convex() {
     for shape in [l_shape(), star(), spiral()] {
         for tilt in tilts() {
@@ -164,6 +174,23 @@ fn triangles_cover_shapes_that_are_not_convex() {
                 assert!((0..faces.len()).all(|face| faces.polygon(face as u32) == 0));
                 assert_area_is_conserved(&faces, &polygon);
                 polygon.reverse();
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tiny_shape_far_from_the_centre_faces_the_right_way() {
+    for tilt in tilts() {
+        for shape in [l_shape(), star(), spiral()] {
+            let (size, far) = (2f64.powi(-40), DVec3::new(0.75, -0.875, 0.625));
+            let polygon: Corners = shape.iter().map(|&p| tilt * p * size + far).collect();
+            let frame = flat(&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]]);
+            let (faces, _) = Faces::new([&polygon, &frame], Some(0.0)).expect("finite");
+            let whole = area(&faces, &polygon);
+            for face in (0..faces.len() as u32).filter(|&face| faces.polygon(face) == 0) {
+                let part = face_area(&faces, face);
+                assert!(rational::scalar(&part, &whole).is_positive());
             }
         }
     }

@@ -40,7 +40,7 @@ impl Faces {
     /// # Errors
     ///
     /// If a coordinate is not finite, the tolerance is negative or not a number, there are more
-    /// than 2²⁹ corners, or a polygon is not convex and the feature `triangulate` is off.
+    /// than 2²⁸ corners, or a polygon is not convex and the feature `triangulate` is off.
     pub fn new<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,
         tolerance: Option<f64>,
@@ -136,10 +136,11 @@ impl Builder {
             return Ok(Outcome::Whole);
         }
         let corners: Vec<[f64; 3]> = self.kept.iter().map(|&(point, _)| point).collect();
+        let plane = Plane::through([0, second, third].map(|k| corners[k]));
         let triangles = if convex {
             triangulate::convex(&corners)
         } else {
-            triangulate::any(&corners).map_err(|_| Error::not_convex(polygon))?
+            triangulate::any(&corners, &plane).map_err(|_| Error::not_convex(polygon))?
         };
         let before = self.faces.len();
         for triple in triangles {
