@@ -232,26 +232,28 @@ impl Faces {
             let k = k as usize;
             [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]]
         };
+        // Corners that lie on the plane as they are need no moving, and edges between them give
+        // the same bits as the edges of neighbours that have moved no corner.
+        let stays = |k: u32| {
+            let corner = &corners[if k as usize == corners.len() { 0 } else { k as usize }];
+            triangle.contains(corner) || Plane::through(triangle).at(corner).sign().is_eq()
+        };
         match (vertex.kind(), record.frame.drop_axis()) {
-            (SymbolKind::Corner(k), None) => Weights::Corner(corners[k as usize]),
-            (SymbolKind::Corner(k), Some(axis)) => {
-                let k_is_reference = record.frame.triangle().contains(&k);
+            (SymbolKind::Corner(k), Some(axis)) if !stays(k) => {
                 let point = corners[k as usize];
-                if k_is_reference {
-                    return Weights::Corner(point);
-                }
                 let area = |p, q| Int::from(cross(point, p, q)[axis]);
                 let [a, b, c] = triangle;
                 Weights::Inside(triangle, [area(b, c), area(c, a), area(a, b)])
             }
-            (SymbolKind::OnEdge(k, plane), None) => {
+            (SymbolKind::Corner(k), _) => Weights::Corner(corners[k as usize]),
+            (SymbolKind::OnEdge(k, plane), Some(axis)) if !(stays(k) && stays(k + 1)) => {
+                let [a, b] = edge(k);
+                meeting(triangle, &Plane::upright(a, b, axis), &self.plane(plane))
+            }
+            (SymbolKind::OnEdge(k, plane), _) => {
                 let plane = self.plane(plane);
                 let [a, b] = edge(k);
                 Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)])
-            }
-            (SymbolKind::OnEdge(k, plane), Some(axis)) => {
-                let [a, b] = edge(k);
-                meeting(triangle, &Plane::upright(a, b, axis), &self.plane(plane))
             }
             (SymbolKind::Inside(g, h), _) => meeting(triangle, &self.plane(g), &self.plane(h)),
         }
