@@ -1,17 +1,15 @@
-//! From polygons of any kind to convex planar faces: what stays whole, what becomes triangles, what
-//! is dropped, and that nothing is lost or panics on the way.
+//! From polygons of any kind to convex planar faces, by example: what becomes triangles, what is
+//! dropped, what is an error.
 
 mod support;
 
-use binspace::geom::{Exact, Faces, Kernel, Piece, PlaneId, Preparation, Side, split};
+use binspace::geom::{Faces, Preparation};
 use binspace::glam::{DMat3, DVec3};
-use num_traits::{Signed, Zero};
+use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
-use proptest::sample::Index;
-use proptest::test_runner::TestCaseError;
-use support::hard::{self, HardScene};
-use support::model::Face;
-use support::rational::{self, Point, Rational};
+use support::checks::{area, assert_convex_and_planar, face_area};
+use support::hard;
+use support::rational;
 use support::shapes::{self, Corners};
 
 fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
@@ -20,18 +18,6 @@ fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
 
 fn flat(corners: &[[f64; 2]]) -> Corners {
     corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
-}
-
-/// Twice the vector area of a polygon's corners on the lattice.
-fn area(faces: &Faces, polygon: &[DVec3]) -> Point {
-    let corners: Vec<Point> =
-        polygon.iter().map(|&p| rational::point(faces.lattice().snap(p))).collect();
-    rational::area(&corners)
-}
-
-fn face_area(faces: &Faces, face: u32) -> Point {
-    let corners: Vec<Point> = faces.corners(face).iter().map(|&c| rational::point(c)).collect();
-    rational::area(&corners)
 }
 
 /// The faces together have the polygon's area, and each faces as it does.
@@ -247,140 +233,31 @@ fn corners_folded_onto_one_another_are_not_taken_for_convex() {
     }
 }
 
-/// In rationals, corners moved onto the plane: every edge has a length, all turns are to the left
-/// seen from the front, and they add up to one.
-fn assert_convex_and_planar(faces: &Faces, face: u32) -> Result<(), TestCaseError> {
-    let exact = Face::new(faces, face);
-    let n = exact.corners.len();
-    let edge = |k: usize| rational::difference(&exact.corners[(k + 1) % n], &exact.corners[k % n]);
-    let mut winding = Vec::new();
-    for k in 0..n {
-        prop_assert!(exact.plane.at(&exact.corners[k]).is_zero());
-        prop_assert!(edge(k).iter().any(|c| !c.is_zero()), "an edge without length");
-        let turn =
-            rational::scalar(&rational::product(&edge(k), &edge(k + 1)), &exact.plane.normal);
-        prop_assert!(!turn.is_negative(), "a corner that turns inwards");
-        let ahead = rational::scalar(&edge(k), &edge(k + 1));
-        prop_assert!(turn.is_positive() || ahead.is_positive(), "an edge that turns back");
-        let along = rational::scalar(&edge(0), &edge(k));
-        let across = rational::scalar(&rational::product(&edge(0), &edge(k)), &exact.plane.normal);
-        winding.push(across.is_positive() || (across.is_zero() && along.is_positive()));
-    }
-    let rises = (0..n).filter(|&k| !winding[k] && winding[(k + 1) % n]).count();
-    prop_assert_eq!(rises, 1, "the corners go round once");
-    Ok(())
-}
-
-/// Corners moved onto a plane moved by little, the others not at all.
-fn assert_corners_are_the_input_s(
-    faces: &Faces,
-    face: u32,
-    polygon: &[DVec3],
-) -> Result<(), TestCaseError> {
-    for (k, &corner) in faces.corners(face).iter().enumerate() {
-        let number = faces.corner_number(face, k as u32) as usize;
-        let given = faces.lattice().snap(polygon[number]);
-        let moved = (DVec3::from(corner) - DVec3::from(given)).abs().max_element();
-        prop_assert!(moved <= faces.tolerance() * 1.74 + 1.0, "corner {k} moved by {moved}");
-        let reference = faces
-            .reference_triangle(face)
-            .contains(&(faces.corner_range(face).start as u32 + k as u32));
-        prop_assert!(moved == 0.0 || !reference);
-    }
-    Ok(())
-}
-
-fn with_repeats(mut scene: HardScene, repeats: &[(Index, Index)]) -> HardScene {
-    for (polygon, corner) in repeats {
-        let polygon = polygon.get_mut(&mut scene.polygons);
-        let at = corner.index(polygon.len());
-        polygon.insert(at, polygon[at]);
-    }
-    scene
-}
-
-/// Any finite number, those of every size and those a scene would have.
-fn any_finite() -> impl Strategy<Value = f64> {
-    prop_oneof![
-        any::<f64>().prop_filter("finite", |x| x.is_finite()),
-        any::<u64>().prop_map(|bits| f64::from_bits(bits & !(0x7ff << 52))),
-        prop::sample::select(vec![0.0, -0.0, 1.0, -1.0, 1e300, -1e300, 1e-300, f64::MAX, f64::MIN]),
-        -1.0..1.0f64,
-    ]
-}
-
-/// Every decision that the faces of a scene lead to.
-fn decide_all(faces: &Faces) {
-    for face in 0..faces.len() as u32 {
-        let corners = 0..faces.corners(face).len() as u32;
-        let whole: Vec<_> = corners.clone().map(|k| Exact.corner(faces, face, k)).collect();
-        let planes = (0..faces.len() as u32).map(PlaneId::face);
-        for plane in planes.chain(corners.map(|k| PlaneId::axis(k as usize % 3, k))) {
-            let splitter = Exact.splitter(faces, plane);
-            if Exact.classify(faces, &splitter, Piece { face, cut: None }) == Side::Spanning {
-                let (mut front, mut back) = (Vec::new(), Vec::new());
-                split(&Exact, faces, (plane, &splitter), face, &whole, &mut front, &mut back);
-                assert!(front.len() >= 3 && back.len() >= 3);
-            }
-        }
-    }
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
-
     #[test]
-    fn faces_of_hard_scenes_are_convex_planar_and_where_the_input_is(
-        scene in hard::scene(),
-        repeats in prop::collection::vec(any::<(Index, Index)>(), 0..4),
-    ) {
-        let scene = with_repeats(scene, &repeats);
-        let (faces, report) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
-        prop_assert_eq!(report.polygons, scene.polygons.len());
-        for face in 0..faces.len() as u32 {
-            assert_convex_and_planar(&faces, face)?;
-            let polygon = &scene.polygons[faces.polygon(face) as usize];
-            assert_corners_are_the_input_s(&faces, face, polygon)?;
-        }
-    }
-
-    #[test]
-    fn planar_convex_polygons_stay_whole(polygon in hard::lattice_ngon()) {
-        let (faces, report) = prepare(std::slice::from_ref(&polygon));
-        if area(&faces, &polygon).iter().all(Rational::is_zero) {
-            prop_assert_eq!(report.dropped, 1);
-        } else {
-            prop_assert_eq!(report.triangulated, 0);
-            prop_assert_eq!(faces.len(), 1);
-            prop_assert_eq!(faces.corners(0).len(), polygon.len());
-        }
-    }
-
-    #[test]
-    fn rounded_convex_polygons_stay_whole(
-        n in 3..=40usize,
+    fn triangles_cover_shapes_anywhere_but_for_rounding(
+        shape in prop::sample::select(vec![l_shape(), star(), spiral()]),
         turn in hard::turn(),
-        noise in prop::collection::vec(-1e-10..1e-10f64, 40),
+        offset in prop::array::uniform3(-1e6..1e6f64),
+        scale in -100..=100i32,
+        reversed in any::<bool>(),
     ) {
-        let mut polygon = shapes::regular(n, turn, DVec3::new(0.3, -0.1, 0.7));
-        for (corner, noise) in polygon.iter_mut().zip(noise) {
-            *corner += turn.z_axis * noise;
+        let place = |p: &DVec3| (turn * *p + DVec3::from_array(offset)) * 2f64.powi(scale);
+        let mut polygon: Corners = shape.iter().map(place).collect();
+        if reversed {
+            polygon.reverse();
         }
-        let (faces, report) = prepare(&[polygon]);
-        prop_assert_eq!((faces.len(), report.triangulated, report.dropped), (1, 0, 0));
-        prop_assert_eq!(faces.corners(0).len(), n);
-    }
-
-    #[test]
-    fn any_finite_input_is_taken(
-        polygons in prop::collection::vec(
-            prop::collection::vec(prop::array::uniform3(any_finite()), 0..8), 0..5),
-        tolerance in prop::option::of(any_finite().prop_map(f64::abs)),
-    ) {
-        let (faces, _) = Faces::new(&polygons, tolerance).expect("finite");
+        let (faces, report) = prepare(std::slice::from_ref(&polygon));
+        prop_assert_eq!(report.triangulated, 1);
+        let whole = area(&faces, &polygon);
+        let square = rational::scalar(&whole, &whole);
+        let mut total = rational::point(DVec3::ZERO);
         for face in 0..faces.len() as u32 {
-            assert_convex_and_planar(&faces, face)?;
+            let part = face_area(&faces, face);
+            prop_assert!(rational::scalar(&part, &whole).is_positive());
+            total = rational::sum(&total, &part);
         }
-        decide_all(&faces);
+        let covered = rational::scalar(&total, &whole) / square;
+        prop_assert!((covered.to_f64().expect("a share") - 1.0).abs() < 1e-9);
     }
 }
