@@ -1,0 +1,8 @@
+//! What several test programs share: hard scenes, and an exact model to hold the library against.
+
+#![allow(dead_code, reason = "every test program uses its own part")]
+
+pub(crate) mod hard;
+pub(crate) mod model;
+pub(crate) mod rational;
+pub(crate) mod shapes;

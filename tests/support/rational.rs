@@ -1,0 +1,114 @@
+//! Points and planes in exact rationals.
+
+use binspace::glam::DVec3;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
+
+pub(crate) type Rational = BigRational;
+pub(crate) type Point = [Rational; 3];
+
+/// The exact value of a finite `f64`.
+pub(crate) fn exact(value: f64) -> Rational {
+    Rational::from_float(value).expect("finite")
+}
+
+/// The exact value of a lattice coordinate.
+pub(crate) fn integer(value: f64) -> BigInt {
+    assert_eq!(value.fract(), 0.0, "a lattice coordinate");
+    BigInt::from_f64(value).expect("finite")
+}
+
+/// The exact value of a point.
+pub(crate) fn point(p: impl Into<DVec3>) -> Point {
+    p.into().to_array().map(exact)
+}
+
+pub(crate) fn difference(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+pub(crate) fn sum(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|i| &a[i] + &b[i])
+}
+
+/// The vector product.
+pub(crate) fn product(a: &Point, b: &Point) -> Point {
+    [
+        &a[1] * &b[2] - &a[2] * &b[1],
+        &a[2] * &b[0] - &a[0] * &b[2],
+        &a[0] * &b[1] - &a[1] * &b[0],
+    ]
+}
+
+/// Twice the vector area of a closed outline.
+pub(crate) fn area(outline: &[Point]) -> Point {
+    let zero = [Rational::zero(), Rational::zero(), Rational::zero()];
+    let next = outline.iter().cycle().skip(1);
+    outline.iter().zip(next).fold(zero, |total, (a, b)| {
+        let (a, b) = (difference(a, &outline[0]), difference(b, &outline[0]));
+        sum(&total, &product(&a, &b))
+    })
+}
+
+/// How a rational compares with zero.
+pub(crate) fn sign(value: &Rational) -> Ordering {
+    value.cmp(&Rational::zero())
+}
+
+/// The largest difference between the coordinates of an exact point and a rounded one.
+pub(crate) fn distance_to_rounded(exact_point: &Point, rounded: [f64; 3]) -> f64 {
+    let offsets = (0..3).map(|i| (&exact_point[i] - exact(rounded[i])).abs());
+    offsets.map(|offset| offset.to_f64().expect("in range")).fold(0.0, f64::max)
+}
+
+/// A plane: positive in front.
+#[derive(Clone, Debug)]
+pub(crate) struct Plane {
+    pub(crate) normal: Point,
+    pub(crate) offset: Rational,
+}
+
+impl Plane {
+    /// In front of it, the three points run counter-clockwise.
+    pub(crate) fn through([p, q, r]: [&Point; 3]) -> Self {
+        let normal = product(&difference(q, p), &difference(r, p));
+        let offset = scalar(&normal, p);
+        Self { normal, offset }
+    }
+
+    pub(crate) fn perpendicular_to_axis(axis: usize, at: &Point) -> Self {
+        let mut normal = [Rational::zero(), Rational::zero(), Rational::zero()];
+        normal[axis] = Rational::from_integer(1.into());
+        Self { normal, offset: at[axis].clone() }
+    }
+
+    /// The distance of a point, times the length of the normal.
+    pub(crate) fn at(&self, x: &Point) -> Rational {
+        scalar(&self.normal, x) - &self.offset
+    }
+
+    /// The point in which three planes meet.
+    pub(crate) fn meeting(a: &Self, b: &Self, c: &Self) -> Point {
+        let pairs = [(b, c), (c, a), (a, b)].map(|(g, h)| product(&g.normal, &h.normal));
+        let determinant = scalar(&a.normal, &pairs[0]);
+        assert!(!determinant.is_zero(), "three planes that meet in a point");
+        std::array::from_fn(|i| {
+            let numerator =
+                &pairs[0][i] * &a.offset + &pairs[1][i] * &b.offset + &pairs[2][i] * &c.offset;
+            numerator / &determinant
+        })
+    }
+}
+
+/// The scalar product.
+pub(crate) fn scalar(a: &Point, b: &Point) -> Rational {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+/// The point of a segment in which it crosses a plane, given the plane at both ends.
+pub(crate) fn crossing([a, b]: [&Point; 2], [at_a, at_b]: [&Rational; 2]) -> Point {
+    let total = at_a - at_b;
+    std::array::from_fn(|i| (at_a * &b[i] - at_b * &a[i]) / &total)
+}
