@@ -6,7 +6,8 @@ pub mod geom;
 pub mod scene;
 
 pub use bsp::{
-    BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Stats,
+    BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Partition,
+    Stats,
 };
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};

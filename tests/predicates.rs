@@ -77,7 +77,8 @@ impl<'a> Walk<'a> {
         self.tally.pieces += 1;
         self.tally.moved += usize::from(self.exact.moved);
         self.tally.ambiguous += usize::from(allowed.iter().any(|other| other != &side));
-        let spans = values.iter().any(Signed::is_positive) && values.iter().any(Signed::is_negative);
+        let spans =
+            values.iter().any(Signed::is_positive) && values.iter().any(Signed::is_negative);
         self.tally.tolerated += usize::from(spans && side != Side::Spanning);
         if side == Side::Spanning {
             self.cut((plane, &splitter), &values, keep_back)?;

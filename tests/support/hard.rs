@@ -143,8 +143,7 @@ pub(crate) fn slivers() -> impl Strategy<Value = Vec<Corners>> {
 pub(crate) fn boxes() -> impl Strategy<Value = Vec<Corners>> {
     let one = (turn(), point(), prop::array::uniform3(0.125..1.0f64));
     prop::collection::vec(one, 1..3).prop_map(|list| {
-        let cuboid =
-            |(turn, centre, size)| shapes::cuboid(turn, centre, DVec3::from_array(size));
+        let cuboid = |(turn, centre, size)| shapes::cuboid(turn, centre, DVec3::from_array(size));
         list.into_iter().flat_map(cuboid).collect()
     })
 }

@@ -35,11 +35,7 @@ pub(crate) fn sum(a: &Point, b: &Point) -> Point {
 
 /// The vector product.
 pub(crate) fn product(a: &Point, b: &Point) -> Point {
-    [
-        &a[1] * &b[2] - &a[2] * &b[1],
-        &a[2] * &b[0] - &a[0] * &b[2],
-        &a[0] * &b[1] - &a[1] * &b[0],
-    ]
+    [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
 }
 
 /// Twice the vector area of a closed outline.
