@@ -198,16 +198,22 @@ impl Builder {
                 }
             }
         }
-        let drop = normal.abs().max_position();
-        Some(Frame::new(second, third, if exact { None } else { Some(drop) }))
+        let drop = (!exact).then(|| self.main_axis(second, third));
+        Some(Frame::new(second, third, drop))
     }
 
-    /// Whether the polygon, seen along the axis in which its plane is least steep, is convex and
-    /// winds once. Exact.
+    /// The axis in which the polygon's plane is least steep, the first if there are several. Corners
+    /// move along it onto the plane, so it must be the one along which the polygon is convex.
+    fn main_axis(&self, second: usize, third: usize) -> usize {
+        let [p, q, r] = [0, second, third].map(|k| self.kept[k].0);
+        let size = cross(p, q, r).map(i128::unsigned_abs);
+        (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best })
+    }
+
+    /// Whether the polygon, seen along its main axis, is convex and winds once. Exact.
     fn is_convex(&self, second: usize, third: usize) -> bool {
         let at = |k: usize| self.kept[k % self.kept.len()].0;
-        let normal = cross(at(0), at(second), at(third));
-        let drop = (0..3).max_by_key(|&axis| normal[axis].unsigned_abs()).unwrap_or(2);
+        let drop = self.main_axis(second, third);
         let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
         let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
         // Corners that the projection folds onto one another have no direction to turn from.

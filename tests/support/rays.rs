@@ -13,6 +13,7 @@ use num_bigint::{BigInt, Sign};
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 use std::collections::HashMap;
+use std::ops::Range;
 
 pub(crate) type Vector = [BigInt; 3];
 
@@ -208,25 +209,27 @@ impl<'t> Rays<'t> {
         product(&g.normal, &h.normal).iter().all(Zero::is_zero)
     }
 
-    /// Whether the plane that told two fragments apart has both hits within the tolerance; if they
-    /// count as lying on it, they must come in input order.
+    /// Whether the plane that told two fragments apart has the nearer hit within the tolerance, and
+    /// the other hit or the eye as well; if both count as lying on it, they must come in input
+    /// order.
     fn excuse(&self, ray: &Ray, hits: [&Hit; 2], in_input_order: bool) -> bool {
-        let [a, b] = hits.map(|hit| hit.fragment);
-        let on_path =
-            |range: &std::ops::Range<u32>| range.contains(&a) as u8 + range.contains(&b) as u8;
+        let ids = hits.map(|hit| hit.fragment);
+        let count = |range: &Range<u32>| ids.iter().filter(|id| range.contains(id)).count();
         let parting = self.tree.partitions().find(|partition| {
-            let counts = [&partition.on, &partition.front, &partition.back].map(on_path);
-            counts.iter().sum::<u8>() == 2 && (counts[0] == 2 || counts[1] != 2 && counts[2] != 2)
+            let [on, front, back] = [&partition.on, &partition.front, &partition.back].map(count);
+            on + front + back == 2 && front < 2 && back < 2
         });
         let Some(parting) = parting else { return false };
         let plane = Plane::named(self.tree.faces(), parting.plane);
         let reach = self.tree.faces().tolerance() * (1.0 + 1e-9) * plane.length();
         let at = ray.plane(&plane);
-        let near = hits.iter().all(|hit| {
-            let float = |value: &BigInt| value.to_f64().unwrap_or(f64::INFINITY);
-            float(&hit.value(&at).abs()) <= reach * float(&hit.face.slope)
-        });
-        near && (in_input_order || on_path(&parting.on) < 2)
+        let float = |value: &BigInt| value.abs().to_f64().unwrap_or(f64::INFINITY);
+        let is_near = |hit: &&Hit| float(&hit.value(&at)) <= reach * float(&hit.face.slope);
+        let near = hits.iter().filter(|hit| is_near(hit)).count();
+        let nearer = hits.into_iter().min_by(|a, b| a.depth_order(b));
+        let eye_is_near = !ray.endless && float(&at.start) <= reach;
+        let excused = near == 2 || nearer.as_ref().is_some_and(is_near) && eye_is_near;
+        excused && (in_input_order || count(&parting.on) < 2)
     }
 }
 
