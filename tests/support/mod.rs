@@ -10,4 +10,5 @@ pub(crate) mod orders;
 pub(crate) mod rational;
 pub(crate) mod rays;
 pub(crate) mod shapes;
+pub(crate) mod snapshot;
 pub(crate) mod views;

@@ -1,6 +1,12 @@
 //! Trees of hard scenes against oracles of their own: exact rationals for what the fragments are,
 //! rays in big integers for the order.
 
+mod cases;
+mod faults;
+mod input;
+mod same;
+mod scale;
+#[path = "../support/mod.rs"]
 mod support;
 
 use binspace::{BspTree, BuildOptions, Heuristic};
