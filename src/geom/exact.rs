@@ -73,6 +73,19 @@ impl Plane {
         self.along(self.point).to_f64()
     }
 
+    /// The normal.
+    #[cfg(feature = "triangulate")]
+    pub(crate) fn normal(&self) -> [i128; 3] {
+        self.normal
+    }
+
+    /// The axis along which the normal is longest, the first of several: the one in which the
+    /// plane is least steep.
+    pub(crate) fn main_axis(&self) -> usize {
+        let size = |axis: usize| self.normal[axis].unsigned_abs();
+        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    }
+
     /// The signed distance of a lattice point times the length of the normal.
     #[inline]
     pub(crate) fn at(&self, x: &[f64; 3]) -> Int<3> {
@@ -225,26 +238,28 @@ impl Faces {
             let k = k as usize;
             [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]]
         };
+        // Corners that lie on the plane as they are need no moving, and edges between them give
+        // the same bits as the edges of neighbours that have moved no corner.
+        let stays = |k: u32| {
+            let corner = &corners[if k as usize == corners.len() { 0 } else { k as usize }];
+            triangle.contains(corner) || Plane::through(triangle).at(corner).sign().is_eq()
+        };
         match (vertex.kind(), record.frame.drop_axis()) {
-            (SymbolKind::Corner(k), None) => Weights::Corner(corners[k as usize]),
-            (SymbolKind::Corner(k), Some(axis)) => {
-                let k_is_reference = record.frame.triangle().contains(&k);
+            (SymbolKind::Corner(k), Some(axis)) if !stays(k) => {
                 let point = corners[k as usize];
-                if k_is_reference {
-                    return Weights::Corner(point);
-                }
                 let area = |p, q| Int::from(cross(point, p, q)[axis]);
                 let [a, b, c] = triangle;
                 Weights::Inside(triangle, [area(b, c), area(c, a), area(a, b)])
             }
-            (SymbolKind::OnEdge(k, plane), None) => {
+            (SymbolKind::Corner(k), _) => Weights::Corner(corners[k as usize]),
+            (SymbolKind::OnEdge(k, plane), Some(axis)) if !(stays(k) && stays(k + 1)) => {
+                let [a, b] = edge(k);
+                meeting(triangle, &Plane::upright(a, b, axis), &self.plane(plane))
+            }
+            (SymbolKind::OnEdge(k, plane), _) => {
                 let plane = self.plane(plane);
                 let [a, b] = edge(k);
                 Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)])
-            }
-            (SymbolKind::OnEdge(k, plane), Some(axis)) => {
-                let [a, b] = edge(k);
-                meeting(triangle, &Plane::upright(a, b, axis), &self.plane(plane))
             }
             (SymbolKind::Inside(g, h), _) => meeting(triangle, &self.plane(g), &self.plane(h)),
         }

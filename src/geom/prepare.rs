@@ -40,7 +40,7 @@ impl Faces {
     /// # Errors
     ///
     /// If a coordinate is not finite, the tolerance is negative or not a number, there are more
-    /// than 2²⁹ corners, or a polygon is not convex and the feature `triangulate` is off.
+    /// than 2²⁸ corners, or a polygon is not convex and the feature `triangulate` is off.
     pub fn new<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,
         tolerance: Option<f64>,
@@ -137,10 +137,11 @@ impl Builder {
             return Ok(Outcome::Whole);
         }
         let corners: Vec<[f64; 3]> = self.kept.iter().map(|&(point, _)| point).collect();
+        let plane = Plane::through([0, second, third].map(|k| corners[k]));
         let triangles = if convex {
             triangulate::convex(&corners)
         } else {
-            triangulate::any(&corners).map_err(|_| Error::not_convex(polygon))?
+            triangulate::any(&corners, &plane).map_err(|_| Error::not_convex(polygon))?
         };
         let before = self.faces.len();
         for triple in triangles {
@@ -186,8 +187,7 @@ impl Builder {
     fn planar_frame(&self, second: usize, third: usize) -> Option<Frame> {
         let triangle = [0, second, third].map(|k| self.kept[k].0);
         let plane = Plane::through(triangle);
-        let normal = plane.normal_f64();
-        let limit = self.faces.tolerance * normal.length();
+        let limit = self.faces.tolerance * plane.normal_f64().length();
         let mut exact = true;
         for (point, _) in &self.kept {
             let value = plane.at(point);
@@ -198,22 +198,14 @@ impl Builder {
                 }
             }
         }
-        let drop = (!exact).then(|| self.main_axis(second, third));
-        Some(Frame::new(second, third, drop))
+        Some(Frame::new(second, third, if exact { None } else { Some(plane.main_axis()) }))
     }
 
-    /// The axis in which the polygon's plane is least steep, the first if there are several. Corners
-    /// move along it onto the plane, so it must be the one along which the polygon is convex.
-    fn main_axis(&self, second: usize, third: usize) -> usize {
-        let [p, q, r] = [0, second, third].map(|k| self.kept[k].0);
-        let size = cross(p, q, r).map(i128::unsigned_abs);
-        (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best })
-    }
-
-    /// Whether the polygon, seen along its main axis, is convex and winds once. Exact.
+    /// Whether the polygon, seen along the axis in which its plane is least steep, is convex and
+    /// winds once. Exact.
     fn is_convex(&self, second: usize, third: usize) -> bool {
         let at = |k: usize| self.kept[k % self.kept.len()].0;
-        let drop = self.main_axis(second, third);
+        let drop = Plane::through([at(0), at(second), at(third)]).main_axis();
         let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
         let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
         // Corners that the projection folds onto one another have no direction to turn from.

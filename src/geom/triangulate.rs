@@ -1,6 +1,15 @@
 //! Triangles in place of faces that are not convex or not planar.
 
+#[cfg(feature = "triangulate")]
+use std::cmp::Ordering;
+
 use glam::DVec3;
+
+#[cfg(feature = "triangulate")]
+use super::Int;
+use super::exact::Plane;
+#[cfg(feature = "triangulate")]
+use super::exact::cross;
 
 /// Ear clipping was needed and is compiled out.
 #[derive(Debug)]
@@ -17,28 +26,52 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Vec<[usize; 3]> {
 }
 
 /// Triangles, as corner numbers, of any polygon, facing as it does: by ear clipping in the
-/// projection along the main axis of its vector area (Newell's normal). A polygon that crosses
-/// itself is covered as far as ear clipping goes.
+/// projection along the main axis of its vector area (Newell's normal), exact. A polygon that
+/// crosses itself is covered as far as ear clipping goes; if its parts face both ways and cancel,
+/// `plane`, which must be one of some of its corners, stands for the vector area.
 #[cfg(feature = "triangulate")]
-pub(super) fn any(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, Unavailable> {
-    let next = corners.iter().cycle().skip(1);
-    let area: DVec3 = corners.iter().zip(next).map(|(&a, &b)| DVec3::from(a).cross(b.into())).sum();
-    let drop = area.abs().max_position();
+pub(super) fn any(corners: &[[f64; 3]], plane: &Plane) -> Result<Vec<[usize; 3]>, Unavailable> {
+    let (drop, facing) = facing(corners, plane);
     let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
     let flat: Vec<[f64; 2]> = corners.iter().map(|corner| [corner[x], corner[y]]).collect();
     let mut indices: Vec<u32> = Vec::new();
     earcut::Earcut::new().earcut_slice(&flat, &[], &mut indices);
     let oriented = |triple: &[u32]| {
         let [a, b, c] = [triple[0] as usize, triple[1] as usize, triple[2] as usize];
-        let side = |p: usize, q: usize| (flat[p][0] - flat[a][0]) * (flat[q][1] - flat[a][1]);
-        let faces_up = side(b, c) > side(c, b);
-        if faces_up == (area[drop] > 0.0) { [a, b, c] } else { [a, c, b] }
+        let side = cross(corners[a], corners[b], corners[c])[drop].cmp(&0);
+        if side == facing { [a, b, c] } else { [a, c, b] }
     };
     Ok(indices.chunks_exact(3).map(oriented).collect())
 }
 
+/// The axis to look along, and the sign of a triangle seen along it that faces as the polygon.
+#[cfg(feature = "triangulate")]
+fn facing(corners: &[[f64; 3]], plane: &Plane) -> (usize, Ordering) {
+    let mut area = [Int::<3>::ZERO; 3];
+    for pair in corners.windows(2) {
+        let part = cross(corners[0], pair[0], pair[1]);
+        area = std::array::from_fn(|axis| area[axis] + Int::from(part[axis]));
+    }
+    let normal = plane.normal();
+    let size = DVec3::from_array(area.map(|component| component.to_f64())).abs();
+    let drop = if size.max_element() > CANCELLED * plane.normal_f64().abs().max_element() {
+        size.max_position()
+    } else {
+        plane.main_axis()
+    };
+    let facing = area[drop].sign();
+    (drop, if facing.is_eq() { normal[drop].cmp(&0) } else { facing })
+}
+
+/// Areas that cancel to this share of a triangle's leave no direction but that of rounding.
+///
+/// Larger, and a thin polygon that is far from planar may be looked at edge-on; smaller, and one
+/// that is planar but for rounding may.
+#[cfg(feature = "triangulate")]
+const CANCELLED: f64 = 1e-6;
+
 /// Ear clipping is compiled out.
 #[cfg(not(feature = "triangulate"))]
-pub(super) fn any(_: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, Unavailable> {
+pub(super) fn any(_: &[[f64; 3]], _: &Plane) -> Result<Vec<[usize; 3]>, Unavailable> {
     Err(Unavailable)
 }

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "every test program uses its own part")]
 
+pub(crate) mod checks;
 pub(crate) mod dice;
 pub(crate) mod hard;
 pub(crate) mod judge;

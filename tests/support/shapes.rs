@@ -61,9 +61,11 @@ pub(crate) fn cuboid(turn: DMat3, centre: DVec3, size: DVec3) -> Vec<Corners> {
 /// pair once forwards and once backwards, sorted by direction. Parallel ones follow one another,
 /// so that some corners lie on a straight line.
 pub(crate) fn convex_on_grid(edges: &[[i32; 2]]) -> Vec<[i32; 2]> {
-    let both = |&[x, y]: &[i32; 2]| [[x, y], [-x, -y]];
-    let mut steps: Vec<[i32; 2]> =
-        edges.iter().flat_map(both).filter(|step| *step != [0, 0]).collect();
+    let both = |&[x, y]: &[i32; 2]| {
+        let x = if [x, y] == [0, 0] { 1 } else { x };
+        [[x, y], [-x, -y]]
+    };
+    let mut steps: Vec<[i32; 2]> = edges.iter().flat_map(both).collect();
     let upper = |[x, y]: [i32; 2]| y > 0 || (y == 0 && x > 0);
     steps.sort_by(|&a, &b| {
         let turn = a[0] * b[1] - a[1] * b[0];

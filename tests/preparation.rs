@@ -1,0 +1,263 @@
+//! From polygons of any kind to convex planar faces, by example: what becomes triangles, what is
+//! dropped, what is an error.
+
+mod support;
+
+use binspace::geom::{Faces, Preparation};
+use binspace::glam::{DMat3, DVec3};
+use num_traits::{Signed, ToPrimitive};
+use proptest::prelude::*;
+use support::checks::{area, assert_convex_and_planar, face_area};
+use support::hard;
+use support::rational;
+use support::shapes::{self, Corners};
+
+fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
+    Faces::new(polygons, None).expect("finite")
+}
+
+fn flat(corners: &[[f64; 2]]) -> Corners {
+    corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
+}
+
+/// The faces together have the polygon's area, and each faces as it does.
+fn assert_area_is_conserved(faces: &Faces, polygon: &[DVec3]) {
+    let whole = area(faces, polygon);
+    let mut total = rational::point(DVec3::ZERO);
+    for face in 0..faces.len() as u32 {
+        let part = face_area(faces, face);
+        assert!(rational::scalar(&part, &whole).is_positive(), "face {face} faces backwards");
+        total = rational::sum(&total, &part);
+    }
+    assert_eq!(total, whole);
+}
+
+fn l_shape() -> Corners {
+    flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]])
+}
+
+fn star() -> Corners {
+    let outline = [[0, 5], [1, 1], [5, 0], [1, -1], [0, -5], [-1, -1], [-5, 0], [-1, 1]];
+    outline.iter().rev().map(|&[x, y]| DVec3::new(x.into(), y.into(), 0.0)).collect()
+}
+
+fn spiral() -> Corners {
+    let out = [[0, 0], [9, 0], [9, 9], [2, 9], [2, 3], [6, 3], [6, 6], [4, 6], [4, 5]];
+    let back = [[5, 5], [5, 4], [3, 4], [3, 8], [8, 8], [8, 1], [0, 1]];
+    let corner = |&[x, y]: &[i32; 2]| DVec3::new(x.into(), y.into(), 0.0);
+    out.iter().chain(&back).map(corner).collect()
+}
+
+fn pentagram() -> Corners {
+    let around = shapes::regular(5, DMat3::IDENTITY, DVec3::ZERO);
+    (0..5).map(|k| around[2 * k % 5]).collect()
+}
+
+/// Rows that are powers of two times a rotation's, so that integers stay exact.
+fn tilts() -> [DMat3; 4] {
+    let rows = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| DMat3::from_cols_array_2d(&[a, b, c]);
+    [
+        DMat3::IDENTITY,
+        rows([0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
+        rows([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]),
+        rows([1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, -1.0]),
+    ]
+}
+
+#[test]
+fn a_coordinate_that_is_not_finite_names_its_polygon() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for axis in 0..3 {
+            let mut polygons = vec![l_shape(), star(), spiral()];
+            polygons[1][2][axis] = bad;
+            let error = Faces::new(&polygons, None).expect_err("not finite");
+            assert_eq!(error.polygon(), Some(1));
+        }
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_no_length_is_an_error() {
+    for bad in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+        assert!(Faces::new([l_shape()], Some(bad)).is_err());
+    }
+    for good in [0.0, -0.0, 1e300, f64::INFINITY, f64::from_bits(1)] {
+        assert!(Faces::new([l_shape()], Some(good)).is_ok());
+    }
+}
+
+#[test]
+fn polygons_without_area_are_dropped_and_counted() {
+    let [a, b, c] = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(3.0, 6.0, 9.0)];
+    let polygons = [
+        vec![],
+        vec![a],
+        vec![a, b],
+        vec![a, a, a],
+        vec![b; 7],
+        vec![a, b, a],
+        vec![a, a, b],
+        vec![a, b, c],
+        vec![a, b, a, b],
+        vec![a, b, c, b],
+        vec![c, a, b, c, a, b],
+        vec![a, b, c, (a + b) * 0.5, (b + c) * 0.5],
+        vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::X, DVec3::new(1.0, 2.0, 3.0)],
+    ];
+    for polygon in &polygons {
+        // Alone, and beside one that has an area.
+        let (faces, report) = prepare(std::slice::from_ref(polygon));
+        assert_eq!((faces.len(), report.dropped, report.polygons), (0, 1, 1), "{polygon:?}");
+        let (faces, report) = prepare(&[polygon.clone(), l_shape()]);
+        assert_eq!(report.dropped, 1, "{polygon:?}");
+        assert!(faces.len() > 0 && (0..faces.len()).all(|f| faces.polygon(f as u32) == 1));
+    }
+    assert_eq!(prepare(&polygons).1.dropped, polygons.len());
+    assert!(prepare(&[]).0.is_empty());
+}
+
+#[test]
+fn a_triangle_one_lattice_step_high_is_kept() {
+    let step = 2f64.powi(-50);
+    let polygon = flat(&[[-1.0, -1.0], [1.0, 1.0], [1.0, 1.0 - step]]);
+    assert_eq!(prepare(&[polygon]).0.len(), 1);
+    let quad = flat(&[[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0], [0.0, step]]);
+    let (faces, report) = prepare(&[quad]);
+    assert_eq!((faces.len(), report.dropped), (1, 0));
+}
+
+#[test]
+fn pentagrams_and_bow_ties_are_not_taken_for_convex() {
+    let bow_tie = flat(&[[0.0, 0.0], [3.0, 2.0], [3.0, 0.0], [0.0, 1.0]]);
+    let twice_round = [star(), star()].concat();
+    for tilt in tilts() {
+        for polygon in [pentagram(), bow_tie.clone(), twice_round.clone()] {
+            let (faces, report) = prepare(&[polygon.iter().map(|&p| tilt * p).collect()]);
+            assert_eq!(report.triangulated, 1);
+            assert!((0..faces.len()).all(|face| faces.corners(face as u32).len() == 3));
+        }
+    }
+}
+
+#[test]
+fn a_bow_tie_of_equal_halves_is_not_dropped() {
+    let bow_tie = flat(&[[-1.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0]]);
+    for tilt in tilts() {
+        let (faces, report) = prepare(&[bow_tie.iter().map(|&p| tilt * p).collect()]);
+        assert_eq!((report.dropped, report.triangulated), (0, 1), "{tilt:?}");
+        assert!(!faces.is_empty());
+    }
+}
+
+#[test]
+fn triangles_cover_shapes_that_are_not_convex() {
+    for shape in [l_shape(), star(), spiral()] {
+        for tilt in tilts() {
+            let mut polygon: Corners = shape.iter().map(|&p| tilt * p).collect();
+            for _ in 0..2 {
+                let (faces, report) = prepare(std::slice::from_ref(&polygon));
+                assert_eq!(report.triangulated, 1);
+                assert!((0..faces.len()).all(|face| faces.polygon(face as u32) == 0));
+                assert_area_is_conserved(&faces, &polygon);
+                polygon.reverse();
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tiny_shape_far_from_the_centre_faces_the_right_way() {
+    for tilt in tilts() {
+        for shape in [l_shape(), star(), spiral()] {
+            let (size, far) = (2f64.powi(-40), DVec3::new(0.75, -0.875, 0.625));
+            let polygon: Corners = shape.iter().map(|&p| tilt * p * size + far).collect();
+            let frame = flat(&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]]);
+            let (faces, _) = Faces::new([&polygon, &frame], Some(0.0)).expect("finite");
+            let whole = area(&faces, &polygon);
+            for face in (0..faces.len() as u32).filter(|&face| faces.polygon(face) == 0) {
+                let part = face_area(&faces, face);
+                assert!(rational::scalar(&part, &whole).is_positive());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_quad_that_is_not_planar_becomes_two_triangles() {
+    let mut quad = shapes::square(DMat3::IDENTITY, DVec3::ZERO);
+    quad[2].z = 1e-3;
+    let (faces, report) = prepare(std::slice::from_ref(&quad));
+    assert_eq!((faces.len(), report.triangulated), (2, 1));
+    assert_area_is_conserved(&faces, &quad);
+    let (faces, report) = Faces::new([&quad], Some(1e-2)).expect("finite");
+    assert_eq!((faces.len(), report.triangulated), (1, 0));
+}
+
+#[test]
+fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
+    let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y + DVec3::Z];
+    let (faces, _) = prepare(&[vec![a, b, c], vec![a, b, b, c, d], vec![a, a, c, d]]);
+    let numbers = |face: u32| -> Vec<u32> {
+        (0..faces.corners(face).len() as u32).map(|k| faces.corner_number(face, k)).collect()
+    };
+    assert_eq!(numbers(0), [0, 1, 2]);
+    assert_eq!(numbers(1), [0, 1, 3, 4]);
+    assert_eq!(numbers(2), [0, 2, 3]);
+}
+
+#[test]
+fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
+    // Cut along its shorter diagonal, from corner 1 to 3.
+    let quad = flat(&[[-2.0, 0.0], [0.0, -1.0], [2.0, 0.0], [0.0, 1.0]]);
+    let bent = quad.iter().map(|&p| p + DVec3::Z * (0.1 * p.x.abs())).collect();
+    let (faces, _) = prepare(&[bent]);
+    assert_eq!([0, 1, 2].map(|k| faces.corner_number(0, k)), [1, 2, 3]);
+    assert_eq!([0, 1, 2].map(|k| faces.corner_number(1, k)), [1, 3, 0]);
+}
+
+#[test]
+fn corners_folded_onto_one_another_are_not_taken_for_convex() {
+    // On the plane x + y = 0, which is as steep along x as along y. The two topmost corners are
+    // apart along one of them only: seen along that one they are one corner.
+    let fold = |along: DVec3| {
+        let [left, right] = [DVec3::new(-1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)];
+        let tip = DVec3::new(0.0, 0.0, 1.05);
+        let beside = tip + along * 2f64.powi(-40);
+        vec![left - DVec3::Z, right - DVec3::Z, right + DVec3::Z, beside, tip, left + DVec3::Z]
+    };
+    for along in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y] {
+        let (faces, _) = prepare(&[fold(along)]);
+        for face in 0..faces.len() as u32 {
+            assert_convex_and_planar(&faces, face).expect("convex and planar");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn triangles_cover_shapes_anywhere_but_for_rounding(
+        shape in prop::sample::select(vec![l_shape(), star(), spiral()]),
+        turn in hard::turn(),
+        offset in prop::array::uniform3(-1e6..1e6f64),
+        scale in -100..=100i32,
+        reversed in any::<bool>(),
+    ) {
+        let place = |p: &DVec3| (turn * *p + DVec3::from_array(offset)) * 2f64.powi(scale);
+        let mut polygon: Corners = shape.iter().map(place).collect();
+        if reversed {
+            polygon.reverse();
+        }
+        let (faces, report) = prepare(std::slice::from_ref(&polygon));
+        prop_assert_eq!(report.triangulated, 1);
+        let whole = area(&faces, &polygon);
+        let square = rational::scalar(&whole, &whole);
+        let mut total = rational::point(DVec3::ZERO);
+        for face in 0..faces.len() as u32 {
+            let part = face_area(&faces, face);
+            prop_assert!(rational::scalar(&part, &whole).is_positive());
+            total = rational::sum(&total, &part);
+        }
+        let covered = rational::scalar(&total, &whole) / square;
+        prop_assert!((covered.to_f64().expect("a share") - 1.0).abs() < 1e-9);
+    }
+}
