@@ -8,7 +8,8 @@ pub mod scene;
 pub mod view;
 
 pub use bsp::{
-    BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Stats,
+    BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Partition,
+    Stats,
 };
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};

@@ -19,6 +19,8 @@ pub(super) struct Visit {
     pub(super) front: Range<u32>,
     /// The fragments of a back leaf.
     pub(super) back: Range<u32>,
+    /// How many fragments are behind, in a leaf or not.
+    pub(super) back_len: u32,
 }
 
 impl Visit {
@@ -61,6 +63,6 @@ impl Walk {
         if node.front_nodes > 0 {
             self.stack.push((index + 1, depth + 1, true, node.front_len));
         }
-        Some(Visit { node: index, depth, is_front, own, front, back })
+        Some(Visit { node: index, depth, is_front, own, front, back, back_len })
     }
 }

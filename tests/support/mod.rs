@@ -3,7 +3,13 @@
 #![allow(dead_code, reason = "every test program uses its own part")]
 
 pub(crate) mod checks;
+pub(crate) mod dice;
 pub(crate) mod hard;
+pub(crate) mod judge;
 pub(crate) mod model;
+pub(crate) mod orders;
 pub(crate) mod rational;
+pub(crate) mod rays;
 pub(crate) mod shapes;
+pub(crate) mod snapshot;
+pub(crate) mod views;

@@ -1,0 +1,84 @@
+//! Viewpoints that are known exactly, many of them where a plane or a corner is.
+
+use super::dice::Dice;
+use super::rays::{Rays, Vector, vector};
+use binspace::geom::{Faces, Viewpoint};
+use binspace::glam::DVec3;
+
+/// A viewpoint, with what the library rounds it to.
+#[derive(Clone, Debug)]
+pub(crate) struct View {
+    pub(crate) viewpoint: Viewpoint,
+    /// The eye in lattice units; or the direction of view, in integers.
+    lattice: DVec3,
+}
+
+impl View {
+    /// An eye as near to a point of the lattice as can be.
+    pub(crate) fn eye(faces: &Faces, point: DVec3) -> Self {
+        let world = faces.lattice().to_world(point.round().to_array());
+        let lattice = DVec3::from(faces.lattice().to_lattice(world)).round();
+        Self { viewpoint: Viewpoint::Eye(world), lattice }
+    }
+
+    /// A direction, rounded to 2⁻⁵² of its largest component.
+    pub(crate) fn direction(direction: DVec3) -> Self {
+        let size = direction.abs().max_element();
+        let lattice = (direction / size * (1u64 << 52) as f64).round();
+        Self { viewpoint: Viewpoint::Direction(direction), lattice }
+    }
+
+    pub(crate) fn is_parallel(&self) -> bool {
+        matches!(self.viewpoint, Viewpoint::Direction(_))
+    }
+
+    /// The line of sight through a point: where it begins, and where it goes.
+    pub(crate) fn ray_to(&self, target: DVec3) -> (Vector, Vector) {
+        let lattice = vector(self.lattice.to_array());
+        match self.viewpoint {
+            Viewpoint::Eye(_) => {
+                let direction = ((target - self.lattice) * 256.0).round();
+                (lattice, vector(direction.to_array()))
+            }
+            Viewpoint::Direction(_) => (vector(target.round().to_array()), lattice),
+        }
+    }
+}
+
+/// A viewpoint around, inside, on a plane or a corner of the scene, or in line with two of its
+/// fragments; there must be some.
+pub(crate) fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
+    let corner =
+        |dice: &mut Dice| DVec3::from(faces.corner(dice.below(faces.corner_count()) as u32));
+    let cube = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| 2.0 * dice.share() - 1.0));
+    let extent = (1u64 << 51) as f64;
+    match dice.below(9) {
+        0 => View::eye(faces, cube(dice) * extent * 4.0),
+        1 => View::eye(faces, cube(dice) * extent),
+        2 => View::eye(faces, corner(dice)),
+        3 => {
+            let face = dice.below(faces.len()) as u32;
+            let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
+            let (s, t) = (dice.around_zero(3), dice.around_zero(3));
+            View::eye(faces, p + (q - p) * s + (r - p) * t)
+        }
+        4 | 5 => {
+            let (a, b) = (rays.some_point(dice), rays.some_point(dice));
+            View::eye(faces, a + (a - b) * (0.1 + 3.0 * dice.share()))
+        }
+        6 => {
+            let mut eye = cube(dice) * extent;
+            let axis = dice.below(3);
+            eye[axis] = corner(dice)[axis];
+            View::eye(faces, eye)
+        }
+        7 => {
+            let direction = corner(dice) - corner(dice);
+            View::direction(if direction == DVec3::ZERO { DVec3::X } else { direction })
+        }
+        _ => {
+            let small = DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));
+            View::direction(if small == DVec3::ZERO { DVec3::NEG_Z } else { small })
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Input with little or nothing in it, and viewpoints that are nowhere: stated results, no panics.
+
+use crate::support::orders;
+use crate::support::snapshot::polygons;
+use binspace::geom::Float;
+use binspace::glam::DVec3;
+use binspace::{BspTree, BuildOptions, Heuristic, Polygon, Viewpoint};
+
+const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// Viewpoints that no picture is taken from, and some that are merely awkward.
+fn viewpoints() -> Vec<Viewpoint> {
+    let odd =
+        [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 5e-324];
+    let mut list = Vec::new();
+    for x in odd {
+        for y in odd {
+            for z in odd {
+                list.push(Viewpoint::eye([x, y, z]));
+                list.push(Viewpoint::direction([x, y, z]));
+            }
+        }
+    }
+    list
+}
+
+fn check_orders(polygons: &[impl Polygon]) {
+    for by in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(by);
+        let exact = options.build(polygons).unwrap();
+        let float = options.build_with(Float::<f64>::default(), polygons).unwrap();
+        let single = options.build_with(Float::<f32>::default(), polygons).unwrap();
+        assert_eq!(exact.validate(), Ok(()));
+        for viewpoint in viewpoints() {
+            orders::check(&exact, viewpoint).unwrap();
+            orders::check(&float, viewpoint).unwrap();
+            orders::check(&single, viewpoint).unwrap();
+        }
+    }
+}
+
+#[test]
+fn no_polygons_make_an_empty_tree() {
+    let nothing: [[[f64; 3]; 4]; 0] = [];
+    let tree = BspTree::build(nothing).unwrap();
+    assert!(tree.is_empty() && tree.partitions().next().is_none());
+    assert_eq!(tree.stats().depth_max, 0);
+    check_orders(&nothing);
+}
+
+#[test]
+fn one_polygon_is_one_fragment_on_its_own_plane() {
+    let tree = BspTree::build([SQUARE]).unwrap();
+    let corners: Vec<DVec3> = tree.fragment(0).vertices().collect();
+    assert_eq!(corners, SQUARE.map(DVec3::from_array));
+    assert!(tree.fragment(0).edges().eq([Some(0), Some(1), Some(2), Some(3)]));
+    assert_eq!((tree.len(), tree.stats().nodes, tree.stats().depth_max), (1, 1, 1));
+    check_orders(&[SQUARE]);
+}
+
+#[test]
+fn polygons_without_area_are_dropped_and_counted() {
+    let point = DVec3::new(0.1, 0.2, 0.3);
+    let line = |k: f64| DVec3::new(1.0, 2.0, -3.0) * k;
+    let degenerate: Vec<Vec<DVec3>> = vec![
+        vec![],
+        vec![point],
+        vec![point, DVec3::ZERO],
+        vec![point; 5],
+        vec![line(0.0), line(1.0), line(2.0)],
+        vec![line(3.0), line(1.0), line(2.0), line(-1.0), line(3.0)],
+        vec![point, DVec3::ZERO, point, DVec3::ZERO],
+    ];
+    let tree = BspTree::build(&degenerate).unwrap();
+    assert!(tree.is_empty());
+    assert_eq!((tree.preparation().polygons, tree.preparation().dropped), (7, 7));
+    check_orders(&degenerate);
+    // Those with area keep their numbers.
+    let mut some = degenerate;
+    some.insert(3, SQUARE.map(DVec3::from_array).to_vec());
+    let tree = BspTree::build(&some).unwrap();
+    assert_eq!(polygons(&tree, Viewpoint::eye([0.0, 0.0, 1.0])), [3]);
+    assert_eq!(tree.preparation().dropped, 7);
+}
+
+#[test]
+fn polygons_that_are_all_the_same_come_in_input_order() {
+    let same = [SQUARE; 9];
+    for by in Heuristic::ALL {
+        let tree = BuildOptions::DEFAULT.with_heuristic(by).build(same).unwrap();
+        assert_eq!(tree.len(), 9, "{by}");
+        for viewpoint in [Viewpoint::eye([0.3, 0.2, 4.0]), Viewpoint::direction([0.0, 0.1, 1.0])] {
+            assert!(polygons(&tree, viewpoint).into_iter().eq(0..9), "{by}");
+        }
+    }
+    check_orders(&same);
+}
+
+#[test]
+fn every_viewpoint_gives_every_fragment_once() {
+    let turned = |k: usize| {
+        SQUARE.map(|p| DVec3::new(p[k % 3] - 0.5, p[(k + 1) % 3], p[(k + 2) % 3] - 0.25))
+    };
+    check_orders(&[turned(0), turned(1), turned(2)]);
+}
+
+#[test]
+fn an_eye_coordinate_that_is_no_number_counts_as_zero() {
+    let squares = [0.0, 2.0].map(|z| SQUARE.map(|[x, y, _]| [x, y, z]));
+    let tree = BspTree::build(squares).unwrap();
+    let order = |x: f64, z: f64| polygons(&tree, Viewpoint::eye([x, 0.5, z]));
+    assert_eq!(order(f64::NAN, 9.0), order(0.0, 9.0));
+    assert_eq!(order(0.5, f64::INFINITY), [0, 1]);
+    assert_eq!(order(0.5, f64::NEG_INFINITY), [1, 0]);
+    assert_eq!(order(0.5, f64::MAX), [0, 1]);
+}
+
+#[test]
+fn coordinates_that_are_not_finite_are_errors_that_name_the_polygon() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut polygons = [SQUARE; 5];
+        polygons[3][2][1] = bad;
+        let error = BspTree::build(polygons).unwrap_err();
+        assert_eq!(error.polygon(), Some(3));
+        assert!(!error.is_over_budget() && error.to_string().contains('3'), "{error}");
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_no_length_is_an_error() {
+    for bad in [-1.0, f64::NAN, f64::NEG_INFINITY, -f64::MIN_POSITIVE] {
+        let error = BuildOptions::DEFAULT.with_tolerance(bad).build([SQUARE]).unwrap_err();
+        assert!(error.to_string().contains("tolerance"), "{error}");
+    }
+    for good in [0.0, -0.0, f64::MIN_POSITIVE, f64::MAX, f64::INFINITY] {
+        assert_eq!(BuildOptions::DEFAULT.with_tolerance(good).build([SQUARE]).unwrap().len(), 1);
+    }
+}
+
+#[test]
+fn coordinates_at_the_ends_of_the_range_are_taken() {
+    for size in [5e-324, f64::MIN_POSITIVE, 1e-300, 1e300, f64::MAX] {
+        let square = SQUARE.map(|[x, y, _]| [(2.0 * x - 1.0) * size, (2.0 * y - 1.0) * size, 0.0]);
+        let upright = square.map(|[x, y, z]| [z, x, y]);
+        let tree = BspTree::build([square, upright]).unwrap();
+        assert_eq!(tree.validate(), Ok(()), "size {size:e}");
+        assert_eq!(tree.len(), 3, "size {size:e}");
+        check_orders(&[square, upright]);
+    }
+}

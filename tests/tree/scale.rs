@@ -1,0 +1,201 @@
+//! Large and deep: no recursion, no quadratic work, budgets that hold.
+
+use binspace::geom::Viewpoint;
+use binspace::glam::DVec3;
+use binspace::scene::{self, Scene};
+use binspace::{BspTree, BuildOptions, Error, Heuristic};
+use std::thread;
+
+use crate::support::orders;
+
+const LARGE: u32 = 100_000;
+
+/// Runs in a thread with a stack of 2 MiB, rayon's threads included.
+fn with_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    const STACK: usize = 2 << 20;
+    thread::scope(|scope| {
+        let small = thread::Builder::new().stack_size(STACK);
+        let thread = small.spawn_scoped(scope, || {
+            #[cfg(feature = "parallel")]
+            {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK);
+                pool.build().expect("a pool").install(work)
+            }
+            #[cfg(not(feature = "parallel"))]
+            work()
+        });
+        thread.expect("a thread").join().expect("no panic")
+    })
+}
+
+/// Builds, orders in every form, validates, drops.
+fn go_through(scene: &Scene, options: BuildOptions) -> binspace::Stats {
+    with_a_small_stack(|| {
+        let tree = options.build(scene.polygons()).expect("within budget");
+        for viewpoint in [Viewpoint::eye([0.1, 1000.3, 0.2]), Viewpoint::direction([1.0, 2.0, 3.0])]
+        {
+            assert_eq!(orders::check(&tree, viewpoint), Ok(()));
+        }
+        tree.stats()
+    })
+}
+
+/// A mean depth of a few times the logarithm, which bounds the work by n log n; and no long list.
+fn assert_shallow(stats: &binspace::Stats) {
+    let log = (stats.fragments.max(2) as f64).log2();
+    assert!(stats.depth_mean <= 2.0 * log, "{stats:?}");
+    assert!(stats.depth_max as f64 <= 16.0 * log, "{stats:?}");
+}
+
+fn validate(scene: &Scene, options: BuildOptions) {
+    with_a_small_stack(|| {
+        assert_eq!(options.build(scene.polygons()).expect("within budget").validate(), Ok(()));
+    });
+}
+
+#[test]
+fn a_chain_of_100_000_polygons_needs_a_small_stack_and_a_shallow_tree() {
+    let chain = scene::chain(LARGE);
+    let stats = go_through(&chain, BuildOptions::DEFAULT);
+    assert_eq!(stats.fragments, LARGE as usize);
+    assert_shallow(&stats);
+    validate(&chain, BuildOptions::DEFAULT);
+}
+
+#[test]
+fn a_sphere_of_100_000_faces_needs_a_small_stack_and_a_shallow_tree() {
+    let sphere = scene::sphere(LARGE);
+    let stats = go_through(&sphere, BuildOptions::DEFAULT);
+    assert!(stats.fragments <= stats.faces + stats.faces / 5, "{stats:?}");
+    assert_shallow(&stats);
+    validate(&sphere, BuildOptions::DEFAULT);
+}
+
+/// By their own planes in input order, parallel squares make a linked list.
+#[test]
+fn a_list_of_20_000_nodes_is_built_ordered_validated_and_dropped_on_a_small_stack() {
+    let chain = scene::chain(20_000);
+    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+    let stats = go_through(&chain, options);
+    assert!(stats.depth_max >= 19_999, "{stats:?}");
+    validate(&scene::chain(5_000), options);
+}
+
+#[test]
+fn a_convex_sphere_by_its_own_planes_is_a_list_that_needs_a_small_stack() {
+    let sphere = scene::sphere(6_000);
+    let stats = go_through(&sphere, BuildOptions::DEFAULT.with_heuristic(Heuristic::First));
+    assert_eq!(stats.fragments, stats.faces);
+    assert!(stats.depth_max + 2 >= stats.nodes, "{stats:?}");
+}
+
+/// Squares in one plane, side by side.
+fn mosaic(across: u32) -> Scene {
+    let mut scene = Scene::new("mosaic", DVec3::Z);
+    for i in 0..across * across {
+        let (x, y) = (f64::from(i % across), f64::from(i / across));
+        let corner = |u: f64, v: f64| DVec3::new(x + u, y + v, 0.5);
+        scene.push([corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], 0);
+    }
+    scene
+}
+
+/// Squares in one plane, each inside the one before.
+fn nested(count: u32) -> Scene {
+    let mut scene = Scene::new("nested", DVec3::Z);
+    for i in 0..count {
+        let half = f64::from(count - i);
+        let corner = |u: f64, v: f64| DVec3::new(u * half, v * half, 1.0);
+        scene.push([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], 0);
+    }
+    scene
+}
+
+fn assert_input_order(scene: &Scene, heuristic: Heuristic) {
+    let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).unwrap();
+    assert_eq!(tree.len(), scene.len(), "{heuristic}");
+    assert_eq!(tree.validate(), Ok(()));
+    for z in [9.0, -9.0] {
+        let order = tree.back_to_front(Viewpoint::eye([0.3, 0.2, z])).map(|f| f.polygon());
+        assert!(order.eq(0..scene.len()), "{heuristic}");
+    }
+}
+
+#[test]
+fn coplanar_polygons_share_one_node() {
+    for heuristic in Heuristic::ALL {
+        assert_input_order(&nested(10_000), heuristic);
+    }
+    let mosaic = mosaic(200);
+    assert_eq!(BspTree::build(mosaic.polygons()).unwrap().validate(), Ok(()));
+    for heuristic in [Heuristic::First, Heuristic::Sampled { candidates: 16 }] {
+        assert_input_order(&mosaic, heuristic);
+    }
+}
+
+#[test]
+fn a_hundred_thousand_duplicates_share_one_node() {
+    let mut scene = Scene::new("duplicates", DVec3::Z);
+    for _ in 0..LARGE {
+        scene.push([DVec3::ZERO, DVec3::X, DVec3::ONE], 0);
+    }
+    for heuristic in Heuristic::ALL {
+        let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).unwrap();
+        assert_eq!((tree.len(), tree.stats().nodes), (LARGE as usize, 1), "{heuristic}");
+        let order = tree.back_to_front(Viewpoint::direction([0.0, 0.0, -1.0])).map(|f| f.polygon());
+        assert!(order.eq(0..LARGE as usize), "{heuristic}");
+    }
+}
+
+#[test]
+fn coplanar_crowds_across_another_crowd_stay_shallow() {
+    // Two planes full of squares that cross: each piece is cut once at most.
+    let mut scene = mosaic(100);
+    for i in 0..10_000u32 {
+        let (y, z) = (f64::from(i % 100), f64::from(i / 100) - 50.0);
+        let corner = |u: f64, v: f64| DVec3::new(50.5, y + u, z + v);
+        scene.push([corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], 0);
+    }
+    let stats = go_through(&scene, BuildOptions::DEFAULT);
+    assert!(stats.fragments <= 20_100, "{stats:?}");
+    assert_shallow(&stats);
+}
+
+fn error(scene: &Scene, options: BuildOptions) -> Error {
+    with_a_small_stack(|| options.build(scene.polygons()).expect_err("over budget"))
+}
+
+#[test]
+fn budgets_end_in_errors_that_say_the_limit() {
+    let crowd = scene::random_triangles(3000, 5);
+    for heuristic in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        for limit in [0, 1, 2999, 3500] {
+            let error = error(&crowd, options.with_max_fragments(limit));
+            assert!(error.is_over_budget() && error.to_string().contains(&limit.to_string()));
+        }
+        for limit in [0, 1, 5] {
+            let error = error(&crowd, options.with_max_depth(limit));
+            assert!(error.is_over_budget() && error.to_string().contains(&limit.to_string()));
+        }
+    }
+    let list = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_max_depth(1000);
+    assert!(error(&scene::chain(LARGE), list).is_over_budget());
+}
+
+#[test]
+fn a_budget_that_just_suffices_is_no_error() {
+    let crowd = scene::random_triangles(300, 5);
+    for heuristic in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        let stats = options.build(crowd.polygons()).unwrap().stats();
+        let exact = options.with_max_fragments(stats.fragments).with_max_depth(stats.depth_max);
+        assert_eq!(exact.build(crowd.polygons()).unwrap().stats(), stats, "{heuristic}");
+        for less in [
+            exact.with_max_fragments(stats.fragments - 1),
+            exact.with_max_depth(stats.depth_max - 1),
+        ] {
+            assert!(less.build(crowd.polygons()).is_err(), "{heuristic}");
+        }
+    }
+}
