@@ -91,7 +91,7 @@ pub(crate) struct VerifyArgs {
     pub(crate) scene: SceneArgs,
     /// Views to compare, alternately around the scene and inside it
     #[arg(long, value_name = "N", default_value_t = 8)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) views: u32,
     /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
@@ -177,7 +177,7 @@ pub(crate) struct SceneArgs {
     /// with its size behind a colon; else a file. `binspace scenes` lists the built-in ones.
     #[arg(value_name = "SCENE")]
     pub(crate) name: OsString,
-    /// Chooses the random numbers of a built-in scene, and of views
+    /// Chooses among the built-in scenes that are seeded, and among views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
 }

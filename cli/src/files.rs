@@ -42,8 +42,6 @@ impl Output {
             Self::File(file) => file.write(write),
             Self::Standard(mut out) => {
                 let written = write(&mut out).and_then(|()| out.flush());
-                // What is left in the buffer would be tried again.
-                let _ = out.into_parts();
                 written.map_err(|error| Failure::of_output(&error))
             }
         }

@@ -19,15 +19,33 @@ pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Cam
     let (right, up, back) = (like.right(), like.up(), -like.forward());
     let sides = [(right, tangent * width / height), (up, tangent)];
     let reaches = sides.map(|(axis, t)| [axis, -axis].map(|side| reach(scene, side / t + back)));
-    // In units of t on either side: the furthest back, and in the middle of what is left to choose.
     let distance = reaches.iter().map(|[a, b]| 0.5 * a + 0.5 * b).fold(f64::MIN, f64::max);
-    let across = |i: usize| {
-        let ([a, b], t) = (reaches[i], sides[i].1);
-        (0.5 * a - 0.5 * b) * t
-    };
-    let eye = back * distance + right * across(0) + up * across(1);
+    let mut eye = back * distance;
+    for ((axis, t), [a, b]) in sides.into_iter().zip(reaches) {
+        // Between these, all is seen.
+        let allowed = [t * (a - distance), t * (distance - b)];
+        eye += axis * middle(scene, axis, back, distance, allowed);
+    }
     let furthest = distance + reach(scene, -back);
     Camera::perspective(eye, eye - back * furthest, up, fov, like.size())
+}
+
+/// Where along an axis, between two limits, an eye has as much of the scene on one side as on the
+/// other, by bisection.
+fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f64; 2]) -> f64 {
+    let mut place = 0.5 * limits[0] + 0.5 * limits[1];
+    // Twenty halvings are a thousandth of a pixel.
+    for _ in 0..20 {
+        let slopes = scene
+            .polygons()
+            .flatten()
+            .map(|&corner| (corner.dot(axis) - place) / (distance - corner.dot(back)));
+        let (low, high) =
+            slopes.fold((0.0f64, 0.0f64), |(low, high), slope| (low.min(slope), high.max(slope)));
+        limits[usize::from(high + low < 0.0)] = place;
+        place = 0.5 * limits[0] + 0.5 * limits[1];
+    }
+    place
 }
 
 /// A parallel camera along `direction` that just holds the scene.

@@ -20,11 +20,12 @@ pub(crate) fn build(scene: &Scene, options: &BuildOptions) -> Result<BspTree, Er
 /// Builds a tree of a scene, and tells the seconds it takes: the median, where there is time to
 /// build it more than once.
 pub(crate) fn timed_build(scene: &Scene, options: &BuildOptions) -> Result<(BspTree, f64), Error> {
+    let _progress = Progress::spinner(format!("building {}", options.heuristic));
     let begin = Instant::now();
     let mut seconds = Vec::new();
     loop {
         let start = Instant::now();
-        let tree = build(scene, options)?;
+        let tree = options.build(scene.polygons())?;
         seconds.push(start.elapsed().as_secs_f64());
         if begin.elapsed() >= LONG_ENOUGH {
             return Ok((tree, median(&mut seconds)));

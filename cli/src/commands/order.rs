@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use binspace::glam::DVec3;
 use binspace::{Fragment, Viewpoint};
 
 use super::Outcome;
@@ -14,7 +15,7 @@ use crate::progress::Progress;
 /// Runs the command.
 pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
     let output = Output::open(args.output.as_deref())?;
-    let (_, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     let viewpoint = match (args.eye, args.direction) {
         (Some(eye), _) => Viewpoint::Eye(eye),
         (None, Some(direction)) => Viewpoint::Direction(direction),
@@ -27,15 +28,21 @@ pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
         } else {
             tree.back_to_front(viewpoint)
         };
-        fragments.try_for_each(|fragment| write_line(out, &fragment))
+        fragments
+            .try_for_each(|fragment| write_line(out, &fragment, scene.polygon(fragment.polygon())))
     })?;
     Ok(Outcome::Done)
 }
 
-/// Debug formatting of a finite number is its shortest round-trip form, and valid JSON.
-fn write_line(out: &mut dyn Write, fragment: &Fragment<'_>) -> io::Result<()> {
+/// Corners are written as they were given, not as the tree's grid has them. Debug formatting of a
+/// finite number is its shortest round-trip form, and valid JSON.
+fn write_line(out: &mut dyn Write, fragment: &Fragment<'_>, polygon: &[DVec3]) -> io::Result<()> {
     write!(out, "{{\"polygon\": {}, \"vertices\": [", fragment.polygon())?;
-    for (i, vertex) in fragment.vertices().enumerate() {
+    for (i, (vertex, weights)) in fragment.vertices().zip(fragment.weights()).enumerate() {
+        let vertex = match weights[..] {
+            [(corner, _)] => polygon[corner as usize],
+            _ => vertex,
+        };
         let comma = if i == 0 { "" } else { ", " };
         write!(out, "{comma}[{:?}, {:?}, {:?}]", vertex.x, vertex.y, vertex.z)?;
     }

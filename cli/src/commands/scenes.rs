@@ -11,7 +11,7 @@ pub(crate) fn run() -> Result<Outcome, Failure> {
     for scene in Builtin::ALL {
         say(format!("{}{}", styled(HEAD, format!("{scene:10}")), scene.description()))?;
         if let (Some(meaning), Some(size)) = (scene.size_meaning(), scene.default_size()) {
-            say(format!("{:10}  {scene}:SIZE, {meaning}; without it {size}", ""))?;
+            say(format!("{:10}{scene}:SIZE: {meaning} [default: {size}]", ""))?;
         }
     }
     say("\nA seed (--seed) chooses among the scenes that are called seeded.")?;
