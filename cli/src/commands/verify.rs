@@ -1,5 +1,6 @@
 //! `binspace verify`: every pixel of a tree's pictures against a depth buffer.
 
+use binspace::glam::DVec3;
 use binspace::raster::Comparison;
 use binspace::scene::Scene;
 use binspace::verify;
@@ -37,7 +38,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
         let line = row(&table, [&(i + 1).to_string(), place], &seen.comparison);
         progress.suspend(|| say(line))?;
         if seen.comparison.wrong() > 0 {
-            progress.suspend(|| note(&reproduce(args, i + 1, camera)));
+            progress.suspend(|| {
+                note(&format!("view {} is wrong; see where:\n  {}", i + 1, reproduce(args, camera)))
+            });
         }
         add(&mut total, &seen.comparison);
     }
@@ -88,24 +91,71 @@ fn is_inside(camera: &Camera, scene: &Scene) -> bool {
 }
 
 /// The command that draws what is wrong in a view.
-fn reproduce(args: &VerifyArgs, view: usize, camera: &Camera) -> String {
+fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
     let (eye, fov) = match *camera.projection() {
         Projection::Perspective { eye, half_height } => (eye, 2.0 * half_height.atan()),
         Projection::Parallel { centre, .. } => (centre, camera::FIELD_OF_VIEW),
     };
-    let [target, up] = [eye + camera.forward(), camera.up()];
-    let vector = |v: binspace::glam::DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
+    let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
+    let limits = &args.build.limits;
+    let tolerance = limits.tolerance.map_or(String::new(), |t| format!(" --tolerance={t:?}"));
     format!(
-        "view {view} is wrong; to see where:\n  binspace render {} --seed {} --difference \
-         -o difference.png --size {}x{} --heuristic '{}' --fov {} --eye={} --target={} --up={}",
+        "binspace render '{}' --difference -o difference.png --seed={} --heuristic='{}'{tolerance} \
+         --max-fragments={} --size={}x{} --fov={:?} --eye={} --target={} --up={}",
         args.scene.name.to_string_lossy(),
         args.scene.seed,
+        args.build.heuristic,
+        limits.max_fragments,
         args.size[0],
         args.size[1],
-        args.build.heuristic,
         fov.to_degrees(),
         vector(eye),
-        vector(target),
-        vector(up),
+        vector(eye + camera.forward()),
+        vector(camera.up()),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::{Cli, Command};
+    use clap::Parser;
+
+    fn parse(command: &str) -> Command {
+        // As a shell does with these quotes.
+        let words = command.split_whitespace().map(|word| word.replace('\'', ""));
+        Cli::try_parse_from(words).unwrap().command.unwrap()
+    }
+
+    #[test]
+    fn a_wrong_view_is_called_wrong() {
+        let mut found = Comparison { covered: 9, contested: 1, ..Comparison::default() };
+        let row = |found: &Comparison| row(&table(100), ["1", "inside"], found);
+        assert!(row(&found).contains("right"));
+        found.spills = 1;
+        assert!(row(&found).contains("wrong"));
+        let mut total = found.clone();
+        add(&mut total, &found);
+        assert_eq!((total.covered, total.contested, total.wrong()), (18, 2, 2));
+    }
+
+    #[test]
+    fn the_command_that_shows_a_wrong_view_shows_that_view() {
+        let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7";
+        let Command::Verify(args) = parse(command) else { panic!("another command") };
+        let scene = crate::scene_arg::load(&args.scene).unwrap();
+        let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
+        for view in views {
+            let Command::Render(again) = parse(&reproduce(&args, &view)) else {
+                panic!("another command")
+            };
+            assert_eq!(again.build.heuristic, args.build.heuristic);
+            assert_eq!(again.build.limits.tolerance, Some(1e-7));
+            let camera = camera::asked(&again, &scene).unwrap();
+            assert_eq!((camera.viewpoint(), camera.size()), (view.viewpoint(), view.size()));
+            assert!((camera.forward() - view.forward()).length() < 1e-12);
+            assert!((camera.up() - view.up()).length() < 1e-12);
+            assert!((camera.pixel_size() / view.pixel_size() - 1.0).abs() < 1e-12);
+        }
+    }
 }
