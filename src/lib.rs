@@ -3,7 +3,9 @@
 mod bsp;
 mod error;
 pub mod geom;
+pub mod raster;
 pub mod scene;
+pub mod view;
 
 pub use bsp::{
     BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Partition,

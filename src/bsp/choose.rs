@@ -13,9 +13,20 @@ const OWN_PLANES: usize = 64;
 /// How many own planes the heuristics that would look at all of them try at most, so that no
 /// node takes quadratic time. They are spread evenly over the set.
 const MOST_CANDIDATES: usize = 256;
-/// The price of a cut in the cost of `auto`, in polygons still to be sorted. Larger trees become
-/// unbalanced, and unbalanced ones split more further down; smaller ones cut for balance.
+/// The price of each cut in the cost of `auto`, in polygons still to be sorted. Larger: trees
+/// become unbalanced, and unbalanced ones cut more further down; smaller: cuts for balance.
 const SPLIT_PRICE: f64 = 4.0;
+/// The price of the root of the number of cuts, which makes the first ones dear: a set that can be
+/// divided without a cut mostly leaves two sets that can. Larger: unbalanced trees, as above.
+const FIRST_SPLIT_PRICE: f64 = 8.0;
+/// What is taken off the cost of the plane of a polygon that fills the set's bounding box, per
+/// polygon in the set; less for one that fills less of it. A floor that is not taken early is cut
+/// again by every wall on it. Larger: depth spent on polygons that nothing would have cut.
+const LARGE_REWARD: f64 = 2.0;
+/// How many of the largest polygons are tried beside free planes at every node.
+const LARGEST: usize = 2;
+/// The share of the box below which a polygon is not tried as one of the largest.
+const LARGE: f64 = 0.2;
 /// How often a candidate is asked whether it can still win, in pieces.
 const CHECK_EVERY: usize = 64;
 
@@ -28,21 +39,22 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// What the cuts cost.
-    #[inline]
-    pub(super) fn price(&self) -> f64 {
-        SPLIT_PRICE * self.splits as f64
-    }
-
     /// The work left on both sides, and the cuts: only grows with each count.
     #[inline]
     pub(super) fn cost(&self) -> f64 {
-        work(self.front + self.splits) + work(self.back + self.splits) + self.price()
+        work(self.front + self.splits) + work(self.back + self.splits) + price(self.splits)
     }
 
     fn imbalance(&self) -> f64 {
         self.front.abs_diff(self.back) as f64
     }
+}
+
+/// What cuts cost.
+#[inline]
+pub(super) fn price(splits: usize) -> f64 {
+    let splits = splits as f64;
+    SPLIT_PRICE * splits + FIRST_SPLIT_PRICE * splits.sqrt()
 }
 
 /// The work of sorting `n` pieces.
@@ -124,20 +136,38 @@ impl<'a, K: Kernel> Chooser<'a, K> {
     fn free_or_own(&mut self, pieces: &[Live], arena: &[K::Vertex], both: bool) -> PlaneId {
         let free = self.sweep.best(pieces, self.faces.tolerance());
         let free = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
-        if let (Some((_, plane)), false) = (free, both) {
-            return plane;
-        }
         let mut best = free.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
-        for piece in sample(pieces, OWN_PLANES) {
-            let plane = PlaneId::face(piece.face);
-            if let Some(counts) = self.count(plane, pieces, arena, best.0) {
-                let cost = counts.cost();
-                if cost < best.0 {
-                    best = (cost, plane);
-                }
+        let cell = Cell::around(pieces);
+        if self.heuristic == Heuristic::Auto {
+            for piece in cell.largest(pieces) {
+                self.try_own(piece, &cell, pieces, arena, &mut best);
+            }
+        }
+        if both || free.is_none() {
+            for piece in sample(pieces, OWN_PLANES) {
+                self.try_own(piece, &cell, pieces, arena, &mut best);
             }
         }
         best.1
+    }
+
+    /// Takes the plane of a piece if it is the best so far.
+    fn try_own(
+        &self,
+        piece: &Live,
+        cell: &Cell,
+        pieces: &[Live],
+        arena: &[K::Vertex],
+        best: &mut (f64, PlaneId),
+    ) {
+        let plane = PlaneId::face(piece.face);
+        let reward = LARGE_REWARD * pieces.len() as f64 * cell.share(piece);
+        if let Some(counts) = self.count(plane, pieces, arena, best.0 + reward) {
+            let cost = counts.cost() - reward;
+            if cost < best.0 {
+                *best = (cost, plane);
+            }
+        }
     }
 
     /// How a plane divides the pieces, by rounded distances: what is decided here is only which
@@ -174,6 +204,48 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             }
         }
         Some(counts)
+    }
+}
+
+/// The bounding box of a set.
+#[derive(Debug)]
+struct Cell {
+    size: [f64; 3],
+}
+
+impl Cell {
+    fn around(pieces: &[Live]) -> Self {
+        let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for piece in pieces {
+            for axis in 0..3 {
+                min[axis] = min[axis].min(piece.min[axis]);
+                max[axis] = max[axis].max(piece.max[axis]);
+            }
+        }
+        Self { size: std::array::from_fn(|axis| max[axis] - min[axis]) }
+    }
+
+    /// How much of the box a piece fills along its two longer sides, 0 to 1.
+    fn share(&self, piece: &Live) -> f64 {
+        let [x, y, z] = std::array::from_fn(|axis| {
+            let size = piece.max[axis] - piece.min[axis];
+            if self.size[axis] > 0.0 { size / self.size[axis] } else { 1.0 }
+        });
+        // The largest product of two of the three.
+        (x * y).max(y * z).max(z * x)
+    }
+
+    /// The pieces that fill most of the box, if they fill enough of it.
+    fn largest<'p>(&self, pieces: &'p [Live]) -> impl Iterator<Item = &'p Live> {
+        let mut top: [(f64, Option<&Live>); LARGEST] = [(LARGE, None); LARGEST];
+        for piece in pieces {
+            let share = self.share(piece);
+            if share > top[LARGEST - 1].0 {
+                top[LARGEST - 1] = (share, Some(piece));
+                top.sort_by(|a, b| b.0.total_cmp(&a.0));
+            }
+        }
+        top.into_iter().filter_map(|(_, piece)| piece)
     }
 }
 

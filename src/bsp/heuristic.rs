@@ -42,9 +42,10 @@ pub enum Heuristic {
     },
     /// Free planes as long as one separates anything, by the cost of [`Auto`](Self::Auto).
     FreePlanes,
-    /// Free planes, and in small sets a sample of the polygons' own too, by the estimate
-    /// f·log f + b·log b + 4·splits of the work left in front and behind. Fewest fragments and
-    /// shallow trees on most scenes.
+    /// Free planes and the planes of the largest polygons, in small sets a sample of all
+    /// polygons' planes too, by the estimate f·log f + b·log b of the work left in front and
+    /// behind, a price for cuts, and a reward for taking polygons that fill the set's box before
+    /// they are cut. Fewest fragments and shallow trees on most scenes.
     #[default]
     Auto,
 }

@@ -117,6 +117,14 @@ impl Faces {
         self.corners.len()
     }
 
+    /// The axis along which the corners of a face are taken to its plane; `None` for a face whose
+    /// corners lie exactly on it. The edges of the former are cut out by the planes through their
+    /// ends and along that axis.
+    #[inline]
+    pub(crate) fn upright_axis(&self, face: u32) -> Option<usize> {
+        self.faces[face as usize].frame.drop_axis()
+    }
+
     /// The number within its polygon of a face's corner `k`.
     pub fn corner_number(&self, face: u32, k: u32) -> u32 {
         self.number(face, k) & !INNER

@@ -14,6 +14,7 @@ mod prepare;
 mod split;
 mod triangulate;
 
+pub(crate) use exact::Plane;
 pub use exact_kernel::{Exact, ExactSplitter, ExactStored, ExactVertex};
 pub use eye::{Eye, Viewpoint};
 pub use faces::Faces;

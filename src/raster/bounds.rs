@@ -1,0 +1,87 @@
+//! Which pixels a polygon may cover.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::rays::{Pencil, Rays, float};
+
+/// Columns and rows of pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Window {
+    pub(super) columns: Range<u32>,
+    pub(super) rows: Range<u32>,
+}
+
+/// How far a vertex may be from the exact one in each coordinate, in lattice units: 2, and room
+/// for the rounding of those beyond 2⁵³.
+const VERTEX_ERROR: f64 = 2.5;
+/// What is added around a polygon's projection, in pixels: the projection's own rounding.
+const MARGIN: f64 = 1.0 / 256.0;
+
+impl Rays {
+    /// All pixels whose rays may meet the convex hull of these points, each given to within
+    /// `VERTEX_ERROR`; `None` if there are none.
+    ///
+    /// A polygon that reaches behind the eye may be anywhere on the picture, unless all of it is
+    /// beyond one of the picture's sides.
+    pub(super) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
+        let [width, height] = self.size.map(f64::from);
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let (mut ahead, mut behind) = (true, true);
+        // Whether all points so far are beyond the left, right, upper, lower side.
+        let mut beyond = [true; 4];
+        for &point in points {
+            let (at, error) = self.in_picture(point);
+            let (z, slack) = (at.z, error.z);
+            ahead &= z > 4.0 * slack;
+            behind &= z < -slack;
+            for (axis, half) in [0.5 * width, 0.5 * height].into_iter().enumerate() {
+                let (p, e) = (at[axis], error[axis] + (half + 1.0) * slack);
+                beyond[2 * axis] &= p + (half + 1.0) * z < -e;
+                beyond[2 * axis + 1] &= (half + 1.0) * z - p < -e;
+                let position = p / z;
+                let pad = (error[axis] + position.abs() * slack) / (z - slack) + MARGIN;
+                low[axis] = low[axis].min(position - pad);
+                high[axis] = high[axis].max(position + pad);
+            }
+        }
+        if behind || beyond.contains(&true) {
+            return None;
+        }
+        if !ahead {
+            return Some(Window { columns: 0..self.size[0], rows: 0..self.size[1] });
+        }
+        // From the middle of the picture to the centre of pixel 0.
+        let range = |axis: usize| {
+            let shift = 0.5 * f64::from(self.size[axis]) - 0.5;
+            let first = (low[axis] + shift).ceil().max(0.0) as u32;
+            let last = (high[axis] + shift).floor().min(f64::from(self.size[axis]) - 1.0);
+            if last < 0.0 { 0..0 } else { first..last as u32 + 1 }
+        };
+        let window = Window { columns: range(0), rows: range(1) };
+        if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
+    }
+
+    /// A point in multiples of right, down and the direction through the middle (the last is 1
+    /// for parallel rays), with bounds on their errors.
+    #[inline]
+    fn in_picture(&self, point: [f64; 3]) -> (DVec3, DVec3) {
+        let (arm, parallel) = match self.pencil {
+            Pencil::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
+            Pencil::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
+        };
+        // The matrix is the inverse of one whose columns are all but perpendicular: its entries,
+        // and their products with the arm, are good to far more than the 2⁻⁴⁶ allowed here.
+        let slack = VERTEX_ERROR + arm.abs().max_element() * 2f64.powi(-46);
+        let [a, b, c] = self.to_picture;
+        let norm = |row: DVec3| row.abs().element_sum() * slack;
+        let mut at = DVec3::new(a.dot(arm), b.dot(arm), c.dot(arm));
+        let mut error = DVec3::new(norm(a), norm(b), norm(c));
+        if parallel {
+            at.z = 1.0;
+            error.z = 0.0;
+        }
+        (at, error)
+    }
+}

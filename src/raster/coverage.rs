@@ -1,0 +1,149 @@
+//! Which pixels a piece of a face covers.
+//!
+//! A pixel is covered if its ray meets the piece: if it passes inside all lines that bound it. An
+//! edge of a face that a ray meets exactly belongs to the face that the ray would enter if it were
+//! moved a little (see [`Seen::tie`]): of two faces that share the edge, just one is met. A cut
+//! that a ray meets exactly belongs to the piece in front. So the pieces of a face tile it, and
+//! the faces of a closed surface tile its picture: no pixel is left out, none is covered twice.
+//! Faces that the rays run along cover nothing.
+//!
+//! The functions of lines in homogeneous coordinates, which make clipping at the eye superfluous,
+//! are those of Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
+
+use smallvec::SmallVec;
+
+use super::bounds::Window;
+use super::line::{Boundary, Seen, Source};
+use super::painter::Outline;
+use super::plane::{Sheet, kappa};
+use super::rays::Rays;
+use crate::geom::{Faces, PlaneId};
+
+/// A piece of a face, ready to be asked for its pixels.
+#[derive(Debug)]
+pub(super) struct Coverage<'a> {
+    pub(super) seen: Seen<'a>,
+    pub(super) lines: SmallVec<[Boundary; 8]>,
+    pub(super) window: Window,
+    /// Whether the lines are not all the edges of the face, and a pixel on one of them has yet to
+    /// prove that it belongs to the face.
+    partial: bool,
+}
+
+impl<'a> Coverage<'a> {
+    /// A piece's coverage; `None` if it covers nothing.
+    pub(super) fn new(
+        rays: &'a Rays,
+        faces: &'a Faces,
+        face: u32,
+        outline: Outline<'_>,
+    ) -> Option<Self> {
+        let corners = faces.corners(face);
+        let window = rays.window(match outline {
+            Outline::Whole => corners,
+            Outline::Lines { vertices, .. } | Outline::Vertices(vertices) => vertices,
+        })?;
+        let seen = Seen::new(rays, faces, face)?;
+        let mut lines: SmallVec<[Boundary; 8]> = SmallVec::new();
+        let mut add = |source| lines.push(seen.boundary(source));
+        match outline {
+            Outline::Whole => (0..corners.len()).for_each(|k| add(seen.edge_source(k))),
+            Outline::Lines { lines, .. } => lines.iter().for_each(|&line| {
+                add(match line.as_edge() {
+                    Some(k) => seen.edge_source(k as usize),
+                    None => Source::Cut(line),
+                });
+            }),
+            Outline::Vertices(vertices) => {
+                let snap = |v: [f64; 3]| v.map(|c| c.round().clamp(-LARGEST, LARGEST));
+                for (k, &vertex) in vertices.iter().enumerate() {
+                    let next = vertices[if k + 1 == vertices.len() { 0 } else { k + 1 }];
+                    add(Source::Edge([snap(vertex), snap(next)]));
+                }
+            }
+        }
+        // Lines through the eye that bound a plane polygon all around bound a cone; the lines of
+        // others may bound its mirror image behind the eye as well.
+        let whole = matches!(outline, Outline::Whole);
+        let cone = whole && faces.upright_axis(face).is_none();
+        if rays.is_perspective() && !cone {
+            add(Source::Ahead);
+        }
+        let partial = matches!(outline, Outline::Lines { .. });
+        Some(Self { seen, lines, window, partial })
+    }
+
+    /// Whether a pixel is covered.
+    #[inline]
+    pub(super) fn covers(&self, x: u32, y: u32) -> bool {
+        let (column, row) = (f64::from(x), f64::from(y));
+        let mut certain = true;
+        for line in &self.lines {
+            let [k0, kx, ky] = line.k;
+            let value = k0 + row * ky + column * kx;
+            if value < -line.bound {
+                return false;
+            }
+            certain &= value > line.bound;
+        }
+        certain || self.covers_exactly(x, y)
+    }
+
+    #[cold]
+    fn covers_exactly(&self, x: u32, y: u32) -> bool {
+        let mut on_a_line = false;
+        for line in &self.lines {
+            let side = self.seen.exact(line.source, x, y);
+            on_a_line |= side.is_eq();
+            let inside = side.is_gt()
+                || side.is_eq()
+                    && match line.source {
+                        Source::Edge(_) | Source::Upright(..) => self.seen.tie(line.source).is_gt(),
+                        Source::Cut(cut) => !cut.is_behind(),
+                        Source::Ahead => false,
+                    };
+            if !inside {
+                return false;
+            }
+        }
+        // A vertex of a piece may touch an edge of the face that is none of the piece's lines.
+        !(on_a_line && self.partial) || self.face_covers(x, y)
+    }
+
+    /// Whether the whole face covers a pixel.
+    fn face_covers(&self, x: u32, y: u32) -> bool {
+        (0..self.seen.faces.corners(self.seen.face).len()).all(|k| {
+            let edge = self.seen.edge_source(k);
+            let side = self.seen.exact(edge, x, y);
+            side.is_gt() || side.is_eq() && self.seen.tie(edge).is_gt()
+        })
+    }
+}
+
+/// The largest coordinate of a rounded piece's vertices that counts; beyond, the integers overflow.
+const LARGEST: f64 = (1u64 << 51) as f64;
+
+impl<'a> Seen<'a> {
+    /// A face as the rays see it; `None` if they run along it, or see its back and are not to.
+    pub(super) fn new(rays: &'a Rays, faces: &'a Faces, face: u32) -> Option<Self> {
+        let plane = PlaneId::face(face);
+        let sheet = Sheet::new(rays, faces, plane);
+        let side = sheet.certain_side().unwrap_or_else(|| kappa(rays, &faces.plane(plane)).sign());
+        let positive = side.is_gt();
+        let front = positive == rays.is_perspective();
+        if side.is_eq() || rays.front_only && !front {
+            return None;
+        }
+        Some(Self { rays, faces, face, sheet, positive })
+    }
+
+    /// The edge of the face from its corner `k` to the next.
+    fn edge_source(&self, k: usize) -> Source {
+        let corners = self.faces.corners(self.face);
+        let ends = [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]];
+        match self.faces.upright_axis(self.face) {
+            None => Source::Edge(ends),
+            Some(axis) => Source::Upright(ends, axis),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Pictures of which face shows where.
+
+/// The face of a pixel where there is none.
+pub const NONE: u32 = u32::MAX;
+
+/// Which face shows in each pixel, row by row from the top left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    pub(super) size: [u32; 2],
+    pub(super) faces: Vec<u32>,
+    pub(super) drawn: u64,
+}
+
+impl Image {
+    /// A picture without anything in it.
+    pub(super) fn new(size: [u32; 2]) -> Self {
+        let pixels = size[0] as usize * size[1] as usize;
+        Self { size, faces: vec![NONE; pixels], drawn: 0 }
+    }
+
+    /// Its width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The face in each pixel, [`NONE`] where there is none, row by row from the top left.
+    pub fn faces(&self) -> &[u32] {
+        &self.faces
+    }
+
+    /// How many pixels show a face.
+    pub fn covered(&self) -> usize {
+        self.faces.iter().filter(|&&face| face != NONE).count()
+    }
+
+    /// How many times a pixel was covered by a piece, overdrawn ones included.
+    pub fn drawn(&self) -> u64 {
+        self.drawn
+    }
+
+    pub(super) fn row(&mut self, y: u32) -> &mut [u32] {
+        let width = self.size[0] as usize;
+        &mut self.faces[y as usize * width..][..width]
+    }
+}

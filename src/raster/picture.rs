@@ -1,0 +1,82 @@
+//! Pictures to look at: RGB, 8 bits each, row by row from the top left.
+
+use super::compare::{Comparison, Verdict};
+use super::image::{Image, NONE};
+use super::plane::normal_of;
+use super::rays::Rays;
+use super::zbuffer::DepthImage;
+use crate::geom::Faces;
+use glam::DVec3;
+
+/// A colour for a polygon by its number: neighbours in number differ clearly.
+pub fn colour_of(polygon: u32) -> [u8; 3] {
+    // Steps of the golden ratio spread the hues evenly however many there are.
+    let hue = (f64::from(polygon) * 0.618_033_988_749_894_9).fract() * 6.0;
+    let (saturation, value) = match polygon % 3 {
+        0 => (0.55, 0.95),
+        1 => (0.75, 0.85),
+        _ => (0.40, 0.90),
+    };
+    [5.0, 3.0, 1.0].map(|offset| {
+        let k = (offset + hue) % 6.0;
+        let share = k.min(4.0 - k).clamp(0.0, 1.0);
+        (255.0 * value * (1.0 - saturation * share)).round() as u8
+    })
+}
+
+/// The picture, each polygon in the colour that `colour` gives for its number, darker the more
+/// slantingly it is seen; `background` where there is none.
+pub fn picture(
+    rays: &Rays,
+    faces: &Faces,
+    image: &Image,
+    colour: impl Fn(u32) -> [u8; 3],
+    background: [u8; 3],
+) -> Vec<u8> {
+    let width = rays.size()[0] as usize;
+    let pixels = image.faces().iter().enumerate().map(|(i, &face)| {
+        if face == NONE {
+            return background;
+        }
+        let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
+        let normal = DVec3::from_array(normal_of(triangle).0).normalize_or_zero();
+        let direction = rays.direction((i % width) as u32, (i / width) as u32);
+        let share = 0.4 + 0.6 * normal.dot(direction).abs();
+        colour(faces.polygon(face)).map(|c| (f64::from(c) * share) as u8)
+    });
+    pixels.flatten().collect()
+}
+
+/// The depths as grey: near is bright, far is dark, and black is nothing. The scale is linear in
+/// depth between the nearest and the furthest hundredth of the pixels.
+pub fn depth_map(depth: &DepthImage) -> Vec<u8> {
+    let depths: Vec<f64> = depth.depths().collect();
+    let mut sorted: Vec<f64> = depths.iter().copied().filter(|d| d.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let at = |share: f64| sorted.get((sorted.len() as f64 * share) as usize).copied();
+    let (Some(near), Some(far)) = (at(0.01), at(0.99)) else {
+        return vec![0; depths.len() * 3];
+    };
+    let grey = |depth: f64| {
+        if depth.is_infinite() {
+            return 0;
+        }
+        let share = if far > near { ((depth - near) / (far - near)).clamp(0.0, 1.0) } else { 0.0 };
+        (255.0 - 215.0 * share) as u8
+    };
+    depths.into_iter().flat_map(|depth| [grey(depth); 3]).collect()
+}
+
+/// Where a painted picture differs: `picture`, as RGB, at a quarter of its brightness, with
+/// contested pixels blue, wrong order red, holes yellow, and spills magenta.
+pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
+    let pixels = comparison.verdicts.iter().zip(picture.chunks_exact(3));
+    let colours = pixels.map(|(verdict, pixel)| match verdict {
+        Verdict::Empty | Verdict::Right => [pixel[0] / 4, pixel[1] / 4, pixel[2] / 4],
+        Verdict::Contested => [70, 130, 255],
+        Verdict::WrongOrder => [255, 40, 40],
+        Verdict::Hole => [255, 230, 0],
+        Verdict::Spill => [255, 0, 255],
+    });
+    colours.flatten().collect()
+}

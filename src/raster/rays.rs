@@ -1,0 +1,207 @@
+//! One integer ray for each pixel.
+
+use glam::DVec3;
+
+use crate::geom::{Eye, Faces, Int};
+use crate::view::{Camera, CameraError, CameraProblem, Projection};
+
+/// The rays of a camera through a scene, in integer lattice coordinates.
+///
+/// With x and y the column and row of a pixel, all vectors integers:
+///
+/// | camera | the ray through the centre of pixel (x, y) |
+/// |---|---|
+/// | perspective | from the eye, in direction base + x·right + y·down |
+/// | parallel | through the point base + x·right + y·down, in one direction for all |
+///
+/// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel
+/// unless it is more than a million extents away, and every decision after that is exact. The eye
+/// and the direction are those of [`Eye`], which is what trees are ordered for.
+#[derive(Clone, Debug)]
+pub struct Rays {
+    pub(super) size: [u32; 2],
+    /// Whether faces are left out that are seen from behind.
+    pub(super) front_only: bool,
+    pub(super) pencil: Pencil,
+    pub(super) base: [i64; 3],
+    pub(super) right: [i64; 3],
+    pub(super) down: [i64; 3],
+    /// What the ray through the middle of the picture is given by.
+    pub(super) middle: [i64; 3],
+    /// Takes a point relative to the eye, or to the middle of the picture, to multiples of right,
+    /// down, and the direction through the middle.
+    pub(super) to_picture: [DVec3; 3],
+    /// What the third of these stands for as a length in the world.
+    pub(super) depth_unit: f64,
+}
+
+/// What the rays have in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Pencil {
+    /// They start at the eye: an integer times 2^shift.
+    From { eye: [i64; 3], shift: u32 },
+    /// They have this direction.
+    Along { direction: [i64; 3] },
+}
+
+/// A direction, or, for parallel rays, a point as well: what the ray of a pixel is given by.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Given {
+    Point([i64; 3]),
+    Step([i64; 3]),
+}
+
+/// The size of directions, and the largest eye distance in powers of two beyond 2⁶¹.
+///
+/// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a
+/// direction 160, and the product of two such 350: 384 bits hold every decision (see
+/// [`line`](super::line)). More, and they do not; less, and narrow views lose accuracy.
+const DIRECTION: f64 = (1u64 << 50) as f64;
+const FURTHEST: u32 = 20;
+/// Points that parallel rays go through are below this in magnitude.
+const REGION: f64 = (1u64 << 60) as f64;
+/// The least length of `right` and `down`: with less, their rounding turns the picture.
+const FINEST: f64 = 256.0;
+
+impl Rays {
+    /// The rays of a camera through a scene.
+    ///
+    /// # Errors
+    ///
+    /// If a perspective camera is further from the scene than about 2³⁰ of its extents, a parallel
+    /// one shows something as far from it as 2⁹ extents, or a pixel is finer than 2⁸ units of the
+    /// scene's lattice or 2⁻⁴² radians.
+    pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, CameraError> {
+        let lattice = faces.lattice();
+        let eye = Eye::new(camera.viewpoint(), lattice);
+        let (forward, pixel) = (camera.forward(), camera.pixel_size());
+        match (camera.projection(), eye.shift()) {
+            (Projection::Perspective { .. }, Some(shift)) if shift <= FURTHEST => {
+                let [x, y] = camera.size().map(|c| 0.5 * f64::from(c) * pixel);
+                let reach = DVec3::new(x, y, 1.0).length();
+                // A power of two, so that simple views of simple scenes have simple rays.
+                let scale = (DIRECTION / reach).log2().floor().exp2();
+                let pencil = Pencil::From { eye: eye.integer(), shift };
+                let depth_unit = lattice.length_to_world(scale);
+                Self::build(camera, pencil, forward * scale, pixel * scale, depth_unit)
+            }
+            (Projection::Parallel { centre, .. }, None) => {
+                let direction = eye.integer().map(|c| -c);
+                let centre = DVec3::from_array(lattice.to_lattice(*centre));
+                // In the plane through the middle of the scene.
+                let middle = centre - forward * centre.dot(forward);
+                let step = lattice.length_to_lattice(pixel);
+                let depth_unit = lattice.length_to_world(float(direction).length());
+                Self::build(camera, Pencil::Along { direction }, middle, step, depth_unit)
+            }
+            _ => Err(CameraProblem::TooFar.into()),
+        }
+    }
+
+    /// Rays of which the middle one is given by `middle`, with pixels of size `step`.
+    fn build(
+        camera: &Camera,
+        pencil: Pencil,
+        middle: DVec3,
+        step: f64,
+        depth_unit: f64,
+    ) -> Result<Self, CameraError> {
+        let [width, height] = camera.size().map(f64::from);
+        let (right, down) = (camera.right() * step, camera.up() * -step);
+        let reach = middle.abs() + right.abs() * width + down.abs() * height;
+        let fits = reach.max_element() < REGION;
+        if !fits {
+            return Err(CameraProblem::TooWide.into());
+        }
+        if step < FINEST {
+            return Err(CameraProblem::TooNarrow.into());
+        }
+        let integer = |v: DVec3| v.to_array().map(|c| c.round() as i64);
+        // Even steps: then the middle of the picture is where it should be, whatever its size.
+        let even = |v: DVec3| integer(v * 0.5).map(|c| 2 * c);
+        let (right, down, middle) = (even(right), even(down), integer(middle));
+        let [columns, rows] = camera.size().map(|c| i64::from(c) - 1);
+        let base =
+            std::array::from_fn(|i| middle[i] - (right[i] / 2) * columns - (down[i] / 2) * rows);
+        let third = match pencil {
+            Pencil::From { .. } => middle,
+            Pencil::Along { direction } => direction,
+        };
+        let to_picture = inverse([right, down, third].map(float));
+        let (size, front_only) = (camera.size(), false);
+        Ok(Self { size, front_only, pencil, base, right, down, middle, to_picture, depth_unit })
+    }
+
+    /// The same rays, that meet only the fronts of faces: the sides from which their corners run
+    /// counter-clockwise.
+    pub fn with_front_faces_only(self) -> Self {
+        Self { front_only: true, ..self }
+    }
+
+    /// The picture's width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Whether the rays start at an eye.
+    pub(super) fn is_perspective(&self) -> bool {
+        matches!(self.pencil, Pencil::From { .. })
+    }
+
+    /// The ray of a pixel.
+    pub(super) fn pixel(&self, x: u32, y: u32) -> Given {
+        let v = std::array::from_fn(|i| {
+            self.base[i] + i64::from(x) * self.right[i] + i64::from(y) * self.down[i]
+        });
+        match self.pencil {
+            Pencil::From { .. } => Given::Step(v),
+            Pencil::Along { .. } => Given::Point(v),
+        }
+    }
+
+    /// The unit vector along the ray of a pixel, rounded.
+    pub(super) fn direction(&self, x: u32, y: u32) -> DVec3 {
+        match (self.pencil, self.pixel(x, y)) {
+            (Pencil::Along { direction }, _) => float(direction).normalize(),
+            (_, Given::Step(v) | Given::Point(v)) => float(v).normalize(),
+        }
+    }
+
+    /// The eye relative to a lattice point, or, of parallel rays, the point that the first pixel's
+    /// goes through: each component within 2.4 roundings.
+    ///
+    /// (An integer beyond 2⁵³, rounded, less a coordinate of at most 2⁵¹.)
+    #[inline]
+    pub(super) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
+        match self.pencil {
+            Pencil::From { eye, shift: 0 } => std::array::from_fn(|i| eye[i] as f64 - point[i]),
+            Pencil::From { eye, shift } => {
+                let unit = (1u64 << shift) as f64;
+                std::array::from_fn(|i| eye[i] as f64 * unit - point[i])
+            }
+            Pencil::Along { .. } => std::array::from_fn(|i| self.base[i] as f64 - point[i]),
+        }
+    }
+
+    /// The scalar product of integer components below 2¹⁰⁶ and the eye.
+    pub(super) fn dot_eye(m: [i128; 3], eye: [i64; 3], shift: u32) -> Int<3> {
+        let product = dot(m, eye);
+        if shift == 0 { product } else { product.shifted(shift) }
+    }
+}
+
+/// The scalar product of components below 2¹²⁷ and below 2⁶³.
+pub(super) fn dot(m: [i128; 3], v: [i64; 3]) -> Int<3> {
+    let term = |i: usize| Int::<2>::from(m[i]).times::<1, 3>(&Int::from(v[i]));
+    term(0) + term(1) + term(2)
+}
+
+pub(super) fn float(v: [i64; 3]) -> DVec3 {
+    DVec3::from_array(v.map(|c| c as f64))
+}
+
+/// The rows of the inverse of the matrix with these columns.
+fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
+    let rows = [b.cross(c), c.cross(a), a.cross(b)];
+    rows.map(|row| row / a.dot(rows[0]))
+}

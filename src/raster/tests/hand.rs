@@ -1,0 +1,197 @@
+//! Pictures small enough to be worked out by hand.
+
+use glam::DVec3;
+
+use super::faces;
+use crate::geom::{Faces, Line, PlaneId};
+use crate::raster::{
+    Comparison, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare, depth_map,
+    difference, paint, picture, zbuffer,
+};
+use crate::view::Camera;
+
+const SIZE: [u32; 2] = [6, 6];
+
+/// Looks down the z axis at the square from 0 to 6, so that pixel (x, y) is the world's
+/// (x + ½, 5½ − y).
+fn rays(faces: &Faces) -> Rays {
+    let centre = DVec3::new(3.0, 3.0, 0.0);
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, centre, 6.0, SIZE).unwrap();
+    Rays::new(&camera, faces).unwrap()
+}
+
+fn square([x0, y0]: [f64; 2], [x1, y1]: [f64; 2], z: f64) -> Vec<DVec3> {
+    [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| DVec3::new(x, y, z)).to_vec()
+}
+
+fn drawn(faces: &[u32]) -> String {
+    let letter = |&face: &u32| if face == NONE { '.' } else { (b'A' + face as u8) as char };
+    let rows: Vec<String> = faces.chunks(6).map(|row| row.iter().map(letter).collect()).collect();
+    rows.join(" ")
+}
+
+fn whole<'a>(order: &'a [u32]) -> impl Iterator<Item = Piece<'a>> {
+    order.iter().map(|&face| Piece { face, outline: Outline::Whole })
+}
+
+/// A at depth 5 all over; B from depth 4 at the left to depth 10 at the right, above the diagonal.
+fn two_triangles() -> Faces {
+    let a =
+        vec![DVec3::new(0.0, 0.0, -5.0), DVec3::new(12.0, 0.0, -5.0), DVec3::new(0.0, 12.0, -5.0)];
+    let b =
+        vec![DVec3::new(0.0, 0.0, -4.0), DVec3::new(6.0, 6.0, -10.0), DVec3::new(0.0, 6.0, -4.0)];
+    faces(&[a, b], None)
+}
+
+#[test]
+fn the_nearer_wins_pixel_by_pixel() {
+    let faces = two_triangles();
+    let depth = zbuffer(&rays(&faces), &faces);
+    // B is nearer where x < 1: in column 0, whose centres are at x = ½; and it covers what is above
+    // the diagonal, whose pixels belong to what is on their right: to A, except for the corner.
+    assert_eq!(drawn(depth.image().faces()), "BAAAAA BAAAAA BAAAAA BAAAAA BAAAAA AAAAAA");
+    let depths: Vec<f64> = depth.depths().collect();
+    // Measured from the middle of the scene, at z = −7.
+    assert!((depths[0] - (4.5 - 7.0)).abs() < 1e-9 && (depths[1] - (5.0 - 7.0)).abs() < 1e-9);
+}
+
+#[test]
+fn later_pieces_cover_earlier_ones() {
+    let faces = two_triangles();
+    let rays = rays(&faces);
+    let image = paint(&rays, &faces, whole(&[0, 1]));
+    assert_eq!(drawn(image.faces()), "BBBBBA BBBBAA BBBAAA BBAAAA BAAAAA AAAAAA");
+    assert_eq!((image.covered(), image.drawn()), (36, 36 + 15));
+    assert_eq!(drawn(paint(&rays, &faces, whole(&[1, 0])).faces()), "AAAAAA ".repeat(6).trim());
+    let mut painter = Painter::new(&rays, &faces, Order::FrontToBack);
+    whole(&[1, 0]).for_each(|piece| painter.draw(piece));
+    assert_eq!(painter.finish().faces(), image.faces());
+}
+
+#[test]
+fn rounded_pieces_cover_what_their_vertices_span() {
+    let faces = two_triangles();
+    let rays = rays(&faces);
+    let lattice = faces.lattice();
+    let vertices = square([1.0, 1.0], [3.0, 5.0], -5.0).into_iter().map(|p| lattice.to_lattice(p));
+    let vertices: Vec<[f64; 3]> = vertices.collect();
+    let piece = Piece { face: 0, outline: Outline::Vertices(&vertices) };
+    let image = paint(&rays, &faces, [piece]);
+    assert_eq!(drawn(image.faces()), "...... .AA... .AA... .AA... .AA... ......");
+}
+
+fn judged(painted: &[u32], faces: &Faces) -> Comparison {
+    let rays = rays(faces);
+    let painted = paint(&rays, faces, whole(painted));
+    compare(&rays, faces, &painted, zbuffer(&rays, faces).image())
+}
+
+#[test]
+fn wrong_orders_holes_and_spills_are_told_apart() {
+    let near = square([0.0, 0.0], [2.0, 6.0], 1.0);
+    let far = square([0.0, 0.0], [4.0, 6.0], 0.0);
+    let scene = faces(&[near.clone(), far.clone()], None);
+    let right = judged(&[1, 0], &scene);
+    assert_eq!((right.covered, right.wrong(), right.contested), (24, 0, 0));
+    let wrong = judged(&[0, 1], &scene);
+    assert_eq!((wrong.wrong_order, wrong.wrong(), wrong.contested), (12, 12, 0));
+    assert_eq!(wrong.verdicts[0], Verdict::WrongOrder);
+    assert_eq!(wrong.verdicts[2], Verdict::Right);
+    assert_eq!(wrong.verdicts[5], Verdict::Empty);
+    let missing = judged(&[0], &scene);
+    assert_eq!((missing.holes, missing.wrong()), (12, 12));
+    assert_eq!(missing.verdicts[2], Verdict::Hole);
+    // A piece that reaches beyond its face, as rounding algorithms make them.
+    let rays = rays(&scene);
+    let vertices = square([0.0, 0.0], [5.0, 6.0], 0.0).into_iter();
+    let vertices: Vec<_> = vertices.map(|p| scene.lattice().to_lattice(p)).collect();
+    let pieces = [Piece { face: 1, outline: Outline::Vertices(&vertices) }];
+    let painted = paint(&rays, &scene, pieces.into_iter().chain(whole(&[0])));
+    let spilt = compare(&rays, &scene, &painted, zbuffer(&rays, &scene).image());
+    assert_eq!((spilt.spills, spilt.wrong()), (6, 6));
+    let base = picture(&rays, &scene, &painted, colour_of, [0; 3]);
+    assert_eq!(&difference(&spilt, &base)[12..15], &[255, 0, 255]);
+    assert_eq!(&base[0..3], &colour_of(0), "seen straight on, a colour is itself");
+}
+
+#[test]
+fn what_the_tolerance_makes_equal_is_contested() {
+    let pair = |gap: f64, tolerance| {
+        let (a, b) = (square([0.0; 2], [6.0; 2], gap), square([0.0; 2], [6.0; 2], 0.0));
+        faces(&[a, b], Some(tolerance))
+    };
+    // Painted in input order, so that the further covers the nearer.
+    let verdict = |gap, tolerance| judged(&[0, 1], &pair(gap, tolerance)).verdicts[7];
+    assert_eq!(verdict(1.9e-3, 1e-3), Verdict::Contested);
+    assert_eq!(verdict(2.1e-3, 1e-3), Verdict::WrongOrder);
+    assert_eq!(verdict(1e-12, 0.0), Verdict::WrongOrder);
+    // At the same depth the later polygon counts, and the other order is contested.
+    assert_eq!(verdict(0.0, 0.0), Verdict::Right);
+    assert_eq!(judged(&[1, 0], &pair(0.0, 0.0)).verdicts[7], Verdict::Contested);
+}
+
+#[test]
+fn backs_are_left_out_on_request() {
+    let mut back = square([0.0; 2], [6.0, 3.0], 1.0);
+    back.reverse();
+    let scene = faces(&[square([0.0; 2], [6.0; 2], 0.0), back], None);
+    let rays = rays(&scene);
+    let bare = |rays: &Rays| drawn(zbuffer(rays, &scene).image().faces());
+    assert_eq!(bare(&rays), "AAAAAA AAAAAA AAAAAA BBBBBB BBBBBB BBBBBB");
+    assert_eq!(bare(&rays.clone().with_front_faces_only()), "AAAAAA ".repeat(6).trim());
+}
+
+#[test]
+fn near_is_bright_in_a_depth_map() {
+    let scene =
+        faces(&[square([0.0; 2], [3.0, 6.0], 1.0), square([3.0, 0.0], [5.0, 6.0], 0.0)], None);
+    let map = depth_map(&zbuffer(&rays(&scene), &scene));
+    let grey = |x: usize| map[3 * x];
+    assert!(grey(0) == 255 && grey(3) == 40 && grey(5) == 0, "{:?}", &map[..18]);
+}
+
+#[test]
+fn nothing_behind_the_eye_is_shown_mirrored() {
+    // A floor that reaches behind the eye, with its right edge just right of the eye: of this edge
+    // alone, rays to the left are inside, upwards as well, where they leave the floor behind them.
+    let floor = [(-9.0, 9.0), (0.1, 9.0), (0.1, -9.0), (-9.0, -9.0)];
+    let floor = floor.map(|(x, z)| DVec3::new(x, -1.0, z));
+    let scene = faces(&[floor.to_vec()], None);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, quarter, SIZE).unwrap();
+    let rays = Rays::new(&camera, &scene).unwrap();
+    let lines = [Line::edge(1)];
+    let outline = Outline::Lines { lines: &lines, vertices: scene.corners(0) };
+    let image = paint(&rays, &scene, [Piece { face: 0, outline }]);
+    assert_eq!(drawn(image.faces()), "...... ...... ...... AAA... AAA... AAA...");
+}
+
+#[test]
+fn a_vertex_on_an_edge_belongs_to_the_face_as_the_edge_does() {
+    // Two cuts that meet in (5.5, 2.5), on the right edge, which belongs to what is right of it.
+    let cut = |y: f64| {
+        let [p, q] = [0.0, 1.0].map(|z| DVec3::new(5.5, 2.5, z));
+        vec![p, q, DVec3::new(3.5, y, 0.0)]
+    };
+    let mut lower = cut(0.5);
+    lower.reverse();
+    let scene = faces(&[square([0.0; 2], [5.5; 2], 0.0), cut(4.5), lower], None);
+    let rays = rays(&scene);
+    let corners = scene.corners(0);
+    let show = |lines: &[Line]| {
+        let outline = Outline::Lines { lines, vertices: corners };
+        drawn(paint(&rays, &scene, [Piece { face: 0, outline }]).faces())
+    };
+    let [upper, lower] = [1, 2].map(PlaneId::face);
+    let left = [
+        Line::edge(0),
+        Line::cut(lower, false),
+        Line::cut(upper, false),
+        Line::edge(2),
+        Line::edge(3),
+    ];
+    // Rays through the cuts belong to what is in front of them, except for that through the vertex.
+    assert_eq!(show(&left), "AAA... AAAA.. AAAAA. AAAAA. AAAAA. AAAA..");
+    let below = [Line::edge(0), Line::edge(1), Line::cut(lower, true)];
+    assert_eq!(show(&below), "...... ...... ...... ...... ...... ....A.");
+}

@@ -1,0 +1,95 @@
+//! The raster against exact rationals, by hand, and by conservation.
+
+mod camera;
+mod hand;
+mod mesh;
+mod oracle;
+mod signs;
+mod tiling;
+
+use glam::DVec3;
+use num_bigint::BigInt;
+
+use super::rays::{Pencil, Rays};
+use crate::geom::Faces;
+use crate::view::Camera;
+
+/// A small generator of even numbers (`SplitMix64`).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^ bits >> 31
+    }
+
+    pub(super) fn below(&mut self, limit: u64) -> u64 {
+        self.bits() % limit
+    }
+
+    /// From −1 to 1.
+    pub(super) fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    pub(super) fn point(&mut self) -> DVec3 {
+        DVec3::new(self.unit(), self.unit(), self.unit())
+    }
+
+    /// With integer coordinates from −`limit` to `limit`.
+    pub(super) fn grid(&mut self, limit: i32) -> DVec3 {
+        let span = 2 * limit as u64 + 1;
+        DVec3::from_array(std::array::from_fn(|_| f64::from(self.below(span) as i32 - limit)))
+    }
+}
+
+pub(super) fn faces(polygons: &[Vec<DVec3>], tolerance: Option<f64>) -> Faces {
+    Faces::new(polygons, tolerance).unwrap().0
+}
+
+/// Views of a scene of extent about `size` around the origin: general ones, ones along the axes
+/// with rays through lattice points, close, grazing, far, and parallel ones of all these kinds.
+pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<Camera> {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let mut cameras = Vec::new();
+    for kind in 0..6 {
+        let (axis, up) = [(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::NEG_Z, DVec3::X)]
+            [random.below(3) as usize];
+        let (eye, target) = match kind {
+            0 => (random.point() * 3.0, random.point() * 0.2),
+            1 => (axis * 4.0, DVec3::ZERO),
+            2 => (axis + up, up),
+            3 => (random.point(), random.point() * 0.2),
+            4 => (random.point() + axis * 1e5, random.point() * 0.2),
+            _ => (random.grid(2) / 4.0, random.grid(2) / 4.0 + axis * 8.0),
+        };
+        let up = if up.cross(target - eye).length() < 1e-6 { DVec3::ONE } else { up };
+        let fov = if kind == 4 { 3e-5 } else { quarter };
+        cameras.push(Camera::perspective(eye * size, target * size, up, fov, pixels));
+        let direction = (target - eye) * size;
+        cameras.push(Camera::parallel(direction, up, random.point() * size, 2.0 * size, pixels));
+        cameras.push(Camera::parallel(axis, up, DVec3::ZERO, 4.0 * size, pixels));
+    }
+    cameras
+        .into_iter()
+        .map(|camera| {
+            camera.or(Camera::looking_at_all([-DVec3::ONE, DVec3::ONE], DVec3::Z, pixels)).unwrap()
+        })
+        .collect()
+}
+
+/// The ray of a pixel: where it starts, or any point of it, and its direction.
+pub(super) fn ray(rays: &Rays, x: u32, y: u32) -> [[BigInt; 3]; 2] {
+    let given: [BigInt; 3] = std::array::from_fn(|i| {
+        BigInt::from(rays.base[i])
+            + BigInt::from(rays.right[i]) * x
+            + BigInt::from(rays.down[i]) * y
+    });
+    match rays.pencil {
+        Pencil::From { eye, shift } => [eye.map(|c| BigInt::from(c) << shift), given],
+        Pencil::Along { direction } => [given, direction.map(BigInt::from)],
+    }
+}

@@ -1,0 +1,164 @@
+//! Ray casting in unlimited integers, written from the definitions alone.
+
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, Signed, Zero};
+
+use super::ray;
+use crate::geom::{Faces, Line, PlaneKind};
+use crate::raster::rays::{Pencil, Rays};
+
+type Vector = [BigInt; 3];
+
+fn dot(a: &Vector, b: &Vector) -> BigInt {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn times(a: &Vector, factor: &BigInt) -> Vector {
+    std::array::from_fn(|i| &a[i] * factor)
+}
+
+fn integer(point: [f64; 3]) -> Vector {
+    point.map(|c| BigInt::from_f64(c).unwrap())
+}
+
+/// A plane's normal and a point on it.
+fn plane(faces: &Faces, face: u32) -> (Vector, Vector) {
+    let [p, q, r] = faces.reference_triangle(face).map(|c| integer(faces.corner(c)));
+    let (u, w) = (minus(&q, &p), minus(&r, &p));
+    let normal = std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &u[j] * &w[k] - &u[k] * &w[j]
+    });
+    (normal, p)
+}
+
+/// A point as a vector over a positive divisor.
+struct Point(Vector, BigInt);
+
+/// A ray's start and direction.
+struct Ray(Point, Vector);
+
+/// The ray of a pixel; or, moved by δ to the right and δ² downwards, where δ is less than any ratio
+/// of the numbers involved: as good as infinitely little.
+fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
+    const SHIFT: usize = 3000;
+    let [start, direction] = ray(rays, x, y);
+    if !moved {
+        return Ray(Point(start, BigInt::from(1)), direction);
+    }
+    let perspective = matches!(rays.pencil, Pencil::From { .. });
+    let given = if perspective { &direction } else { &start };
+    let given: Vector = std::array::from_fn(|i| {
+        let [right, down] = [rays.right[i], rays.down[i]].map(BigInt::from);
+        (&given[i] << (2 * SHIFT)) + (right << SHIFT) + down
+    });
+    if perspective {
+        Ray(Point(start, BigInt::from(1)), given)
+    } else {
+        Ray(Point(given, BigInt::from(1) << (2 * SHIFT)), direction)
+    }
+}
+
+/// Where a ray meets the plane of a face, and after which multiple of its direction, as a quotient;
+/// `None` if it does not, or only behind the eye.
+fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [BigInt; 2])> {
+    let (n, p) = plane(faces, face);
+    let Ray(Point(start, divisor), direction) = ray;
+    let along = dot(&n, direction);
+    let from = dot(&n, &minus(start, &times(&p, divisor)));
+    if along.is_zero() || rays.is_perspective() && from.is_zero() {
+        return None;
+    }
+    if rays.front_only && along.is_positive() {
+        return None;
+    }
+    if rays.is_perspective() && along.is_positive() == from.is_positive() {
+        return None;
+    }
+    let sign = along.signum();
+    let point = minus(&times(start, &along), &times(direction, &from));
+    let divisor = divisor * &along * &sign;
+    Some((Point(times(&point, &sign), divisor.clone()), [-from * sign, divisor]))
+}
+
+/// Whether a point of a face's plane is inside all its edges, seen along the axis that the plane is
+/// least steep in; `None` if it is on one of them, and not outside of another.
+fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<bool> {
+    let (n, _) = plane(faces, face);
+    let steepest = (0..3).max_by_key(|&i| n[i].abs()).unwrap();
+    let axis = faces.upright_axis(face).unwrap_or(steepest);
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let corners: Vec<Vector> = faces.corners(face).iter().map(|&c| integer(c)).collect();
+    let mut on_edge = false;
+    for (i, a) in corners.iter().enumerate() {
+        let b = &corners[(i + 1) % corners.len()];
+        let (arm, to) = (minus(b, a), minus(point, &times(a, divisor)));
+        let side = (&arm[j] * &to[k] - &arm[k] * &to[j]) * n[axis].signum();
+        match side.cmp(&BigInt::zero()) {
+            Ordering::Less => return Some(false),
+            Ordering::Equal => on_edge = true,
+            Ordering::Greater => {}
+        }
+    }
+    if on_edge { None } else { Some(true) }
+}
+
+/// Whether the ray of a pixel meets a face, and after which multiple of its direction.
+pub(super) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<BigRational> {
+    let (point, [numerator, denominator]) = hit(rays, faces, face, &ray_of(rays, x, y, false))?;
+    let inside = within(faces, face, &point).unwrap_or_else(|| {
+        let (point, _) = hit(rays, faces, face, &ray_of(rays, x, y, true)).unwrap();
+        within(faces, face, &point).unwrap()
+    });
+    inside.then(|| BigRational::new(numerator, denominator))
+}
+
+/// Whether the ray of a pixel meets a piece of a face.
+pub(super) fn meets_piece(
+    rays: &Rays,
+    faces: &Faces,
+    face: u32,
+    lines: &[Line],
+    [x, y]: [u32; 2],
+) -> bool {
+    if meets(rays, faces, face, x, y).is_none() {
+        return false;
+    }
+    let Some((Point(point, divisor), _)) = hit(rays, faces, face, &ray_of(rays, x, y, false))
+    else {
+        return false;
+    };
+    let cuts = lines.iter().filter_map(|line| Some((line.as_cut()?, line.is_behind())));
+    cuts.into_iter().all(|(cut, behind)| {
+        let side = match cut.kind() {
+            PlaneKind::Axis(axis, corner) => {
+                &point[axis] - &integer(faces.corner(corner))[axis] * &divisor
+            }
+            PlaneKind::Face(face) => {
+                let (n, p) = plane(faces, face);
+                dot(&n, &minus(&point, &times(&p, &divisor)))
+            }
+        };
+        side.is_negative() == behind
+    })
+}
+
+/// The nearest face on the ray of a pixel, the later of two at the same distance.
+pub(super) fn nearest(rays: &Rays, faces: &Faces, x: u32, y: u32) -> Option<u32> {
+    let mut best: Option<(u32, BigRational)> = None;
+    for face in 0..faces.len() as u32 {
+        if let Some(t) = meets(rays, faces, face, x, y)
+            && best.as_ref().is_none_or(|(_, nearest)| t <= *nearest)
+        {
+            best = Some((face, t));
+        }
+    }
+    best.map(|(face, _)| face)
+}

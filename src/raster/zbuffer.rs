@@ -1,0 +1,136 @@
+//! The depth buffer (Catmull 1974): in each pixel the nearest face, whatever the order.
+
+use std::cmp::Ordering;
+
+use super::coverage::Coverage;
+use super::image::{Image, NONE};
+use super::line::Seen;
+use super::painter::Outline;
+use super::plane::{ROUNDING, kappa, phi};
+use super::rays::Rays;
+use crate::geom::{Faces, Int, PlaneId};
+
+/// Which face is nearest in each pixel, and how near it is.
+#[derive(Clone, Debug)]
+pub struct DepthImage {
+    image: Image,
+    /// 1/t of a perspective and −t of a parallel projection, where t times what the ray is given
+    /// by leads to the face: larger is nearer.
+    nearness: Vec<f64>,
+    unit: f64,
+    perspective: bool,
+}
+
+impl DepthImage {
+    /// The faces.
+    pub fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// How far the face in each pixel is, rounded, in world units, row by row from the top left;
+    /// infinite where there is none.
+    ///
+    /// It is measured along the direction in which the camera looks: from the eye, or, for
+    /// parallel rays, from the plane through the middle of the scene, and then of either sign.
+    pub fn depths(&self) -> impl Iterator<Item = f64> {
+        self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
+            if face == NONE {
+                f64::INFINITY
+            } else if self.perspective {
+                self.unit / nearness
+            } else {
+                -nearness * self.unit
+            }
+        })
+    }
+}
+
+/// How near a face is, as a rounded linear function of the pixel, with a bound on its error.
+#[derive(Clone, Copy)]
+struct Nearness {
+    k: [f64; 3],
+    error: f64,
+}
+
+impl Nearness {
+    fn new(seen: &Seen<'_>) -> Self {
+        let sheet = &seen.sheet;
+        let factor = if seen.rays.is_perspective() { -1.0 } else { 1.0 } / sheet.kappa;
+        // φ is off by 12 roundings of its size, κ by 8 of its own; a few more for the quotient
+        // and the evaluation. Where κ is all rounding, nothing is known.
+        let uncertainty = 9.0 * ROUNDING * sheet.kappa_size / sheet.kappa.abs();
+        let error = if uncertainty < 0.25 {
+            sheet.phi_size * factor.abs() * (20.0 * ROUNDING + 2.0 * uncertainty)
+        } else {
+            f64::INFINITY
+        };
+        Self { k: sheet.phi.map(|c| c * factor), error }
+    }
+
+    fn at(&self, x: u32, y: u32) -> f64 {
+        self.k[0] + f64::from(y) * self.k[2] + f64::from(x) * self.k[1]
+    }
+}
+
+/// The nearest face in each pixel. Of faces at exactly the same distance, that of the later polygon
+/// counts, as if it had been painted over the earlier one.
+pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
+    let mut image = Image::new(rays.size());
+    let mut nearness = vec![f64::NEG_INFINITY; image.faces.len()];
+    let mut errors = vec![0.0f64; image.faces.len()];
+    let width = rays.size()[0] as usize;
+    for face in 0..faces.len() as u32 {
+        let Some(coverage) = Coverage::new(rays, faces, face, Outline::Whole) else { continue };
+        let near = Nearness::new(&coverage.seen);
+        coverage.for_each_run(&mut |y, columns| {
+            image.drawn += columns.len() as u64;
+            for x in columns {
+                let i = y as usize * width + x as usize;
+                let value = near.at(x, y);
+                let doubt = errors[i] + near.error;
+                let wins = if image.faces[i] == NONE || value - nearness[i] > doubt {
+                    true
+                } else if nearness[i] - value > doubt {
+                    false
+                } else {
+                    is_drawn_over(rays, faces, face, image.faces[i], x, y)
+                };
+                if wins {
+                    image.faces[i] = face;
+                    nearness[i] = value;
+                    errors[i] = near.error;
+                }
+            }
+        });
+    }
+    DepthImage { image, nearness, unit: rays.depth_unit, perspective: rays.is_perspective() }
+}
+
+/// Whether a face hides another in a pixel: it is nearer, or as near and of the later polygon.
+#[cold]
+fn is_drawn_over(rays: &Rays, faces: &Faces, face: u32, other: u32, x: u32, y: u32) -> bool {
+    let rank = |face| (faces.polygon(face), face);
+    compare_nearness(rays, faces, face, other, x, y).then(rank(face).cmp(&rank(other))).is_gt()
+}
+
+/// Which of two faces the ray of a pixel meets first, exactly: `Greater` if it is the first.
+///
+/// Nearness is ∓φ/κ, so this is the sign of ∓(φ_a κ_b − φ_b κ_a), times those of the two κ: 348 bits
+/// (see [`determinant`](super::plane::determinant)).
+pub(super) fn compare_nearness(
+    rays: &Rays,
+    faces: &Faces,
+    a: u32,
+    b: u32,
+    x: u32,
+    y: u32,
+) -> Ordering {
+    let [a, b] = [a, b].map(|face| faces.plane(PlaneId::face(face)));
+    let (kappa_a, kappa_b) = (kappa(rays, &a), kappa(rays, &b));
+    let pixel = rays.pixel(x, y);
+    let (phi_a, phi_b) = (phi(&a, pixel), phi(&b, pixel));
+    let difference: Int<6> = phi_a.times(&kappa_b) - phi_b.times(&kappa_a);
+    let flips = [kappa_a.is_negative(), kappa_b.is_negative(), rays.is_perspective()];
+    let flipped = flips.into_iter().fold(false, |odd, flip| odd != flip);
+    if flipped { difference.sign().reverse() } else { difference.sign() }
+}

@@ -1,0 +1,14 @@
+//! Cameras: where a picture is taken from, and where on it points of the world come to lie.
+//!
+//! A picture is `width` × `height` pixels; x runs right, y runs down, pixel (0, 0) is the top left
+//! one and covers the square from (0, 0) to (1, 1), so that its centre is at (0.5, 0.5).
+
+mod camera;
+mod clip;
+mod error;
+mod vantage;
+
+pub use camera::{Camera, Projection};
+pub use error::CameraError;
+pub(crate) use error::Kind as CameraProblem;
+pub use vantage::views;
