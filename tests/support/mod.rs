@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "every test program uses its own part")]
 
 pub(crate) mod checks;
+pub(crate) mod decode;
 pub(crate) mod dice;
 pub(crate) mod hard;
 pub(crate) mod judge;
@@ -12,4 +13,5 @@ pub(crate) mod rational;
 pub(crate) mod rays;
 pub(crate) mod shapes;
 pub(crate) mod snapshot;
+pub(crate) mod targets;
 pub(crate) mod views;

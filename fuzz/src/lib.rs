@@ -1,0 +1,21 @@
+//! What the fuzz targets do with their bytes: the code that the library's own tests replay
+//! crash inputs with, under `tests/support`.
+
+#![allow(dead_code, reason = "every target uses its own part")]
+
+mod support;
+
+/// Cuts a face of a scene again and again, and compares with exact rationals.
+pub fn split(data: &[u8]) {
+    support::targets::split::run(data);
+}
+
+/// Builds a tree and judges it, its orders by rays.
+pub fn tree(data: &[u8]) {
+    support::targets::tree::run(data);
+}
+
+/// Reads an OBJ file whose content is known, or any bytes.
+pub fn obj(data: &[u8]) {
+    support::targets::obj::run(data);
+}

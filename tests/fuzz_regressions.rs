@@ -1,0 +1,36 @@
+//! Inputs that a fuzz target once failed on, and a few to start from, replayed.
+
+mod support;
+
+use std::path::Path;
+use support::targets;
+
+/// Runs a target on every file of its folder; the file's name says what it is about.
+fn replay(target: &str, run: fn(&[u8])) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/regressions").join(target);
+    let mut count = 0;
+    for entry in std::fs::read_dir(&folder).expect("the folder of regressions") {
+        let path = entry.expect("an entry").path();
+        let bytes = std::fs::read(&path).expect("a readable file");
+        let outcome = std::panic::catch_unwind(|| run(&bytes));
+        assert!(outcome.is_ok(), "fails on {}", path.display());
+        count += 1;
+    }
+    assert!(count > 0, "nothing in {}", folder.display());
+}
+
+#[test]
+fn split_regressions_pass() {
+    replay("split", targets::split::run);
+}
+
+#[test]
+fn tree_regressions_pass() {
+    replay("tree", targets::tree::run);
+}
+
+#[cfg(feature = "obj")]
+#[test]
+fn obj_regressions_pass() {
+    replay("obj", targets::obj::run);
+}

@@ -1,0 +1,45 @@
+//! A tree of any scene, by any heuristic, judged.
+
+use super::super::dice::Dice;
+use super::super::rays::Rays;
+use super::super::{decode, judge, orders, views};
+use arbitrary::{Result, Unstructured};
+use binspace::geom::Float;
+
+/// A scene of at most twelve polygons: fragments by exact rationals, orders by rays.
+pub(crate) fn run(data: &[u8]) {
+    // Bytes that run out make no scene.
+    let _ = try_run(&mut Unstructured::new(data));
+}
+
+fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
+    let options = decode::options(bytes)?;
+    let seed: u64 = u64::from(bytes.arbitrary::<u16>()?);
+    let polygons = decode::polygons(bytes, 12)?;
+    let infinite = polygons.iter().position(|polygon| polygon.iter().any(|c| !c.is_finite()));
+    let tree = match options.build(&polygons) {
+        Ok(tree) => tree,
+        Err(error) => {
+            assert!(infinite.is_some() && error.polygon() == infinite, "{error}");
+            return Ok(());
+        }
+    };
+    assert_eq!(infinite, None, "a coordinate that is no number passed");
+    if let Err(what) = judge::judge(&tree, &polygons) {
+        panic!("{what}: {options:?} {polygons:?}");
+    }
+    let float = options.build_with(Float::<f32>::default(), &polygons);
+    if tree.is_empty() {
+        return Ok(());
+    }
+    let (mut dice, mut rays) = (Dice(seed), Rays::new(&tree));
+    for _ in 0..4 {
+        let view = views::some_view(tree.faces(), &rays, &mut dice);
+        let order = orders::check(&tree, view.viewpoint);
+        let rough = float.as_ref().map_or(Ok(()), |tree| orders::check(tree, view.viewpoint));
+        if let Err(what) = order.and(rough).and_then(|()| rays.check(&view, 6, &mut dice)) {
+            panic!("{what}: {options:?} {polygons:?}");
+        }
+    }
+    Ok(())
+}
