@@ -78,12 +78,6 @@ impl Plane {
         self.along(self.point).to_f64()
     }
 
-    /// The normal.
-    #[cfg(feature = "triangulate")]
-    pub(crate) fn normal(&self) -> [i128; 3] {
-        self.normal
-    }
-
     /// The axis along which the normal is longest, the first of several: the one in which the
     /// plane is least steep.
     pub(crate) fn main_axis(&self) -> usize {

@@ -3,6 +3,7 @@
 //! A fragment's vertices are taken from the lines that bound it, not from the library's own
 //! definition of them, and every decision is made anew.
 
+use super::homogeneous::{self, Homogeneous};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
 use binspace::geom::{Line, Side, Symbol};
@@ -18,6 +19,7 @@ const POSITION_ERROR: f64 = 1.5;
 /// A fragment in rationals.
 struct Piece {
     points: Vec<Point>,
+    flat: Vec<Homogeneous>,
     lines: Vec<Line>,
 }
 
@@ -56,7 +58,9 @@ impl<'t> Judge<'t> {
             };
             let face = &faces[fragment.face() as usize];
             let resolve = |i| face.resolve(tree.faces(), symbol(i));
-            Piece { points: (0..lines.len()).map(resolve).collect(), lines }
+            let points: Vec<Point> = (0..lines.len()).map(resolve).collect();
+            let flat = points.iter().map(Homogeneous::new).collect();
+            Piece { points, flat, lines }
         };
         let pieces = tree.fragments().map(piece).collect();
         Self { tree, faces, pieces }
@@ -79,29 +83,30 @@ impl<'t> Judge<'t> {
             }
             let axis = model::main_axis(&face.plane);
             let facing = rational::sign(&face.plane.normal[axis]);
+            let mut turns = 0;
             for i in 0..n {
-                let corner = [0, 1, 2].map(|k| piece.points[(i + k) % n].clone());
-                let turn = rational::sign(&rational::area(&corner)[axis]);
+                let corner = [0, 1, 2].map(|k| &piece.flat[(i + k) % n]);
+                let turn = homogeneous::turn(corner, axis);
                 let straight_on = turn.is_eq() && corner[0] != corner[1];
                 ensure(turn == facing || straight_on, || {
                     format!("turns the wrong way at {}: {fragment:?}", (i + 1) % n)
                 })?;
+                turns += usize::from(turn.is_ne());
             }
-            let area = rational::sign(&rational::area(&piece.points)[axis]);
-            ensure(area == facing, || format!("without area, or turned over: {fragment:?}"))?;
+            ensure(turns >= 3, || format!("without area: {fragment:?}"))?;
         }
         Ok(())
     }
 
     /// The fragments of a face have its area, exactly, and tile each of its edges from end to end.
     fn coverage(&self) -> Verdict {
-        let mut areas = vec![Rational::zero(); self.faces.len()];
+        let mut areas = vec![0; self.faces.len()];
         let mut runs: Vec<Vec<Vec<[Rational; 2]>>> =
             self.faces.iter().map(|face| vec![Vec::new(); face.corners.len()]).collect();
         for (fragment, face, piece) in self.with_pieces() {
             let id = fragment.face() as usize;
             let axis = model::main_axis(&face.plane);
-            areas[id] += rational::area(&piece.points)[axis].clone();
+            areas[id] = homogeneous::add(areas[id], homogeneous::area(&piece.flat, axis));
             for (i, line) in piece.lines.iter().enumerate() {
                 let Some(edge) = line.as_edge() else { continue };
                 let ends = [i, (i + 1) % piece.points.len()].map(|k| &piece.points[k]);
@@ -110,8 +115,9 @@ impl<'t> Judge<'t> {
         }
         for (id, face) in self.faces.iter().enumerate() {
             let axis = model::main_axis(&face.plane);
-            let area = &rational::area(&face.corners)[axis];
-            ensure(&areas[id] == area, || format!("the pieces of face {id} miss its area"))?;
+            let corners: Vec<_> = face.corners.iter().map(Homogeneous::new).collect();
+            let area = homogeneous::area(&corners, axis);
+            ensure(areas[id] == area, || format!("the pieces of face {id} miss its area"))?;
             for (edge, runs) in runs[id].iter_mut().enumerate() {
                 runs.sort();
                 let end = runs.iter().try_fold(Rational::zero(), |end, [from, to]| {
@@ -139,7 +145,8 @@ impl<'t> Judge<'t> {
                 for id in range {
                     let piece = &self.pieces[id as usize];
                     let face = self.tree.fragment(id).face();
-                    let values: Vec<Rational> = piece.points.iter().map(|p| by.at(p)).collect();
+                    let side = |p: &Homogeneous| Rational::from_integer(p.side(&by));
+                    let values: Vec<Rational> = piece.flat.iter().map(side).collect();
                     let exact = &self.faces[face as usize];
                     let allowed = exact.classify((faces, face), (partition.plane, &by), &values);
                     ensure(allowed.contains(&expected), || {
@@ -197,11 +204,11 @@ fn ends_of_edge(corners: &[binspace::glam::DVec3], edge: usize) -> [binspace::gl
     [a, *next.clone().find(|&&next| next != a).unwrap_or(&a)]
 }
 
-/// How far along an edge of a face a point is: 0 to 1.
+/// How far along an edge of a face a point on it is: 0 to 1.
 fn along(face: &Face, edge: usize, point: &Point) -> Rational {
     let [a, b] = [edge, (edge + 1) % face.corners.len()].map(|k| &face.corners[k]);
-    let arm = rational::difference(b, a);
-    rational::scalar(&rational::difference(point, a), &arm) / rational::scalar(&arm, &arm)
+    let axis = (0..3).find(|&axis| a[axis] != b[axis]).expect("an edge of some length");
+    (&point[axis] - &a[axis]) / (&b[axis] - &a[axis])
 }
 
 /// The vertex where two lines that follow one another around a piece meet.
