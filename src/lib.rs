@@ -5,6 +5,7 @@ mod error;
 pub mod geom;
 pub mod raster;
 pub mod scene;
+mod verify;
 pub mod view;
 
 pub use bsp::{
@@ -14,3 +15,4 @@ pub use bsp::{
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};
 pub use glam;
+pub use verify::{Verification, paint_tree, verify};

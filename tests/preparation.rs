@@ -110,7 +110,7 @@ fn polygons_without_area_are_dropped_and_counted() {
         assert_eq!((faces.len(), report.dropped, report.polygons), (0, 1, 1), "{polygon:?}");
         let (faces, report) = prepare(&[polygon.clone(), l_shape()]);
         assert_eq!(report.dropped, 1, "{polygon:?}");
-        assert!(faces.len() > 0 && (0..faces.len()).all(|f| faces.polygon(f as u32) == 1));
+        assert!(!faces.is_empty() && (0..faces.len()).all(|f| faces.polygon(f as u32) == 1));
     }
     assert_eq!(prepare(&polygons).1.dropped, polygons.len());
     assert!(prepare(&[]).0.is_empty());

@@ -68,14 +68,15 @@ impl Plane {
         DVec3::from_array(self.normal.map(|c| c as f64))
     }
 
-    /// The normal.
-    pub(crate) fn normal(&self) -> [i128; 3] {
-        self.normal
-    }
-
     /// The scalar product of the normal and a point of the plane, rounded.
     pub(crate) fn offset_f64(&self) -> f64 {
         self.along(self.point).to_f64()
+    }
+
+    /// The normal.
+    #[cfg(feature = "triangulate")]
+    pub(crate) fn normal(&self) -> [i128; 3] {
+        self.normal
     }
 
     /// The axis along which the normal is longest, the first of several: the one in which the

@@ -100,6 +100,7 @@ const FACE_ERROR: f64 = 16.0 * (f64::EPSILON / 2.0) * LIMIT + 1.01 * POSITION_ER
 const AXIS_ERROR: f64 = POSITION_ERROR + 1.0;
 
 impl Kernel for Exact {
+    const IS_EXACT: bool = true;
     type Splitter = ExactSplitter;
     type Vertex = ExactVertex;
     type Stored = ExactStored;

@@ -29,7 +29,10 @@ impl Viewpoint {
 /// direction in which the eye is infinitely far away.
 ///
 /// Within about 500 extents of the scene the rounding is that of the lattice itself, 2⁻⁵² of the
-/// extent; beyond, one part in 2⁶¹ of the distance. A coordinate that is not a number counts as 0.
+/// extent; beyond, one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵² of
+/// their largest component, and so are eyes beyond 2³⁶⁰ lattice units, of which the direction alone
+/// counts. A direction along a plane is on the side of the lattice's origin. A coordinate that is
+/// not a number counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
     integer: [i64; 3],

@@ -45,6 +45,10 @@ pub trait Vertex: Copy + Debug + Send + Sync {
 /// The library's own is [`Exact`](super::Exact); [`Float`](super::Float) decides by rounded
 /// distances and an epsilon, as other libraries do, and is there to be compared with.
 pub trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
+    /// Whether every decision is the exact one, so that pieces are what the lines around them
+    /// bound, not what their rounded vertices do.
+    const IS_EXACT: bool = false;
+
     /// A plane made ready for many decisions.
     type Splitter: Copy + Debug + Send + Sync;
     /// A vertex while the tree is built.

@@ -22,6 +22,6 @@ mod zbuffer;
 pub use compare::{Comparison, Verdict, compare};
 pub use image::{Image, NONE};
 pub use painter::{Order, Outline, Painter, Piece, paint};
-pub use picture::{colour_of, depth_map, difference, picture};
+pub use picture::{brightness, colour_of, depth_map, difference, picture};
 pub use rays::Rays;
 pub use zbuffer::{DepthImage, zbuffer};

@@ -24,6 +24,12 @@ pub fn colour_of(polygon: u32) -> [u8; 3] {
     })
 }
 
+/// How bright a surface is, from 0 to 1, by its normal and the direction in which it is seen, both of
+/// length 1: as lit by a lamp at the eye, and faintly from everywhere.
+pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
+    0.55 + 0.45 * normal.dot(direction).abs()
+}
+
 /// The picture, each polygon in the colour that `colour` gives for its number, darker the more
 /// slantingly it is seen; `background` where there is none.
 pub fn picture(
@@ -41,8 +47,8 @@ pub fn picture(
         let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
         let normal = DVec3::from_array(normal_of(triangle).0).normalize_or_zero();
         let direction = rays.direction((i % width) as u32, (i / width) as u32);
-        let share = 0.4 + 0.6 * normal.dot(direction).abs();
-        colour(faces.polygon(face)).map(|c| (f64::from(c) * share) as u8)
+        let share = brightness(normal, direction);
+        colour(faces.polygon(face)).map(|c| (f64::from(c) * share).round() as u8)
     });
     pixels.flatten().collect()
 }

@@ -1,0 +1,229 @@
+//! The command line.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use binspace::glam::DVec3;
+use binspace::{BuildOptions, Heuristic};
+use clap::{Args, Parser, Subcommand};
+
+use crate::examples;
+use crate::values::{self, Heuristics};
+
+/// Exact back-to-front orders of polygons from one BSP tree.
+///
+/// Without a command: builds trees of built-in scenes with every heuristic, paints their fragments
+/// in order, compares every pixel with a depth buffer, and writes the pictures.
+#[derive(Debug, Parser)]
+#[command(name = "binspace", version, args_conflicts_with_subcommands = true)]
+#[command(max_term_width = 100, after_help = examples::PROGRAM)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+    #[command(flatten)]
+    pub(crate) tour: TourArgs,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Order(OrderArgs),
+    Verify(VerifyArgs),
+    Stats(StatsArgs),
+    Render(RenderArgs),
+    /// List the built-in scenes
+    Scenes,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct TourArgs {
+    /// Folder to write the pictures into; made if it is missing
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub(crate) out: PathBuf,
+    /// Views of each scene to compare, around it and inside it
+    #[arg(long, value_name = "N", default_value_t = 6)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(crate) views: u32,
+    /// Size of the pictures in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
+    pub(crate) size: [u32; 2],
+    /// Chooses the views
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+}
+
+/// Write a scene's fragments in paint order, one JSON object a line
+///
+/// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the polygon of
+/// the i-th `f` line of the file, counted from 0, in the file's coordinates. Back to front: no
+/// fragment hides a later one.
+#[derive(Args, Debug)]
+#[command(after_help = examples::ORDER)]
+#[command(group(clap::ArgGroup::new("viewpoint").required(true).args(["eye", "direction"])))]
+pub(crate) struct OrderArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Where the eye is
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) eye: Option<DVec3>,
+    /// The way the viewer looks, from infinitely far away
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) direction: Option<DVec3>,
+    /// Begin with what is nearest
+    #[arg(long)]
+    pub(crate) front_to_back: bool,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+    /// File to write, complete or not at all [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Paint a scene in order and compare every pixel with a depth buffer
+///
+/// A line for each view: pixels covered; contested, where two polygons are no further apart than
+/// the tolerance and either may show; wrong order, holes and spills, which are errors. The last
+/// line is the total. The exit status is 1 if any pixel is wrong.
+#[derive(Args, Debug)]
+#[command(after_help = examples::VERIFY)]
+pub(crate) struct VerifyArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Views to compare, alternately around the scene and inside it
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) views: u32,
+    /// Size of the pictures in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
+    pub(crate) size: [u32; 2],
+    #[command(flatten)]
+    pub(crate) up: UpArgs,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+}
+
+/// Build trees of a scene and print their figures
+#[derive(Args, Debug)]
+#[command(after_help = examples::STATS)]
+pub(crate) struct StatsArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// How to choose splitters: a heuristic, or all
+    #[arg(long, value_name = "H", default_value = "auto", value_parser = values::heuristics)]
+    pub(crate) heuristic: Heuristics,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+    /// Print one JSON object a line for each heuristic
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Draw a scene as PNG or SVG
+///
+/// Without a camera, all of the scene is shown. Colours are those of the scene's materials, or, if
+/// it has none, different for each polygon; surfaces are darker the more slantingly they are seen.
+#[derive(Args, Debug)]
+#[command(after_help = examples::RENDER)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// File to write: .png, or .svg for the fragments themselves, in order
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Where the eye is
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) eye: Option<DVec3>,
+    /// The way to look, from infinitely far away: a parallel projection
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
+    #[arg(allow_hyphen_values = true, conflicts_with_all = ["eye", "fov"])]
+    pub(crate) direction: Option<DVec3>,
+    /// What is in the middle of the picture [default: the scene's middle]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) target: Option<DVec3>,
+    #[command(flatten)]
+    pub(crate) up: UpArgs,
+    /// Field of view from bottom to top, in degrees
+    #[arg(long, value_name = "DEGREES", default_value = "40", value_parser = values::field_of_view)]
+    pub(crate) fov: f64,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
+    pub(crate) size: [u32; 2],
+    #[command(flatten)]
+    pub(crate) kind: KindArgs,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+}
+
+/// What to draw instead of the painter's picture.
+#[derive(Args, Debug)]
+#[group(multiple = false)]
+pub(crate) struct KindArgs {
+    /// Draw what a depth buffer shows
+    #[arg(long)]
+    pub(crate) z_buffer: bool,
+    /// Draw where the painter's picture and the depth buffer's differ
+    #[arg(long)]
+    pub(crate) difference: bool,
+    /// Draw how far away everything is: the nearer, the brighter
+    #[arg(long)]
+    pub(crate) depth: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct SceneArgs {
+    /// An OBJ file, or a built-in scene such as teapot or sphere:100000
+    ///
+    /// What ends in .obj or holds a path separator is a file; else a built-in scene of that name,
+    /// with its size behind a colon; else a file. `binspace scenes` lists the built-in ones.
+    #[arg(value_name = "SCENE")]
+    pub(crate) name: OsString,
+    /// Chooses among the built-in scenes that are seeded, and among views
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct UpArgs {
+    /// What is up: x, y, z, or X,Y,Z [default: the scene's up; y for files]
+    #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
+    pub(crate) up: Option<DVec3>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct BuildArgs {
+    /// How to choose splitters: first, random(SEED), fewest-splits, balanced,
+    /// weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto
+    #[arg(long, value_name = "H", default_value = "auto")]
+    pub(crate) heuristic: Heuristic,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct LimitArgs {
+    /// How far from a plane still counts as on it, a length [default: 1e-9 of the extent]
+    #[arg(long, value_name = "T", value_parser = values::tolerance, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// Give up beyond this many fragments
+    #[arg(long, value_name = "N", default_value_t = BuildOptions::DEFAULT.max_fragments)]
+    pub(crate) max_fragments: usize,
+}
+
+impl LimitArgs {
+    /// The options to build with.
+    pub(crate) fn options(self, heuristic: Heuristic) -> BuildOptions {
+        let options =
+            BuildOptions::DEFAULT.with_heuristic(heuristic).with_max_fragments(self.max_fragments);
+        self.tolerance.map_or(options, |length| options.with_tolerance(length))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

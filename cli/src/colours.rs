@@ -1,0 +1,40 @@
+//! Which colour a polygon has.
+
+use binspace::raster::colour_of;
+use binspace::scene::{Material, Scene};
+
+/// Behind everything.
+pub(crate) const BACKGROUND: [u8; 3] = [255, 255, 255];
+
+/// The colours of a scene's polygons.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Colours<'a> {
+    scene: &'a Scene,
+    by_material: bool,
+}
+
+impl<'a> Colours<'a> {
+    /// The colours of the scene's materials; if none is defined, one for each polygon.
+    pub(crate) fn of(scene: &'a Scene) -> Self {
+        let is_coloured = |material: &Material| {
+            material.color != Material::DEFAULT.color
+                || material.opacity != Material::DEFAULT.opacity
+        };
+        Self { scene, by_material: scene.materials().iter().any(is_coloured) }
+    }
+
+    /// Red, green and blue.
+    pub(crate) fn rgb(&self, polygon: u32) -> [u8; 3] {
+        if self.by_material {
+            let colour = self.scene.material(polygon as usize).color;
+            colour.map(|channel| (channel * 255.0).round() as u8)
+        } else {
+            colour_of(polygon)
+        }
+    }
+
+    /// From 0, invisible, to 1, opaque.
+    pub(crate) fn opacity(&self, polygon: u32) -> f32 {
+        self.scene.material(polygon as usize).opacity
+    }
+}

@@ -1,0 +1,17 @@
+//! The commands, one a file.
+
+pub(crate) mod order;
+pub(crate) mod render;
+pub(crate) mod scenes;
+pub(crate) mod stats;
+pub(crate) mod tour;
+pub(crate) mod verify;
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// As it should.
+    Done,
+    /// An image differs from what it should be.
+    Differs,
+}

@@ -1,0 +1,52 @@
+//! `binspace render`: a picture of a scene.
+
+use std::path::Path;
+
+use binspace::verify;
+
+use super::Outcome;
+use crate::args::RenderArgs;
+use crate::colours::Colours;
+use crate::failure::Failure;
+use crate::files::NewFile;
+use crate::pictures::Kind;
+use crate::progress::Progress;
+use crate::{camera, job, png_file, svg};
+
+/// What kind of file a name asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Png,
+    Svg,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
+    let (format, kind) = (format(&args.output)?, Kind::asked(&args.kind));
+    if format == Format::Svg && kind != Kind::Painter {
+        let problem = format!("--{} makes a picture of pixels: name a .png file", kind.name());
+        return Err(Failure::about(args.output.display(), problem));
+    }
+    let file = NewFile::create(&args.output)?;
+    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let camera = camera::asked(args, &scene)?;
+    let _progress = Progress::spinner("drawing");
+    match format {
+        Format::Svg => file.write(|out| svg::write(out, &tree, &camera, &scene))?,
+        Format::Png => {
+            let seen = verify(&tree, &camera).map_err(|error| camera::about(&scene, &error))?;
+            let pixels = kind.pixels(&tree, &seen, &Colours::of(&scene));
+            file.write(|out| png_file::write(out, camera.size(), &pixels))?;
+        }
+    }
+    Ok(Outcome::Done)
+}
+
+fn format(path: &Path) -> Result<Format, Failure> {
+    let extension = path.extension().map(|ext| ext.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("png") => Ok(Format::Png),
+        Some("svg") => Ok(Format::Svg),
+        _ => Err(Failure::about(path.display(), "name a file that ends in .png or .svg")),
+    }
+}

@@ -1,0 +1,19 @@
+//! `binspace scenes`: the built-in scenes.
+
+use binspace::scene::Builtin;
+
+use super::Outcome;
+use crate::failure::Failure;
+use crate::terminal::{HEAD, say, styled};
+
+/// Runs the command.
+pub(crate) fn run() -> Result<Outcome, Failure> {
+    for scene in Builtin::ALL {
+        say(format!("{}{}", styled(HEAD, format!("{scene:10}")), scene.description()))?;
+        if let (Some(meaning), Some(size)) = (scene.size_meaning(), scene.default_size()) {
+            say(format!("{:10}{scene}:SIZE: {meaning} [default: {size}]", ""))?;
+        }
+    }
+    say("\nA seed (--seed) chooses among the scenes that are called seeded.")?;
+    Ok(Outcome::Done)
+}

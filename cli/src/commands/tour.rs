@@ -1,0 +1,185 @@
+//! `binspace` without a command: built-in scenes, every heuristic, judged and drawn.
+
+use std::path::Path;
+
+use binspace::raster::{DepthImage, Rays, compare, zbuffer};
+use binspace::scene::{Builtin, Scene};
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions, Heuristic, paint_tree, verify};
+
+use super::Outcome;
+use crate::args::TourArgs;
+use crate::camera::{self, FIELD_OF_VIEW};
+use crate::colours::Colours;
+use crate::failure::Failure;
+use crate::files::{NewFile, make_folder};
+use crate::measure;
+use crate::pictures::Kind;
+use crate::progress::Progress;
+use crate::table::Table;
+use crate::terminal::{BAD, GOOD, HEAD, say, styled};
+use crate::units::{count, time};
+use crate::{job, png_file, svg};
+
+/// The scenes to show: the smallest that no order of whole polygons solves, a room, a mesh,
+/// and triangles that cross. Small enough for the heuristics that weigh every plane.
+const SCENES: [(Builtin, Option<u32>); 4] = [
+    (Builtin::Newell, None),
+    (Builtin::Cornell, None),
+    (Builtin::Teapot, Some(5)),
+    (Builtin::Random, Some(200)),
+];
+
+/// Pixels looked at, and what was found.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    covered: usize,
+    contested: usize,
+    wrong: usize,
+}
+
+/// A view of a scene with what a depth buffer shows in it.
+struct View {
+    camera: Camera,
+    rays: Rays,
+    truth: DepthImage,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &TourArgs) -> Result<Outcome, Failure> {
+    make_folder(&args.out)?;
+    let mut total = Sum::default();
+    for (builtin, size) in SCENES {
+        let scene = builtin.build(size, args.seed);
+        let found = show(args, builtin, &scene)?;
+        total.covered += found.covered;
+        total.contested += found.contested;
+        total.wrong += found.wrong;
+    }
+    say("build: time to build; order: time per fragment to put all in order")?;
+    say(format!("Wrote pictures of each scene into {}:", args.out.display()))?;
+    let names = Kind::ALL.map(|kind| format!("…-{}.png", kind.name())).join(", ");
+    say(format!("  {names}, ….svg"))?;
+    say(format!(
+        "Compared {} from {} of each scene with a depth buffer:",
+        count(total.covered, "pixel"),
+        count(args.views as usize, "view"),
+    ))?;
+    say(verdict(&total))?;
+    Ok(if total.wrong == 0 { Outcome::Done } else { Outcome::Differs })
+}
+
+fn verdict(total: &Sum) -> String {
+    let (style, found) = match total.wrong {
+        0 => (GOOD, "no pixel is wrong".to_owned()),
+        1 => (BAD, "1 pixel is wrong".to_owned()),
+        wrong => (BAD, format!("{wrong} pixels are wrong")),
+    };
+    format!("  {}, {} contested", styled(style, found), total.contested)
+}
+
+/// A scene's table and pictures.
+fn show(args: &TourArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure> {
+    let title = format!("{}: {}", styled(HEAD, builtin), builtin.description());
+    say(title)?;
+    let table = Table::new(&[
+        ("heuristic", 15),
+        ("faces", 6),
+        ("fragments", 0),
+        ("depth", 0),
+        ("build", 7),
+        ("order", 7),
+        ("wrong pixels", 0),
+    ]);
+    say(styled(HEAD, table.head()))?;
+    let mut total = Sum::default();
+    let mut views = Vec::new();
+    let mut auto = None;
+    for heuristic in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        let (tree, seconds) =
+            measure::timed_build(scene, &options).map_err(|error| job::about(scene, &error))?;
+        if views.is_empty() {
+            views = make_views(args, scene, &tree)?;
+        }
+        let found = judge(&tree, &views, heuristic);
+        say(row(&table, heuristic, (&tree, seconds), scene, &found))?;
+        total.covered += found.covered;
+        total.contested += found.contested;
+        total.wrong += found.wrong;
+        if heuristic == Heuristic::Auto {
+            auto = Some(tree);
+        }
+    }
+    if let (Some(tree), Some(view)) = (auto, views.first()) {
+        write_pictures(&args.out, builtin, scene, &tree, &view.camera)?;
+    }
+    say("")?;
+    Ok(total)
+}
+
+/// The views, the whole scene first. Trees of different heuristics have the same faces, so one
+/// depth buffer does for all.
+fn make_views(args: &TourArgs, scene: &Scene, tree: &BspTree) -> Result<Vec<View>, Failure> {
+    let count = args.views as usize;
+    let mut cameras = vec![camera::whole(scene, None, FIELD_OF_VIEW, args.size)?];
+    cameras.extend(camera::around_and_inside(scene, None, count - 1, args.size, args.seed)?);
+    let view = |camera: Camera| {
+        let rays = Rays::new(&camera, tree.faces()).map_err(|e| camera::about(scene, &e))?;
+        let truth = zbuffer(&rays, tree.faces());
+        Ok(View { camera, rays, truth })
+    };
+    cameras.into_iter().map(view).collect()
+}
+
+fn judge(tree: &BspTree, views: &[View], heuristic: Heuristic) -> Sum {
+    let progress = Progress::steps(format!("{heuristic}: view"), views.len() as u64);
+    let mut sum = Sum::default();
+    for view in views {
+        let painted = paint_tree(tree, view.camera.viewpoint(), &view.rays);
+        let found = compare(&view.rays, tree.faces(), &painted, view.truth.image());
+        sum.covered += found.covered;
+        sum.contested += found.contested;
+        sum.wrong += found.wrong();
+        progress.step();
+    }
+    sum
+}
+
+fn row(
+    table: &Table,
+    heuristic: Heuristic,
+    (tree, seconds): (&BspTree, f64),
+    scene: &Scene,
+    found: &Sum,
+) -> String {
+    let stats = tree.stats();
+    let order = measure::order_nanoseconds(tree, scene) * 1e-9;
+    table.row(&[
+        heuristic.to_string(),
+        stats.faces.to_string(),
+        stats.fragments.to_string(),
+        stats.depth_max.to_string(),
+        time(seconds),
+        time(order),
+        found.wrong.to_string(),
+    ])
+}
+
+fn write_pictures(
+    folder: &Path,
+    builtin: Builtin,
+    scene: &Scene,
+    tree: &BspTree,
+    camera: &Camera,
+) -> Result<(), Failure> {
+    let colours = Colours::of(scene);
+    let seen = verify(tree, camera).map_err(|error| camera::about(scene, &error))?;
+    for kind in Kind::ALL {
+        let pixels = kind.pixels(tree, &seen, &colours);
+        let file = NewFile::create(&folder.join(format!("{builtin}-{}.png", kind.name())))?;
+        file.write(|out| png_file::write(out, camera.size(), &pixels))?;
+    }
+    let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
+    file.write(|out| svg::write(out, tree, camera, scene))
+}

@@ -1,0 +1,161 @@
+//! `binspace verify`: every pixel of a tree's pictures against a depth buffer.
+
+use binspace::glam::DVec3;
+use binspace::raster::Comparison;
+use binspace::scene::Scene;
+use binspace::verify;
+use binspace::view::{Camera, Projection};
+
+use super::Outcome;
+use crate::args::VerifyArgs;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::table::Table;
+use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
+use crate::units::count;
+use crate::{camera, job};
+
+/// Runs the command.
+pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
+    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let (views, up) = (args.views as usize, args.up.up);
+    let cameras = camera::around_and_inside(&scene, up, views, args.size, args.scene.seed)?;
+    say(format!(
+        "{}: {}, {}, {}",
+        styled(HEAD, scene.name()),
+        count(scene.len(), "polygon"),
+        count(tree.faces().len(), "face"),
+        count(tree.len(), "fragment"),
+    ))?;
+    let table = table(views * args.size[0] as usize * args.size[1] as usize);
+    say(styled(HEAD, table.head()))?;
+    let progress = Progress::steps("view", args.views.into());
+    let mut total = Comparison::default();
+    for (i, camera) in cameras.iter().enumerate() {
+        let seen = verify(&tree, camera).map_err(|error| camera::about(&scene, &error))?;
+        progress.step();
+        let place = if is_inside(camera, &scene) { "inside" } else { "around" };
+        let line = row(&table, [&(i + 1).to_string(), place], &seen.comparison);
+        progress.suspend(|| say(line))?;
+        if seen.comparison.wrong() > 0 {
+            progress.suspend(|| {
+                note(&format!("view {} is wrong; see where:\n  {}", i + 1, reproduce(args, camera)))
+            });
+        }
+        add(&mut total, &seen.comparison);
+    }
+    drop(progress);
+    say(row(&table, ["total", ""], &total))?;
+    Ok(if total.wrong() == 0 { Outcome::Done } else { Outcome::Differs })
+}
+
+fn table(pixels: usize) -> Table {
+    let width = pixels.to_string().len();
+    Table::new(&[
+        ("view", 5),
+        ("from", 6),
+        ("covered", width),
+        ("contested", 0),
+        ("wrong order", 0),
+        ("holes", 0),
+        ("spills", 0),
+        ("verdict", 0),
+    ])
+}
+
+fn row(table: &Table, [view, place]: [&str; 2], found: &Comparison) -> String {
+    let verdict = if found.wrong() == 0 { "right" } else { "wrong" };
+    let counts = [found.covered, found.contested, found.wrong_order, found.holes, found.spills];
+    let mut cells = vec![view.to_owned(), place.to_owned()];
+    cells.extend(counts.map(|number| number.to_string()));
+    cells.push(verdict.to_owned());
+    let line = table.row(&cells);
+    let (figures, verdict) = line.split_at(line.len() - verdict.len());
+    let style = if found.wrong() == 0 { GOOD } else { BAD };
+    format!("{figures}{}", styled(style, verdict))
+}
+
+fn add(total: &mut Comparison, found: &Comparison) {
+    total.covered += found.covered;
+    total.contested += found.contested;
+    total.wrong_order += found.wrong_order;
+    total.holes += found.holes;
+    total.spills += found.spills;
+}
+
+fn is_inside(camera: &Camera, scene: &Scene) -> bool {
+    let Projection::Perspective { eye, .. } = *camera.projection() else {
+        return false;
+    };
+    scene.bounds().is_some_and(|(low, high)| eye.cmpge(low).all() && eye.cmple(high).all())
+}
+
+/// The command that draws what is wrong in a view.
+fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
+    let (eye, fov) = match *camera.projection() {
+        Projection::Perspective { eye, half_height } => (eye, 2.0 * half_height.atan()),
+        Projection::Parallel { centre, .. } => (centre, camera::FIELD_OF_VIEW),
+    };
+    let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
+    let limits = &args.build.limits;
+    let tolerance = limits.tolerance.map_or(String::new(), |t| format!(" --tolerance={t:?}"));
+    format!(
+        "binspace render '{}' --difference -o difference.png --seed={} --heuristic='{}'{tolerance} \
+         --max-fragments={} --size={}x{} --fov={:?} --eye={} --target={} --up={}",
+        args.scene.name.to_string_lossy(),
+        args.scene.seed,
+        args.build.heuristic,
+        limits.max_fragments,
+        args.size[0],
+        args.size[1],
+        fov.to_degrees(),
+        vector(eye),
+        vector(eye + camera.forward()),
+        vector(camera.up()),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::{Cli, Command};
+    use clap::Parser;
+
+    fn parse(command: &str) -> Command {
+        // As a shell does with these quotes.
+        let words = command.split_whitespace().map(|word| word.replace('\'', ""));
+        Cli::try_parse_from(words).unwrap().command.unwrap()
+    }
+
+    #[test]
+    fn a_wrong_view_is_called_wrong() {
+        let mut found = Comparison { covered: 9, contested: 1, ..Comparison::default() };
+        let row = |found: &Comparison| row(&table(100), ["1", "inside"], found);
+        assert!(row(&found).contains("right"));
+        found.spills = 1;
+        assert!(row(&found).contains("wrong"));
+        let mut total = found.clone();
+        add(&mut total, &found);
+        assert_eq!((total.covered, total.contested, total.wrong()), (18, 2, 2));
+    }
+
+    #[test]
+    fn the_command_that_shows_a_wrong_view_shows_that_view() {
+        let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7";
+        let Command::Verify(args) = parse(command) else { panic!("another command") };
+        let scene = crate::scene_arg::load(&args.scene).unwrap();
+        let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
+        for view in views {
+            let Command::Render(again) = parse(&reproduce(&args, &view)) else {
+                panic!("another command")
+            };
+            assert_eq!(again.build.heuristic, args.build.heuristic);
+            assert_eq!(again.build.limits.tolerance, Some(1e-7));
+            let camera = camera::asked(&again, &scene).unwrap();
+            assert_eq!((camera.viewpoint(), camera.size()), (view.viewpoint(), view.size()));
+            assert!((camera.forward() - view.forward()).length() < 1e-12);
+            assert!((camera.up() - view.up()).length() < 1e-12);
+            assert!((camera.pixel_size() / view.pixel_size() - 1.0).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Examples at the end of each help text.
+
+pub(crate) const PROGRAM: &str = "\
+Examples:
+  binspace                                   the built-in scenes, judged; pictures in out/
+  binspace order scene.obj --eye=0,2,10      fragments in paint order, as JSON lines
+  binspace verify teapot --views 20          every pixel against a depth buffer
+  binspace stats city:100000 --heuristic all how the heuristics compare
+  binspace render scene.obj -o scene.svg     a drawing of the whole scene
+
+Exit status: 0 done; 1 an image differs from the depth buffer's; 2 bad usage or input.";
+
+pub(crate) const ORDER: &str = "\
+Examples:
+  binspace order scene.obj --eye=0,2,10
+  binspace order scene.obj --direction 0,0,-1 --front-to-back -o order.jsonl
+  binspace order teapot:16 --eye=9,-4,3 | head -1";
+
+pub(crate) const VERIFY: &str = "\
+Examples:
+  binspace verify scene.obj
+  binspace verify random:2000 --seed 7 --views 20 --size 1920x1080
+  binspace verify layers --tolerance 0 --heuristic fewest-splits";
+
+pub(crate) const STATS: &str = "\
+Examples:
+  binspace stats scene.obj
+  binspace stats terrain:100000 --heuristic all --json";
+
+pub(crate) const RENDER: &str = "\
+Examples:
+  binspace render teapot -o teapot.png
+  binspace render scene.obj -o scene.svg --up z --size 1200x900
+  binspace render cornell -o inside.png --eye=278,273,100 --target=278,200,559 --fov 70
+  binspace render city:5000 -o map.svg --direction=1,1,-1
+  binspace render scene.obj -o difference.png --difference";

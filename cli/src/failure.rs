@@ -1,0 +1,28 @@
+//! Why a command stopped.
+
+use std::fmt::Display;
+use std::io;
+
+/// Why a command stopped before its end.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// Bad usage or input, in words for the user.
+    Message(String),
+    /// The reader of standard output has gone; nobody is interested in the rest.
+    ClosedPipe,
+}
+
+impl Failure {
+    /// A failure that names what it is about first.
+    pub(crate) fn about(subject: impl Display, problem: impl Display) -> Self {
+        Self::Message(format!("{subject}: {problem}"))
+    }
+
+    /// A failure of writing to standard output.
+    pub(crate) fn of_output(error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ClosedPipe,
+            _ => Self::about("standard output", error),
+        }
+    }
+}

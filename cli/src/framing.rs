@@ -1,0 +1,78 @@
+//! Cameras that show all of a scene, as large as it fits.
+
+use binspace::glam::DVec3;
+use binspace::scene::Scene;
+use binspace::view::{Camera, CameraError};
+
+/// How much of the picture the scene fills.
+const FILL: f64 = 0.92;
+
+/// A perspective camera in the direction of another, so near that the scene just fills the picture.
+///
+/// The eye sees all corners p if, for each side of the picture, they lie on the inner side of the
+/// plane through the eye and that side. With r, u, b the directions right, up and back, and t the
+/// tangent of half the width: ±(p − eye)·r ≤ t (eye − p)·b, so that eye·b must be at least
+/// (max(p·r + t p·b) + max(−p·r + t p·b)) / 2t; the same holds up and down.
+pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, CameraError> {
+    let [width, height] = like.size().map(f64::from);
+    let tangent = (0.5 * fov).tan() * FILL;
+    let (right, up, back) = (like.right(), like.up(), -like.forward());
+    let sides = [(right, tangent * width / height), (up, tangent)];
+    let reaches = sides.map(|(axis, t)| [axis, -axis].map(|side| reach(scene, side / t + back)));
+    let distance = reaches.iter().map(|[a, b]| 0.5 * a + 0.5 * b).fold(f64::MIN, f64::max);
+    let mut eye = back * distance;
+    for ((axis, t), [a, b]) in sides.into_iter().zip(reaches) {
+        // Between these, all is seen.
+        let allowed = [t * (a - distance), t * (distance - b)];
+        eye += axis * middle(scene, axis, back, distance, allowed);
+    }
+    let furthest = distance + reach(scene, -back);
+    Camera::perspective(eye, eye - back * furthest, up, fov, like.size())
+}
+
+/// Where along an axis, between two limits, an eye has as much of the scene on one side as on the
+/// other, by bisection.
+fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f64; 2]) -> f64 {
+    let mut place = 0.5 * limits[0] + 0.5 * limits[1];
+    // Twenty halvings are a thousandth of a pixel.
+    for _ in 0..20 {
+        let slopes = scene
+            .polygons()
+            .flatten()
+            .map(|&corner| (corner.dot(axis) - place) / (distance - corner.dot(back)));
+        let (low, high) =
+            slopes.fold((0.0f64, 0.0f64), |(low, high), slope| (low.min(slope), high.max(slope)));
+        limits[usize::from(high + low < 0.0)] = place;
+        place = 0.5 * limits[0] + 0.5 * limits[1];
+    }
+    place
+}
+
+/// A parallel camera along `direction` that just holds the scene.
+pub(crate) fn parallel(
+    direction: DVec3,
+    up: DVec3,
+    scene: &Scene,
+    size: [u32; 2],
+) -> Result<Camera, CameraError> {
+    let axes = Camera::parallel(direction, up, DVec3::ZERO, 1.0, size)?;
+    let [width, height] = size.map(f64::from);
+    let span = |axis: DVec3| (reach(scene, axis), reach(scene, -axis));
+    let mut centre = DVec3::ZERO;
+    for axis in [axes.right(), axes.up(), axes.forward()] {
+        let (high, low) = span(axis);
+        centre += axis * (0.5 * high - 0.5 * low);
+    }
+    let extent = |axis| span(axis).0 + span(axis).1;
+    let shown = extent(axes.up()).max(extent(axes.right()) * height / width) / FILL;
+    // Something seen edge-on, or a point, has no extent: show its surroundings.
+    let fallback = extent(axes.forward()).max(centre.length() * 1e-3);
+    let shown = [shown, fallback, 1.0].into_iter().find(|&length| length > 0.0).unwrap_or(1.0);
+    Camera::parallel(direction, up, centre, shown, size)
+}
+
+/// How far the scene reaches in a direction.
+fn reach(scene: &Scene, direction: DVec3) -> f64 {
+    let corners = scene.polygons().flatten();
+    corners.map(|corner| corner.dot(direction)).fold(f64::MIN, f64::max)
+}

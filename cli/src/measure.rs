@@ -1,0 +1,78 @@
+//! Trees with the time they took.
+
+use std::time::{Duration, Instant};
+
+use binspace::scene::Scene;
+use binspace::view::views;
+use binspace::{BspTree, BuildOptions, Error, Viewpoint};
+
+use crate::progress::Progress;
+
+/// How long to go on timing what is short. Less, and figures of small trees are those of the clock.
+const LONG_ENOUGH: Duration = Duration::from_millis(20);
+
+/// Builds a tree of a scene.
+pub(crate) fn build(scene: &Scene, options: &BuildOptions) -> Result<BspTree, Error> {
+    let _progress = Progress::spinner(format!("building {}", options.heuristic));
+    options.build(scene.polygons())
+}
+
+/// Builds a tree of a scene, and tells the seconds it takes: the median, where there is time to
+/// build it more than once.
+pub(crate) fn timed_build(scene: &Scene, options: &BuildOptions) -> Result<(BspTree, f64), Error> {
+    let _progress = Progress::spinner(format!("building {}", options.heuristic));
+    let begin = Instant::now();
+    let mut seconds = Vec::new();
+    loop {
+        let start = Instant::now();
+        let tree = options.build(scene.polygons())?;
+        seconds.push(start.elapsed().as_secs_f64());
+        if begin.elapsed() >= LONG_ENOUGH {
+            return Ok((tree, median(&mut seconds)));
+        }
+    }
+}
+
+fn median(seconds: &mut [f64]) -> f64 {
+    seconds.sort_by(f64::total_cmp);
+    seconds[seconds.len() / 2]
+}
+
+/// The nanoseconds that an order takes for each fragment, as indices in a buffer that is used
+/// again: the median over rounds of several viewpoints. 0 without fragments.
+pub(crate) fn order_nanoseconds(tree: &BspTree, scene: &Scene) -> f64 {
+    let _progress = Progress::spinner("timing orders");
+    let viewpoints = viewpoints(scene);
+    let mut order = Vec::new();
+    // A round is at least so many fragments, so that the clock's steps do not count.
+    let repeats = 20_000 / (tree.len() * viewpoints.len()).max(1) + 1;
+    let mut round = || {
+        let start = Instant::now();
+        for _ in 0..repeats {
+            for &viewpoint in &viewpoints {
+                tree.back_to_front_into(viewpoint, &mut order);
+                std::hint::black_box(&order);
+            }
+        }
+        start.elapsed().as_secs_f64()
+    };
+    round();
+    let start = Instant::now();
+    let mut seconds = Vec::new();
+    while seconds.len() < 3 || start.elapsed() < LONG_ENOUGH {
+        seconds.push(round());
+    }
+    let fragments = repeats * viewpoints.len() * tree.len();
+    if fragments == 0 { 0.0 } else { median(&mut seconds) * 1e9 / fragments as f64 }
+}
+
+/// Eyes around the scene and inside it.
+fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
+    let cameras = scene
+        .bounds()
+        .and_then(|(low, high)| views([low, high], scene.up(), 6, [640, 480], 1).ok())
+        .unwrap_or_default();
+    let eyes = cameras.iter().map(binspace::view::Camera::viewpoint);
+    // A scene as large as numbers go has nothing around it.
+    eyes.chain([Viewpoint::direction([1.0, 2.0, -3.0])]).collect()
+}

@@ -1,0 +1,74 @@
+//! What is being done, shown on a terminal if it takes more than a second.
+
+use std::io::IsTerminal;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// What takes less than this is not worth a word.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// A phase of the work: ends when it is dropped.
+///
+/// Nothing is written where standard error is not a terminal.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    alarm: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    /// A phase of unknown length.
+    pub(crate) fn spinner(message: impl Into<String>) -> Self {
+        Self::start(ProgressBar::no_length(), "{spinner} {msg} {elapsed}", message.into())
+    }
+
+    /// A phase of so many steps.
+    pub(crate) fn steps(message: impl Into<String>, steps: u64) -> Self {
+        let template = "{spinner} {msg} {pos}/{len} {bar:30} {elapsed}";
+        Self::start(ProgressBar::new(steps), template, message.into())
+    }
+
+    fn start(bar: ProgressBar, template: &str, message: String) -> Self {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar.set_message(message);
+        let alarm = std::io::stderr().is_terminal().then(|| {
+            let (sender, receiver) = mpsc::channel();
+            let late = bar.clone();
+            let thread = thread::spawn(move || {
+                if receiver.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                    late.set_draw_target(ProgressDrawTarget::stderr());
+                    late.enable_steady_tick(Duration::from_millis(100));
+                }
+            });
+            (sender, thread)
+        });
+        Self { bar, alarm }
+    }
+
+    /// One step more is done.
+    pub(crate) fn step(&self) {
+        self.bar.inc(1);
+    }
+
+    /// Writes something else to the terminal meanwhile.
+    pub(crate) fn suspend<T>(&self, write: impl FnOnce() -> T) -> T {
+        self.bar.suspend(write)
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((sender, thread)) = self.alarm.take() {
+            drop(sender);
+            // It does nothing that could fail.
+            let _ = thread.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}

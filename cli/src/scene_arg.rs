@@ -1,0 +1,89 @@
+//! Scenes by name: files, and the built-in ones.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use binspace::scene::{Builtin, BuiltinSpec, Scene};
+
+use crate::args::SceneArgs;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::terminal::note;
+
+/// What a name stands for.
+#[derive(Debug, PartialEq)]
+enum Source {
+    File(PathBuf),
+    Builtin(BuiltinSpec),
+}
+
+/// Reads or generates the scene that was asked for, and says what was left out.
+pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
+    let name = args.name.to_string_lossy();
+    match source(&args.name)? {
+        Source::Builtin(spec) => {
+            let _progress = Progress::spinner(format!("generating {name}"));
+            Ok(spec.build(args.seed))
+        }
+        Source::File(path) => {
+            let progress = Progress::spinner(format!("reading {name}"));
+            let (scene, report) =
+                Scene::read_obj(&path).map_err(|error| Failure::Message(error.to_string()))?;
+            drop(progress);
+            if !report.is_clean() {
+                note(&format!("{name}: {report}"));
+            }
+            Ok(scene)
+        }
+    }
+}
+
+fn source(name: &OsStr) -> Result<Source, Failure> {
+    let path = Path::new(name);
+    let file = || Ok(Source::File(path.to_owned()));
+    let is_obj = path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("obj"));
+    let Some(text) = name.to_str().filter(|_| !is_obj) else {
+        return file();
+    };
+    if text.contains(std::path::is_separator) {
+        return file();
+    }
+    match text.parse::<BuiltinSpec>() {
+        Ok(spec) => Ok(Source::Builtin(spec)),
+        Err(_) if path.exists() => file(),
+        Err(error) if is_like_builtin(text) => Err(Failure::Message(error.to_string())),
+        Err(error) => Err(Failure::Message(format!("{error}; nor is there a file {text:?}"))),
+    }
+}
+
+/// Whether the part before the colon names a built-in scene.
+fn is_like_builtin(text: &str) -> bool {
+    text.split(':').next().is_some_and(|name| name.parse::<Builtin>().is_ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_told_from_built_in_scenes() {
+        let builtin = |text: &str| Source::Builtin(text.parse().unwrap());
+        assert_eq!(source("teapot:3".as_ref()).unwrap(), builtin("teapot:3"));
+        assert_eq!(source("sphere".as_ref()).unwrap(), builtin("sphere"));
+        for text in ["teapot.obj", "./teapot", "a/teapot:3", "SPHERE.OBJ"] {
+            assert_eq!(source(text.as_ref()).unwrap(), Source::File(text.into()), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_names_are_errors_that_help() {
+        let message = |text: &str| match source(text.as_ref()) {
+            Err(Failure::Message(message)) => message,
+            other => panic!("{text}: {other:?}"),
+        };
+        assert!(message("teapto").contains("teapot") && message("teapto").contains("nor is there"));
+        assert!(message("teapot:x").contains("\"x\" is no size"));
+        assert!(message("newell:3").contains("one size"));
+        assert!(message("").contains("no built-in scene"));
+    }
+}

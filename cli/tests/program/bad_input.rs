@@ -1,0 +1,118 @@
+use std::fs;
+
+use crate::run::{CROSSING, Folder};
+
+#[test]
+fn every_command_refuses_a_bad_file_with_its_name_line_and_face() {
+    let folder = Folder::new("bad_files");
+    let good = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let utf16: Vec<u8> = "v 0 0 0\nf 1 1 1\n".encode_utf16().flat_map(u16::to_be_bytes).collect();
+    let files: [(&str, Vec<u8>, &str); 9] = [
+        ("nan.obj", format!("{good}v 0 nan 0\nf 1 2 4\n").into(), "line 4: the coordinate \"nan\""),
+        ("inf.obj", format!("v 0 -inf 0\n{good}f 1 2 3\n").into(), "line 1: the coordinate"),
+        ("huge.obj", format!("v 0 1e999 0\n{good}f 1 2 3\n").into(), "line 1: the coordinate"),
+        (
+            "index.obj",
+            format!("{good}f 1 2 3\nf 1 2 7\n").into(),
+            "line 5, face 1 (from 0): vertex 7",
+        ),
+        ("none.obj", good.into(), "no faces"),
+        ("empty.obj", Vec::new(), "no faces"),
+        ("word.obj", format!("{good}f 1 2 x\n").into(), "line 4, face 0 (from 0): \"x\""),
+        ("utf16.obj", utf16, "wrong encoding"),
+        ("binary.obj", vec![0, 159, 146, 150], "wrong encoding"),
+    ];
+    fs::create_dir(folder.path("folder.obj")).unwrap();
+    for (name, content, _) in &files {
+        folder.write(name, content);
+    }
+    let others = [("missing.obj", "cannot be read"), ("folder.obj", "cannot be read")];
+    let all = files.iter().map(|(name, _, problem)| (*name, *problem)).chain(others);
+    for (name, problem) in all {
+        for command in [
+            format!("order {name} --eye=0,0,1"),
+            format!("verify {name}"),
+            format!("stats {name} --heuristic all --json"),
+            format!("render {name} -o out.png"),
+        ] {
+            let message = folder.run(&command).refused();
+            assert!(message.contains(name) && message.contains(problem), "{command}: {message}");
+        }
+    }
+    assert!(!folder.path("out.png").exists());
+}
+
+#[test]
+fn usage_errors_say_what_is_wrong() {
+    let folder = Folder::new("bad_usage");
+    folder.write("s.obj", CROSSING);
+    for (command, problem) in [
+        ("order s.obj", "--eye"),
+        ("order s.obj --eye=1,2", "three numbers"),
+        ("order s.obj --eye=1,2,3,4", "three numbers"),
+        ("order s.obj --eye=1,2,nan", "not a finite number"),
+        ("order s.obj --eye 1,2,-inf", "not a finite number"),
+        ("order s.obj --eye=1,2,x", "not a number"),
+        ("order s.obj --eye=", "three numbers"),
+        ("order s.obj --direction=0,0,0", "must not be zero"),
+        ("order s.obj --eye=1,2,3 --direction=1,2,3", "cannot be used with"),
+        ("order s.obj --eye=1,2,3 --heuristic best", "fewest-splits"),
+        ("order s.obj --eye=1,2,3 --heuristic sampled(0)", "sampled(0)"),
+        ("order s.obj --eye=1,2,3 --tolerance -1", "0 or more"),
+        ("order s.obj --eye=1,2,3 --tolerance=inf", "not a finite number"),
+        ("order s.obj --eye=1,2,3 --max-fragments=-1", "invalid value"),
+        ("order s.obj --eye=1,2,3 -o missing/x", "missing/x: cannot be written"),
+        ("order --eye=1,2,3", "SCENE"),
+        ("verify s.obj --views 0", "--views"),
+        ("verify s.obj --size 0x5", "such as 640x480"),
+        ("verify s.obj --size 99999x99999", "at most"),
+        ("verify s.obj --up 0,0,0", "must not be zero"),
+        ("verify s.obj --up w", "an axis"),
+        ("stats s.obj --heuristic everything", "or all"),
+        ("render s.obj -o p.png --fov 180", "degrees"),
+        ("stats teapto", "nor is there a file"),
+        ("stats teapot:1", "from 2 to 790"),
+        ("stats newell:5", "one size"),
+        ("draw s.obj", "unrecognized subcommand"),
+        ("--out x stats newell", "cannot be used with"),
+    ] {
+        let message = folder.run(command).refused();
+        assert!(message.contains(problem), "{command}: {message}");
+    }
+}
+
+#[test]
+fn over_budget_is_an_error_with_the_figure() {
+    let folder = Folder::new("bad_budget");
+    for command in ["order random --eye=1,2,3", "verify random", "stats random"] {
+        let message = folder.run(&format!("{command} --max-fragments 600")).refused();
+        assert!(message.contains("random:500: ") && message.contains("600 fragments"), "{message}");
+    }
+    folder.run("stats random:5 --max-fragments 0").refused();
+}
+
+#[test]
+fn numbers_at_the_end_of_the_range_are_no_panic() {
+    let folder = Folder::new("bad_extremes");
+    let max = "1.7976931348623157e308";
+    folder.write("max.obj", format!("v -{max} -{max} 0\nv {max} 0 0\nv 0 {max} {max}\nf 1 2 3\n"));
+    folder.write("min.obj", "v 0 0 0\nv 5e-324 0 0\nv 0 5e-324 0\nf 1 2 3\n");
+    folder.write("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
+    folder.write("far.obj", "v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nf 1 2 3\n");
+    for scene in ["max.obj", "min.obj", "point.obj", "far.obj"] {
+        for command in [
+            format!("order {scene} --eye=1e308,-1e308,1e-308"),
+            format!("order {scene} --direction=1e308,-1e308,1e-308"),
+            format!("verify {scene} --size 40x30 --views 3"),
+            format!("stats {scene} --json"),
+            format!("render {scene} -o p.png --size 40x30"),
+            format!("render {scene} -o p.svg --size 1x1"),
+            format!("render {scene} -o p.svg --direction=1,2,3"),
+            format!("render {scene} -o p.png --eye=1e300,0,0 --size 4x3"),
+        ] {
+            let run = folder.run(&command);
+            assert!(matches!(run.status, Some(0 | 2)), "{command}: {run:?}");
+            assert!(!run.err.contains("panicked"), "{command}: {run:?}");
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! The program as its users run it: the real binary, its files, its exit status.
+
+mod bad_input;
+mod help;
+mod order;
+mod png_picture;
+mod real_scenes;
+mod render;
+mod run;
+mod stats;
+mod tour;
+mod verify;

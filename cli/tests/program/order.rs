@@ -1,0 +1,202 @@
+use std::fs;
+use std::process::Stdio;
+
+use serde_json::Value;
+
+use crate::run::{CROSSING, Folder};
+
+type Point = [f64; 3];
+
+#[derive(Debug, PartialEq)]
+struct Line {
+    polygon: u64,
+    vertices: Vec<Point>,
+}
+
+fn parse(output: &str) -> Vec<Line> {
+    let number = |value: &Value| value.as_f64().unwrap();
+    let point = |value: &Value| -> Point {
+        let coordinates: Vec<f64> = value.as_array().unwrap().iter().map(number).collect();
+        coordinates.try_into().unwrap()
+    };
+    let line = |text: &str| {
+        let value: Value = serde_json::from_str(text).unwrap();
+        assert_eq!(value.as_object().unwrap().len(), 2, "{text}");
+        Line {
+            polygon: value["polygon"].as_u64().unwrap(),
+            vertices: value["vertices"].as_array().unwrap().iter().map(point).collect(),
+        }
+    };
+    output.lines().map(line).collect()
+}
+
+fn sub(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Where a ray from `eye` meets a convex polygon, in multiples of its direction.
+fn hit(vertices: &[Point], eye: Point, direction: Point) -> Option<f64> {
+    let normal = cross(sub(vertices[1], vertices[0]), sub(vertices[2], vertices[1]));
+    let distance = dot(normal, sub(vertices[0], eye)) / dot(normal, direction);
+    let at: Point = std::array::from_fn(|i| eye[i] + distance * direction[i]);
+    let inside = (0..vertices.len()).all(|i| {
+        let (a, b) = (vertices[i], vertices[(i + 1) % vertices.len()]);
+        dot(normal, cross(sub(b, a), sub(at, a))) > 0.0
+    });
+    (inside && distance > 0.0).then_some(distance)
+}
+
+#[test]
+fn parallel_squares_come_in_the_order_of_their_depth() {
+    let folder = Folder::new("order_parallel");
+    let square = |z: &str| format!("v 0.1 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0.1 1 {z}\n");
+    let faces = "f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n";
+    folder.write("s.obj", square("2") + &square("0") + &square("1") + faces);
+    let order = |options: &str| -> Vec<u64> {
+        let output = folder.run(&format!("order s.obj {options}")).good();
+        parse(&output).iter().map(|line| line.polygon).collect()
+    };
+    assert_eq!(order("--eye=0.5,0.5,10"), [1, 2, 0]);
+    assert_eq!(order("--eye 0.5,0.5,-10"), [0, 2, 1]);
+    assert_eq!(order("--eye -0.5,0.5,10"), [1, 2, 0]);
+    assert_eq!(order("--direction 0,0,-1"), [1, 2, 0]);
+    assert_eq!(order("--direction=0,0,1"), [0, 2, 1]);
+    assert_eq!(order("--direction -0,0,1 --front-to-back"), [1, 2, 0]);
+    // Whole polygons as they stand in the file.
+    let first = &parse(&folder.run("order s.obj --eye=0,0,9").good())[0];
+    let corners = vec![[0.1, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.1, 1.0, 0.0]];
+    assert_eq!(*first, Line { polygon: 1, vertices: corners });
+}
+
+#[test]
+fn what_a_ray_meets_last_is_nearest() {
+    let folder = Folder::new("order_rays");
+    folder.write("s.obj", CROSSING);
+    let eye = [3.0, 2.5, 6.0];
+    for heuristic in ["auto", "first", "free-planes", "random:3"] {
+        let command = format!("order s.obj --eye=3,2.5,6 --heuristic {heuristic}");
+        let lines = parse(&folder.run(&command).good());
+        assert!(lines.len() > 3, "{heuristic}");
+        let mut met = 0;
+        for i in 0..40 {
+            for j in 0..40 {
+                let target = [f64::from(i) * 0.1 - 2.0, f64::from(j) * 0.1 - 1.97, -1.0];
+                let direction = sub(target, eye);
+                let distances: Vec<f64> =
+                    lines.iter().filter_map(|l| hit(&l.vertices, eye, direction)).collect();
+                let sorted = distances.windows(2).all(|pair| pair[0] > pair[1]);
+                assert!(sorted, "{heuristic} {target:?} {distances:?}");
+                met += usize::from(distances.len() > 1);
+            }
+        }
+        assert!(met > 100, "{met}");
+        let reverse = parse(&folder.run(&format!("{command} --front-to-back")).good());
+        assert!(lines.iter().eq(reverse.iter().rev()), "{heuristic}");
+    }
+}
+
+#[test]
+fn fragments_have_the_area_of_their_polygons() {
+    let folder = Folder::new("order_area");
+    folder.write("s.obj", CROSSING);
+    let mut areas = [0.0; 3];
+    for line in parse(&folder.run("order s.obj --eye=3,2,6").good()) {
+        let v = &line.vertices;
+        for i in 1..v.len() - 1 {
+            let normal = cross(sub(v[i], v[0]), sub(v[i + 1], v[0]));
+            areas[line.polygon as usize] += 0.5 * dot(normal, normal).sqrt();
+        }
+    }
+    for (area, expected) in areas.into_iter().zip([4.0, 4.0, 16.0]) {
+        assert!((area - expected).abs() < 1e-12, "{areas:?}");
+    }
+}
+
+#[test]
+fn polygons_are_numbered_by_their_line_in_the_file() {
+    let folder = Folder::new("order_numbers");
+    // A point, a line, a face without area and one of two corners come between.
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nf 1 2 4\nl 1 2 3\nf 1 2\nf 1 2 3\n";
+    folder.write("s.obj", text);
+    let run = folder.run("order s.obj --eye=0,0,1");
+    for part in ["`p` lines skipped: 1", "`l` lines skipped: 1", "2 polygons without area dropped"]
+    {
+        assert!(run.err.contains(part), "{part}: {}", run.err);
+    }
+    let lines = parse(&run.good());
+    assert_eq!(lines.len(), 1);
+    assert_eq!(lines[0].polygon, 2);
+}
+
+#[test]
+fn extreme_numbers_come_back_bit_for_bit() {
+    let folder = Folder::new("order_numbers_extreme");
+    folder.write(
+        "s.obj",
+        "v 1e300 0 -1e-300\nv 1.0000000000000002e300 3e299 0\nv 0 1e22 0.1\nf 1 2 3\n",
+    );
+    let lines = parse(&folder.run("order s.obj --direction=0,0,1").good());
+    let expected =
+        vec![[1e300, 0.0, -1e-300], [1.000_000_000_000_000_2e300, 3e299, 0.0], [0.0, 1e22, 0.1]];
+    assert_eq!(lines[0].vertices, expected);
+}
+
+#[test]
+fn a_file_is_written_completely_or_not_at_all() {
+    let folder = Folder::new("order_output");
+    folder.write("s.obj", CROSSING);
+    let printed = folder.run("order s.obj --eye=3,2,6").good();
+    assert_eq!(folder.run("order s.obj --eye=3,2,6 -o a.jsonl").good(), "");
+    assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), printed);
+    assert_eq!(folder.run("order s.obj --eye=3,2,6 -o -").good(), printed);
+    // Again, over it; and then errors, which leave it as it is.
+    folder.run("order newell --eye=3,2,6 -o a.jsonl").good();
+    let kept = fs::read_to_string(folder.path("a.jsonl")).unwrap();
+    assert_ne!(kept, printed);
+    folder.write("bad.obj", "v 0 0 nan\nf 1 1 1\n");
+    for command in ["bad.obj", "missing.obj", "random --max-fragments 10"] {
+        folder.run(&format!("order {command} --eye=3,2,6 -o a.jsonl")).refused();
+        assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), kept);
+    }
+    assert_eq!(folder.files(), ["a.jsonl", "bad.obj", "s.obj"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_and_devices_are_written_through() {
+    let folder = Folder::new("order_links");
+    folder.write("real.jsonl", "old");
+    std::os::unix::fs::symlink("real.jsonl", folder.path("link.jsonl")).unwrap();
+    folder.run("order newell --eye=3,2,6 -o link.jsonl").good();
+    assert!(folder.path("link.jsonl").is_symlink());
+    assert!(fs::read_to_string(folder.path("real.jsonl")).unwrap().starts_with("{\"polygon\""));
+    folder.run("order newell --eye=3,2,6 -o /dev/null").good();
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let folder = Folder::new("order_pipe");
+    let mut command = folder.command("order random:500 --eye=3,2,6");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
+#[test]
+fn a_seed_makes_a_scene_again() {
+    let folder = Folder::new("order_seed");
+    let order = |seed| folder.run(&format!("order random:20 --eye=3,2,6 --seed {seed}")).good();
+    assert_eq!(order(5), order(5));
+    assert_ne!(order(5), order(6));
+}

@@ -1,0 +1,34 @@
+//! Reads PNG files.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// A picture of RGB pixels.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Picture {
+    pub(crate) size: [u32; 2],
+    pub(crate) rgb: Vec<u8>,
+}
+
+impl Picture {
+    pub(crate) fn read(path: &Path) -> Self {
+        let decoder = png::Decoder::new(BufReader::new(File::open(path).unwrap()));
+        let mut reader = decoder.read_info().unwrap();
+        let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut rgb).unwrap();
+        assert_eq!(info.color_type, png::ColorType::Rgb);
+        Self { size: [info.width, info.height], rgb }
+    }
+
+    /// How many pixels have a colour.
+    pub(crate) fn count(&self, colour: [u8; 3]) -> usize {
+        self.rgb.chunks_exact(3).filter(|pixel| *pixel == colour).count()
+    }
+
+    /// How many colours there are.
+    pub(crate) fn colours(&self) -> usize {
+        let all: std::collections::HashSet<&[u8]> = self.rgb.chunks_exact(3).collect();
+        all.len()
+    }
+}

@@ -1,0 +1,124 @@
+use std::fs;
+
+use crate::png_picture::Picture;
+use crate::run::{CROSSING, Folder};
+
+const WHITE: [u8; 3] = [255; 3];
+
+/// A PNG of the crossing squares.
+fn picture(folder: &Folder, options: &str) -> Picture {
+    folder.write("s.obj", CROSSING);
+    folder.run(&format!("render s.obj -o p.png --size 120x80 {options}")).good();
+    Picture::read(&folder.path("p.png"))
+}
+
+#[test]
+fn without_a_camera_all_of_the_scene_is_shown() {
+    let folder = Folder::new("render_whole");
+    for size in ["120x80", "80x120", "300x20"] {
+        folder.run(&format!("render teapot:3 -o p.png --size {size}")).good();
+        let Picture { size: [width, height], rgb } = Picture::read(&folder.path("p.png"));
+        assert_eq!(format!("{width}x{height}"), size);
+        let is_set = |x: u32, y: u32| rgb[3 * (y * width + x) as usize..][..3] != WHITE;
+        let columns: Vec<u32> = (0..width).filter(|&x| (0..height).any(|y| is_set(x, y))).collect();
+        let rows: Vec<u32> = (0..height).filter(|&y| (0..width).any(|x| is_set(x, y))).collect();
+        // Free on all sides, in the middle, and filling one of the two directions.
+        let span = |found: &[u32], side: u32| (found[0], side - 1 - found[found.len() - 1]);
+        let ((left, right), (top, bottom)) = (span(&columns, width), span(&rows, height));
+        assert!(left.min(right).min(top).min(bottom) > 0 || size == "300x20", "{size}");
+        assert!(left.abs_diff(right) <= 2 && top.abs_diff(bottom) <= 2, "{size}");
+        assert!(left * 10 < width || top * 10 < height, "{size} {left} {top}");
+    }
+}
+
+#[test]
+fn the_kinds_of_picture_differ_and_the_first_two_do_not() {
+    let folder = Folder::new("render_kinds");
+    let painter = picture(&folder, "");
+    assert_eq!(painter.size, [120, 80]);
+    assert!(painter.count(WHITE) > 100 && painter.colours() > 3);
+    assert_eq!(picture(&folder, "--z-buffer"), painter);
+    let difference = picture(&folder, "--difference");
+    for wrong in [[255, 40, 40], [255, 230, 0], [255, 0, 255], [70, 130, 255]] {
+        assert_eq!(difference.count(wrong), 0);
+    }
+    let depth = picture(&folder, "--depth");
+    assert!(depth.rgb.chunks_exact(3).all(|p| p[0] == p[1] && p[1] == p[2]));
+    assert_eq!(depth.count([0; 3]), painter.count(WHITE));
+}
+
+#[test]
+fn cameras_are_where_they_are_asked_to_be() {
+    let folder = Folder::new("render_camera");
+    // The big square alone fills the picture from near by; from behind the same.
+    let near = picture(&folder, "--eye 0,0,-2.5 --target 0,0,-3 --up y");
+    assert_eq!(near.count(WHITE), 0);
+    let wide = picture(&folder, "--eye=0,0,-0.5 --target=0,0,-3 --up=0,1,0 --fov 120");
+    assert!(wide.count(WHITE) > 0);
+    // Along the z axis, which is along the scene's own up for z-up scenes; another is found.
+    folder.run("render newell -o p.png --direction 0,0,-1").good();
+    folder.run("render newell -o p.png --eye=0,0,9 --target=0,0,0").good();
+    assert!(picture(&folder, "--direction=-1,-1,-1").count(WHITE) > 0);
+    assert!(picture(&folder, "--target=0,0,-3").count(WHITE) > 0);
+    let centred = picture(&folder, "--direction=0,0,-1 --target=50,0,0");
+    assert_eq!(centred.count(WHITE), 120 * 80);
+}
+
+#[test]
+fn colours_are_those_of_the_material_library() {
+    let folder = Folder::new("render_colours");
+    folder.write("m.mtl", "newmtl red\nKd 1 0 0\n");
+    folder.write("m.obj", format!("mtllib m.mtl\nusemtl red\n{CROSSING}"));
+    folder.run("render m.obj -o p.png --direction 0,0,-1 --size 50x50").good();
+    let red = Picture::read(&folder.path("p.png"));
+    assert!(red.count([255, 0, 0]) > 1000, "{}", red.colours());
+}
+
+#[test]
+fn svg_has_the_fragments_in_order() {
+    let folder = Folder::new("render_svg");
+    folder.write("m.mtl", "newmtl glass\nKd 0 0 1\nd 0.5\nnewmtl red\nKd 1 0 0\n");
+    let text = CROSSING.replace("f 9", "usemtl red\nf 9");
+    folder.write("s.obj", format!("mtllib m.mtl\nusemtl glass\n{text}"));
+    folder.run("render s.obj -o p.svg --direction=0.1,0,-1 --size 200x100").good();
+    let svg = fs::read_to_string(folder.path("p.svg")).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"), "{svg}");
+    assert!(svg.contains("viewBox=\"0 0 200 100\""), "{svg}");
+    let paths: Vec<&str> = svg.lines().filter(|line| line.starts_with("<path")).collect();
+    assert!(paths.len() > 3, "{svg}");
+    // What is furthest comes first, opaque; the rest shines through.
+    assert!(paths[0].contains("fill=\"#f") && paths[0].contains("stroke="), "{svg}");
+    assert!(paths.iter().filter(|path| path.contains("fill-opacity=\"0.5\"")).count() > 2, "{svg}");
+    for number in paths.iter().flat_map(|path| {
+        let data = path.split("d=\"").nth(1).unwrap().trim_end_matches("Z\"/>");
+        data.split(['M', 'L', ' ']).filter(|part| !part.is_empty())
+    }) {
+        let number: f64 = number.parse().unwrap_or_else(|_| panic!("{number}: {svg}"));
+        assert!((0.0..=200.0).contains(&number), "{svg}");
+    }
+}
+
+#[test]
+fn what_cannot_be_written_is_said_at_once() {
+    let folder = Folder::new("render_unwritable");
+    for (options, problem) in [
+        ("-o p.gif", ".png or .svg"),
+        ("-o p", ".png or .svg"),
+        ("-o missing/p.png", "cannot be written"),
+        ("-o p.svg --depth", "name a .png"),
+        ("-o p.svg --difference", "name a .png"),
+        ("-o p.svg --z-buffer", "name a .png"),
+        ("-o p.png --depth --z-buffer", "cannot be used with"),
+        ("-o p.png --direction=0,0,1 --eye=0,0,1", "cannot be used with"),
+        ("-o p.png --eye=0,0,0 --target=0,0,0", "looks nowhere"),
+        ("-o p.png --eye=0,0,9 --target=0,0,0 --up z", "up vector"),
+        ("-o p.png --eye=0,0,1e300 --target=0,0,0", "too far"),
+        ("", "--output"),
+    ] {
+        let message = folder.run(&format!("render newell {options}")).refused();
+        assert!(message.contains(problem), "{options}: {message}");
+    }
+    assert!(folder.files().is_empty(), "{:?}", folder.files());
+    fs::create_dir(folder.path("d.png")).unwrap();
+    assert!(folder.run("render newell -o d.png").refused().contains("d.png: cannot be written"));
+}

@@ -1,0 +1,65 @@
+use serde_json::Value;
+
+use crate::run::{CROSSING, Folder};
+
+#[test]
+fn json_has_a_line_for_each_heuristic() {
+    let folder = Folder::new("stats_json");
+    folder.write("s.obj", CROSSING);
+    let out = folder.run("stats s.obj --heuristic all --json").good();
+    let lines: Vec<Value> = out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 8);
+    for line in &lines {
+        let number = |key: &str| line[key].as_f64().unwrap_or_else(|| panic!("{key}: {line}"));
+        assert!(line["heuristic"].is_string());
+        assert_eq!(number("polygons"), 3.0);
+        assert_eq!(number("faces"), 3.0);
+        assert_eq!(number("fragments"), number("faces") + number("splits"));
+        assert!(number("depth_mean") <= number("depth_max"));
+        assert!(number("nodes") >= 1.0 && number("bytes") > 0.0);
+        assert!(number("build_seconds") > 0.0 && number("order_ns_per_fragment") > 0.0);
+        assert_eq!((number("dropped"), number("triangulated")), (0.0, 0.0));
+    }
+    let one = folder.run("stats s.obj --json").good();
+    assert_eq!(serde_json::from_str::<Value>(&one).unwrap()["heuristic"], "auto");
+}
+
+#[test]
+fn the_table_is_aligned_and_narrow() {
+    let folder = Folder::new("stats_table");
+    let out = folder.run("stats random:100 --heuristic all").good();
+    let widths: Vec<usize> = out.lines().skip(1).map(|line| line.chars().count()).collect();
+    assert_eq!(widths.len(), 9, "{out}");
+    assert!(widths.iter().all(|&width| width == widths[0] && width <= 100), "{out}");
+    assert!(out.starts_with("random:100: 100 polygons, 100 faces; 0 dropped"), "{out}");
+    assert!(!out.contains('\u{1b}'), "colours are for terminals");
+}
+
+#[test]
+fn what_is_dropped_and_triangulated_is_counted() {
+    let folder = Folder::new("stats_counts");
+    // A triangle without area, a bent quad, an arrowhead.
+    folder.write(
+        "s.obj",
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 1 1 1\nv 0 1 0\nv 0.2 0.2 0\n\
+         f 1 2 3\nf 1 2 4 5\nf 1 3 6 5\n",
+    );
+    let out = folder.run("stats s.obj --json").good();
+    let line: Value = serde_json::from_str(&out).unwrap();
+    let found = ["polygons", "dropped", "triangulated", "faces"].map(|key| line[key].as_u64());
+    assert_eq!(found, [3, 1, 2, 4].map(Some), "{line}");
+}
+
+#[test]
+fn a_heuristic_over_budget_does_not_stop_the_others() {
+    let folder = Folder::new("stats_budget");
+    let figures = |options: &str| folder.run(&format!("stats random:100 {options} --json"));
+    let fragments =
+        |line: &str| serde_json::from_str::<Value>(line).unwrap()["fragments"].as_u64().unwrap();
+    let all = figures("--heuristic all").good();
+    let least = all.lines().map(fragments).min().unwrap();
+    let run = figures(&format!("--heuristic all --max-fragments {least}"));
+    assert_eq!(run.status, Some(2));
+    assert!(run.out.lines().count() >= 1 && run.out.lines().count() < 8, "{run:?}");
+    assert!(run.err.contains(&format!("more than {least} fragments")), "{run:?}");
+}
