@@ -6,7 +6,8 @@
 use super::homogeneous::{self, Homogeneous};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
-use binspace::geom::{Line, Side, Symbol};
+use binspace::geom::{Lattice, Line, Side, Symbol};
+use binspace::glam::DVec3;
 use binspace::{BspTree, Fragment};
 use num_traits::{One, Zero};
 
@@ -36,7 +37,7 @@ pub(crate) fn ensure(condition: bool, message: impl FnOnce() -> String) -> Verdi
 }
 
 /// Every check of this file; `corners` are the corners of each polygon as given to the library.
-pub(crate) fn judge(tree: &BspTree, polygons: &[Vec<binspace::glam::DVec3>]) -> Verdict {
+pub(crate) fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate().map_err(|invalid| invalid.to_string())?;
     let judge = Judge::new(tree);
     judge.outlines()?;
@@ -160,7 +161,7 @@ impl<'t> Judge<'t> {
 
     /// Weights sum to 1 and give the vertices back from the polygon's own corners; edges said to
     /// be the polygon's lie on them.
-    fn weights(&self, polygons: &[Vec<binspace::glam::DVec3>]) -> Verdict {
+    fn weights(&self, polygons: &[Vec<DVec3>]) -> Verdict {
         let faces = self.tree.faces();
         let lattice = faces.lattice();
         // Moved onto a plane by the tolerance, along an axis no steeper than 1 in √3.
@@ -174,7 +175,7 @@ impl<'t> Judge<'t> {
                 let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
                 ensure((total - 1.0).abs() < 1e-12, || format!("weights sum to {total}"))?;
                 let largest = weights.iter().fold(1.0, |m: f64, (_, w)| m.max(w.abs()));
-                let mean: binspace::glam::DVec3 =
+                let mean: DVec3 =
                     weights.iter().map(|&(k, weight)| corners[k as usize] * weight).sum();
                 let off = (mean - vertex).abs().max_element();
                 ensure(off <= allowed * largest, || {
@@ -184,7 +185,7 @@ impl<'t> Judge<'t> {
             let vertices: Vec<_> = fragment.vertices().collect();
             for (i, edge) in fragment.edges().enumerate() {
                 let Some(edge) = edge else { continue };
-                let [a, b] = ends_of_edge(corners, edge as usize);
+                let [a, b] = ends_of_edge(lattice, corners, edge as usize);
                 for vertex in [vertices[i], vertices[(i + 1) % vertices.len()]] {
                     let arm = (b - a) / (b - a).length().max(f64::MIN_POSITIVE);
                     let offset = vertex - a;
@@ -197,11 +198,11 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon, from its corner to the next one elsewhere.
-fn ends_of_edge(corners: &[binspace::glam::DVec3], edge: usize) -> [binspace::glam::DVec3; 2] {
+/// An edge of a polygon, from its corner to the next one that is elsewhere on the lattice.
+fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
     let a = corners[edge];
-    let next = corners.iter().cycle().skip(edge + 1).take(corners.len());
-    [a, *next.clone().find(|&&next| next != a).unwrap_or(&a)]
+    let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len());
+    [a, *next.find(|&&next| lattice.snap(next) != lattice.snap(a)).unwrap_or(&a)]
 }
 
 /// How far along an edge of a face a point on it is: 0 to 1.

@@ -4,6 +4,8 @@
 mod cases;
 mod faults;
 mod input;
+#[cfg(feature = "triangulate")]
+mod picture;
 mod same;
 mod scale;
 #[path = "../support/mod.rs"]
