@@ -37,9 +37,9 @@ impl Live {
         for vertex in vertices {
             if let SymbolKind::Corner(_) = vertex.symbol().kind() {
                 let p = vertex.position();
-                for axis in 0..3 {
-                    live.on_corner |= u8::from(p[axis] == live.min[axis]) << axis;
-                    live.on_corner |= u8::from(p[axis] == live.max[axis]) << (axis + 3);
+                for (axis, &c) in p.iter().enumerate() {
+                    live.on_corner |= u8::from(c == live.min[axis]) << axis;
+                    live.on_corner |= u8::from(c == live.max[axis]) << (axis + 3);
                 }
             }
         }
@@ -52,9 +52,9 @@ impl Live {
     }
 
     fn include(&mut self, p: [f64; 3]) {
-        for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(p[axis]);
-            self.max[axis] = self.max[axis].max(p[axis]);
+        for (axis, &c) in p.iter().enumerate() {
+            self.min[axis] = self.min[axis].min(c);
+            self.max[axis] = self.max[axis].max(c);
         }
     }
 

@@ -152,13 +152,12 @@ impl<const N: usize> std::ops::Add for Int<N> {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        let mut carry = false;
+        let mut carry = 0u128;
         let mut limbs = [0; N];
         for ((sum, a), b) in limbs.iter_mut().zip(self.0).zip(other.0) {
-            let (partial, first) = a.overflowing_add(b);
-            let (total, second) = partial.overflowing_add(u64::from(carry));
-            *sum = total;
-            carry = first | second;
+            carry += u128::from(a) + u128::from(b);
+            *sum = carry as u64;
+            carry >>= 64;
         }
         Int(limbs)
     }
@@ -169,13 +168,12 @@ impl<const N: usize> std::ops::Sub for Int<N> {
 
     #[inline]
     fn sub(self, other: Self) -> Self {
-        let mut borrow = false;
+        let mut borrow = 0i128;
         let mut limbs = [0; N];
         for ((difference, a), b) in limbs.iter_mut().zip(self.0).zip(other.0) {
-            let (partial, first) = a.overflowing_sub(b);
-            let (total, second) = partial.overflowing_sub(u64::from(borrow));
-            *difference = total;
-            borrow = first | second;
+            borrow += i128::from(a) - i128::from(b);
+            *difference = borrow as u64;
+            borrow >>= 64;
         }
         Int(limbs)
     }
