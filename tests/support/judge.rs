@@ -3,9 +3,11 @@
 //! A fragment's vertices are taken from the lines that bound it, not from the library's own
 //! definition of them, and every decision is made anew.
 
+use super::homogeneous::{self, Homogeneous};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
-use binspace::geom::{Line, Side, Symbol};
+use binspace::geom::{Lattice, Line, Side, Symbol};
+use binspace::glam::DVec3;
 use binspace::{BspTree, Fragment};
 use num_traits::{One, Zero};
 
@@ -18,6 +20,7 @@ const POSITION_ERROR: f64 = 1.5;
 /// A fragment in rationals.
 struct Piece {
     points: Vec<Point>,
+    flat: Vec<Homogeneous>,
     lines: Vec<Line>,
 }
 
@@ -34,7 +37,7 @@ pub(crate) fn ensure(condition: bool, message: impl FnOnce() -> String) -> Verdi
 }
 
 /// Every check of this file; `corners` are the corners of each polygon as given to the library.
-pub(crate) fn judge(tree: &BspTree, polygons: &[Vec<binspace::glam::DVec3>]) -> Verdict {
+pub(crate) fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate().map_err(|invalid| invalid.to_string())?;
     let judge = Judge::new(tree);
     judge.outlines()?;
@@ -56,7 +59,9 @@ impl<'t> Judge<'t> {
             };
             let face = &faces[fragment.face() as usize];
             let resolve = |i| face.resolve(tree.faces(), symbol(i));
-            Piece { points: (0..lines.len()).map(resolve).collect(), lines }
+            let points: Vec<Point> = (0..lines.len()).map(resolve).collect();
+            let flat = points.iter().map(Homogeneous::new).collect();
+            Piece { points, flat, lines }
         };
         let pieces = tree.fragments().map(piece).collect();
         Self { tree, faces, pieces }
@@ -79,29 +84,30 @@ impl<'t> Judge<'t> {
             }
             let axis = model::main_axis(&face.plane);
             let facing = rational::sign(&face.plane.normal[axis]);
+            let mut turns = 0;
             for i in 0..n {
-                let corner = [0, 1, 2].map(|k| piece.points[(i + k) % n].clone());
-                let turn = rational::sign(&rational::area(&corner)[axis]);
+                let corner = [0, 1, 2].map(|k| &piece.flat[(i + k) % n]);
+                let turn = homogeneous::turn(corner, axis);
                 let straight_on = turn.is_eq() && corner[0] != corner[1];
                 ensure(turn == facing || straight_on, || {
                     format!("turns the wrong way at {}: {fragment:?}", (i + 1) % n)
                 })?;
+                turns += usize::from(turn.is_ne());
             }
-            let area = rational::sign(&rational::area(&piece.points)[axis]);
-            ensure(area == facing, || format!("without area, or turned over: {fragment:?}"))?;
+            ensure(turns >= 3, || format!("without area: {fragment:?}"))?;
         }
         Ok(())
     }
 
     /// The fragments of a face have its area, exactly, and tile each of its edges from end to end.
     fn coverage(&self) -> Verdict {
-        let mut areas = vec![Rational::zero(); self.faces.len()];
+        let mut areas = vec![0; self.faces.len()];
         let mut runs: Vec<Vec<Vec<[Rational; 2]>>> =
             self.faces.iter().map(|face| vec![Vec::new(); face.corners.len()]).collect();
         for (fragment, face, piece) in self.with_pieces() {
             let id = fragment.face() as usize;
             let axis = model::main_axis(&face.plane);
-            areas[id] += rational::area(&piece.points)[axis].clone();
+            areas[id] = homogeneous::add(areas[id], homogeneous::area(&piece.flat, axis));
             for (i, line) in piece.lines.iter().enumerate() {
                 let Some(edge) = line.as_edge() else { continue };
                 let ends = [i, (i + 1) % piece.points.len()].map(|k| &piece.points[k]);
@@ -110,8 +116,9 @@ impl<'t> Judge<'t> {
         }
         for (id, face) in self.faces.iter().enumerate() {
             let axis = model::main_axis(&face.plane);
-            let area = &rational::area(&face.corners)[axis];
-            ensure(&areas[id] == area, || format!("the pieces of face {id} miss its area"))?;
+            let corners: Vec<_> = face.corners.iter().map(Homogeneous::new).collect();
+            let area = homogeneous::area(&corners, axis);
+            ensure(areas[id] == area, || format!("the pieces of face {id} miss its area"))?;
             for (edge, runs) in runs[id].iter_mut().enumerate() {
                 runs.sort();
                 let end = runs.iter().try_fold(Rational::zero(), |end, [from, to]| {
@@ -139,7 +146,8 @@ impl<'t> Judge<'t> {
                 for id in range {
                     let piece = &self.pieces[id as usize];
                     let face = self.tree.fragment(id).face();
-                    let values: Vec<Rational> = piece.points.iter().map(|p| by.at(p)).collect();
+                    let side = |p: &Homogeneous| Rational::from_integer(p.side(&by));
+                    let values: Vec<Rational> = piece.flat.iter().map(side).collect();
                     let exact = &self.faces[face as usize];
                     let allowed = exact.classify((faces, face), (partition.plane, &by), &values);
                     ensure(allowed.contains(&expected), || {
@@ -153,7 +161,7 @@ impl<'t> Judge<'t> {
 
     /// Weights sum to 1 and give the vertices back from the polygon's own corners; edges said to
     /// be the polygon's lie on them.
-    fn weights(&self, polygons: &[Vec<binspace::glam::DVec3>]) -> Verdict {
+    fn weights(&self, polygons: &[Vec<DVec3>]) -> Verdict {
         let faces = self.tree.faces();
         let lattice = faces.lattice();
         // Moved onto a plane by the tolerance, along an axis no steeper than 1 in √3.
@@ -167,7 +175,7 @@ impl<'t> Judge<'t> {
                 let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
                 ensure((total - 1.0).abs() < 1e-12, || format!("weights sum to {total}"))?;
                 let largest = weights.iter().fold(1.0, |m: f64, (_, w)| m.max(w.abs()));
-                let mean: binspace::glam::DVec3 =
+                let mean: DVec3 =
                     weights.iter().map(|&(k, weight)| corners[k as usize] * weight).sum();
                 let off = (mean - vertex).abs().max_element();
                 ensure(off <= allowed * largest, || {
@@ -177,7 +185,7 @@ impl<'t> Judge<'t> {
             let vertices: Vec<_> = fragment.vertices().collect();
             for (i, edge) in fragment.edges().enumerate() {
                 let Some(edge) = edge else { continue };
-                let [a, b] = ends_of_edge(corners, edge as usize);
+                let [a, b] = ends_of_edge(lattice, corners, edge as usize);
                 for vertex in [vertices[i], vertices[(i + 1) % vertices.len()]] {
                     let arm = (b - a) / (b - a).length().max(f64::MIN_POSITIVE);
                     let offset = vertex - a;
@@ -190,18 +198,18 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon, from its corner to the next one elsewhere.
-fn ends_of_edge(corners: &[binspace::glam::DVec3], edge: usize) -> [binspace::glam::DVec3; 2] {
+/// An edge of a polygon, from its corner to the next one that is elsewhere on the lattice.
+fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
     let a = corners[edge];
-    let next = corners.iter().cycle().skip(edge + 1).take(corners.len());
-    [a, *next.clone().find(|&&next| next != a).unwrap_or(&a)]
+    let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len());
+    [a, *next.find(|&&next| lattice.snap(next) != lattice.snap(a)).unwrap_or(&a)]
 }
 
-/// How far along an edge of a face a point is: 0 to 1.
+/// How far along an edge of a face a point on it is: 0 to 1.
 fn along(face: &Face, edge: usize, point: &Point) -> Rational {
     let [a, b] = [edge, (edge + 1) % face.corners.len()].map(|k| &face.corners[k]);
-    let arm = rational::difference(b, a);
-    rational::scalar(&rational::difference(point, a), &arm) / rational::scalar(&arm, &arm)
+    let axis = (0..3).find(|&axis| a[axis] != b[axis]).expect("an edge of some length");
+    (&point[axis] - &a[axis]) / (&b[axis] - &a[axis])
 }
 
 /// The vertex where two lines that follow one another around a piece meet.

@@ -6,6 +6,7 @@ pub(crate) mod checks;
 pub(crate) mod decode;
 pub(crate) mod dice;
 pub(crate) mod hard;
+pub(crate) mod homogeneous;
 pub(crate) mod judge;
 pub(crate) mod model;
 pub(crate) mod orders;

@@ -38,6 +38,7 @@ fn a_tree_that_is_built_twice_at_once_is_the_same() {
     assert!(a == b);
 }
 
+#[cfg(feature = "triangulate")]
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 

@@ -4,6 +4,8 @@
 pub(crate) mod decode;
 #[path = "../../../tests/support/dice.rs"]
 pub(crate) mod dice;
+#[path = "../../../tests/support/homogeneous.rs"]
+pub(crate) mod homogeneous;
 #[path = "../../../tests/support/judge.rs"]
 pub(crate) mod judge;
 #[path = "../../../tests/support/model.rs"]

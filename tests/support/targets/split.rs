@@ -18,7 +18,9 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
     let tolerance = decode::options(bytes)?.tolerance;
     let polygons = decode::polygons(bytes, 8)?;
     let Ok((faces, _)) = Faces::new(&polygons, tolerance) else {
-        assert!(polygons.iter().flatten().any(|corner| !corner.is_finite()), "{polygons:?}");
+        let refused = polygons.iter().flatten().any(|corner| !corner.is_finite());
+        // Without ear clipping, what is not convex is refused.
+        assert!(refused || cfg!(not(feature = "triangulate")), "{polygons:?}");
         return Ok(());
     };
     if faces.is_empty() {

@@ -20,7 +20,9 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
     let tree = match options.build(&polygons) {
         Ok(tree) => tree,
         Err(error) => {
-            assert!(infinite.is_some() && error.polygon() == infinite, "{error}");
+            let refused = infinite.is_some() && error.polygon() == infinite;
+            // Without ear clipping, what is not convex is refused.
+            assert!(refused || cfg!(not(feature = "triangulate")), "{error}");
             return Ok(());
         }
     };

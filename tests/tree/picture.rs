@@ -1,0 +1,129 @@
+//! The painter's picture of a hard scene against the depth buffer's, which knows no tree.
+
+use binspace::glam::DVec3;
+use binspace::raster::Verdict;
+use binspace::view::{Camera, views};
+use binspace::{BspTree, BuildOptions, Heuristic, Verification, verify};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+
+use crate::support::dice::Dice;
+use crate::support::hard::{self, HardScene, Tolerance};
+use crate::support::rays::Rays;
+use crate::support::views::some_view;
+
+const SIZE: [u32; 2] = [40, 30];
+
+fn build(scene: &HardScene, by: Heuristic) -> Result<BspTree, TestCaseError> {
+    let mut options = BuildOptions::DEFAULT.with_heuristic(by);
+    options.tolerance = scene.tolerance();
+    options.build(&scene.polygons).map_err(|error| TestCaseError::reject(error.to_string()))
+}
+
+/// Cameras around the scene and inside it.
+fn cameras(scene: &HardScene, count: usize, seed: u64) -> Vec<Camera> {
+    let corners = || scene.polygons.iter().flatten().copied();
+    let bounds = corners().reduce(DVec3::min).zip(corners().reduce(DVec3::max));
+    let (min, max) = bounds.expect("a corner");
+    views([min, max], DVec3::Z, count, SIZE, seed).unwrap_or_default()
+}
+
+/// A camera at one of the eyes where planes and corners are, looking at a fragment.
+fn awkward_camera(tree: &BspTree, dice: &mut Dice) -> Option<Camera> {
+    let rays = Rays::new(tree);
+    let view = some_view(tree.faces(), &rays, dice);
+    let target = tree.faces().lattice().to_world(rays.some_point(dice).to_array());
+    let up = DVec3::new(0.1, 0.2, 1.0);
+    match view.viewpoint {
+        binspace::Viewpoint::Eye(eye) => Camera::perspective(eye, target, up, 1.2, SIZE).ok(),
+        binspace::Viewpoint::Direction(direction) => {
+            let height = hard::extent(&[tree.fragment(0).vertices().collect()]);
+            Camera::parallel(direction, up, target, height, SIZE).ok()
+        }
+    }
+}
+
+fn check(tree: &BspTree, camera: &Camera) -> Result<Option<Verification>, TestCaseError> {
+    // A scene may be so small that its grid is too coarse for a camera.
+    let Ok(result) = verify(tree, camera) else { return Ok(None) };
+    let [holes, spills] = [result.comparison.holes, result.comparison.spills];
+    let wrong = (result.comparison.wrong_order, holes, spills);
+    prop_assert_eq!(wrong, (0, 0, 0), "wrong order, holes, spills from {:?}", camera);
+    Ok(Some(result))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn the_painter_shows_what_the_depth_buffer_sees(
+        scene in hard::scene(),
+        by in prop::sample::select(&Heuristic::ALL[..]),
+        seed in any::<u64>(),
+        exactly in any::<bool>(),
+    ) {
+        let tolerance = if exactly { Tolerance::Share(0.0) } else { Tolerance::Default };
+        let scene = scene.with_tolerance(tolerance);
+        let tree = build(&scene, by)?;
+        for camera in cameras(&scene, 4, seed) {
+            check(&tree, &camera)?;
+        }
+    }
+
+    #[test]
+    fn the_painter_is_right_from_eyes_in_planes_and_corners(
+        scene in hard::scene(),
+        by in prop::sample::select(&Heuristic::ALL[..]),
+        seed in any::<u64>(),
+    ) {
+        let tree = build(&scene.with_tolerance(Tolerance::Share(0.0)), by)?;
+        let mut dice = Dice(seed);
+        for _ in 0..if tree.is_empty() { 0 } else { 4 } {
+            if let Some(camera) = awkward_camera(&tree, &mut dice) {
+                check(&tree, &camera)?;
+            }
+        }
+    }
+
+    /// Where nothing is tied, the order of the input is no matter.
+    #[test]
+    fn shuffled_polygons_give_the_same_picture(
+        (scene, shuffle) in hard::scene().prop_flat_map(|scene| {
+            let indices: Vec<usize> = (0..scene.polygons.len()).collect();
+            (Just(scene), Just(indices).prop_shuffle())
+        }),
+        by in prop::sample::select(&Heuristic::ALL[..]),
+        seed in any::<u64>(),
+    ) {
+        let scene = scene.with_tolerance(Tolerance::Share(0.0));
+        let mut other = scene.clone();
+        other.polygons = shuffle.iter().map(|&i| scene.polygons[i].clone()).collect();
+        let trees = (build(&scene, by)?, build(&other, by)?);
+        for camera in cameras(&scene, 2, seed) {
+            let (Some(a), Some(b)) = (check(&trees.0, &camera)?, check(&trees.1, &camera)?) else {
+                continue;
+            };
+            let pixels = a.comparison.verdicts.iter().zip(&b.comparison.verdicts);
+            let faces = a.painted.faces().iter().zip(b.painted.faces());
+            for ((p, q), (&f, &g)) in pixels.zip(faces) {
+                let tied = [p, q].contains(&&Verdict::Contested);
+                prop_assert!(tied || (p == &Verdict::Empty) == (q == &Verdict::Empty));
+                if p == &Verdict::Right && q == &Verdict::Right {
+                    let (f, g) = (trees.0.faces().polygon(f), trees.1.faces().polygon(g));
+                    let same = f as usize == shuffle[g as usize];
+                    prop_assert!(same || is_tie(&scene, f as usize, shuffle[g as usize]));
+                }
+            }
+        }
+    }
+}
+
+/// Whether two polygons may be equally far in a pixel: they have a point, to rounding, in common.
+fn is_tie(scene: &HardScene, a: usize, b: usize) -> bool {
+    let bounds = |k: usize| {
+        let corners = || scene.polygons[k].iter().copied();
+        corners().reduce(DVec3::min).zip(corners().reduce(DVec3::max))
+    };
+    let (Some((a_min, a_max)), Some((b_min, b_max))) = (bounds(a), bounds(b)) else { return false };
+    a_min.cmple(b_max).all() && b_min.cmple(a_max).all()
+}
