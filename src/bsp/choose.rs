@@ -10,6 +10,15 @@ use crate::geom::{Faces, Kernel, PlaneId, Vertex};
 const OWN_PLANES_BELOW: usize = 400;
 /// How many own planes `auto` tries at a node. More: fewer fragments, for time in proportion.
 const OWN_PLANES: usize = 64;
+/// A free plane that cuts more than one in so many pieces is a poor one, and some own planes are
+/// tried beside it in sets of any size. Larger: time; smaller: stacks of tilted layers are cut
+/// rather than parted.
+const POOR: usize = 8;
+/// How many times fewer pieces an own plane must cut to be taken instead of a poor free one.
+/// Smaller: cells of odd shapes, in which more is cut; larger: as for `POOR`.
+const FEWER: usize = 4;
+/// How many own planes are tried then.
+const FEW_OWN_PLANES: usize = 16;
 /// How many own planes the heuristics that would look at all of them try at most, so that no
 /// node takes quadratic time. They are spread evenly over the set.
 const MOST_CANDIDATES: usize = 256;
@@ -26,6 +35,10 @@ const LARGE_REWARD: f64 = 2.0;
 /// The depth from which on no polygon is rewarded for its size: taking one polygon after another
 /// off a large set is quadratic work. Smaller: rooms full of walls are cut; larger: more such work.
 const REWARD_ABOVE: usize = 128;
+/// Where no plane tried had polygons on both sides, so many polygons are taken one after another
+/// before planes are compared again. Smaller: that comparison at every node of the list that a
+/// convex set becomes; larger: planes missed that would divide it.
+const PEEL: usize = 16;
 /// How many of the largest polygons are tried beside free planes at every node.
 const LARGEST: usize = 2;
 /// The share of the box below which a polygon is not tried as one of the largest.
@@ -46,6 +59,11 @@ impl Counts {
     #[inline]
     pub(super) fn cost(&self) -> f64 {
         work(self.front + self.splits) + work(self.back + self.splits) + price(self.splits)
+    }
+
+    /// Whether all pieces are on one side.
+    fn is_peel(&self) -> bool {
+        self.splits == 0 && self.front.min(self.back) == 0
     }
 
     fn imbalance(&self) -> f64 {
@@ -74,11 +92,13 @@ pub(super) struct Chooser<'a, K: Kernel> {
     faces: &'a Faces,
     heuristic: Heuristic,
     sweep: Sweep,
+    /// How many more polygons may be taken off a set that looks convex, and at which depth.
+    peel: (usize, usize),
 }
 
 impl<'a, K: Kernel> Chooser<'a, K> {
     pub(super) fn new(kernel: K, faces: &'a Faces, heuristic: Heuristic) -> Self {
-        Self { kernel, faces, heuristic, sweep: Sweep::default() }
+        Self { kernel, faces, heuristic, sweep: Sweep::default(), peel: (0, 0) }
     }
 
     /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
@@ -133,9 +153,9 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         let mut best = (f64::INFINITY, PlaneId::face(pieces[0].face));
         for piece in sample(pieces, candidates) {
             let plane = PlaneId::face(piece.face);
-            let counts = self.count(plane, pieces, arena, f64::INFINITY);
+            let (counts, _) = self.count(plane, pieces, arena, f64::INFINITY);
             let is_axial = (0..3).any(|axis| piece.min[axis] == piece.max[axis]);
-            let score = counts.map_or(f64::INFINITY, |counts| score(&counts, is_axial));
+            let score = score(&counts, is_axial);
             if score < best.0 {
                 best = (score, plane);
             }
@@ -150,6 +170,13 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         depth: usize,
         both: bool,
     ) -> PlaneId {
+        if self.peel.0 > 0 && self.peel.1 == depth {
+            let plane = PlaneId::face(pieces[0].face);
+            if self.count(plane, pieces, arena, f64::INFINITY).0.is_peel() {
+                self.peel = (self.peel.0 - 1, depth + 1);
+                return plane;
+            }
+        }
         let free = self.sweep.best(pieces, self.faces.tolerance());
         let named = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
         let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
@@ -159,46 +186,63 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         let cell = Cell::around(pieces);
         if self.heuristic == Heuristic::Auto && reward > 0.0 {
             for piece in cell.largest(pieces) {
-                self.try_own(piece, reward * cell.share(piece), pieces, arena, &mut best);
+                let reward = reward * cell.share(piece);
+                self.try_own(piece, (reward, usize::MAX), pieces, arena, &mut best);
             }
         }
-        if both || named.is_none() {
-            for piece in sample(pieces, OWN_PLANES) {
-                self.try_own(piece, reward * cell.share(piece), pieces, arena, &mut best);
+        let poor = free.is_none_or(|plane| plane.splits * POOR > pieces.len());
+        let tries = match (both, poor) {
+            (true, _) => OWN_PLANES,
+            (false, true) => FEW_OWN_PLANES,
+            (false, false) => 0,
+        };
+        let most = match free {
+            Some(plane) if !both => plane.splits / FEWER,
+            _ => usize::MAX,
+        };
+        if named.is_none() || self.heuristic == Heuristic::Auto {
+            let mut peels = 0;
+            for piece in sample(pieces, tries) {
+                let reward = reward * cell.share(piece);
+                let is_peel = self.try_own(piece, (reward, most), pieces, arena, &mut best);
+                peels += usize::from(is_peel);
             }
+            let is_own = named.is_none_or(|(_, plane)| plane != best.1);
+            let convex = peels > 0 && peels == tries.min(pieces.len());
+            self.peel = (if convex && is_own { PEEL } else { 0 }, depth + 1);
         }
         best.1
     }
 
     /// Takes the plane of a piece if, with a reward for each piece of the set, it is the best so
-    /// far.
+    /// far and cuts no more than allowed. Tells whether all pieces, as far as they were looked at, are on one side of it.
     fn try_own(
         &self,
         piece: &Live,
-        reward: f64,
+        (reward, most_splits): (f64, usize),
         pieces: &[Live],
         arena: &[K::Vertex],
         best: &mut (f64, PlaneId),
-    ) {
+    ) -> bool {
         let plane = PlaneId::face(piece.face);
         let reward = reward * pieces.len() as f64;
-        if let Some(counts) = self.count(plane, pieces, arena, best.0 + reward) {
-            let cost = counts.cost() - reward;
-            if cost < best.0 {
-                *best = (cost, plane);
-            }
+        let (counts, complete) = self.count(plane, pieces, arena, best.0 + reward);
+        let cost = counts.cost() - reward;
+        if complete && cost < best.0 && counts.splits <= most_splits {
+            *best = (cost, plane);
         }
+        counts.is_peel()
     }
 
     /// How a plane divides the pieces, by rounded distances: what is decided here is only which
-    /// plane is taken. `None` once the cost exceeds a limit.
+    /// plane is taken. Breaks off where the cost reaches a limit; tells whether it did not.
     fn count(
         &self,
         plane: PlaneId,
         pieces: &[Live],
         arena: &[K::Vertex],
         limit: f64,
-    ) -> Option<Counts> {
+    ) -> (Counts, bool) {
         let splitter = self.kernel.splitter(self.faces, plane);
         let slack = K::slack(&splitter);
         let mut counts = Counts::default();
@@ -220,10 +264,10 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                 counts.back += usize::from(back & !front);
             }
             if counts.cost() >= limit {
-                return None;
+                return (counts, false);
             }
         }
-        Some(counts)
+        (counts, true)
     }
 }
 

@@ -59,6 +59,12 @@ impl<K: Kernel> BspTree<K> {
         }
         let mut next = 0;
         let mut write = |at: u32, len: u32| {
+            // Mostly there is one; the loop that follows is slower for it.
+            if len == 1 {
+                order_part[at as usize] = next;
+                next += 1;
+                return;
+            }
             for (slot, id) in order_part[at as usize..(at + len) as usize].iter_mut().zip(next..) {
                 *slot = id;
             }
