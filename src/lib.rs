@@ -1,4 +1,29 @@
 //! Exact back-to-front orders of polygons from one BSP tree.
+//!
+//! [`BspTree`] is the library's main type, and its page the manual. Around it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`geom`] | the scene lattice, faces, exact predicates, kernels, the split |
+//! | [`view`] | cameras |
+//! | [`raster`] | a painter and a z-buffer that decide every pixel exactly, and their comparison |
+//! | [`scene`] | polygons with colours: generated scenes and OBJ files |
+//!
+//! # Conventions
+//!
+//! - Coordinates are right-handed, in any unit; results are in the same.
+//! - A polygon's corners run counter-clockwise seen from its **front**; the front of a plane is the
+//!   side that its normal points to.
+//! - Order: *back to front* is the order to paint in, the furthest first.
+//! - Pixels: x to the right, y down, rows from the top; a pixel is judged at its centre.
+//!
+//! # Features
+//!
+//! All are on by default; without them the library depends on glam and smallvec alone.
+//!
+//! - `triangulate`: ear clipping for polygons that are not convex; without it they are an error.
+//! - `parallel`: building with rayon's threads. The tree is the same, bit for bit.
+//! - `obj`: reading Wavefront OBJ files.
 
 mod bsp;
 mod error;
@@ -16,3 +41,8 @@ pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};
 pub use glam;
 pub use verify::{Verification, paint_tree, verify};
+
+/// The README's examples are tested as they stand.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

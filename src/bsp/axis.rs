@@ -14,6 +14,8 @@ const MOST_BINS: usize = 1024;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FreePlane {
     pub(super) cost: f64,
+    /// How many pieces it cuts.
+    pub(super) splits: usize,
     axis: usize,
     coordinate: f64,
 }
@@ -64,15 +66,12 @@ impl Sweep {
         // Begun is “beyond”, ended is “at or beyond”: the next number above makes it one rule.
         let begin = |p: &Live| (p.min[axis] + tolerance).next_up();
         let end = |p: &Live| p.max[axis] - tolerance;
-        let lists = [
-            (&mut self.begun, false, &begin as &dyn Fn(&Live) -> f64),
-            (&mut self.ended, false, &end),
-            (&mut self.begun_flat, true, &begin),
-            (&mut self.ended_flat, true, &end),
-        ];
-        for (list, flat, value) in lists {
-            list.fill(bins, || pieces.iter().filter(|p| is_flat(p) == flat).map(value));
-        }
+        let (flat, thick) =
+            (|| pieces.iter().filter(|p| is_flat(p)), || pieces.iter().filter(|p| !is_flat(p)));
+        self.begun.fill(bins, || thick().map(begin));
+        self.ended.fill(bins, || thick().map(end));
+        self.begun_flat.fill(bins, || flat().map(begin));
+        self.ended_flat.fill(bins, || flat().map(end));
         self.candidates.fill(bins, || {
             pieces.iter().flat_map(|piece| {
                 let min = piece.min_is_corner(axis).then_some(piece.min[axis]);
@@ -114,7 +113,7 @@ impl Sweep {
             if in_front < pieces && behind < pieces {
                 let cost = work(in_front) + work(behind) + price(splits);
                 if best.is_none_or(|best| cost < best.cost) {
-                    *best = Some(FreePlane { cost, axis, coordinate });
+                    *best = Some(FreePlane { cost, splits, axis, coordinate });
                 }
             }
         }

@@ -141,7 +141,7 @@ impl<K: Kernel> Builder<'_, K> {
             let plane = PlaneId::face(first.face);
             (plane, self.partition(start, plane)?)
         } else {
-            let plane = self.chooser.splitter(set, &self.arena);
+            let plane = self.chooser.splitter(set, &self.arena, pending.depth);
             let count = set.len();
             self.classify(start, plane);
             if self.makes_progress(count) {

@@ -23,6 +23,9 @@ const FIRST_SPLIT_PRICE: f64 = 8.0;
 /// polygon in the set; less for one that fills less of it. A floor that is not taken early is cut
 /// again by every wall on it. Larger: depth spent on polygons that nothing would have cut.
 const LARGE_REWARD: f64 = 2.0;
+/// The depth from which on no polygon is rewarded for its size: taking one polygon after another
+/// off a large set is quadratic work. Smaller: rooms full of walls are cut; larger: more such work.
+const REWARD_ABOVE: usize = 128;
 /// How many of the largest polygons are tried beside free planes at every node.
 const LARGEST: usize = 2;
 /// The share of the box below which a polygon is not tried as one of the largest.
@@ -79,8 +82,13 @@ impl<'a, K: Kernel> Chooser<'a, K> {
     }
 
     /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
-    /// both its sides have fewer pieces than the set.
-    pub(super) fn splitter(&mut self, pieces: &[Live], arena: &[K::Vertex]) -> PlaneId {
+    /// both its sides have fewer pieces than the set. The set has `depth` nodes above it.
+    pub(super) fn splitter(
+        &mut self,
+        pieces: &[Live],
+        arena: &[K::Vertex],
+        depth: usize,
+    ) -> PlaneId {
         let own = |piece: &Live| PlaneId::face(piece.face);
         let lowest = || pieces.iter().min_by_key(|piece| piece.face).unwrap_or(&pieces[0]);
         match self.heuristic {
@@ -107,8 +115,10 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                     8.0 * c.splits as f64 + c.imbalance()
                 })
             }
-            Heuristic::FreePlanes => self.free_or_own(pieces, arena, false),
-            Heuristic::Auto => self.free_or_own(pieces, arena, pieces.len() < OWN_PLANES_BELOW),
+            Heuristic::FreePlanes => self.free_or_own(pieces, arena, depth, false),
+            Heuristic::Auto => {
+                self.free_or_own(pieces, arena, depth, pieces.len() < OWN_PLANES_BELOW)
+            }
         }
     }
 
@@ -133,35 +143,45 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         best.1
     }
 
-    fn free_or_own(&mut self, pieces: &[Live], arena: &[K::Vertex], both: bool) -> PlaneId {
+    fn free_or_own(
+        &mut self,
+        pieces: &[Live],
+        arena: &[K::Vertex],
+        depth: usize,
+        both: bool,
+    ) -> PlaneId {
         let free = self.sweep.best(pieces, self.faces.tolerance());
-        let free = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
-        let mut best = free.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
+        let named = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
+        let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
+        // Where a free plane cuts nothing, no polygon needs to be taken before it is cut.
+        let cuts = free.is_none_or(|plane| plane.splits > 0);
+        let reward = if cuts && depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
         let cell = Cell::around(pieces);
-        if self.heuristic == Heuristic::Auto {
+        if self.heuristic == Heuristic::Auto && reward > 0.0 {
             for piece in cell.largest(pieces) {
-                self.try_own(piece, &cell, pieces, arena, &mut best);
+                self.try_own(piece, reward * cell.share(piece), pieces, arena, &mut best);
             }
         }
-        if both || free.is_none() {
+        if both || named.is_none() {
             for piece in sample(pieces, OWN_PLANES) {
-                self.try_own(piece, &cell, pieces, arena, &mut best);
+                self.try_own(piece, reward * cell.share(piece), pieces, arena, &mut best);
             }
         }
         best.1
     }
 
-    /// Takes the plane of a piece if it is the best so far.
+    /// Takes the plane of a piece if, with a reward for each piece of the set, it is the best so
+    /// far.
     fn try_own(
         &self,
         piece: &Live,
-        cell: &Cell,
+        reward: f64,
         pieces: &[Live],
         arena: &[K::Vertex],
         best: &mut (f64, PlaneId),
     ) {
         let plane = PlaneId::face(piece.face);
-        let reward = LARGE_REWARD * pieces.len() as f64 * cell.share(piece);
+        let reward = reward * pieces.len() as f64;
         if let Some(counts) = self.count(plane, pieces, arena, best.0 + reward) {
             let cost = counts.cost() - reward;
             if cost < best.0 {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 /// A signed integer of `64 * N` bits, in two's complement, least significant limb first.
 ///
-/// The predicates know in advance how many bits their results take (see [`exact`](super::exact)),
+/// The predicates know in advance how many bits their results take (see the table in `exact.rs`),
 /// so nothing here checks for overflow in release builds: each product names its own width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Int<const N: usize>([u64; N]);
