@@ -87,12 +87,14 @@ impl Hit {
     }
 }
 
+/// The numbers of the plane of a fragment's face, and of those that bound it, with the sign inside.
+type Outline = (usize, Vec<(usize, Sign)>);
+
 /// A tree's fragments as bounded by planes.
 pub(crate) struct Rays<'t> {
     tree: &'t BspTree,
     planes: Vec<Plane>,
-    /// The plane of each fragment's face, and the planes that bound it, with the sign inside.
-    fragments: Vec<(usize, Vec<(usize, Sign)>)>,
+    fragments: Vec<Outline>,
     /// How many pairs of hits have been compared.
     pub(crate) pairs: usize,
     /// How many of them only the tolerance excuses.
@@ -172,7 +174,7 @@ impl<'t> Rays<'t> {
 
     fn hits(&self, ray: &Ray) -> Vec<Hit> {
         let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
-        let hit = |(id, (own, bounds)): (usize, &(usize, Vec<(usize, Sign)>))| {
+        let hit = |(id, (own, bounds)): (usize, &Outline)| {
             let own = &at[*own];
             let turn =
                 |value: &BigInt| if own.slope.is_negative() { -value } else { value.clone() };
