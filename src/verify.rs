@@ -24,8 +24,9 @@ pub struct Verification {
 /// Paints a tree's fragments back to front, and compares the picture with that of a depth buffer,
 /// pixel by pixel.
 ///
-/// With the [`Exact`](crate::geom::Exact) kernel there should be no wrong pixel, whatever the scene
-/// and wherever the camera.
+/// With the [`Exact`](crate::geom::Exact) kernel and a tolerance of 0 there is no wrong pixel,
+/// whatever the scene and wherever the camera. With a tolerance there can be some where the eye,
+/// or a ray, keeps within the tolerance of a partition plane.
 ///
 /// ```
 /// use binspace::{BspTree, scene, verify, view};

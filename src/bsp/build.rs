@@ -14,6 +14,9 @@ use crate::geom::{Faces, Kernel, PlaneId, Polygon, Side, split};
 /// Smaller: more copies; larger: threads wait for each other at the end.
 const JOB: usize = 1024;
 
+/// The least vertices at which an arena is compacted. Smaller: copies; larger: memory.
+const COMPACT: usize = 1 << 16;
+
 /// Builds a tree of polygons.
 pub(super) fn tree<K: Kernel, P: Polygon>(
     kernel: K,
@@ -68,6 +71,8 @@ struct Builder<'a, K: Kernel> {
     /// is dropped from its end.
     arena: Vec<K::Vertex>,
     pending: Vec<Pending>,
+    /// The length from which the arena is cleared of what cut pieces left behind.
+    compact_at: usize,
     output: Output<K::Stored>,
     scratch: Scratch<K::Vertex>,
 }
@@ -103,8 +108,9 @@ pub(super) fn build<'a, K: Kernel>(
         back_part: vec![],
     };
     let (pieces, arena, output) = (job.pieces, job.arena, Output::default());
+    let (pending, compact_at) = (vec![first], COMPACT);
     let mut builder =
-        Builder { shared, chooser, pieces, arena, pending: vec![first], output, scratch };
+        Builder { shared, chooser, pieces, arena, pending, compact_at, output, scratch };
     while let Some(pending) = builder.pending.pop() {
         if let Some(job) = pending.job {
             builder.output.continue_in(job);
@@ -113,6 +119,9 @@ pub(super) fn build<'a, K: Kernel>(
         builder.pieces.truncate(pending.end);
         builder.arena.truncate(pending.arena);
         builder.step(&pending, &mut hand_over)?;
+        if builder.arena.len() > builder.compact_at {
+            builder.compact()?;
+        }
     }
     Ok(builder.output)
 }
@@ -281,6 +290,27 @@ impl<K: Kernel> Builder<'_, K> {
             let (start, end) = (front.0.start, front.0.end);
             self.pending.push(Pending { start, end, arena, depth, job: None });
         }
+    }
+
+    /// Clears the arena of the vertices of pieces that have since been cut, so that it stays within
+    /// twice of what the sets still to be split need, however often one piece is cut.
+    fn compact(&mut self) -> Result<(), Error> {
+        let mut arena = Vec::new();
+        for pending in &mut self.pending {
+            if pending.job.is_none() {
+                for live in &mut self.pieces[pending.start..pending.end] {
+                    let start = arena.len();
+                    arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+                    *live = live.moved_to(start);
+                }
+            }
+            pending.arena = arena.len();
+        }
+        self.arena = arena;
+        self.compact_at = COMPACT.max(2 * self.arena.len());
+        // Pieces name their vertices by 32 bits.
+        let limit = self.shared.options.max_fragments;
+        if self.arena.len() > 1 << 31 { Err(Error::fragments(limit)) } else { Ok(()) }
     }
 
     /// A set with an arena of its own.

@@ -58,9 +58,11 @@ use crate::geom::{Exact, Faces, Kernel, Polygon, Preparation};
 /// Corners are rounded once, to a grid of 2⁻⁵² of the scene's extent; after that every decision
 /// is that of exact arithmetic, however often a polygon is cut (see [`Exact`]). The order is
 /// right up to the coplanar tolerance, a length in
-/// [`BuildOptions::tolerance`](crate::BuildOptions::tolerance): polygons closer than that to a
-/// common plane may be painted in either order. With a tolerance of 0 it is right without
-/// qualification. Vertices are handed out rounded to `f64`, the same for neighbours.
+/// [`BuildOptions::tolerance`](crate::BuildOptions::tolerance): where polygons reach across a
+/// partition plane by less than that, those parts of them may be painted in either order. That
+/// shows where they are within the tolerance of each other, and to an eye (or along a ray) that
+/// itself keeps within the tolerance of such a plane. With a tolerance of 0 the order is right
+/// without qualification. Vertices are handed out rounded to `f64`, the same for neighbours.
 ///
 /// # Building
 ///

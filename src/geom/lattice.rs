@@ -5,6 +5,10 @@ use glam::DVec3;
 /// The largest magnitude of a lattice coordinate.
 pub(crate) const LIMIT: f64 = (1u64 << 51) as f64;
 
+/// Beyond so many steps from the world's origin, the next number is further off than the largest
+/// scene is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵².
+const FAR: f64 = (1u128 << 110) as f64;
+
 /// A cubic grid laid over a scene, fine enough that rounding its corners to it moves none by more
 /// than 2⁻⁵² of the scene's extent.
 ///
@@ -16,6 +20,9 @@ pub struct Lattice {
     /// Lattice coordinate = world coordinate · 2^exponent − origin.
     exponent: i32,
     origin: [i128; 3],
+    /// The coordinate that all corners share along an axis in which the scene lies so far out, for
+    /// its size, that its coordinates cannot differ; 0 for other axes.
+    far: [f64; 3],
 }
 
 impl Lattice {
@@ -34,15 +41,19 @@ impl Lattice {
         } else {
             0
         };
-        let origin = centre.to_array().map(|c| scale(c, exponent).round() as i128);
-        Self { exponent, origin }
+        let far = centre.to_array().map(|c| if scale(c, exponent).abs() > FAR { c } else { 0.0 });
+        let origin: [i128; 3] = std::array::from_fn(|axis| match far[axis] {
+            0.0 => scale(centre[axis], exponent).round() as i128,
+            _ => 0,
+        });
+        Self { exponent, origin, far }
     }
 
     /// The lattice point nearest to a point of the scene's bounding box.
     pub fn snap(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
-            let steps = scale(world[axis], self.exponent).round() as i128;
+            let steps = scale(world[axis] - self.far[axis], self.exponent).round() as i128;
             (steps - self.origin[axis]) as f64
         })
     }
@@ -51,7 +62,7 @@ impl Lattice {
     pub fn to_lattice(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
-            let scaled = scale(world[axis], self.exponent);
+            let scaled = scale(world[axis] - self.far[axis], self.exponent);
             if scaled.abs() < 1e30 && scaled.fract() == 0.0 {
                 (scaled as i128 - self.origin[axis]) as f64
             } else {
@@ -66,7 +77,8 @@ impl Lattice {
             let whole = lattice[axis].floor();
             let steps = (whole as i128 + self.origin[axis]) as f64;
             // Clamped: the rounding of a corner at the end of the range must not make it infinite.
-            scale(steps + (lattice[axis] - whole), -self.exponent).clamp(f64::MIN, f64::MAX)
+            let world = scale(steps + (lattice[axis] - whole), -self.exponent) + self.far[axis];
+            world.clamp(f64::MIN, f64::MAX)
         }))
     }
 
@@ -117,6 +129,18 @@ mod tests {
             assert!(snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0), "{snapped:?}");
             let error = (lattice.to_world(snapped) - corner).abs().max_element();
             assert!(error <= size * 2f64.powi(-51), "size {size:e}, error {error:e}");
+        }
+    }
+
+    #[test]
+    fn a_flat_scene_far_out_for_its_size_keeps_its_height() {
+        for (height, size) in [(1.0, 1e-30), (1e24, 1.0), (-1e30, 1.0), (1e300, 1e-300)] {
+            let corners = [DVec3::new(0.0, 0.0, height), DVec3::new(size, size, height)];
+            let lattice = Lattice::new(corners[0], corners[1]);
+            for corner in corners {
+                let error = lattice.to_world(lattice.snap(corner)) - corner;
+                assert!(error.z == 0.0 && error.abs().max_element() <= size * 2f64.powi(-51));
+            }
         }
     }
 

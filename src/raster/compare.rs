@@ -58,6 +58,10 @@ const MOVED_CORNERS: f64 = 4.0;
 /// within 2 τ of the plane of the other, τ being the tolerance. That is what the tolerance can do:
 /// two polygons, each within τ of a plane that divides the scene, both count as part of that plane,
 /// and then their order is that of the input. With τ = 0, ties alone are contested.
+///
+/// The rule knows the polygons, not the planes that divided the scene. Where an eye lies within τ
+/// of such a plane, or a ray runs along one, two polygons that reach across it by less than τ can
+/// be met far apart in an order that the tolerance allows: such pixels are called wrong.
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
