@@ -3,7 +3,8 @@
 use crate::bsp::{BspTree, Fragment};
 use crate::geom::{Kernel, Line, Viewpoint};
 use crate::raster::{
-    Comparison, DepthImage, Image, Order, Outline, Painter, Piece, Rays, compare, zbuffer,
+    Comparison, DepthImage, Image, Order, Outline, Painter, Piece, Rays, Verdict, compare, covers,
+    is_open, zbuffer,
 };
 use crate::view::{Camera, CameraError};
 
@@ -24,9 +25,10 @@ pub struct Verification {
 /// Paints a tree's fragments back to front, and compares the picture with that of a depth buffer,
 /// pixel by pixel.
 ///
-/// With the [`Exact`](crate::geom::Exact) kernel and a tolerance of 0 there is no wrong pixel,
-/// whatever the scene and wherever the camera. With a tolerance there can be some where the eye,
-/// or a ray, keeps within the tolerance of a partition plane.
+/// With the [`Exact`](crate::geom::Exact) kernel there is no wrong pixel, whatever the scene and
+/// wherever the camera: what the tolerance allows counts as contested, be it by the rule of
+/// [`compare`], which knows the polygons, or by that of [`is_open`] for the plane that the tree has
+/// between the two. With a tolerance of 0 only ties are contested.
 ///
 /// ```
 /// use binspace::{BspTree, scene, verify, view};
@@ -47,7 +49,10 @@ pub fn verify<K: Kernel>(tree: &BspTree<K>, camera: &Camera) -> Result<Verificat
     let rays = Rays::new(camera, tree.faces())?;
     let painted = paint_tree(tree, camera.viewpoint(), &rays);
     let truth = zbuffer(&rays, tree.faces());
-    let comparison = compare(&rays, tree.faces(), &painted, truth.image());
+    let mut comparison = compare(&rays, tree.faces(), &painted, truth.image());
+    if tree.faces().tolerance() > 0.0 && comparison.wrong_order > 0 {
+        contest(tree, &rays, [&painted, truth.image()], &mut comparison);
+    }
     Ok(Verification { rays, painted, truth, comparison })
 }
 
@@ -65,6 +70,44 @@ pub fn paint_tree<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint, rays: &Ray
         painter.draw(buffers.piece(&tree.fragment(index)));
     }
     painter.finish()
+}
+
+/// Counts wrong pixels as contested where the plane between the two fragments leaves it open which
+/// of them is painted last.
+fn contest<K: Kernel>(
+    tree: &BspTree<K>,
+    rays: &Rays,
+    [painted, truth]: [&Image; 2],
+    comparison: &mut Comparison,
+) {
+    let mut by_face: Vec<(u32, u32)> = tree.fragments().map(|f| (f.face(), f.index())).collect();
+    by_face.sort_unstable();
+    let mut buffers = Buffers::default();
+    // The fragment of a face that is met in a pixel.
+    let mut fragment_at = |face: u32, pixel| {
+        let first = by_face.partition_point(|&(other, _)| other < face);
+        let of_face = by_face[first..].iter().take_while(|&&(other, _)| other == face);
+        let mut fragments = of_face.map(|&(_, fragment)| fragment);
+        fragments.find(|&fragment| {
+            let piece = buffers.piece(&tree.fragment(fragment));
+            covers(rays, tree.faces(), piece, pixel)
+        })
+    };
+    let width = rays.size()[0] as usize;
+    for (i, verdict) in comparison.verdicts.iter_mut().enumerate() {
+        if *verdict != Verdict::WrongOrder {
+            continue;
+        }
+        let pixel = [(i % width) as u32, (i / width) as u32];
+        let met = [truth.faces()[i], painted.faces()[i]];
+        let [nearest, other] = met.map(|face| fragment_at(face, pixel));
+        let plane = nearest.zip(other).and_then(|(a, b)| tree.plane_between(a, b));
+        if plane.is_some_and(|plane| is_open(rays, tree.faces(), plane, met, pixel)) {
+            *verdict = Verdict::Contested;
+            comparison.wrong_order -= 1;
+            comparison.contested += 1;
+        }
+    }
 }
 
 /// A fragment's outline, in memory that the next one uses again.
@@ -96,8 +139,9 @@ impl Buffers {
 mod tests {
     use super::verify;
     use crate::geom::Float;
-    use crate::view::views;
+    use crate::view::{Camera, views};
     use crate::{BspTree, BuildOptions, Heuristic, scene};
+    use glam::DVec3;
 
     #[test]
     fn the_exact_kernel_paints_what_the_depth_buffer_sees() {
@@ -114,6 +158,57 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Square 1 counts as on the plane of square 0, which is aside; the eye is between them, and
+    /// square 2, far behind square 1, counts as nearer.
+    #[test]
+    fn what_an_eye_within_the_tolerance_of_a_plane_sees_is_contested() {
+        let square =
+            |x: f64, z: f64, r: f64| [[x - r, -r, z], [x + r, -r, z], [x + r, r, z], [x - r, r, z]];
+        for unit in [1e-2, 1e-6] {
+            let squares =
+                [square(10.0, 0.0, 1.0), square(0.0, 0.5 * unit, 2.0), square(0.0, 1.0, 5.0)];
+            let look = |tolerance, z: f64| {
+                let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+                let tree = first.with_tolerance(tolerance).build(squares).unwrap();
+                let eye = DVec3::new(0.0, 0.0, z * unit);
+                let camera = Camera::perspective(eye, eye + DVec3::Z, DVec3::Y, 1.0, [40, 30]);
+                verify(&tree, &camera.unwrap()).unwrap().comparison
+            };
+            let within = look(unit, 0.2);
+            assert_eq!((within.wrong(), within.contested), (0, 40 * 30), "{unit}");
+            for (tolerance, z) in [(0.0, 0.2), (unit, -1.2)] {
+                let comparison = look(tolerance, z);
+                assert_eq!((comparison.wrong(), comparison.contested), (0, 0), "{unit} {z}");
+            }
+        }
+    }
+
+    /// Two walls that each reach across the plane of a floor aside by less than the tolerance, the
+    /// one up and the other down, seen along it.
+    #[test]
+    fn what_a_ray_along_a_plane_within_the_tolerance_sees_is_contested() {
+        let unit = 1e-2;
+        let wall = |x: f64, low: f64, high: f64| {
+            [[x, -1.0, low], [x, 1.0, low], [x, 1.0, high], [x, -1.0, high]]
+        };
+        let floor = [[3.0, 5.0, 0.0], [4.0, 5.0, 0.0], [4.0, 6.0, 0.0], [3.0, 6.0, 0.0]];
+        let polygons = [floor, wall(1.0, -0.5 * unit, 1.0), wall(2.0, -1.0, 0.5 * unit)];
+        let look = |tolerance, z: f64| {
+            let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+            let tree = first.with_tolerance(tolerance).build(polygons).unwrap();
+            let eye = DVec3::new(-1.0, 0.0, z);
+            let target = DVec3::new(1.0, 0.0, 0.0);
+            let camera = Camera::perspective(eye, target, DVec3::Z, 0.01, [40, 40]).unwrap();
+            verify(&tree, &camera).unwrap().comparison
+        };
+        // From below, the wall in front is painted first, and the far one over its lower end.
+        let within = look(unit, -1e-6);
+        assert_eq!(within.wrong(), 0);
+        assert!(within.contested > 0);
+        let exact = look(0.0, -1e-6);
+        assert_eq!((exact.wrong(), exact.contested), (0, 0));
     }
 
     #[test]

@@ -42,4 +42,37 @@ impl<K: Kernel> BspTree<K> {
             Some(Partition { plane: node.plane, depth: visit.depth, on: visit.own, front, back })
         })
     }
+
+    /// The partition plane between two fragments, or that both lie on; `None` if they are in one
+    /// leaf, as pieces of one face are. O(depth).
+    ///
+    /// # Panics
+    ///
+    /// If there are no such fragments.
+    pub fn plane_between(&self, a: u32, b: u32) -> Option<PlaneId> {
+        let (low, high) = (a.min(b), a.max(b));
+        assert!((high as usize) < self.records.len(), "no fragment {high}");
+        let (mut index, mut total, mut start) = (0, self.records.len() as u32, 0);
+        loop {
+            let node = &self.nodes[index];
+            let back_len = total - node.own() - node.front_len;
+            let front = start + node.own();
+            let back = front + if node.front_nodes > 0 { 0 } else { node.front_len };
+            let subtrees = back + if node.back_is_node() { 0 } else { back_len };
+            if low < subtrees {
+                let same_leaf = low >= back && high < subtrees || low >= front && high < back;
+                return (!same_leaf).then_some(node.plane);
+            }
+            let in_front = if node.front_nodes > 0 { node.front_len } else { 0 };
+            if low < subtrees + in_front {
+                if high >= subtrees + in_front {
+                    return Some(node.plane);
+                }
+                (index, total, start) = (index + 1, node.front_len, subtrees);
+            } else {
+                index += 1 + node.front_nodes as usize;
+                (total, start) = (back_len, subtrees + in_front);
+            }
+        }
+    }
 }

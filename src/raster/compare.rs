@@ -2,7 +2,7 @@
 
 use super::image::{Image, NONE};
 use super::plane::{determinant, kappa, phi};
-use super::rays::Rays;
+use super::rays::{Given, Rays};
 use crate::geom::{Faces, Plane, PlaneId};
 
 /// What is to be said of one pixel of a painted picture.
@@ -59,9 +59,7 @@ const MOVED_CORNERS: f64 = 4.0;
 /// two polygons, each within τ of a plane that divides the scene, both count as part of that plane,
 /// and then their order is that of the input. With τ = 0, ties alone are contested.
 ///
-/// The rule knows the polygons, not the planes that divided the scene. Where an eye lies within τ
-/// of such a plane, or a ray runs along one, two polygons that reach across it by less than τ can
-/// be met far apart in an order that the tolerance allows: such pixels are called wrong.
+/// The rule knows the polygons, not the planes that divided the scene; for these see [`is_open`].
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
@@ -90,12 +88,46 @@ fn is_contested(rays: &Rays, faces: &Faces, p: u32, q: u32, x: u32, y: u32) -> b
     let [p, q] = [p, q].map(|face| faces.plane(PlaneId::face(face)));
     let pixel = rays.pixel(x, y);
     // Either plane where the ray meets the other is this, over the other's divisor.
-    let value = determinant(rays, &p, &q, pixel).to_f64().abs();
-    let distance = |to: &Plane, on: &Plane| {
-        let divisor = if rays.is_perspective() { phi(on, pixel) } else { kappa(rays, on) };
-        value / (divisor.to_f64().abs() * to.normal_f64().length())
-    };
+    let met = |to, on| distance(rays, to, on, pixel);
     let tolerance = faces.tolerance();
     let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
-    value == 0.0 || distance(&p, &q).min(distance(&q, &p)) <= allowed
+    met(&p, &q).min(met(&q, &p)) <= allowed
+}
+
+/// How far from a plane the ray of a pixel meets another, in lattice units, rounded.
+fn distance(rays: &Rays, to: &Plane, on: &Plane, pixel: Given) -> f64 {
+    let divisor = if rays.is_perspective() { phi(on, pixel) } else { kappa(rays, on) };
+    let value = determinant(rays, to, on, pixel).to_f64().abs();
+    value / (divisor.to_f64().abs() * to.normal_f64().length())
+}
+
+/// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the
+/// plane between their pieces: the ray meets the nearer one within the tolerance of that plane, and
+/// meets the other, or begins, within it as well.
+///
+/// That is all that a tolerance can do. Say the eye is in front of the plane, and a piece that the
+/// order puts in front is hidden by one that it puts behind. Along the ray, the height above the
+/// plane is linear. It is positive at the eye, at most τ where the ray meets the hiding piece, and
+/// at least −τ further on, at the hidden one. Where it falls, both pieces are met within τ; where it
+/// rises, it is at most τ from the eye to the hiding piece.
+pub fn is_open(
+    rays: &Rays,
+    faces: &Faces,
+    plane: PlaneId,
+    [nearest, other]: [u32; 2],
+    [x, y]: [u32; 2],
+) -> bool {
+    let tolerance = faces.tolerance();
+    if tolerance == 0.0 {
+        return false;
+    }
+    let allowed = tolerance + MOVED_CORNERS;
+    let plane = faces.plane(plane);
+    let pixel = rays.pixel(x, y);
+    let meets = |face| distance(rays, &plane, &faces.plane(PlaneId::face(face)), pixel) <= allowed;
+    let begins = || {
+        let height = kappa(rays, &plane).to_f64().abs() / plane.normal_f64().length();
+        rays.is_perspective() && height <= allowed
+    };
+    meets(nearest) && (meets(other) || begins())
 }
