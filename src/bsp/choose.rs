@@ -3,6 +3,7 @@
 use super::Heuristic;
 use super::axis::Sweep;
 use super::live::Live;
+use super::peel::Peeler;
 use crate::geom::{Faces, Kernel, PlaneId, Vertex};
 
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
@@ -94,11 +95,12 @@ pub(super) struct Chooser<'a, K: Kernel> {
     sweep: Sweep,
     /// How many more polygons may be taken off a set that looks convex, and at which depth.
     peel: (usize, usize),
+    peeler: Peeler<K>,
 }
 
 impl<'a, K: Kernel> Chooser<'a, K> {
     pub(super) fn new(kernel: K, faces: &'a Faces, heuristic: Heuristic) -> Self {
-        Self { kernel, faces, heuristic, sweep: Sweep::default(), peel: (0, 0) }
+        Self { kernel, faces, heuristic, sweep: Sweep::default(), peel: (0, 0), peeler: Peeler::default() }
     }
 
     /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
@@ -170,6 +172,11 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         depth: usize,
         both: bool,
     ) -> PlaneId {
+        if both {
+            if let Some(plane) = self.peeler.next(pieces.len()) {
+                return plane;
+            }
+        }
         if self.peel.0 > 0 && self.peel.1 == depth {
             let plane = PlaneId::face(pieces[0].face);
             if self.count(plane, pieces, arena, f64::INFINITY).0.is_peel() {
@@ -179,6 +186,12 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         }
         let free = self.sweep.best(pieces, self.faces.tolerance());
         let named = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
+        if both && free.is_none_or(|plane| plane.splits > 0) {
+            self.peeler.search(&self.kernel, self.faces, pieces, arena);
+            if let Some(plane) = self.peeler.next(pieces.len()) {
+                return plane;
+            }
+        }
         let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
         // Where a free plane cuts nothing, no polygon needs to be taken before it is cut.
         let cuts = free.is_none_or(|plane| plane.splits > 0);

@@ -12,6 +12,7 @@ mod node;
 mod options;
 mod order;
 mod partitions;
+mod peel;
 mod stats;
 mod traverse;
 mod tree;
