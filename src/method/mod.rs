@@ -1,0 +1,119 @@
+//! Ways to decide visibility, behind one trait, so that speed and error can be measured side by
+//! side.
+//!
+//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after
+//! another. What it paints is a picture of faces, to be [compared](crate::raster::compare) with
+//! that of the exact depth buffer.
+//!
+//! | method | decides by | errs where |
+//! |---|---|---|
+//! | [`Bsp`] with [`Exact`](crate::geom::Exact) | the tree of this library | nowhere |
+//! | [`Bsp`] with [`Float`](crate::geom::Float) | the same tree, rounded distances and an epsilon | distances are near the epsilon or the precision |
+//! | [`Centroid`] | one depth a face | faces overlap in depth |
+//! | [`ExactDepth`] | the depth in each pixel, exactly | nowhere: the judge |
+
+mod bsp;
+mod centroid;
+mod error;
+mod exact_depth;
+mod space;
+
+pub use bsp::Bsp;
+pub use centroid::Centroid;
+pub use error::MethodError;
+pub use exact_depth::ExactDepth;
+
+use std::time::Duration;
+
+use crate::bsp::BuildOptions;
+use crate::geom::{Faces, Float};
+use crate::raster::{Image, Rays};
+use crate::view::Camera;
+
+/// A way to decide which face shows in each pixel.
+pub trait Method: Send + Sync {
+    /// A short name, different from those of all other methods and options: "newell",
+    /// "bsp f64 1e-6", "z 24".
+    fn name(&self) -> String;
+
+    /// Does what does not depend on the viewpoint.
+    ///
+    /// # Errors
+    ///
+    /// If a budget runs out.
+    fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError>;
+}
+
+/// A method made ready for the faces of a scene.
+pub trait Prepared {
+    /// Paints the scene. The rays must be those of the camera through the faces that the method
+    /// was prepared for.
+    ///
+    /// # Errors
+    ///
+    /// If a budget runs out, or the method's options do not fit the camera.
+    fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError>;
+
+    /// The resident bytes between two views, besides the faces.
+    fn bytes(&self) -> usize;
+
+    /// Shows each piece of a face that was made ahead of any view: the face, and the piece's
+    /// vertices in lattice units, in the face's orientation. Methods that cut nothing ahead show
+    /// nothing.
+    fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
+        let _ = visit;
+    }
+}
+
+/// A picture, and what it cost.
+#[derive(Clone, Debug)]
+pub struct Painted {
+    /// The face in each pixel.
+    pub image: Image,
+    /// The time until the order was found; zero for methods that find none.
+    pub order: Duration,
+    /// The time that drawing took.
+    pub draw: Duration,
+    /// How many pieces were drawn, faces that were not cut included.
+    pub pieces: usize,
+}
+
+/// Options of the methods that [`all`] makes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// How trees are built. The tolerance is that of the faces, whatever is said here.
+    pub build: BuildOptions,
+}
+
+impl Options {
+    /// The defaults.
+    pub const DEFAULT: Self = Self { build: BuildOptions::DEFAULT };
+
+    /// With other options for trees.
+    #[must_use]
+    pub const fn with_build(self, build: BuildOptions) -> Self {
+        Self { build, ..self }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// The standard field of competitors, the exact tree first and the judge last.
+pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
+    let build = options.build;
+    let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build))];
+    for epsilon in [1e-12, 1e-9, 1e-6, 1e-3] {
+        methods.push(Box::new(Bsp::<Float<f64>>::double(build, epsilon)));
+    }
+    for epsilon in [1e-6, 1e-5, 1e-4, 1e-3] {
+        methods.push(Box::new(Bsp::<Float<f32>>::single(build, epsilon)));
+    }
+    methods.push(Box::new(Centroid));
+    methods.push(Box::new(ExactDepth));
+    methods
+}
