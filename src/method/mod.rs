@@ -22,6 +22,8 @@ mod error;
 mod exact_depth;
 mod newell;
 mod space;
+#[cfg(test)]
+mod tests;
 
 pub use bsp::Bsp;
 pub use centroid::Centroid;
