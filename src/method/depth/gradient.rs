@@ -17,7 +17,7 @@ pub(super) struct Sample {
 pub(super) struct Gradient<P> {
     origin: Sample,
     pub(super) along_x: f64,
-    pub(super) along_y: f64,
+    along_y: f64,
     precision: PhantomData<P>,
 }
 
@@ -46,12 +46,17 @@ impl<P: Precision> Gradient<P> {
         Self { origin, along_x, along_y, precision }
     }
 
-    /// The value at a pixel's centre.
+    /// What the values of a row begin with: that on the row's centre, at the x of the first sample.
     #[inline]
-    pub(super) fn at(&self, x: u32, y: u32) -> f64 {
-        let dx = P::round(f64::from(x) + 0.5 - self.origin.x);
+    pub(super) fn row(&self, y: u32) -> f64 {
         let dy = P::round(f64::from(y) + 0.5 - self.origin.y);
-        let along = P::round(self.origin.value + P::round(dx * self.along_x));
-        P::round(along + P::round(dy * self.along_y))
+        P::round(self.origin.value + P::round(dy * self.along_y))
+    }
+
+    /// The value at the centre of a row's pixel.
+    #[inline]
+    pub(super) fn at(&self, row: f64, x: u32) -> f64 {
+        let dx = P::round(f64::from(x) + 0.5 - self.origin.x);
+        P::round(row + P::round(dx * self.along_x))
     }
 }
