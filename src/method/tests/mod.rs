@@ -4,6 +4,7 @@ mod depth;
 mod field;
 mod hand;
 mod kernels;
+mod nasty;
 mod newell;
 mod oracle;
 
