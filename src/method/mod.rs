@@ -18,7 +18,7 @@
 //! use binspace::method::{Centroid, Method, Newell};
 //! use binspace::{geom::Faces, raster, scene, view};
 //!
-//! let scene = scene::newell_bars();
+//! let scene = scene::random_triangles(60, 1);
 //! let (faces, _) = Faces::new(scene.polygons(), None)?;
 //! let (low, high) = scene.bounds().expect("a scene with corners");
 //! let camera = &view::views([low, high], scene.up(), 1, [160, 120], 1)?[0];
