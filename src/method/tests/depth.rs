@@ -52,7 +52,7 @@ fn precision_is_that_of_the_format() {
     // Reversed, z is about 1e-3, with steps of 1.2e-10: the steps of w itself, 3e-5, are larger.
     assert_eq!(mistaken(FloatReversed, 0.001), 0);
     assert_eq!(mistaken(LinearFloat, 0.001), 0);
-    assert!(mistaken(FloatReversed, 1e-6) > 20);
+    assert!(mistaken(FloatReversed, 1e-6) > 20 && mistaken(LinearFloat, 1e-6) > 20);
 }
 
 /// What two pictures that differ in a pixel have to say for themselves: one of the two polygons has

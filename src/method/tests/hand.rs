@@ -66,6 +66,19 @@ fn a_cut_piece_is_painted_as_far_as_it_reaches() {
 }
 
 #[test]
+fn of_two_in_one_plane_painters_show_the_later_and_depth_buffers_the_earlier() {
+    let a = points([[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [4.0, 6.0, 1.0], [0.0, 6.0, 1.0]]);
+    let b = points([[2.0, 0.0, 1.0], [6.0, 0.0, 1.0], [6.0, 6.0, 1.0], [2.0, 6.0, 1.0]]);
+    for method in all(&Options::DEFAULT) {
+        let name = method.name();
+        let is_buffer = (name.starts_with('z') || name.starts_with('w')) && name != "z f64";
+        let row = if is_buffer { "AAAABB" } else { "AABBBB" };
+        let expected = [row; 6].join(" ");
+        assert_eq!(drawn(&*method, &vec![a.clone(), b.clone()], &camera()), expected, "{name}");
+    }
+}
+
+#[test]
 fn two_bits_tell_four_depths_apart() {
     // From near 0 to far 9, steps of 3: depths below 1.5 are 0, below 4.5 are 1, below 7.5 are 2.
     // A is at 5, so 2; B from ¾ at the left to 5¾ at the right, so 0 1 1 1 2 2.

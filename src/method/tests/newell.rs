@@ -50,6 +50,25 @@ fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
     }
 }
 
+#[test]
+fn thin_layers_come_out_as_brute_force_has_them() {
+    // Tilted by more than they are apart, now one way, now the other, in no order of depth.
+    let layer = |i: u32| {
+        let height = 1e-3 * f64::from(i * 7 % 20);
+        let (tilt, reach) = (2e-4 * f64::from(i % 3) - 2e-4, 0.3 + 0.03 * f64::from(i * 3 % 20));
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let corner = |(x, y): (f64, f64)| {
+            let (x, y) = (x * reach, y * reach + 0.1 * f64::from(i % 4));
+            DVec3::new(x, y, height + tilt * (x + y) + 0.3 * x)
+        };
+        corners.map(corner).to_vec()
+    };
+    let polygons: Polygons = (0..20).map(layer).collect();
+    let views = cameras(&polygons, [48, 36], 11);
+    assert_right("thin layers", &polygons, &views);
+    assert_right("thin layers", &polygons, &from_above(2.5, [40, 40]));
+}
+
 /// From above, and from an eye above.
 fn from_above(height: f64, size: [u32; 2]) -> [Camera; 2] {
     let eye = DVec3::new(0.03, 0.02, 4.0);
