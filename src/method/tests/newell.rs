@@ -69,6 +69,18 @@ fn thin_layers_come_out_as_brute_force_has_them() {
     assert_right("thin layers", &polygons, &from_above(2.5, [40, 40]));
 }
 
+#[test]
+fn what_lies_just_behind_the_nearest_corner_is_not_forgotten() {
+    // A slope that reaches far down, and a small square just below its upper end.
+    let slope = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let slope = slope.map(|(x, y)| DVec3::new(x, y, x)).to_vec();
+    let square = [(0.994, -0.01), (1.005, -0.01), (1.005, 0.01), (0.994, 0.01)];
+    let square = square.map(|(x, y)| DVec3::new(x, y, 0.994)).to_vec();
+    let (down, centre) = (DVec3::NEG_Z, DVec3::new(1.0, 0.0, 0.0));
+    let camera = Camera::parallel(down, DVec3::Y, centre, 0.04, [40, 40]).unwrap();
+    assert_right("a slope", &vec![slope, square], &[camera]);
+}
+
 /// From above, and from an eye above.
 fn from_above(height: f64, size: [u32; 2]) -> [Camera; 2] {
     let eye = DVec3::new(0.03, 0.02, 4.0);
