@@ -62,11 +62,16 @@ pub fn verify<K: Kernel>(tree: &BspTree<K>, camera: &Camera) -> Result<Verificat
 /// Fragments of an exact kernel are bounded by the lines that cut them, those of others by their
 /// rounded vertices: such a kernel decides by these, and they are what its users would draw.
 pub fn paint_tree<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint, rays: &Rays) -> Image {
-    let mut painter = Painter::new(rays, tree.faces(), Order::BackToFront);
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
+    paint_order(tree, &order, rays)
+}
+
+/// Paints fragments of a tree one after the other.
+pub(crate) fn paint_order<K: Kernel>(tree: &BspTree<K>, order: &[u32], rays: &Rays) -> Image {
+    let mut painter = Painter::new(rays, tree.faces(), Order::BackToFront);
     let mut buffers = Buffers::default();
-    for index in order {
+    for &index in order {
         painter.draw(buffers.piece(&tree.fragment(index)));
     }
     painter.finish()

@@ -8,7 +8,7 @@ use super::jobs::{self, Job};
 use super::live::Live;
 use super::{BspTree, BuildOptions};
 use crate::Error;
-use crate::geom::{Faces, Kernel, PlaneId, Polygon, Side, split};
+use crate::geom::{Faces, Kernel, PlaneId, Polygon, Preparation, Side, split};
 
 /// Sets on both sides of a plane with at least this many pieces are built as jobs of their own.
 /// Smaller: more copies; larger: threads wait for each other at the end.
@@ -24,6 +24,16 @@ pub(super) fn tree<K: Kernel, P: Polygon>(
     polygons: impl IntoIterator<Item = P>,
 ) -> Result<BspTree<K>, Error> {
     let (faces, preparation) = Faces::new(polygons, options.tolerance)?;
+    tree_of(kernel, options, faces, preparation)
+}
+
+/// Builds a tree of faces.
+pub(super) fn tree_of<K: Kernel>(
+    kernel: K,
+    options: &BuildOptions,
+    faces: Faces,
+    preparation: Preparation,
+) -> Result<BspTree<K>, Error> {
     let live: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
     let shared = Shared { kernel, faces: &faces, options, fragments: AtomicUsize::new(live.len()) };
     shared.count(0)?;

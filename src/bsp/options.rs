@@ -2,7 +2,7 @@
 
 use super::{BspTree, Heuristic};
 use crate::Error;
-use crate::geom::{Exact, Kernel, Polygon};
+use crate::geom::{Exact, Faces, Kernel, Polygon, Preparation};
 
 /// How a tree is to be built: [`BspTree::build`] with other than the defaults.
 ///
@@ -91,6 +91,17 @@ impl BuildOptions {
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<BspTree<K>, Error> {
         super::build::tree(kernel, self, polygons)
+    }
+
+    /// Builds a tree of faces that are made already: their tolerance counts, not that of the
+    /// options.
+    pub(crate) fn build_faces<K: Kernel>(
+        &self,
+        kernel: K,
+        faces: Faces,
+        preparation: Preparation,
+    ) -> Result<BspTree<K>, Error> {
+        super::build::tree_of(kernel, self, faces, preparation)
     }
 }
 
