@@ -1,10 +1,13 @@
 //! The tree: building, orders, statistics, validation.
 
 mod assemble;
+mod auto;
 mod axis;
 mod build;
+mod cell;
 mod choose;
 mod convex;
+mod cost;
 mod fragment;
 mod gather;
 mod heuristic;
