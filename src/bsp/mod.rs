@@ -1,5 +1,6 @@
 //! The tree: building, orders, statistics, validation.
 
+mod accuracy;
 mod assemble;
 mod axis;
 mod build;
@@ -18,6 +19,7 @@ mod tree;
 mod validate;
 mod walk;
 
+pub use accuracy::Accuracy;
 pub use fragment::Fragment;
 pub use heuristic::{Heuristic, ParseHeuristicError};
 pub use options::BuildOptions;

@@ -25,7 +25,7 @@ pub use exact_depth::ExactDepth;
 
 use std::time::Duration;
 
-use crate::bsp::BuildOptions;
+use crate::bsp::{Accuracy, BuildOptions};
 use crate::geom::{Faces, Float};
 use crate::raster::{Image, Rays};
 use crate::view::Camera;
@@ -62,6 +62,11 @@ pub trait Prepared {
     /// nothing.
     fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
         let _ = visit;
+    }
+
+    /// How far the pieces are from their definitions, of methods that keep any.
+    fn accuracy(&self) -> Option<Accuracy> {
+        None
     }
 }
 
