@@ -15,7 +15,7 @@ enum Kind {
     Build(Error),
     Pieces { limit: usize },
     Comparisons { limit: u64 },
-    Range { near: f64, far: f64 },
+    Range { near: Option<f64>, far: Option<f64> },
 }
 
 impl MethodError {
@@ -27,7 +27,7 @@ impl MethodError {
         Self { kind: Kind::Comparisons { limit } }
     }
 
-    pub(super) const fn range(near: f64, far: f64) -> Self {
+    pub(super) const fn range(near: Option<f64>, far: Option<f64>) -> Self {
         Self { kind: Kind::Range { near, far } }
     }
 
@@ -59,11 +59,18 @@ impl fmt::Display for MethodError {
                 "more than {limit} pairs of pieces were compared (`max_comparisons`): raise the \
                  budget"
             ),
-            Kind::Range { near, far } => write!(
-                f,
-                "the near plane at {near} and the far plane at {far} enclose no depths: 0 < near \
-                 < far is needed, or, for a parallel camera, near < far"
-            ),
+            Kind::Range { near, far } => {
+                let given = |depth: &Option<f64>| {
+                    depth.map_or_else(|| "none given".into(), |depth| format!("{depth}"))
+                };
+                write!(
+                    f,
+                    "a near plane (it is {}) and a far plane ({}) must be finite, the former less \
+                     and, for a perspective camera, more than 0",
+                    given(near),
+                    given(far)
+                )
+            }
         }
     }
 }

@@ -10,23 +10,30 @@
 //! | [`Bsp`] with [`Exact`](crate::geom::Exact) | the tree of this library | nowhere |
 //! | [`Bsp`] with [`Float`](crate::geom::Float) | the same tree, rounded distances and an epsilon | distances are near the epsilon or the precision |
 //! | [`Centroid`] | one depth a face | faces overlap in depth |
+//! | [`Newell`] | plane tests in `f64`, splits where nothing else helps | distances are near its epsilon |
+//! | [`DepthBuffer`] | the depth in each pixel, in limited precision | depths are nearer than its steps |
 //! | [`ExactDepth`] | the depth in each pixel, exactly | nowhere: the judge |
 
 mod bsp;
 mod centroid;
+mod clip;
+mod depth;
 mod error;
 mod exact_depth;
+mod newell;
 mod space;
 
 pub use bsp::Bsp;
 pub use centroid::Centroid;
+pub use depth::{DepthBuffer, DepthFormat, Interpolation};
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
+pub use newell::Newell;
 
 use std::time::Duration;
 
 use crate::bsp::{Accuracy, BuildOptions};
-use crate::geom::{Faces, Float};
+use crate::geom::Faces;
 use crate::raster::{Image, Rays};
 use crate::view::Camera;
 
@@ -89,16 +96,35 @@ pub struct Painted {
 pub struct Options {
     /// How trees are built. The tolerance is that of the faces, whatever is said here.
     pub build: BuildOptions,
+    /// Newell's algorithm, its budgets and its epsilon.
+    pub newell: Newell,
+    /// The near plane of depth buffers; see [`DepthBuffer::near`].
+    pub near: Option<f64>,
+    /// The far plane of depth buffers; see [`DepthBuffer::far`].
+    pub far: Option<f64>,
 }
 
 impl Options {
     /// The defaults.
-    pub const DEFAULT: Self = Self { build: BuildOptions::DEFAULT };
+    pub const DEFAULT: Self =
+        Self { build: BuildOptions::DEFAULT, newell: Newell::DEFAULT, near: None, far: None };
 
     /// With other options for trees.
     #[must_use]
     pub const fn with_build(self, build: BuildOptions) -> Self {
         Self { build, ..self }
+    }
+
+    /// With another budget or epsilon for Newell's algorithm.
+    #[must_use]
+    pub const fn with_newell(self, newell: Newell) -> Self {
+        Self { newell, ..self }
+    }
+
+    /// With given near and far planes, in world units, for depth buffers.
+    #[must_use]
+    pub const fn with_range(self, near: f64, far: f64) -> Self {
+        Self { near: Some(near), far: Some(far), ..self }
     }
 }
 
@@ -113,12 +139,21 @@ pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     let build = options.build;
     let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build))];
     for epsilon in [1e-12, 1e-9, 1e-6, 1e-3] {
-        methods.push(Box::new(Bsp::<Float<f64>>::double(build, epsilon)));
+        methods.push(Box::new(Bsp::double(build, epsilon)));
     }
     for epsilon in [1e-6, 1e-5, 1e-4, 1e-3] {
-        methods.push(Box::new(Bsp::<Float<f32>>::single(build, epsilon)));
+        methods.push(Box::new(Bsp::single(build, epsilon)));
     }
     methods.push(Box::new(Centroid));
+    methods.push(Box::new(options.newell));
+    let buffer =
+        |format| DepthBuffer { near: options.near, far: options.far, ..DepthBuffer::new(format) };
+    use DepthFormat::{Float, FloatReversed, Integer, LinearFloat, LinearInteger};
+    for format in [Integer(16), Integer(24), Float, FloatReversed, LinearInteger(16), LinearFloat] {
+        methods.push(Box::new(buffer(format)));
+    }
+    let incremental = buffer(Integer(24)).with_interpolation(Interpolation::Incremental);
+    methods.push(Box::new(incremental));
     methods.push(Box::new(ExactDepth));
     methods
 }

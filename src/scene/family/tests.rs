@@ -161,9 +161,8 @@ fn bars_cover_each_other_in_a_cycle() {
             scene.polygons().map(|p| [(p[0] + p[3]) * 0.5, (p[1] + p[2]) * 0.5]).collect();
         let centre = scene.polygons().flatten().sum::<DVec3>() / (4.0 * count);
         // Every bar rises along itself; all together they do not.
-        let across = |line: &[DVec3; 2]| {
-            ((line[0] + line[1]) * 0.5 - centre).cross(line[1] - line[0])
-        };
+        let across =
+            |line: &[DVec3; 2]| ((line[0] + line[1]) * 0.5 - centre).cross(line[1] - line[0]);
         let up = lines.iter().map(across).sum::<DVec3>().normalize();
         let flat = |p: DVec3| p - up * p.dot(up);
         let mut covers = 0;
