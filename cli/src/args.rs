@@ -184,7 +184,7 @@ pub(crate) struct ReportArgs {
     /// depth-range.
     #[arg(long, value_name = "NAME")]
     pub(crate) family: Vec<Family>,
-    /// Size of the pictures in pixels [default: 320x240; 160x120 if quick]
+    /// Size of the pictures in pixels [default: 640x480; 160x120 if quick]
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub(crate) size: Option<[u32; 2]>,
 }

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::BspTree;
 use super::walk::{Visit, Walk};
-use crate::geom::{Exact, ExactSplitter, Kernel, Plane, PlaneId, PlaneKind, Side, Symbol};
+use crate::geom::{Exact, ExactSplitter, Kernel, Plane, PlaneId, PlaneKind, Residue, Side, Symbol};
 
 /// What the vertices of a tree's fragments are off by, and how many of them are on a wrong side;
 /// see [`BspTree::accuracy`].
@@ -18,6 +18,9 @@ pub struct Accuracy {
     pub misplaced: usize,
     /// Vertices that have no place, because what they are defined by is parallel.
     pub undefined: usize,
+    /// Faces whose fragments do not add up to the face's own area, by the definitions of their
+    /// vertices, exactly (but for odds of 2⁻⁶¹ that a difference goes unseen).
+    pub torn: usize,
     /// The largest difference between a vertex's coordinate and the exact one, in units of the
     /// scene's lattice, 2⁻⁵² to 2⁻⁵⁰ of the extent: units in the last place of a coordinate at the
     /// scene's rim.
@@ -56,8 +59,49 @@ impl<K: Kernel> BspTree<K> {
                 range.for_each(|fragment| self.judge(fragment, &path, &mut result, &mut sum));
             }
         }
+        result.torn = self.torn_faces();
         result.drift_mean = sum / result.vertices.max(1) as f64;
         result
+    }
+
+    /// How many faces are not the sum of their fragments.
+    fn torn_faces(&self) -> usize {
+        // For each face the sum of its fragments' areas less its own; none if a vertex has no place.
+        let mut rest = vec![Some(Residue::ZERO); self.faces.len()];
+        let axis = |face| self.faces.plane(PlaneId::face(face)).main_axis();
+        for fragment in self.fragments().filter(|fragment| !fragment.is_whole()) {
+            let face = fragment.face();
+            let symbols = fragment.stored().iter().map(K::symbol);
+            let area = self.twice_area(face, axis(face), symbols);
+            let sum = &mut rest[face as usize];
+            *sum = sum.zip(area).map(|(sum, area)| sum.plus(area));
+        }
+        let mut seen = vec![false; self.faces.len()];
+        self.fragments().for_each(|fragment| seen[fragment.face() as usize] = true);
+        let is_torn = |&face: &u32| {
+            let index = face as usize;
+            let corners = 0..self.faces.corners(face).len() as u32;
+            let own = || self.twice_area(face, axis(face), corners.map(Symbol::corner));
+            // Without a piece that is cut, it is there as a whole.
+            !seen[index] || rest[index] != Some(Residue::ZERO) && rest[index] != own()
+        };
+        (0..self.faces.len() as u32).filter(is_torn).count()
+    }
+
+    /// Twice the area of a polygon, seen along an axis.
+    fn twice_area(
+        &self,
+        face: u32,
+        axis: usize,
+        symbols: impl Iterator<Item = Symbol>,
+    ) -> Option<Residue> {
+        let place = |symbol| self.faces.place_residues(face, symbol, axis);
+        let places: Vec<[Residue; 2]> = symbols.map(place).collect::<Option<_>>()?;
+        let cross = |k: usize| {
+            let ([a, b], [c, d]) = (places[k], places[(k + 1) % places.len()]);
+            a.times(d).minus(b.times(c))
+        };
+        Some((0..places.len()).fold(Residue::ZERO, |sum, k| sum.plus(cross(k))))
     }
 
     fn extend_path(&self, path: &mut Vec<Above>, visit: &Visit) {

@@ -10,10 +10,10 @@ use super::growth::Growth;
 pub(super) fn errors(sections: &[Section]) -> String {
     let head = "subject,difficulty,method,faces,views,covered,wrong,wrong_order,holes,spills,\
                 contested,depth_max_extents,depth_mean_extents,vertices,misplaced_vertices,\
-                undefined_vertices,drift_max_ulps,drift_mean_ulps,drift_max_extents,\
+                undefined_vertices,torn_faces,drift_max_ulps,drift_mean_ulps,drift_max_extents,\
                 area_error_worst,area_error_total,pieces,failure\n";
     each_row(head, sections, |row| match &row.found {
-        Err(failure) => format!("{}{}", ",".repeat(18), quoted(failure)),
+        Err(failure) => format!("{}{}", ",".repeat(19), quoted(failure)),
         Ok(figures) => {
             let (p, a) = (&figures.picture, figures.accuracy);
             let pixels = [p.covered, p.wrong(), p.wrong_order, p.holes, p.spills, p.contested];
@@ -23,6 +23,7 @@ pub(super) fn errors(sections: &[Section]) -> String {
                 optional(a.map(|a| a.vertices)),
                 optional(a.map(|a| a.misplaced)),
                 optional(a.map(|a| a.undefined)),
+                optional(a.map(|a| a.torn)),
                 optional(a.map(|a| number(a.drift_max))),
                 optional(a.map(|a| number(a.drift_mean))),
                 optional(figures.drift().map(number)),
@@ -132,7 +133,7 @@ mod tests {
             method: "newell".into(),
             found,
         });
-        for text in [errors(&[section]), times(&[])] {
+        for text in [errors(std::slice::from_ref(&section)), times(&[section])] {
             let columns = text.lines().next().unwrap().split(',').count();
             for line in text.lines().skip(1) {
                 assert_eq!(line.replace("\"a,b\"", "ab").split(',').count(), columns, "{text}");

@@ -105,6 +105,7 @@ impl Section {
                 wrong: figures.picture.wrong(),
                 vertices: figures.accuracy.map_or(0, |accuracy| accuracy.vertices),
                 misplaced: figures.accuracy.map_or(0, |a| a.misplaced + a.undefined),
+                torn: figures.accuracy.map_or(0, |accuracy| accuracy.torn),
             },
         };
         self.of(EXACT).map(one).fold(Exactness::default(), Add::add)
@@ -121,12 +122,13 @@ pub(super) struct Exactness {
     pub(super) wrong: usize,
     pub(super) vertices: usize,
     pub(super) misplaced: usize,
+    pub(super) torn: usize,
 }
 
 impl Exactness {
     /// Whether it was measured, and nothing was wrong.
     pub(super) fn is_zero(&self) -> bool {
-        self.rows > 0 && self.failed == 0 && self.wrong == 0 && self.misplaced == 0
+        self.rows > 0 && self.failed + self.wrong + self.misplaced + self.torn == 0
     }
 }
 
@@ -142,6 +144,7 @@ impl Add for Exactness {
             wrong: self.wrong + other.wrong,
             vertices: self.vertices + other.vertices,
             misplaced: self.misplaced + other.misplaced,
+            torn: self.torn + other.torn,
         }
     }
 }
@@ -150,13 +153,14 @@ impl fmt::Display for Exactness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{EXACT}: {} of {} pixels wrong, {} contested, {} of {} vertices misplaced, {} of {} \
-             trials not finished",
+            "{EXACT}: {} of {} pixels wrong, {} contested, {} of {} vertices misplaced, \
+             {} polygons torn, {} of {} trials not finished",
             self.wrong,
             self.pixels,
             self.contested,
             self.misplaced,
             self.vertices,
+            self.torn,
             self.failed,
             self.rows
         )

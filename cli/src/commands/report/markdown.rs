@@ -143,6 +143,8 @@ const MEASURES: &str = "
   coordinate: in units of the scene's grid (ulp; 2⁻⁵² to 2⁻⁵⁰ of the extent), and as a share of the
   extent. The exact tree's is the one rounding of positions that are handed out; no decision uses
   them.
+- **Torn** polygons are not the sum of their pieces: the areas by the vertices' exact definitions,
+  compared exactly, differ.
 - **Area error** is the largest relative difference between a polygon's area and the sum of its
   pieces', computed in `f64` from rounded vertices: of a polygon that is hardly wider than a unit of
   the grid, rounding alone is much.

@@ -52,7 +52,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     // Files first: what cannot be read should not cost minutes.
     let scenes = args.scenes.iter().map(|name| load(args, name)).collect::<Result<Vec<_>, _>>()?;
     make_folder(&args.output)?;
-    let size = args.size.unwrap_or(if args.quick { [160, 120] } else { [320, 240] });
+    let size = args.size.unwrap_or(if args.quick { [160, 120] } else { [640, 480] });
     let mut report =
         Report { args, size, sections: Vec::new(), growth: Vec::new(), complete: false };
     let methods = methods();

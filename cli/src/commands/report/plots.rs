@@ -47,6 +47,7 @@ pub(super) fn speed(sections: &[Section]) -> Result<Option<String>, Failure> {
         x_label: "time for a picture: order and drawing [s], geometric mean",
         y_label: "wrong pixels / covered pixels",
         ticks: None,
+        falls: false,
         zero: true,
         series,
     };
@@ -72,6 +73,7 @@ pub(super) fn against_difficulty(section: &Section, family: Family) -> Result<St
         x_label: family.parameter(),
         y_label: "wrong pixels / covered pixels",
         // Few and small numbers are best read as they are.
+        falls: sweep.first() > sweep.last(),
         ticks: sweep.iter().all(|&d| (1.0..1000.0).contains(&d)).then_some(sweep),
         zero: true,
         series: series.collect(),
@@ -123,6 +125,14 @@ fn growth(
             }
         }
     }
-    let chart = Chart { title, x_label: "polygons", y_label, ticks: None, zero: false, series };
+    let chart = Chart {
+        title,
+        x_label: "polygons",
+        y_label,
+        ticks: None,
+        falls: false,
+        zero: false,
+        series,
+    };
     chart.draw()
 }

@@ -9,8 +9,8 @@ pub(super) fn sentence(section: &Section) -> String {
     let steps = section.of(EXACT).count();
     let verdict = if exact.is_zero() {
         format!(
-            "**{EXACT}** paints 0 wrong pixels of {} and misplaces 0 of {} vertices in all {steps} \
-             steps",
+            "**{EXACT}** paints 0 wrong pixels of {} and misplaces 0 of {} vertices and tears no \
+             polygon in all {steps} steps",
             grouped(exact.pixels),
             grouped(exact.vertices)
         )

@@ -84,6 +84,7 @@ pub(super) fn details(section: &Section, methods: &[&str]) -> Table {
         "vertices misplaced",
         "drift [ulp]",
         "drift [extent]",
+        "torn",
         "area error",
         "pieces",
         "build",
@@ -97,7 +98,7 @@ pub(super) fn details(section: &Section, methods: &[&str]) -> Table {
             Some(Ok(figures)) => cells.extend(detail(figures)),
             Some(Err(failure)) => {
                 cells.push(format!("gave up: {failure}"));
-                cells.extend(vec![String::new(); 13]);
+                cells.extend(vec![String::new(); 14]);
             }
             None => continue,
         }
@@ -116,6 +117,7 @@ fn detail(figures: &Figures) -> Vec<String> {
         figures.accuracy.map_or_else(dash, |a| grouped(a.misplaced + a.undefined)),
         figures.accuracy.map_or_else(dash, |a| exponent(a.drift_max)),
         figures.drift().map_or_else(dash, exponent),
+        figures.accuracy.map_or_else(dash, |a| grouped(a.torn)),
         figures.area.map_or_else(dash, |area| exponent(area.worst)),
         grouped(figures.pieces),
         time(figures.build),

@@ -16,7 +16,7 @@ use crate::failure::Failure;
 const SIZE: (u32, u32) = (900, 560);
 const LEGEND: u32 = 175;
 /// How high the place for zero is, as a share of the axis above it.
-const LANE: f64 = 0.16;
+const LANE: f64 = 0.22;
 const FONT: &str = "sans-serif";
 
 /// The shape of a point.
@@ -71,6 +71,8 @@ pub(super) struct Chart<'a> {
     pub(super) y_label: &'a str,
     /// Ticks of the x axis; decades if there are none.
     pub(super) ticks: Option<Vec<f64>>,
+    /// Whether the x axis runs from large to small.
+    pub(super) falls: bool,
     /// Whether values may be 0: they are drawn in a lane of their own below the axis, side by
     /// side, so that none hides another.
     pub(super) zero: bool,
@@ -96,10 +98,11 @@ impl Chart<'_> {
 
     fn draw_axes(&self, area: &Area<'_>) -> Result<(), Failure> {
         let points = || self.series.iter().flat_map(|series| &series.points);
-        let x = match &self.ticks {
+        let mut x = match &self.ticks {
             Some(ticks) => Scale::at(ticks),
             None => Scale::decades(points().map(|&(x, _)| x)),
         };
+        x.falls = self.falls;
         let mut y = Scale::decades(points().map(|&(_, y)| y).filter(|&y| y > 0.0));
         let (least, ends) = (y.low, [x.low, x.high]);
         let lane = if self.zero { LANE * (y.high - y.low) } else { 0.0 };
@@ -137,12 +140,16 @@ impl Chart<'_> {
             let line = PathElement::new([(ends[0], least), (ends[1], least)], edge);
             chart.draw_series([line]).map_err(failure)?;
         }
-        let count = self.series.len() as f64;
-        for (i, series) in self.series.iter().enumerate() {
-            // The first on top.
-            let slot = floor + lane * (count - i as f64 - 0.5) / count;
+        let has_zero = |series: &&Series| series.points.iter().any(|point| point.1 <= 0.0);
+        let count = self.series.iter().filter(has_zero).count() as f64;
+        let mut slot = floor + 0.5 * lane / count.max(1.0);
+        // The first is drawn last, above all others.
+        for series in self.series.iter().rev() {
             let place = |&(x, y): &(f64, f64)| (x.log10(), if y > 0.0 { y.log10() } else { slot });
             let places: Vec<(f64, f64)> = series.points.iter().map(place).collect();
+            if has_zero(&series) {
+                slot += lane / count;
+            }
             let colour = series.style.colour;
             if series.line {
                 let style = colour.mix(0.75).stroke_width(2);

@@ -10,27 +10,45 @@ pub(super) struct Scale {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) ticks: Vec<f64>,
+    /// Whether it runs from large to small.
+    pub(super) falls: bool,
 }
 
 impl Scale {
-    /// An axis for these positive values, which ends at whole decades, with at most nine ticks.
+    /// An axis for these positive values. It ends at decades, and has at most nine ticks; or, where
+    /// two decades or less hold all, it ends at steps of 1, 2 and 5.
     pub(super) fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = bounds(values.map(f64::log10)).unwrap_or((0.0, 1.0));
-        let (low, mut high) = ((low + 1e-9).floor(), (high - 1e-9).ceil());
-        if high <= low {
-            high = low + 1.0;
+        let (first, mut last) = ((low + 1e-9).floor(), (high - 1e-9).ceil());
+        if last <= first {
+            last = first + 1.0;
         }
-        let step = ((high - low) / 8.0).ceil().max(1.0);
-        let count = ((high - low) / step).floor() as u32;
-        let ticks = (0..=count).map(|i| low + f64::from(i) * step).collect();
-        Self { low, high, ticks }
+        if last - first <= 2.0 {
+            return Self::fine(low, high, first, last);
+        }
+        let step = ((last - first) / 8.0).ceil().max(1.0);
+        let count = ((last - first) / step).floor() as u32;
+        let ticks = (0..=count).map(|i| first + f64::from(i) * step).collect();
+        Self { low: first, high: last, ticks, falls: false }
+    }
+
+    fn fine(low: f64, high: f64, first: f64, last: f64) -> Self {
+        let decades = (first as i32..=last as i32).map(f64::from);
+        let all = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|m: f64| decade + m.log10()));
+        let all: Vec<f64> = all.filter(|tick| *tick < last + 1e-9).collect();
+        let from = all.iter().rposition(|tick| *tick < low + 1e-9).unwrap_or(0);
+        let to = all.iter().position(|tick| *tick > high - 1e-9).unwrap_or(all.len() - 1);
+        let (from, to) = if from < to { (from, to) } else { (from.saturating_sub(1), from + 1) };
+        let ticks: Vec<f64> = all.into_iter().take(to + 1).skip(from).collect();
+        let (low, high) = bounds(ticks.iter().copied()).unwrap_or((first, last));
+        Self { low, high, ticks, falls: false }
     }
 
     /// An axis with ticks at these values, and a little room around them.
     pub(super) fn at(values: &[f64]) -> Self {
         let ticks: Vec<f64> = values.iter().map(|value| value.log10()).collect();
         let (low, high) = bounds(ticks.iter().copied()).unwrap_or((0.0, 1.0));
-        Self { low: low - 0.05, high: high + 0.05, ticks }
+        Self { low: low - 0.05, high: high + 0.05, ticks, falls: false }
     }
 }
 
@@ -41,12 +59,12 @@ impl Ranged for Scale {
 
     fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
         let share = (value - self.low) / (self.high - self.low);
+        let share = if self.falls { 1.0 - share } else { share };
         first + (share * f64::from(last - first)).round() as i32
     }
 
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        // Lines between ticks would be at no round number.
-        if hint.bold_points() > 0 { self.ticks.clone() } else { Vec::new() }
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
     }
 
     fn range(&self) -> Range<f64> {
@@ -61,28 +79,21 @@ fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// A power of ten as people write it: 0.01 to 1000 in full, others as 10ᵏ.
+/// The value of an exponent, as people write it: from 0.1 to 1000 in full, others with a power of
+/// ten.
 pub(super) fn label(exponent: f64) -> String {
-    let whole = exponent.round();
-    if (exponent - whole).abs() > 1e-6 {
-        // A tick at a value that is no decade.
-        let value = 10f64.powf(exponent);
-        return if value >= 10.0 { format!("{value:.0}") } else { format!("{value:.1}") }
-            .trim_end_matches(".0")
-            .to_owned();
+    let decade = (exponent + 1e-6).floor();
+    let digit = 10f64.powf(exponent - decade);
+    if (-1.0..3.0).contains(&decade) {
+        let value = (digit * 10f64.powf(decade) * 100.0).round() / 100.0;
+        return value.to_string();
     }
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    match whole as i32 {
-        0 => "1".to_owned(),
-        1 => "10".to_owned(),
-        2 => "100".to_owned(),
-        power => {
-            let raised = power.unsigned_abs().to_string();
-            let raised = raised.chars().filter_map(|c| c.to_digit(10)).map(|d| digits[d as usize]);
-            let sign = if power < 0 { "⁻" } else { "" };
-            format!("10{sign}{}", raised.collect::<String>())
-        }
-    }
+    let raised = (decade as i32).unsigned_abs().to_string();
+    let raised = raised.chars().filter_map(|c| c.to_digit(10)).map(|d| digits[d as usize]);
+    let sign = if decade < 0.0 { "⁻" } else { "" };
+    let power = format!("10{sign}{}", raised.collect::<String>());
+    if digit < 1.005 { power } else { format!("{}·{power}", (digit * 10.0).round() / 10.0) }
 }
 
 #[cfg(test)]
@@ -100,8 +111,19 @@ mod tests {
     }
 
     #[test]
+    fn a_narrow_range_has_ticks_within_decades() {
+        let scale = Scale::decades([1.3e-4, 4e-4].into_iter());
+        let labels: Vec<String> = scale.ticks.iter().map(|&tick| label(tick)).collect();
+        assert_eq!(labels, ["10⁻⁴", "2·10⁻⁴", "5·10⁻⁴"]);
+        for value in [1.0, 3.0, 1e-7] {
+            let scale = Scale::decades([value].into_iter());
+            assert!(scale.low < scale.high && scale.ticks.len() >= 2, "{scale:?}");
+        }
+    }
+
+    #[test]
     fn powers_are_written_with_raised_figures() {
         let labels = [-12.0, -1.0, 0.0, 2.0, 3.0, 2f64.log10(), 12f64.log10()].map(label);
-        assert_eq!(labels, ["10⁻¹²", "10⁻¹", "1", "100", "10³", "2", "12"]);
+        assert_eq!(labels, ["10⁻¹²", "0.1", "1", "100", "10³", "2", "12"]);
     }
 }
