@@ -13,7 +13,7 @@ pub(super) fn errors(sections: &[Section]) -> String {
                 undefined_vertices,torn_faces,drift_max_ulps,drift_mean_ulps,drift_max_extents,\
                 area_error_worst,area_error_total,pieces,failure\n";
     each_row(head, sections, |row| match &row.found {
-        Err(failure) => format!("{}{}", ",".repeat(19), quoted(failure)),
+        Err(failure) => format!("{}{}", ",".repeat(18), quoted(failure)),
         Ok(figures) => {
             let (p, a) = (&figures.picture, figures.accuracy);
             let pixels = [p.covered, p.wrong(), p.wrong_order, p.holes, p.spills, p.contested];

@@ -32,8 +32,9 @@ use crate::units::count;
 /// The most fragments of a tree, and pieces of Newell's algorithm. More, and a single step of a
 /// sweep takes minutes; less, and methods are given up that come to an end.
 const MAX_PIECES: usize = 1 << 19;
-/// The most pairs that Newell's algorithm may compare for a picture: about a second.
-const MAX_COMPARISONS: u64 = 1 << 25;
+/// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if it has to
+/// be quick.
+const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
 /// Views of scenes that are files.
 const VIEWS: usize = 6;
 
@@ -55,7 +56,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     let size = args.size.unwrap_or(if args.quick { [160, 120] } else { [640, 480] });
     let mut report =
         Report { args, size, sections: Vec::new(), growth: Vec::new(), complete: false };
-    let methods = methods();
+    let methods = methods(MAX_COMPARISONS[usize::from(args.quick)]);
     let families = if args.family.is_empty() { &Family::ALL[..] } else { &args.family };
     for &family in families {
         let section = run_family(&report, family, &methods)?;
@@ -81,9 +82,8 @@ fn load(args: &ReportArgs, name: &std::ffi::OsStr) -> Result<Scene, Failure> {
 }
 
 /// All competitors, with budgets that end.
-fn methods() -> Vec<Box<dyn Method>> {
-    let newell =
-        Newell { max_pieces: MAX_PIECES, max_comparisons: MAX_COMPARISONS, ..Newell::DEFAULT };
+fn methods(max_comparisons: u64) -> Vec<Box<dyn Method>> {
+    let newell = Newell { max_pieces: MAX_PIECES, max_comparisons, ..Newell::DEFAULT };
     let build = BuildOptions::DEFAULT.with_max_fragments(MAX_PIECES);
     all(&Options::DEFAULT.with_build(build).with_newell(newell))
 }

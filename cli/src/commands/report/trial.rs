@@ -77,14 +77,14 @@ impl Trial {
 
     /// A row for each method.
     pub(super) fn measure(&self, methods: &[Box<dyn Method>], difficulty: Option<f64>) -> Vec<Row> {
-        let row = |method: &Box<dyn Method>| Row {
+        let row = |method: &dyn Method| Row {
             difficulty,
             faces: self.faces.len(),
             views: self.views.len(),
             method: method.name(),
-            found: self.figures(&**method).map_err(|error| error.to_string()),
+            found: self.figures(method).map_err(|error| error.to_string()),
         };
-        methods.iter().map(row).collect()
+        methods.iter().map(|method| row(&**method)).collect()
     }
 
     fn figures(&self, method: &dyn Method) -> Result<Figures, MethodError> {
@@ -166,7 +166,7 @@ fn around_and_inside(
     let eye_and_target = |i: usize| {
         let mut point = || DVec3::from_array(std::array::from_fn(|_| dice.between(-0.8, 0.8)));
         let (first, second) = (point(), point());
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             let away = (first + DVec3::new(0.01, 0.02, 0.03)).normalize();
             (centre + away * (3.2 * reach), centre + second * half * 0.2)
         } else {
