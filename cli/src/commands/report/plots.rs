@@ -12,20 +12,21 @@ use super::summary::Summary;
 use crate::failure::Failure;
 
 /// The methods that plots show, with their looks: trees round and blue, depth buffers with corners
-/// and warm. More, and none can be told from another.
+/// and warm. More, and none can be told from another. Those further up are drawn later, and smaller
+/// than what they may hide.
 const SHOWN: [(&str, Style); 12] = [
-    (EXACT, Style::new([0, 0, 0], Marker::Ring)),
-    ("bsp f64 1e-12", Style::new([0, 60, 160], Marker::Circle)),
-    ("bsp f64 1e-9", Style::new([30, 130, 220], Marker::Circle)),
-    ("bsp f64 1e-6", Style::new([90, 190, 240], Marker::Circle)),
-    ("bsp f32 1e-4", Style::new([120, 70, 200], Marker::Circle)),
-    ("newell", Style::new([0, 140, 90], Marker::Diamond)),
-    ("centroid", Style::new([130, 130, 130], Marker::Cross)),
-    ("z 16", Style::new([150, 80, 20], Marker::Square)),
-    ("z 24", Style::new([215, 60, 20], Marker::Square)),
-    ("z f32", Style::new([245, 150, 30], Marker::Triangle)),
-    ("z f32 reversed", Style::new([205, 175, 0], Marker::Triangle)),
-    ("w f32", Style::new([215, 80, 150], Marker::Triangle)),
+    (EXACT, Style::new([0, 0, 0], Marker::Ring, 8)),
+    ("bsp f64 1e-12", Style::new([0, 60, 160], Marker::Circle, 3)),
+    ("bsp f64 1e-9", Style::new([30, 130, 220], Marker::Circle, 4)),
+    ("bsp f64 1e-6", Style::new([90, 190, 240], Marker::Circle, 5)),
+    ("bsp f32 1e-4", Style::new([120, 70, 200], Marker::Circle, 6)),
+    ("newell", Style::new([0, 140, 90], Marker::Diamond, 7)),
+    ("centroid", Style::new([130, 130, 130], Marker::Cross, 5)),
+    ("z 16", Style::new([150, 80, 20], Marker::Square, 3)),
+    ("z 24", Style::new([215, 60, 20], Marker::Square, 5)),
+    ("z f32", Style::new([245, 150, 30], Marker::Triangle, 4)),
+    ("z f32 reversed", Style::new([205, 175, 0], Marker::Triangle, 5)),
+    ("w f32", Style::new([215, 80, 150], Marker::Triangle, 6)),
 ];
 
 /// Wrong pixels against the time for a picture, one point a method; none without families.
@@ -121,7 +122,7 @@ fn growth(
             if let Some(row) = rows.iter().find(of_it).filter(|_| !points.is_empty()) {
                 let kernel = row.method.trim_start_matches("bsp ");
                 let name = format!("{scene}, {kernel}");
-                series.push(Series::new(&name, Style::new(colour, marker), points));
+                series.push(Series::new(&name, Style::new(colour, marker, 5), points));
             }
         }
     }

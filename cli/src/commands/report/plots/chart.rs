@@ -35,11 +35,13 @@ pub(super) enum Marker {
 pub(super) struct Style {
     colour: RGBColor,
     marker: Marker,
+    /// About half of a marker's width, in pixels.
+    reach: i32,
 }
 
 impl Style {
-    pub(super) const fn new([r, g, b]: [u8; 3], marker: Marker) -> Self {
-        Self { colour: RGBColor(r, g, b), marker }
+    pub(super) const fn new([r, g, b]: [u8; 3], marker: Marker, reach: i32) -> Self {
+        Self { colour: RGBColor(r, g, b), marker, reach }
     }
 }
 
@@ -188,21 +190,23 @@ where
     C::From: Clone,
 {
     let full: ShapeStyle = style.colour.filled();
-    let at = EmptyElement::at(at);
+    let (at, r) = (EmptyElement::at(at), style.reach);
     let drawn = match style.marker {
-        Marker::Circle => area.draw(&(at + Circle::new((0, 0), 5, full))),
+        Marker::Circle => area.draw(&(at + Circle::new((0, 0), r, full))),
         Marker::Ring => {
-            let ring = Circle::new((0, 0), 7, style.colour.stroke_width(3));
-            area.draw(&(at + ring + Circle::new((0, 0), 2, full)))
+            let ring = Circle::new((0, 0), r, style.colour.stroke_width(3));
+            area.draw(&(at + ring))
         }
-        Marker::Square => area.draw(&(at + Rectangle::new([(-5, -5), (5, 5)], full))),
-        Marker::Triangle => area.draw(&(at + Polygon::new([(0, -6), (6, 5), (-6, 5)], full))),
+        Marker::Square => area.draw(&(at + Rectangle::new([(-r, -r), (r, r)], full))),
+        Marker::Triangle => {
+            area.draw(&(at + Polygon::new([(0, -r - 1), (r + 1, r), (-r - 1, r)], full)))
+        }
         Marker::Diamond => {
-            area.draw(&(at + Polygon::new([(0, -7), (7, 0), (0, 7), (-7, 0)], full)))
+            area.draw(&(at + Polygon::new([(0, -r), (r, 0), (0, r), (-r, 0)], full)))
         }
         Marker::Cross => {
             let stroke = style.colour.stroke_width(3);
-            let [rising, falling] = [[(-5, 5), (5, -5)], [(-5, -5), (5, 5)]];
+            let [rising, falling] = [[(-r, r), (r, -r)], [(-r, -r), (r, r)]];
             let cross = PathElement::new(rising, stroke);
             area.draw(&(at + cross + PathElement::new(falling, stroke)))
         }

@@ -79,12 +79,12 @@ fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// The value of an exponent, as people write it: from 0.1 to 1000 in full, others with a power of
+/// The value of an exponent, as people write it: from 0.01 to 5000 in full, others with a power of
 /// ten.
 pub(super) fn label(exponent: f64) -> String {
     let decade = (exponent + 1e-6).floor();
     let digit = 10f64.powf(exponent - decade);
-    if (-1.0..3.0).contains(&decade) {
+    if (-2.0..4.0).contains(&decade) {
         let value = (digit * 10f64.powf(decade) * 100.0).round() / 100.0;
         return value.to_string();
     }
@@ -124,6 +124,6 @@ mod tests {
     #[test]
     fn powers_are_written_with_raised_figures() {
         let labels = [-12.0, -1.0, 0.0, 2.0, 3.0, 2f64.log10(), 12f64.log10()].map(label);
-        assert_eq!(labels, ["10⁻¹²", "0.1", "1", "100", "10³", "2", "12"]);
+        assert_eq!(labels, ["10⁻¹²", "0.1", "1", "100", "1000", "2", "12"]);
     }
 }
