@@ -171,9 +171,12 @@ impl<P: Precision> Pass<'_, P> {
             let (scale, frame) = (&self.scale, &mut self.frame);
             let piece = Piece { face, outline: Outline::Whole };
             for_each_run(self.rays, self.faces, piece, |y, columns| {
-                for x in columns {
-                    if limits.is_none_or(|limits| limits.allow(x, y)) {
-                        frame.put(x, y, scale.key(gradient.at(x, y)), face);
+                let row = gradient.row(y);
+                let key = |x| scale.key(gradient.at(row, x));
+                match limits {
+                    None => frame.put(y, columns, face, |x| Some(key(x))),
+                    Some(limits) => {
+                        frame.put(y, columns, face, |x| limits.allow(x, y).then(|| key(x)));
                     }
                 }
             });
@@ -219,7 +222,7 @@ struct Limits {
 
 impl Limits {
     fn allow(&self, x: u32, y: u32) -> bool {
-        let value = self.linear.at(x, y);
+        let value = self.linear.at(self.linear.row(y), x);
         value >= self.allowed[0] && value <= self.allowed[1]
     }
 }

@@ -13,6 +13,25 @@
 //! | [`Newell`] | plane tests in `f64`, splits where nothing else helps | distances are near its epsilon |
 //! | [`DepthBuffer`] | the depth in each pixel, in limited precision | depths are nearer than its steps |
 //! | [`ExactDepth`] | the depth in each pixel, exactly | nowhere: the judge |
+//!
+//! ```
+//! use binspace::method::{Centroid, Method, Newell};
+//! use binspace::{geom::Faces, raster, scene, view};
+//!
+//! let scene = scene::random_triangles(60, 1);
+//! let (faces, _) = Faces::new(scene.polygons(), None)?;
+//! let (low, high) = scene.bounds().expect("a scene with corners");
+//! let camera = &view::views([low, high], scene.up(), 1, [160, 120], 1)?[0];
+//! let rays = raster::Rays::new(camera, &faces)?;
+//! let truth = raster::zbuffer(&rays, &faces);
+//! let wrong = |method: &dyn Method| -> Result<usize, binspace::method::MethodError> {
+//!     let painted = method.prepare(&faces)?.paint(camera, &rays)?;
+//!     Ok(raster::compare(&rays, &faces, &painted.image, truth.image()).wrong())
+//! };
+//! assert_eq!(wrong(&Newell::DEFAULT)?, 0);
+//! assert!(wrong(&Centroid)? > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bsp;
 mod centroid;
@@ -22,6 +41,8 @@ mod error;
 mod exact_depth;
 mod newell;
 mod space;
+#[cfg(test)]
+mod tests;
 
 pub use bsp::Bsp;
 pub use centroid::Centroid;

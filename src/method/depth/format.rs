@@ -57,7 +57,7 @@ impl fmt::Display for DepthFormat {
 /// How depths come from the corners of a face to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// By the plane's equation in each pixel: z₀ + (x − x₀)·(−A/C) + (y − y₀)·(−B/C). What a face
+    /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the left. What a face
     /// covers is decided exactly, so that the depths alone can err: there are no holes, no spills.
     EdgeFunctions,
     /// Scanline by scanline, as in Catmull's thesis (1974) and, without a buffer, in Wylie, Romney,
@@ -139,7 +139,8 @@ impl<P: Precision> Scale<P> {
     /// The nearest step; beyond the ends, the end's.
     #[inline]
     fn step(&self, value: f64) -> u32 {
-        (value * self.steps).round().clamp(0.0, self.steps) as u32
+        // Nothing but a conversion, which ends at 0: `round` is a call on some machines.
+        ((value * self.steps + 0.5) as u32).min(self.steps as u32)
     }
 }
 

@@ -1,5 +1,7 @@
 //! The two buffers: a depth and a face a pixel.
 
+use std::ops::Range;
+
 use crate::raster::{Image, NONE};
 
 #[derive(Debug)]
@@ -23,14 +25,25 @@ impl Frame {
         self.size
     }
 
-    /// Shows a face in a pixel if it is nearer than what is there. What is as far loses.
+    /// Shows a face in those pixels of a run where it is nearer than what is there. What is as far
+    /// loses. Of a pixel that is to be left alone the key is `None`.
     #[inline]
-    pub(super) fn put(&mut self, x: u32, y: u32, key: u32, face: u32) {
-        let i = y as usize * self.size[0] as usize + x as usize;
-        self.drawn += 1;
-        if key < self.keys[i] || self.faces[i] == NONE {
-            self.keys[i] = key;
-            self.faces[i] = face;
+    pub(super) fn put(
+        &mut self,
+        y: u32,
+        columns: Range<u32>,
+        face: u32,
+        mut key_at: impl FnMut(u32) -> Option<u32>,
+    ) {
+        let start = y as usize * self.size[0] as usize;
+        let pixels = start + columns.start as usize..start + columns.end as usize;
+        let keys = self.keys[pixels.clone()].iter_mut();
+        for ((x, stored), shown) in columns.zip(keys).zip(&mut self.faces[pixels]) {
+            let Some(key) = key_at(x) else { continue };
+            self.drawn += 1;
+            if key < *stored || *shown == NONE {
+                (*stored, *shown) = (key, face);
+            }
         }
     }
 

@@ -17,7 +17,7 @@ pub(super) struct Sample {
 pub(super) struct Gradient<P> {
     origin: Sample,
     pub(super) along_x: f64,
-    pub(super) along_y: f64,
+    along_y: f64,
     precision: PhantomData<P>,
 }
 
@@ -46,12 +46,48 @@ impl<P: Precision> Gradient<P> {
         Self { origin, along_x, along_y, precision }
     }
 
-    /// The value at a pixel's centre.
+    /// What the values of a row begin with: that on the row's centre, at the x of the first sample.
     #[inline]
-    pub(super) fn at(&self, x: u32, y: u32) -> f64 {
-        let dx = P::round(f64::from(x) + 0.5 - self.origin.x);
+    pub(super) fn row(&self, y: u32) -> f64 {
         let dy = P::round(f64::from(y) + 0.5 - self.origin.y);
-        let along = P::round(self.origin.value + P::round(dx * self.along_x));
-        P::round(along + P::round(dy * self.along_y))
+        P::round(self.origin.value + P::round(dy * self.along_y))
+    }
+
+    /// The value at the centre of a row's pixel.
+    #[inline]
+    pub(super) fn at(&self, row: f64, x: u32) -> f64 {
+        let dx = P::round(f64::from(x) + 0.5 - self.origin.x);
+        P::round(row + P::round(dx * self.along_x))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Gradient, Sample};
+
+    fn samples(positions: &[[f64; 2]]) -> Vec<Sample> {
+        let sample = |&[x, y]: &[f64; 2]| Sample {
+            x,
+            y,
+            value: f64::from((0.25 * x + 0.5 * y + 3.0) as f32),
+        };
+        positions.iter().map(sample).collect()
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_largest_triangle() {
+        // The first three span next to nothing, and 6 + 5e-7 is 6 in `f32`.
+        let all = samples(&[[0.0, 0.0], [6.0, 0.0], [12.0, 1e-6], [8.0, 8.0], [0.0, 8.0]]);
+        let gradient = Gradient::<f32>::new(&all);
+        assert_eq!((gradient.along_x, gradient.along_y), (0.25, 0.5));
+        assert_eq!(gradient.at(gradient.row(2), 4), 3.0 + 1.125 + 1.25);
+        assert!((Gradient::<f32>::new(&all[..3]).along_y - 0.5).abs() > 0.1);
+    }
+
+    #[test]
+    fn without_area_the_first_value_counts() {
+        let gradient = Gradient::<f64>::new(&samples(&[[1.0, 1.0], [2.0, 2.0], [3.0, 3.0]]));
+        assert_eq!(gradient.at(gradient.row(7), 9), 3.75);
+        assert_eq!(Gradient::<f64>::new(&[]).at(0.0, 1), 0.0);
     }
 }

@@ -98,10 +98,12 @@ fn fill<P: Precision>(
             let (first, end) = (index(left.x, width), index(right.x, width));
             let skip = P::round(f64::from(first) + 0.5 - left.x);
             let mut value = P::round(left.value + P::round(skip * slope));
-            for x in first..end {
-                pass.frame.put(x, y, pass.scale.key(value), face);
+            let scale = &pass.scale;
+            pass.frame.put(y, first..end.max(first), face, |_| {
+                let key = scale.key(value);
                 value = P::round(value + slope);
-            }
+                Some(key)
+            });
         }
         for edge in active.iter_mut() {
             edge.x = P::round(edge.x + edge.step[0]);
