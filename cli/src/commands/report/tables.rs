@@ -121,7 +121,7 @@ fn detail(figures: &Figures) -> Vec<String> {
         figures.area.map_or_else(dash, |area| exponent(area.worst)),
         grouped(figures.pieces),
         time(figures.build),
-        time(figures.order),
+        if figures.order > 0.0 { time(figures.order) } else { dash() },
         time(figures.draw),
         bytes(figures.bytes),
     ]);
