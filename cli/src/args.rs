@@ -172,7 +172,7 @@ pub(crate) struct ReportArgs {
     /// Folder to write into; made if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "report")]
     pub(crate) output: PathBuf,
-    /// Fewer steps, smaller pictures: a minute or two instead of a quarter of an hour
+    /// Fewer steps and smaller pictures: about a tenth of the time
     #[arg(long)]
     pub(crate) quick: bool,
     /// Chooses the scenes of all families, and the views

@@ -26,7 +26,8 @@ impl Scale {
         if last - first <= 2.0 {
             return Self::fine(low, high, first, last);
         }
-        let step = ((last - first) / 8.0).ceil().max(1.0);
+        let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
+        let step = steps.into_iter().find(|step| (last - first) / step <= 8.0).unwrap_or(100.0);
         let count = ((last - first) / step).floor() as u32;
         let ticks = (0..=count).map(|i| first + f64::from(i) * step).collect();
         Self { low: first, high: last, ticks, falls: false }
@@ -105,7 +106,7 @@ mod tests {
         let scale = Scale::decades([3e-5, 0.2].into_iter());
         assert_eq!((scale.low, scale.high), (-5.0, 0.0));
         assert_eq!(scale.ticks, [-5.0, -4.0, -3.0, -2.0, -1.0, 0.0]);
-        assert_eq!(Scale::decades([1e-30, 1e30].into_iter()).ticks.len(), 8);
+        assert_eq!(Scale::decades([1e-30, 1e30].into_iter()).ticks.len(), 7);
         let none = Scale::decades(std::iter::empty());
         assert!(none.high > none.low);
     }
