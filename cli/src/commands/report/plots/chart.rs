@@ -60,7 +60,9 @@ impl Series {
         Self { name: name.to_owned(), style, points, line: true }
     }
 
-    pub(super) fn without_line(self) -> Self {
+    /// Points alone, and larger ones, as there are few.
+    pub(super) fn without_line(mut self) -> Self {
+        self.style.reach = self.style.reach.max(6);
         Self { line: false, ..self }
     }
 }

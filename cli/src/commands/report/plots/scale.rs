@@ -19,7 +19,8 @@ impl Scale {
     /// two decades or less hold all, it ends at steps of 1, 2 and 5.
     pub(super) fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = bounds(values.map(f64::log10)).unwrap_or((0.0, 1.0));
-        let (first, mut last) = ((low + 1e-9).floor(), (high - 1e-9).ceil());
+        // What is beyond a decade by a hair does not open another one.
+        let (first, mut last) = ((low + 0.01).floor(), (high - 0.01).ceil());
         if last <= first {
             last = first + 1.0;
         }
@@ -37,8 +38,8 @@ impl Scale {
         let decades = (first as i32..=last as i32).map(f64::from);
         let all = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|m: f64| decade + m.log10()));
         let all: Vec<f64> = all.filter(|tick| *tick < last + 1e-9).collect();
-        let from = all.iter().rposition(|tick| *tick < low + 1e-9).unwrap_or(0);
-        let to = all.iter().position(|tick| *tick > high - 1e-9).unwrap_or(all.len() - 1);
+        let from = all.iter().rposition(|tick| *tick < low + 0.01).unwrap_or(0);
+        let to = all.iter().position(|tick| *tick > high - 0.01).unwrap_or(all.len() - 1);
         let (from, to) = if from < to { (from, to) } else { (from.saturating_sub(1), from + 1) };
         let ticks: Vec<f64> = all.into_iter().take(to + 1).skip(from).collect();
         let (low, high) = bounds(ticks.iter().copied()).unwrap_or((first, last));
