@@ -2,7 +2,9 @@
 
 use std::fmt::Display;
 
+use plotters::chart::ChartContext;
 use plotters::coord::Shift;
+use plotters::coord::cartesian::Cartesian2d;
 use plotters::element::{Circle, EmptyElement, PathElement, Polygon};
 use plotters::prelude::{
     ChartBuilder, Color, DrawingArea, IntoDrawingArea, IntoFont, LineSeries, RGBColor, Rectangle,
@@ -84,6 +86,14 @@ pub(super) struct Chart<'a> {
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Plot<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Scale, Scale>>;
+
+/// The place for zero: where it ends above, how high it is, and its ends to the sides.
+struct Lane {
+    top: f64,
+    height: f64,
+    ends: [f64; 2],
+}
 
 impl Chart<'_> {
     /// The chart as SVG.
@@ -100,7 +110,8 @@ impl Chart<'_> {
         Ok(svg)
     }
 
-    fn draw_axes(&self, area: &Area<'_>) -> Result<(), Failure> {
+    /// Both axes, and the place for zero at the foot of the second.
+    fn scales(&self) -> (Scale, Scale, Lane) {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let mut x = match &self.ticks {
             Some(ticks) => Scale::at(ticks),
@@ -108,13 +119,18 @@ impl Chart<'_> {
         };
         x.falls = self.falls;
         let mut y = Scale::decades(points().map(|&(_, y)| y).filter(|&y| y > 0.0));
-        let (least, ends) = (y.low, [x.low, x.high]);
-        let lane = if self.zero { LANE * (y.high - y.low) } else { 0.0 };
-        let floor = least - lane;
+        let height = if self.zero { LANE * (y.high - y.low) } else { 0.0 };
+        let lane = Lane { top: y.low, height, ends: [x.low, x.high] };
         if self.zero {
-            y.ticks.insert(0, least - 0.5 * lane);
-            y.low = floor;
+            y.ticks.insert(0, lane.top - 0.5 * height);
+            y.low -= height;
         }
+        (x, y, lane)
+    }
+
+    fn draw_axes(&self, area: &Area<'_>) -> Result<(), Failure> {
+        let (x, y, lane) = self.scales();
+        let [left, right] = lane.ends;
         let mut chart = ChartBuilder::on(area)
             .caption(self.title, (FONT, 20))
             .margin(14)
@@ -123,11 +139,12 @@ impl Chart<'_> {
             .build_cartesian_2d(x, y)
             .map_err(failure)?;
         if self.zero {
-            let shade = RGBColor(238, 244, 238).filled();
-            let corners = [(ends[0], floor), (ends[1], least)];
-            chart.draw_series([Rectangle::new(corners, shade)]).map_err(failure)?;
+            let corners = [(left, lane.top - lane.height), (right, lane.top)];
+            let shade = Rectangle::new(corners, RGBColor(238, 244, 238).filled());
+            chart.draw_series([shade]).map_err(failure)?;
         }
-        let y_text = |value: &f64| if *value < least - 1e-9 { "0".into() } else { label(*value) };
+        let y_text =
+            |value: &f64| if *value < lane.top - 1e-9 { "0".into() } else { label(*value) };
         chart
             .configure_mesh()
             .x_desc(self.x_label)
@@ -141,27 +158,29 @@ impl Chart<'_> {
             .map_err(failure)?;
         if self.zero {
             let edge = RGBColor(110, 130, 110).stroke_width(1);
-            let line = PathElement::new([(ends[0], least), (ends[1], least)], edge);
+            let line = PathElement::new([(left, lane.top), (right, lane.top)], edge);
             chart.draw_series([line]).map_err(failure)?;
         }
+        self.draw_points(&mut chart, &lane)
+    }
+
+    fn draw_points(&self, chart: &mut Plot<'_>, lane: &Lane) -> Result<(), Failure> {
         let has_zero = |series: &&Series| series.points.iter().any(|point| point.1 <= 0.0);
         let count = self.series.iter().filter(has_zero).count() as f64;
-        let mut slot = floor + 0.5 * lane / count.max(1.0);
+        let mut slot = lane.top - lane.height * (1.0 - 0.5 / count.max(1.0));
         // The first is drawn last, above all others.
         for series in self.series.iter().rev() {
             let place = |&(x, y): &(f64, f64)| (x.log10(), if y > 0.0 { y.log10() } else { slot });
             let places: Vec<(f64, f64)> = series.points.iter().map(place).collect();
             if has_zero(&series) {
-                slot += lane / count;
+                slot += lane.height / count;
             }
-            let colour = series.style.colour;
             if series.line {
-                let style = colour.mix(0.75).stroke_width(2);
+                let style = series.style.colour.mix(0.75).stroke_width(2);
                 chart.draw_series(LineSeries::new(places.clone(), style)).map_err(failure)?;
             }
-            let area = chart.plotting_area();
             for place in places {
-                draw_marker(area, place, series.style)?;
+                draw_marker(chart.plotting_area(), place, series.style)?;
             }
         }
         Ok(())
