@@ -1,5 +1,6 @@
 //! The tree: building, orders, statistics, validation.
 
+mod accuracy;
 mod assemble;
 mod auto;
 mod axis;
@@ -24,6 +25,7 @@ mod tree;
 mod validate;
 mod walk;
 
+pub use accuracy::Accuracy;
 pub use fragment::Fragment;
 pub use heuristic::{Heuristic, ParseHeuristicError};
 pub use options::BuildOptions;

@@ -8,6 +8,7 @@
 mod bounds;
 mod compare;
 mod coverage;
+mod depth_error;
 mod image;
 mod line;
 mod painter;
@@ -20,6 +21,7 @@ mod tests;
 mod zbuffer;
 
 pub use compare::{Comparison, Verdict, compare, is_open};
+pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};
 pub use painter::{Order, Outline, Painter, Piece, covers, for_each_run, paint};
 pub use picture::{brightness, colour_of, depth_map, difference, picture};

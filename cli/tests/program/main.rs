@@ -6,6 +6,7 @@ mod order;
 mod png_picture;
 mod real_scenes;
 mod render;
+mod report;
 mod run;
 mod stats;
 mod tour;
