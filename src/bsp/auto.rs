@@ -40,6 +40,9 @@ const CREDIT: usize = 4;
 /// A free plane that cuts more than one in so many pieces is reason to try that. Smaller: convex
 /// sets off the axes are cut; larger: long lists in place of balanced trees.
 const NOTABLE: usize = 64;
+/// In sets of at most so many pieces, own planes that cut nothing are preferred to free ones: they
+/// take a piece off the set, so that there are fewer nodes. Larger: time.
+const TINY: usize = 16;
 /// How many own planes are tried for a clean division in about equal parts, before pieces are taken
 /// off one by one. Larger: time; smaller: lists where there could be trees.
 const HALVES: usize = 4;
@@ -56,6 +59,13 @@ impl<K: Kernel> Chooser<'_, K> {
         if small && let Some(plane) = self.peeler.next(pieces.len()) {
             return Choice::Split(plane);
         }
+        let tiny = pieces.len() <= TINY;
+        if tiny {
+            self.set.take(&self.kernel, self.faces, pieces, arena);
+            if let Some(plane) = self.clean_middle(pieces) {
+                return Choice::Split(plane);
+            }
+        }
         let free = self.sweep.best(pieces, self.faces.tolerance());
         let named = free.and_then(|plane| Some((plane, plane.id(self.faces, pieces)?)));
         if let Some((FreePlane { splits: 0, .. }, plane)) = named {
@@ -66,9 +76,11 @@ impl<K: Kernel> Chooser<'_, K> {
         let none = (f64::INFINITY, PlaneId::face(pieces[0].face));
         let best = named.map_or(none, |(free, plane)| (free.cost + price, plane));
         if small {
-            self.set.take(&self.kernel, self.faces, pieces, arena);
-            if let Some(plane) = self.clean_halves(pieces) {
-                return Choice::Split(plane);
+            if !tiny {
+                self.set.take(&self.kernel, self.faces, pieces, arena);
+                if let Some(plane) = self.clean_halves(pieces) {
+                    return Choice::Split(plane);
+                }
             }
             self.peeler.search(pieces, &self.set);
             let peeled = self.peeler.next(pieces.len());
@@ -132,6 +144,28 @@ impl<K: Kernel> Chooser<'_, K> {
             None => reach::<K>(splitter, self.faces.corners(live.face).iter().copied()),
             Some(cut) => reach::<K>(splitter, cut.iter().map(Vertex::position)),
         }
+    }
+
+    /// The own plane that cuts nothing and leaves most on either side, if it leaves enough there.
+    fn clean_middle(&self, pieces: &[Live]) -> Option<PlaneId> {
+        let n = pieces.len();
+        let mut best = ((n - 1) / 3, None);
+        for (candidate, piece) in pieces.iter().enumerate() {
+            let splitter = self.set.splitter(candidate);
+            let mut counts = Counts::default();
+            let clean = (0..n).all(|q| {
+                counts.add(self.set.reach(splitter, q));
+                counts.splits == 0
+            });
+            let balance = counts.front.min(counts.back);
+            if clean && (balance > best.0 || best.1.is_none() && balance == best.0) {
+                best = (balance, Some(PlaneId::face(piece.face)));
+                if 2 * balance + 2 >= n {
+                    break;
+                }
+            }
+        }
+        best.1
     }
 
     /// An own plane that cuts nothing and leaves enough on either side, if one of few is.

@@ -7,6 +7,7 @@ use super::choose::{Choice, Chooser};
 use super::convex::Taken;
 use super::jobs::{self, Job};
 use super::live::Live;
+use super::node::MOST_FRAGMENTS;
 use super::{BspTree, BuildOptions};
 use crate::Error;
 use crate::geom::{Faces, Kernel, PlaneId, Polygon, Preparation, Side, split};
@@ -55,7 +56,7 @@ pub(super) struct Shared<'a, K> {
 impl<K> Shared<'_, K> {
     /// Counts new pieces against the budget.
     fn count(&self, new: usize) -> Result<(), Error> {
-        let limit = self.options.max_fragments;
+        let limit = self.options.max_fragments.min(MOST_FRAGMENTS);
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
         if total > limit { Err(Error::fragments(limit)) } else { Ok(()) }
     }

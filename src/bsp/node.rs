@@ -4,6 +4,13 @@ use super::assemble::{Child, RawNode};
 use crate::geom::{Faces, LATTICE_LIMIT, PlaneId};
 
 const BACK_IS_NODE: u32 = 1 << 31;
+/// One fragment on the plane, and all others on one side, in a node: that is the next in memory.
+const LINK: u32 = 1 << 30;
+/// No more than one fragment on the plane, and in each leaf.
+const PLAIN: u32 = 1 << 29;
+
+/// The most fragments of a tree: what else [`Node::own`] has no bits for.
+pub(super) const MOST_FRAGMENTS: usize = PLAIN as usize - 1;
 
 /// A node: 32 bytes, of which the first 16 decide almost always on which side an eye is.
 ///
@@ -28,7 +35,19 @@ impl Node {
     /// How many fragments lie on the plane.
     #[inline]
     pub(super) fn own(&self) -> u32 {
-        self.own & !BACK_IS_NODE
+        self.own & !(BACK_IS_NODE | LINK | PLAIN)
+    }
+
+    /// Whether one fragment is on the plane, and the rest on one side, in the next node.
+    #[inline]
+    pub(super) fn is_link(&self) -> bool {
+        self.own & LINK != 0
+    }
+
+    /// Whether no more than one fragment is on the plane, and in each leaf.
+    #[inline]
+    pub(super) fn is_plain(&self) -> bool {
+        self.own & PLAIN != 0
     }
 
     /// Whether the back is a node rather than a leaf.
@@ -74,11 +93,22 @@ pub(super) fn finish(faces: &Faces, raw: &[RawNode]) -> Vec<Node> {
             normal: (normal / length).as_vec3().to_array(),
             offset: (offset / length / LATTICE_LIMIT) as f32,
             plane: node.plane,
-            own: node.own | if node.back == Child::Node { BACK_IS_NODE } else { 0 },
+            own: node.own | flags(node),
             front_len,
             front_nodes,
         });
     }
     nodes.reverse();
     nodes
+}
+
+/// What is known of a node ahead.
+fn flags(node: &RawNode) -> u32 {
+    let empty = Child::Leaf(0);
+    let sides = (node.front, node.back);
+    let link = node.own == 1 && (sides == (Child::Node, empty) || sides == (empty, Child::Node));
+    let few = |child| !matches!(child, Child::Leaf(2..));
+    let plain = node.own <= 1 && few(node.front) && few(node.back);
+    let back = if node.back == Child::Node { BACK_IS_NODE } else { 0 };
+    back | if link { LINK } else { 0 } | if plain { PLAIN } else { 0 }
 }

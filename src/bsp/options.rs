@@ -28,7 +28,7 @@ pub struct BuildOptions {
     /// longest side of the scene's bounding box.
     pub tolerance: Option<f64>,
     /// The most fragments that a tree may have; more is an error. Default: 2²⁵ (33 554 432, about
-    /// 5 GB).
+    /// 5 GB). More than 2²⁹ − 1 counts as that.
     pub max_fragments: usize,
     /// The most nodes on a path from the root; more is an error. Default: unlimited, as nothing
     /// recurses over the tree.
