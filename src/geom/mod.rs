@@ -1,5 +1,6 @@
 //! Exact geometry: the lattice, faces, planes, predicates, and how pieces are cut.
 
+mod duplicates;
 mod exact;
 mod exact_kernel;
 mod eye;

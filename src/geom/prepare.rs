@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::duplicates::Outlines;
 use super::exact::{Plane, cross};
 use super::faces::{Face, Faces, Frame, INNER};
 use super::label::MAX_LABELS;
@@ -25,8 +26,14 @@ const LARGEST_TOLERANCE: f64 = super::lattice::LIMIT / 128.0;
 pub struct Preparation {
     /// How many polygons were given.
     pub polygons: usize,
-    /// Polygons without area, of which no face remains.
+    /// Polygons without area, of which no face remains: of fewer than three different corners, or
+    /// with all of them on one line. That is decided exactly, after the corners are rounded to the
+    /// lattice; corners that are on one line as decimal numbers need not be as `f64`.
     pub dropped: usize,
+    /// Polygons with the same corners on the lattice as an earlier one, in the same order around
+    /// them or the reverse. They are kept as they are, and the last one of them shows, as coplanar
+    /// polygons come in input order.
+    pub duplicates: usize,
     /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
 }
@@ -69,15 +76,26 @@ impl Faces {
             kept: Vec::new(),
         };
         let mut report = Preparation { polygons: ends.len(), ..Preparation::default() };
-        let mut start = 0;
-        for (polygon, &end) in ends.iter().enumerate() {
-            match builder.add(polygon, &points[start..end as usize])? {
+        let of = |polygon: usize| {
+            let start = polygon.checked_sub(1).map_or(0, |before| ends[before]);
+            &points[start as usize..ends[polygon] as usize]
+        };
+        let mut outlines = Outlines::default();
+        for polygon in 0..ends.len() {
+            match builder.add(polygon, of(polygon))? {
                 Outcome::Whole => {}
                 Outcome::Triangulated => report.triangulated += 1,
-                Outcome::Dropped => report.dropped += 1,
+                Outcome::Dropped => {
+                    report.dropped += 1;
+                    continue;
+                }
             }
-            start = end as usize;
+            outlines.add(polygon, builder.kept.iter().map(|&(corner, _)| corner));
         }
+        report.duplicates = outlines.duplicates(|polygon| {
+            builder.keep_distinct(of(polygon));
+            builder.kept.iter().map(|&(corner, _)| corner).collect()
+        });
         Ok((builder.faces, report))
     }
 }
