@@ -468,3 +468,11 @@ fn generated_cornell_box_agrees_with_the_real_one() {
         assert!(same, "{a:?} {b:?}");
     }
 }
+
+#[test]
+fn every_polygon_knows_its_line() {
+    let text = "v 0 0 0\nv 1 0 0\n\nv 0 1 0\nf 1 2 3\n# f\nf 1 \\\n 2 3\nf 3 2 1\n";
+    let (scene, _) = Scene::from_obj("lines", text.as_bytes(), |_| None).expect("a scene");
+    assert_eq!([0, 1, 2, 3].map(|i| scene.line(i)), [Some(5), Some(7), Some(9), None]);
+    assert_eq!(binspace::scene::newell_bars().line(0), None);
+}

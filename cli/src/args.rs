@@ -161,7 +161,7 @@ pub(crate) struct KindArgs {
     /// Draw what a depth buffer shows
     #[arg(long)]
     pub(crate) z_buffer: bool,
-    /// Draw where the painter's picture and the depth buffer's differ
+    /// Draw where the painter's picture and the depth buffer's differ; exit status 1 if they do
     #[arg(long)]
     pub(crate) difference: bool,
     /// Draw how far away everything is: the nearer, the brighter
@@ -201,7 +201,8 @@ pub(crate) struct BuildArgs {
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct LimitArgs {
-    /// How far from a plane still counts as on it, a length [default: 1e-9 of the extent]
+    /// How far from a plane still counts as on it, a length [default: 1e-9 of the extent, the
+    /// longest side of the scene's bounding box; more than 1/256 of it counts as that]
     #[arg(long, value_name = "T", value_parser = values::tolerance, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
     /// Give up beyond this many fragments

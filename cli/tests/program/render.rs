@@ -39,6 +39,8 @@ fn the_kinds_of_picture_differ_and_the_first_two_do_not() {
     assert!(painter.count(WHITE) > 100 && painter.colours() > 3);
     assert_eq!(picture(&folder, "--z-buffer"), painter);
     let difference = picture(&folder, "--difference");
+    let said = folder.run("render s.obj -o p.png --size 120x80 --difference").err;
+    assert!(said.contains(" covered, 0 contested; 0 wrong (0 wrong order, 0 holes"), "{said}");
     for wrong in [[255, 40, 40], [255, 230, 0], [255, 0, 255], [70, 130, 255]] {
         assert_eq!(difference.count(wrong), 0);
     }

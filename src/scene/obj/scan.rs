@@ -18,6 +18,8 @@ pub(super) struct Scan {
     pub(super) corners: usize,
     /// Each face's place in `materials`.
     pub(super) material_of: Vec<u32>,
+    /// Each face's line in the file.
+    pub(super) face_lines: Vec<usize>,
     /// The materials that faces use; `None` where no name was given.
     pub(super) materials: Vec<Option<String>>,
     /// Material libraries in the order of their first mention.
@@ -54,6 +56,7 @@ impl Scan {
                     scan.face(words, number)?;
                     let material = scan.number_of(&mut numbers, &in_use);
                     scan.material_of.push(material);
+                    scan.face_lines.push(number);
                 }
                 "usemtl" => in_use = Some(rest().to_owned()).filter(|name| !name.is_empty()),
                 "mtllib" if !rest().is_empty() && libraries.insert(rest().to_owned()) => {
