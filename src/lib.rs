@@ -35,7 +35,7 @@ pub mod view;
 
 pub use bsp::{
     BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Partition,
-    Stats,
+    Progress, Stats,
 };
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};

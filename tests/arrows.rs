@@ -16,7 +16,7 @@ const LAYERS: [(&str, &[&str]); 7] = [
 ];
 
 /// What stands at the crate's root, and where it comes from.
-const ROOT: [(&str, &str); 13] = [
+const ROOT: [(&str, &str); 14] = [
     ("BspTree", "bsp"),
     ("BuildOptions", "bsp"),
     ("Fragment", "bsp"),
@@ -25,6 +25,7 @@ const ROOT: [(&str, &str); 13] = [
     ("Ordered", "bsp"),
     ("ParseHeuristicError", "bsp"),
     ("Partition", "bsp"),
+    ("Progress", "bsp"),
     ("Stats", "bsp"),
     ("Error", "error"),
     ("Point", "geom"),

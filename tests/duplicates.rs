@@ -53,6 +53,7 @@ fn faces_without_area_are_dropped_and_no_duplicates() {
     let tree = BspTree::build([line.clone(), line, named([0, 1, 2, 3])]).expect("finite");
     let found = tree.preparation();
     assert_eq!((found.dropped, found.duplicates), (2, 0));
+    assert_eq!(tree.dropped().collect::<Vec<_>>(), [0, 1]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::choose::{price, work};
 use super::live::Live;
+use super::progress::Watch;
 use crate::geom::{Faces, PlaneId};
 
 /// Values a bin is to hold in the mean. Larger: more to sort in the bins that are looked at;
@@ -9,6 +10,8 @@ use crate::geom::{Faces, PlaneId};
 const PER_BIN: usize = 8;
 /// The most bins. Larger: their counters leave the cache.
 const MOST_BINS: usize = 1024;
+/// To search along an axis is as much work as to look at each piece so often.
+const PASSES: usize = 10;
 
 /// A free plane with its cost.
 #[derive(Clone, Copy, Debug)]
@@ -44,9 +47,17 @@ pub(super) struct Sweep {
 
 impl Sweep {
     /// The free plane of least cost, if one has fewer pieces on each side than there are.
-    pub(super) fn best(&mut self, pieces: &[Live], tolerance: f64) -> Option<FreePlane> {
+    pub(super) fn best(
+        &mut self,
+        pieces: &[Live],
+        tolerance: f64,
+        watch: &Watch<'_>,
+    ) -> Option<FreePlane> {
         let mut best: Option<FreePlane> = None;
         for axis in 0..3 {
+            if watch.work(pieces.len() * PASSES).is_err() {
+                break;
+            }
             let Some(bins) = Bins::of(pieces, axis) else { continue };
             self.fill(pieces, axis, tolerance, &bins);
             self.bound(pieces.len(), bins.count);

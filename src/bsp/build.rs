@@ -6,6 +6,7 @@ use super::assemble::{Child, Output, RawNode, assemble};
 use super::choose::Chooser;
 use super::jobs::{self, Job};
 use super::live::Live;
+use super::progress::Watch;
 use super::{BspTree, BuildOptions};
 use crate::Error;
 use crate::geom::{Faces, Kernel, PlaneId, Polygon, Side, split};
@@ -17,18 +18,31 @@ const JOB: usize = 1024;
 /// The least vertices at which an arena is compacted. Smaller: copies; larger: memory.
 const COMPACT: usize = 1 << 16;
 
+/// So many pieces are put on sides of a plane before it is asked whether to go on. Smaller: time
+/// for asking; larger: it takes longer to stop.
+const AT_ONCE: usize = 4096;
+/// To cut a piece is as much work as to look at so many.
+const CUT: usize = 64;
+
 /// Builds a tree of polygons.
 pub(super) fn tree<K: Kernel, P: Polygon>(
     kernel: K,
     options: &BuildOptions,
     polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
 ) -> Result<BspTree<K>, Error> {
-    let (faces, preparation) = Faces::new(polygons, options.tolerance)?;
+    let (faces, preparation) =
+        Faces::prepare(polygons, options.tolerance, options.max_fragments, &mut |polygons| {
+            watch.expect(polygons)
+        })?;
+    watch.expect(faces.len())?;
     let live: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
-    let shared = Shared { kernel, faces: &faces, options, fragments: AtomicUsize::new(live.len()) };
+    let fragments = AtomicUsize::new(live.len());
+    let shared = Shared { kernel, faces: &faces, options, watch, fragments };
     shared.count(0)?;
     let outputs = jobs::run(&shared, Job { pieces: live, arena: Vec::new(), depth: 0 })?;
     let parts = assemble(outputs);
+    watch.end()?;
     Ok(BspTree::new(kernel, faces, preparation, parts))
 }
 
@@ -37,6 +51,7 @@ pub(super) struct Shared<'a, K> {
     kernel: K,
     faces: &'a Faces,
     options: &'a BuildOptions,
+    watch: &'a Watch<'a>,
     /// How many pieces there are by now, over all jobs.
     fragments: AtomicUsize,
 }
@@ -95,7 +110,7 @@ pub(super) fn build<'a, K: Kernel>(
     job: Job<K::Vertex>,
     mut hand_over: impl FnMut(Job<K::Vertex>) -> usize,
 ) -> Result<Output<K::Stored>, Error> {
-    let chooser = Chooser::new(shared.kernel, shared.faces, shared.options.heuristic);
+    let chooser = Chooser::new(shared.kernel, shared.faces, shared.options.heuristic, shared.watch);
     let end = job.pieces.len();
     let first = Pending { start: 0, end, arena: job.arena.len(), depth: job.depth, job: None };
     let scratch = Scratch {
@@ -152,7 +167,7 @@ impl<K: Kernel> Builder<'_, K> {
         } else {
             let plane = self.chooser.splitter(set, &self.arena, pending.depth);
             let count = set.len();
-            self.classify(start, plane);
+            self.classify(start, plane)?;
             if self.makes_progress(count) {
                 (plane, self.divide(start, plane)?)
             } else {
@@ -165,13 +180,17 @@ impl<K: Kernel> Builder<'_, K> {
         Ok(())
     }
 
-    fn classify(&mut self, start: usize, plane: PlaneId) {
+    fn classify(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let splitter = kernel.splitter(faces, plane);
         let arena = &self.arena;
         let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
         self.scratch.sides.clear();
-        self.scratch.sides.extend(self.pieces[start..].iter().map(side));
+        for pieces in self.pieces[start..].chunks(AT_ONCE) {
+            self.shared.watch.work(pieces.len())?;
+            self.scratch.sides.extend(pieces.iter().map(side));
+        }
+        Ok(())
     }
 
     fn makes_progress(&self, count: usize) -> bool {
@@ -183,7 +202,7 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     fn partition(&mut self, start: usize, plane: PlaneId) -> Result<usize, Error> {
-        self.classify(start, plane);
+        self.classify(start, plane)?;
         self.divide(start, plane)
     }
 
@@ -209,17 +228,18 @@ impl<K: Kernel> Builder<'_, K> {
         }
         self.pieces.truncate(back);
         self.shared.count(self.scratch.spanning.len())?;
-        self.cut_spanning(plane);
+        self.cut_spanning(plane)?;
         let middle = self.pieces.len();
         self.pieces.extend_from_slice(&self.scratch.front);
         Ok(middle)
     }
 
-    fn cut_spanning(&mut self, plane: PlaneId) {
+    fn cut_spanning(&mut self, plane: PlaneId) -> Result<(), Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let splitter = kernel.splitter(faces, plane);
         let scratch = &mut self.scratch;
         for live in &scratch.spanning {
+            self.shared.watch.work(CUT)?;
             scratch.outline.clear();
             match live.piece(&self.arena).cut {
                 Some(vertices) => scratch.outline.extend_from_slice(vertices),
@@ -244,9 +264,10 @@ impl<K: Kernel> Builder<'_, K> {
             {
                 let start = self.arena.len();
                 self.arena.extend_from_slice(part);
-                list.push(Live::cut::<K>(live.face, &self.arena, start));
+                list.push(Live::cut::<K>(live, &self.arena, start));
             }
         }
+        Ok(())
     }
 
     fn emit(
@@ -328,5 +349,6 @@ impl<K: Kernel> Builder<'_, K> {
         let kernel = self.shared.kernel;
         let vertices = live.piece(&self.arena).cut.unwrap_or_default();
         self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)));
+        self.shared.watch.finish(live.cuts);
     }
 }

@@ -3,6 +3,7 @@
 use super::Heuristic;
 use super::axis::Sweep;
 use super::live::Live;
+use super::progress::Watch;
 use crate::geom::{Faces, Kernel, PlaneId, Vertex};
 
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
@@ -91,14 +92,21 @@ pub(super) struct Chooser<'a, K: Kernel> {
     kernel: K,
     faces: &'a Faces,
     heuristic: Heuristic,
+    /// Once a build is cancelled, any plane is chosen, quickly.
+    watch: &'a Watch<'a>,
     sweep: Sweep,
     /// How many more polygons may be taken off a set that looks convex, and at which depth.
     peel: (usize, usize),
 }
 
 impl<'a, K: Kernel> Chooser<'a, K> {
-    pub(super) fn new(kernel: K, faces: &'a Faces, heuristic: Heuristic) -> Self {
-        Self { kernel, faces, heuristic, sweep: Sweep::default(), peel: (0, 0) }
+    pub(super) fn new(
+        kernel: K,
+        faces: &'a Faces,
+        heuristic: Heuristic,
+        watch: &'a Watch<'a>,
+    ) -> Self {
+        Self { kernel, faces, heuristic, watch, sweep: Sweep::default(), peel: (0, 0) }
     }
 
     /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
@@ -177,7 +185,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                 return plane;
             }
         }
-        let free = self.sweep.best(pieces, self.faces.tolerance());
+        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
         let named = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
         let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
         // Where a free plane cuts nothing, no polygon needs to be taken before it is cut.
@@ -246,6 +254,9 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         let splitter = self.kernel.splitter(self.faces, plane);
         let slack = K::slack(&splitter);
         let mut counts = Counts::default();
+        if self.watch.work(pieces.len()).is_err() {
+            return (counts, false);
+        }
         for chunk in pieces.chunks(CHECK_EVERY) {
             for live in chunk {
                 let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -21,6 +21,10 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// moved onto a plane must stay within the bits that the exact predicates have room for.
 const LARGEST_TOLERANCE: f64 = super::lattice::LIMIT / 128.0;
 
+/// So many polygons are prepared before it is asked whether to go on. Smaller: time for asking;
+/// larger: it takes longer to stop.
+const AT_ONCE: usize = 1024;
+
 /// What became of the polygons of an input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Preparation {
@@ -52,10 +56,21 @@ impl Faces {
         polygons: impl IntoIterator<Item = P>,
         tolerance: Option<f64>,
     ) -> Result<(Self, Preparation), Error> {
+        Self::prepare(polygons, tolerance, usize::MAX, &mut |_| Ok(()))
+    }
+
+    /// As [`new`](Self::new), with a limit to the number of polygons, and a function that hears how
+    /// many have been read, and stops it all by an error.
+    pub(crate) fn prepare<P: Polygon>(
+        polygons: impl IntoIterator<Item = P>,
+        tolerance: Option<f64>,
+        limit: usize,
+        watch: &mut dyn FnMut(usize) -> Result<(), Error>,
+    ) -> Result<(Self, Preparation), Error> {
         if let Some(value) = tolerance.filter(|&value| value.is_nan() || value < 0.0) {
             return Err(Error::tolerance(value));
         }
-        let (points, ends) = collect(polygons)?;
+        let (points, ends) = collect(polygons, limit, watch)?;
         let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (min, max) = points.iter().fold(empty, |(min, max), &p| (min.min(p), max.max(p)));
         let (min, max) = if points.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (min, max) };
@@ -82,6 +97,9 @@ impl Faces {
         };
         let mut outlines = Outlines::default();
         for polygon in 0..ends.len() {
+            if polygon % AT_ONCE == 0 {
+                watch(ends.len())?;
+            }
             match builder.add(polygon, of(polygon))? {
                 Outcome::Whole => {}
                 Outcome::Triangulated => report.triangulated += 1,
@@ -103,19 +121,30 @@ impl Faces {
 /// All corners, and where those of each polygon end.
 fn collect<P: Polygon>(
     polygons: impl IntoIterator<Item = P>,
+    limit: usize,
+    watch: &mut dyn FnMut(usize) -> Result<(), Error>,
 ) -> Result<(Vec<DVec3>, Vec<u32>), Error> {
     let polygons = polygons.into_iter();
     let expected = polygons.size_hint().0;
+    if expected > limit {
+        return Err(Error::polygons(limit));
+    }
     let (mut points, mut ends) = (Vec::with_capacity(expected * 3), Vec::with_capacity(expected));
     for (index, polygon) in polygons.enumerate() {
+        if index == limit {
+            return Err(Error::polygons(limit));
+        }
+        if index % AT_ONCE == 0 {
+            watch(index)?;
+        }
         for point in polygon.corners() {
             if !point.is_finite() {
                 return Err(Error::non_finite(index));
             }
+            if points.len() >= MAX_LABELS {
+                return Err(Error::too_many_corners());
+            }
             points.push(point);
-        }
-        if points.len() >= MAX_LABELS {
-            return Err(Error::too_many_corners());
         }
         ends.push(points.len() as u32);
     }
