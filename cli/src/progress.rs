@@ -67,7 +67,10 @@ impl Progress {
 
     /// So much is done of so much.
     pub(crate) fn set(&self, done: usize, total: usize) {
-        self.bar.set_length(total as u64);
+        // A new length is drawn at once, however often that is.
+        if self.bar.length() != Some(total as u64) {
+            self.bar.set_length(total as u64);
+        }
         self.bar.set_position(done as u64);
     }
 
