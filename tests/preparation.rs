@@ -201,8 +201,52 @@ fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
         (0..faces.corners(face).len() as u32).map(|k| faces.corner_number(face, k)).collect()
     };
     assert_eq!(numbers(0), [0, 1, 2]);
-    assert_eq!(numbers(1), [0, 1, 3, 4]);
-    assert_eq!(numbers(2), [0, 2, 3]);
+    // The edge that leaves a repeated corner is the last one's.
+    assert_eq!(numbers(1), [0, 2, 3, 4]);
+    assert_eq!(numbers(2), [1, 2, 3]);
+    assert_eq!(
+        (0..4).map(|k| faces.outline_edge(1, k)).collect::<Vec<_>>(),
+        numbers(1).iter().map(|&k| Some(k)).collect::<Vec<_>>()
+    );
+}
+
+/// Ear clipping leaves out the corner in the middle of a straight side, or makes a triangle
+/// without area of it; either way the side is still the polygon's.
+#[test]
+fn an_outline_with_a_corner_in_the_middle_of_a_side_stays_closed() {
+    let arrow = flat(&[[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [1.0, 1.0], [0.0, 4.0], [0.0, 2.0]]);
+    for start in 0..arrow.len() {
+        let mut polygon = arrow.clone();
+        polygon.rotate_left(start);
+        let (faces, _) = prepare(std::slice::from_ref(&polygon));
+        let mut length = 0.0;
+        for face in 0..faces.len() as u32 {
+            let corners = faces.corners(face);
+            for k in (0..corners.len()).filter(|&k| faces.outline_edge(face, k as u32).is_some()) {
+                let next = corners[(k + 1) % corners.len()];
+                length += DVec3::from(corners[k]).distance(next.into());
+            }
+        }
+        let whole = 2.0 * (4.0 + 10f64.sqrt());
+        assert!((faces.lattice().length_to_world(length) / whole - 1.0).abs() < 1e-12, "{start}");
+    }
+}
+
+#[test]
+fn polygons_that_cross_themselves_are_counted() {
+    let bow_tie = flat(&[[0.0, 0.0], [3.0, 2.0], [3.0, 0.0], [0.0, 1.0]]);
+    let even_bow_tie = flat(&[[-1.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0]]);
+    let loose = flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 5.0], [3.0, -1.0], [0.0, 4.0]]);
+    for tilt in tilts() {
+        for polygon in [&bow_tie, &even_bow_tie, &loose, &pentagram()] {
+            let (_, report) = prepare(&[polygon.iter().map(|&p| tilt * p).collect()]);
+            assert_eq!((report.triangulated, report.crossing), (1, 1), "{polygon:?}");
+        }
+        for polygon in [l_shape(), star(), spiral()] {
+            let (_, report) = prepare(&[polygon.iter().map(|&p| tilt * p).collect()]);
+            assert_eq!((report.triangulated, report.crossing), (1, 0), "{polygon:?}");
+        }
+    }
 }
 
 #[test]

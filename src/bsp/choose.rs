@@ -1,8 +1,9 @@
 //! Choosing the splitter of a set of pieces.
 
 use super::Heuristic;
-use super::axis::Sweep;
+use super::axis::{FreePlane, Sweep};
 use super::live::Live;
+use super::peel::Peeler;
 use super::progress::Watch;
 use crate::geom::{Faces, Kernel, PlaneId, Vertex};
 
@@ -25,10 +26,11 @@ const FEW_OWN_PLANES: usize = 16;
 const MOST_CANDIDATES: usize = 256;
 /// The price of each cut in the cost of `auto`, in polygons still to be sorted. Larger: trees
 /// become unbalanced, and unbalanced ones cut more further down; smaller: cuts for balance.
-const SPLIT_PRICE: f64 = 4.0;
-/// The price of the root of the number of cuts, which makes the first ones dear: a set that can be
-/// divided without a cut mostly leaves two sets that can. Larger: unbalanced trees, as above.
-const FIRST_SPLIT_PRICE: f64 = 8.0;
+const SPLIT_PRICE: f64 = 1.5;
+/// The price of cutting at all: more than any amount of work. A plane that cuts nothing costs no
+/// fragment, now or later: whatever tree there is of all pieces, its parts on either side are trees
+/// of those. So where there is one, it is taken, however unbalanced.
+const FIRST_SPLIT_PRICE: f64 = 1e12;
 /// What is taken off the cost of the plane of a polygon that fills the set's bounding box, per
 /// polygon in the set; less for one that fills less of it. A floor that is not taken early is cut
 /// again by every wall on it. Larger: depth spent on polygons that nothing would have cut.
@@ -75,8 +77,7 @@ impl Counts {
 /// What cuts cost.
 #[inline]
 pub(super) fn price(splits: usize) -> f64 {
-    let splits = splits as f64;
-    SPLIT_PRICE * splits + FIRST_SPLIT_PRICE * splits.sqrt()
+    if splits == 0 { 0.0 } else { FIRST_SPLIT_PRICE + SPLIT_PRICE * splits as f64 }
 }
 
 /// The work of sorting `n` pieces.
@@ -97,6 +98,7 @@ pub(super) struct Chooser<'a, K: Kernel> {
     sweep: Sweep,
     /// How many more polygons may be taken off a set that looks convex, and at which depth.
     peel: (usize, usize),
+    peeler: Peeler<K>,
 }
 
 impl<'a, K: Kernel> Chooser<'a, K> {
@@ -106,7 +108,15 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         heuristic: Heuristic,
         watch: &'a Watch<'a>,
     ) -> Self {
-        Self { kernel, faces, heuristic, watch, sweep: Sweep::default(), peel: (0, 0) }
+        Self {
+            kernel,
+            faces,
+            heuristic,
+            watch,
+            sweep: Sweep::default(),
+            peel: (0, 0),
+            peeler: Peeler::default(),
+        }
     }
 
     /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
@@ -178,6 +188,11 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         depth: usize,
         both: bool,
     ) -> PlaneId {
+        if both {
+            if let Some(plane) = self.peeler.next(pieces.len()) {
+                return plane;
+            }
+        }
         if self.peel.0 > 0 && self.peel.1 == depth {
             let plane = PlaneId::face(pieces[0].face);
             if self.count(plane, pieces, arena, f64::INFINITY).0.is_peel() {
@@ -187,10 +202,17 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         }
         let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
         let named = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
+        if let (Some(FreePlane { splits: 0, .. }), Some((_, plane))) = (free, named) {
+            return plane;
+        }
+        if both {
+            self.peeler.search(&self.kernel, self.faces, pieces, arena);
+            if let Some(plane) = self.peeler.next(pieces.len()) {
+                return plane;
+            }
+        }
         let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
-        // Where a free plane cuts nothing, no polygon needs to be taken before it is cut.
-        let cuts = free.is_none_or(|plane| plane.splits > 0);
-        let reward = if cuts && depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
+        let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
         let cell = Cell::around(pieces);
         if self.heuristic == Heuristic::Auto && reward > 0.0 {
             for piece in cell.largest(pieces) {

@@ -84,7 +84,8 @@ impl<'t, K: Kernel> Fragment<'t, K> {
     }
 
     /// For each edge, from each vertex to the next: the number of the polygon's edge that it lies
-    /// on, counted by the corner where that edge begins; `None` if it was made by a cut or by
+    /// on, counted by the corner where that edge begins (of repeated corners the last, of edges in one
+    /// line that triangulation made one the first); `None` if it was made by a cut or by
     /// triangulation.
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u32>> + use<'t, K> {
         let (faces, face) = (&self.tree.faces, self.face);

@@ -12,6 +12,7 @@ mod node;
 mod options;
 mod order;
 mod partitions;
+mod peel;
 mod progress;
 mod stats;
 mod traverse;

@@ -48,10 +48,12 @@ pub(super) fn one_at_a_time(
     }
 }
 
+type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
+
 /// What the jobs of a build tell their caller, and hear from it.
 #[derive(Default)]
 pub(super) struct Watch<'a> {
-    callback: Option<&'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync)>,
+    callback: Option<Callback<'a>>,
     total: AtomicUsize,
     /// In units of 1/`FACE`.
     done: AtomicU64,
@@ -61,7 +63,7 @@ pub(super) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    pub(super) fn new(callback: &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync)) -> Self {
+    pub(super) fn new(callback: Callback<'a>) -> Self {
         Self { callback: Some(callback), ..Self::default() }
     }
 

@@ -4,8 +4,8 @@ use super::Lattice;
 
 /// The faces of a scene in lattice coordinates, each convex and planar, each of one input polygon.
 ///
-/// Polygons that are convex, and whose corners lie within the tolerance of one plane, are one face;
-/// others are several triangles. The corners of a face that do not lie exactly on the plane of its
+/// Polygons that are convex, have at most 32 768 corners, and lie within the tolerance of one plane
+/// are one face; others are several triangles. The corners of a face that do not lie exactly on the plane of its
 /// reference triangle are *defined* to lie on it, moved along the axis in which the plane is least
 /// steep; what is kept of them is the lattice point nearest to that.
 #[derive(Clone, Debug)]

@@ -40,6 +40,9 @@ pub struct Preparation {
     pub duplicates: usize,
     /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
+    /// Of these, polygons that cross themselves, as their triangles overlap or face both ways: what
+    /// such a polygon covers is what ear clipping makes of it.
+    pub crossing: usize,
 }
 
 impl Faces {
@@ -102,7 +105,10 @@ impl Faces {
             }
             match builder.add(polygon, of(polygon))? {
                 Outcome::Whole => {}
-                Outcome::Triangulated => report.triangulated += 1,
+                Outcome::Triangulated { crosses_itself } => {
+                    report.triangulated += 1;
+                    report.crossing += usize::from(crosses_itself);
+                }
                 Outcome::Dropped => {
                     report.dropped += 1;
                     continue;
@@ -153,7 +159,7 @@ fn collect<P: Polygon>(
 
 enum Outcome {
     Whole,
-    Triangulated,
+    Triangulated { crosses_itself: bool },
     Dropped,
 }
 
@@ -185,8 +191,8 @@ impl Builder {
         }
         let corners: Vec<[f64; 3]> = self.kept.iter().map(|&(point, _)| point).collect();
         let plane = Plane::through([0, second, third].map(|k| corners[k]));
-        let triangles = if convex {
-            triangulate::convex(&corners)
+        let (triangles, crosses_itself) = if convex {
+            (triangulate::convex(&corners), false)
         } else {
             triangulate::any(&corners, &plane).map_err(|_| Error::not_convex(polygon))?
         };
@@ -198,15 +204,17 @@ impl Builder {
             }
         }
         let any = self.faces.len() > before;
-        Ok(if any { Outcome::Triangulated } else { Outcome::Dropped })
+        Ok(if any { Outcome::Triangulated { crosses_itself } } else { Outcome::Dropped })
     }
 
     fn keep_distinct(&mut self, points: &[DVec3]) {
         self.kept.clear();
         for (number, &point) in points.iter().enumerate() {
             let point = self.faces.lattice.snap(point);
-            if self.kept.last().is_none_or(|&(last, _)| last != point) {
-                self.kept.push((point, number as u32));
+            match self.kept.last_mut() {
+                // The edge that goes on from here is that of the last of equal corners.
+                Some((last, kept)) if *last == point => *kept = number as u32,
+                _ => self.kept.push((point, number as u32)),
             }
         }
         while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
@@ -278,6 +286,15 @@ impl Builder {
         rises == 1
     }
 
+    /// Whether the straight line from one corner to another is part of the outline: all corners in
+    /// between lie on it.
+    fn is_outline(kept: &[([f64; 3], u32)], from: usize, to: usize) -> bool {
+        let n = kept.len();
+        let at = |k: usize| kept[k % n].0;
+        let last = if to > from { to } else { to + n };
+        (from + 1..last).all(|k| cross(at(from), at(k), at(to)) == [0; 3])
+    }
+
     /// Adds a face of some of the polygon's kept corners, in order around it.
     fn push(&mut self, polygon: usize, kept: &[usize], frame: Frame) -> Result<(), Error> {
         let faces = &mut self.faces;
@@ -287,7 +304,7 @@ impl Builder {
         }
         let number = |k: usize| {
             let next = kept[(k + 1) % kept.len()];
-            let is_outline = (kept[k] + 1) % self.kept.len() == next;
+            let is_outline = Self::is_outline(&self.kept, kept[k], next);
             self.kept[kept[k]].1 | if is_outline { 0 } else { INNER }
         };
         if faces.numbers.is_empty() && (0..kept.len()).any(|k| number(k) != k as u32) {

@@ -38,7 +38,7 @@ fn first_of_the_build(heard: &[Progress]) -> usize {
 
 #[test]
 fn progress_never_falls_and_ends_at_the_total() {
-    for scene in [scene::random_triangles(4000, 3), scene::city(20_000, 3), scene::sphere(20_000)] {
+    for scene in [scene::random_triangles(1000, 3), scene::city(8000, 3), scene::sphere(8000)] {
         for heuristic in BY {
             let (tree, heard) = build(&scene, heuristic, usize::MAX);
             let faces = tree.unwrap().faces().len();
@@ -84,7 +84,7 @@ fn a_build_is_cancelled_from_the_first_call_before_it_reads_its_polygons() {
 
 #[test]
 fn a_build_is_cancelled_anywhere_and_says_no_more() {
-    let scene = scene::city(20_000, 3);
+    let scene = scene::city(8000, 3);
     for heuristic in BY {
         let (_, all) = build(&scene, heuristic, usize::MAX);
         let start = first_of_the_build(&all);
