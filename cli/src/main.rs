@@ -17,6 +17,7 @@ mod scene_arg;
 mod svg;
 mod table;
 mod terminal;
+mod unfinished;
 mod units;
 mod values;
 

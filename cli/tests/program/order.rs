@@ -1,4 +1,3 @@
-use std::fs;
 use std::process::Stdio;
 
 use serde_json::Value;
@@ -175,39 +174,6 @@ fn extreme_numbers_come_back_bit_for_bit() {
     let expected =
         vec![[1e300, 0.0, -1e-300], [1.000_000_000_000_000_2e300, 3e299, 0.0], [0.0, 1e22, 0.1]];
     assert_eq!(lines[0].vertices, expected);
-}
-
-#[test]
-fn a_file_is_written_completely_or_not_at_all() {
-    let folder = Folder::new("order_output");
-    folder.write("s.obj", CROSSING);
-    let printed = folder.run("order s.obj --eye=3,2,6").good();
-    assert_eq!(folder.run("order s.obj --eye=3,2,6 -o a.jsonl").good(), "");
-    assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), printed);
-    assert_eq!(folder.run("order s.obj --eye=3,2,6 -o -").good(), printed);
-    // Again, over it; and then errors, which leave it as it is.
-    folder.run("order newell --eye=3,2,6 -o a.jsonl").good();
-    let kept = fs::read_to_string(folder.path("a.jsonl")).unwrap();
-    assert_ne!(kept, printed);
-    folder.write("bad.obj", "v 0 0 nan\nf 1 1 1\n");
-    for command in ["bad.obj", "missing.obj", "random --max-fragments 10"] {
-        folder.run(&format!("order {command} --eye=3,2,6 -o a.jsonl")).refused();
-        assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), kept);
-    }
-    assert_eq!(folder.files(), ["a.jsonl", "bad.obj", "s.obj"]);
-}
-
-#[cfg(unix)]
-#[test]
-fn links_and_devices_are_written_through() {
-    let folder = Folder::new("order_links");
-    folder.write("real.jsonl", "old");
-    std::os::unix::fs::symlink("real.jsonl", folder.path("link.jsonl")).unwrap();
-    folder.run("order newell --eye=3,2,6 -o link.jsonl").good();
-    assert!(folder.path("link.jsonl").is_symlink());
-    assert!(fs::read_to_string(folder.path("real.jsonl")).unwrap().starts_with("{\"polygon\""));
-    folder.run("order newell --eye=3,2,6 -o /dev/null").good();
-    assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
 
 #[test]
