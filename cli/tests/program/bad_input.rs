@@ -57,7 +57,7 @@ fn usage_errors_say_what_is_wrong() {
         ("order s.obj --direction=0,0,0", "must not be zero"),
         ("order s.obj --eye=1,2,3 --direction=1,2,3", "cannot be used with"),
         ("order s.obj --eye=1,2,3 --heuristic best", "fewest-splits"),
-        ("order s.obj --eye=1,2,3 --heuristic sampled(0)", "sampled(0)"),
+        ("order s.obj --eye=1,2,3 --heuristic sampled(0)", "`sampled(0)` do not fit: a whole"),
         ("order s.obj --eye=1,2,3 --tolerance -1", "0 or more"),
         ("order s.obj --eye=1,2,3 --tolerance=inf", "not a finite number"),
         ("order s.obj --eye=1,2,3 --max-fragments=-1", "invalid value"),
@@ -114,5 +114,15 @@ fn numbers_at_the_end_of_the_range_are_no_panic() {
             assert!(matches!(run.status, Some(0 | 2)), "{command}: {run:?}");
             assert!(!run.err.contains("panicked"), "{command}: {run:?}");
         }
+    }
+}
+
+#[test]
+fn a_scene_too_large_for_a_camera_is_said_to_be_that() {
+    let folder = Folder::new("bad_large");
+    folder.write("s.obj", "v -1e308 -1e308 0\nv 1e308 0 0\nv 0 1e308 1e308\nf 1 2 3\n");
+    for command in ["verify s.obj", "render s.obj -o p.png", "render s.obj -o p.svg"] {
+        let message = folder.run(command).refused();
+        assert!(message.contains("too large for a camera") && message.contains("1.0e308"));
     }
 }

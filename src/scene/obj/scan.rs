@@ -46,10 +46,11 @@ impl Scan {
         let mut numbers: HashMap<Option<String>, u32> = HashMap::new();
         let mut libraries: HashSet<String> = HashSet::new();
         for (number, line) in lines(text) {
-            let line = line.trim();
+            let line = line.trim_start();
             let mut words = line.split_whitespace();
             let keyword = words.next().unwrap_or("#");
-            let rest = || line[keyword.len()..].trim();
+            // The last byte of a name may be what is a space in another encoding.
+            let rest = || line.get(keyword.len()..).unwrap_or_default().trim_ascii();
             match keyword {
                 "v" => scan.vertex(words, number)?,
                 "f" => {
