@@ -40,7 +40,7 @@ pub use bsp::{
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};
 pub use glam;
-pub use verify::{Verification, paint_tree, verify};
+pub use verify::{Verification, paint_tree, paint_tree_in_colour, verify};
 
 /// The README's examples are tested as they stand.
 #[cfg(doctest)]

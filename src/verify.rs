@@ -3,8 +3,8 @@
 use crate::bsp::{BspTree, Fragment};
 use crate::geom::{Kernel, Line, Viewpoint};
 use crate::raster::{
-    Comparison, DepthImage, Image, Order, Outline, Painter, Piece, Rays, Verdict, compare, covers,
-    is_open, zbuffer,
+    Canvas, Comparison, DepthImage, Image, Order, Outline, Painter, Piece, Rays, Verdict, compare,
+    covers, is_open, zbuffer,
 };
 use crate::view::{Camera, CameraError};
 
@@ -63,13 +63,43 @@ pub fn verify<K: Kernel>(tree: &BspTree<K>, camera: &Camera) -> Result<Verificat
 /// rounded vertices: such a kernel decides by these, and they are what its users would draw.
 pub fn paint_tree<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint, rays: &Rays) -> Image {
     let mut painter = Painter::new(rays, tree.faces(), Order::BackToFront);
+    for_each_piece(tree, viewpoint, |piece, _| painter.draw(piece));
+    painter.finish()
+}
+
+/// Paints a tree's fragments in colours, back to front, over a background; `look` gives the colour
+/// and the opacity of a polygon by its number.
+///
+/// The picture is RGB, 8 bits each, row by row from the top left. Where all is opaque it is that
+/// which [`raster::picture`](crate::raster::picture) makes of what [`paint_tree`] paints.
+pub fn paint_tree_in_colour<K: Kernel>(
+    tree: &BspTree<K>,
+    viewpoint: Viewpoint,
+    rays: &Rays,
+    look: impl Fn(usize) -> ([u8; 3], f32),
+    background: [u8; 3],
+) -> Vec<u8> {
+    let mut canvas = Canvas::new(rays, tree.faces(), background);
+    for_each_piece(tree, viewpoint, |piece, polygon| {
+        let (colour, opacity) = look(polygon);
+        canvas.draw(piece, colour, opacity);
+    });
+    canvas.finish()
+}
+
+/// Draws each fragment, back to front, with the number of its polygon.
+fn for_each_piece<K: Kernel>(
+    tree: &BspTree<K>,
+    viewpoint: Viewpoint,
+    mut draw: impl FnMut(Piece<'_>, usize),
+) {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     let mut buffers = Buffers::default();
     for index in order {
-        painter.draw(buffers.piece(&tree.fragment(index)));
+        let fragment = tree.fragment(index);
+        draw(buffers.piece(&fragment), fragment.polygon());
     }
-    painter.finish()
 }
 
 /// Counts wrong pixels as contested where the plane between the two fragments leaves it open which
@@ -137,8 +167,9 @@ impl Buffers {
 
 #[cfg(test)]
 mod tests {
-    use super::verify;
+    use super::{paint_tree_in_colour, verify};
     use crate::geom::Float;
+    use crate::raster::{colour_of, picture};
     use crate::view::{Camera, views};
     use crate::{BspTree, BuildOptions, Heuristic, scene};
     use glam::DVec3;
@@ -221,6 +252,22 @@ mod tests {
         let cameras = views([low, high], scene.up(), 4, [96, 72], 3).unwrap();
         let wrong = cameras.iter().map(|camera| verify(&tree, camera).unwrap().comparison.wrong());
         assert!(wrong.sum::<usize>() > 0);
+    }
+
+    #[test]
+    fn opaque_colours_are_those_of_the_picture_of_polygons() {
+        let scene = scene::random_triangles(60, 1);
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        let (low, high) = scene.bounds().unwrap();
+        let camera = &views([low, high], scene.up(), 1, [96, 72], 3).unwrap()[0];
+        let seen = verify(&tree, camera).unwrap();
+        let look = |polygon: usize| (colour_of(polygon as u32), 1.0);
+        let picture = picture(&seen.rays, tree.faces(), &seen.painted, colour_of, [9; 3]);
+        let viewpoint = camera.viewpoint();
+        assert!(paint_tree_in_colour(&tree, viewpoint, &seen.rays, look, [9; 3]) == picture);
+        let clear = |polygon: usize| (colour_of(polygon as u32), 0.0);
+        let nothing = paint_tree_in_colour(&tree, viewpoint, &seen.rays, clear, [9; 3]);
+        assert!(nothing.iter().all(|&channel| channel == 9));
     }
 
     #[test]

@@ -147,7 +147,7 @@ fn materials_whose_names_differ_in_one_byte_that_is_no_utf8_have_their_own_colou
 #[test]
 fn utf_32_is_not_called_utf_16() {
     for mark in [b"\xff\xfe\0\0", b"\0\0\xfe\xff"] {
-        assert!(refused(mark.to_vec()).2.contains("this is UTF-32; save it as UTF-8"));
+        assert!(refused(mark).2.contains("this is UTF-32; save it as UTF-8"));
     }
     let unmarked: Vec<u8> = "v 1".chars().flat_map(|c| u32::from(c).to_le_bytes()).collect();
     assert!(refused(unmarked).2.contains("UTF-32"));

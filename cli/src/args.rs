@@ -122,6 +122,7 @@ pub(crate) struct StatsArgs {
 ///
 /// Without a camera, all of the scene is shown. Colours are those of the scene's materials, or, if
 /// it has none, different for each polygon; surfaces are darker the more slantingly they are seen.
+/// Opacity counts in SVG and in the painter's PNG, but not in what a depth buffer shows.
 #[derive(Args, Debug)]
 #[command(after_help = examples::RENDER)]
 pub(crate) struct RenderArgs {

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         Format::Svg => file.write(|out| svg::write(out, &tree, &camera, &scene))?,
         Format::Png => {
             let seen = verify(&tree, &camera).map_err(|error| camera::about(&scene, &error))?;
-            let pixels = kind.pixels(&tree, &seen, &Colours::of(&scene));
+            let pixels = kind.pixels(&tree, camera.viewpoint(), &seen, &Colours::of(&scene));
             file.write(|out| png_file::write(out, camera.size(), &pixels))?;
             drop(progress);
             if kind == Kind::Difference {

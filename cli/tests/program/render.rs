@@ -77,6 +77,24 @@ fn colours_are_those_of_the_material_library() {
 }
 
 #[test]
+fn what_is_behind_glass_shines_through_in_the_png_too() {
+    let folder = Folder::new("render_opacity");
+    folder.write("m.mtl", "newmtl glass\nKd 0 0 1\nd 0.25\nnewmtl red\nKd 1 0 0\n");
+    let square = |z: i32| format!("v -1 -1 {z}\nv 1 -1 {z}\nv 1 1 {z}\nv -1 1 {z}\n");
+    let faces = "usemtl glass\nf 1 2 3 4\nusemtl red\nf 5 6 7 8\n";
+    folder.write("s.obj", format!("mtllib m.mtl\n{}{}{faces}", square(1), square(0)));
+    let picture = |options: &str| {
+        let size = "--size 40x40 --direction";
+        folder.run(&format!("render s.obj -o p.png {size}={options}")).good();
+        Picture::read(&folder.path("p.png"))
+    };
+    // From the front a quarter is blue; from the back all is red.
+    assert!(picture("0,0,-1").count([191, 0, 64]) > 1000);
+    assert!(picture("0,0,1 --z-buffer").count([255, 0, 0]) > 1000);
+    assert!(picture("0,0,-1 --z-buffer").count([0, 0, 255]) > 1000);
+}
+
+#[test]
 fn svg_has_the_fragments_in_order() {
     let folder = Folder::new("render_svg");
     folder.write("m.mtl", "newmtl glass\nKd 0 0 1\nd 0.5\nnewmtl red\nKd 1 0 0\n");
