@@ -10,6 +10,7 @@ mod files;
 mod framing;
 mod job;
 mod measure;
+mod memory;
 mod pictures;
 mod png_file;
 mod progress;

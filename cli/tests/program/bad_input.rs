@@ -126,3 +126,20 @@ fn a_scene_too_large_for_a_camera_is_said_to_be_that() {
         assert!(message.contains("too large for a camera") && message.contains("1.0e308"));
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_memory_does_not_hold_is_refused_not_aborted() {
+    let folder = Folder::new("bad_memory");
+    for scene in ["random:20000000", "teapot:790", "chain:5000000"] {
+        let line =
+            format!("ulimit -v 2000000; exec {} stats {scene}", env!("CARGO_BIN_EXE_binspace"));
+        let mut command = std::process::Command::new("sh");
+        let output = command.args(["-c", &line]).current_dir(folder.path("")).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(&format!("error: {scene}: no memory for ")), "{message}");
+    }
+    let huge = folder.run("stats random:99999999999").refused();
+    assert!(huge.contains("from 1 to 20000000"), "{huge}");
+}
