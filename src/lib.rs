@@ -7,6 +7,7 @@
 //! | [`geom`] | the scene lattice, faces, exact predicates, kernels, the split |
 //! | [`view`] | cameras |
 //! | [`raster`] | a painter and a z-buffer that decide every pixel exactly, and their comparison |
+//! | [`method`] | other ways to decide visibility, behind one trait, to be measured side by side |
 //! | [`scene`] | polygons with colours: generated scenes and OBJ files |
 //!
 //! # Conventions
@@ -28,6 +29,7 @@
 mod bsp;
 mod error;
 pub mod geom;
+pub mod method;
 pub mod raster;
 pub mod scene;
 mod verify;

@@ -62,8 +62,18 @@ pub fn verify<K: Kernel>(tree: &BspTree<K>, camera: &Camera) -> Result<Verificat
 /// Fragments of an exact kernel are bounded by the lines that cut them, those of others by their
 /// rounded vertices: such a kernel decides by these, and they are what its users would draw.
 pub fn paint_tree<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint, rays: &Rays) -> Image {
+    let mut order = Vec::new();
+    tree.back_to_front_into(viewpoint, &mut order);
+    paint_order(tree, &order, rays)
+}
+
+/// Paints fragments of a tree one after the other.
+pub(crate) fn paint_order<K: Kernel>(tree: &BspTree<K>, order: &[u32], rays: &Rays) -> Image {
     let mut painter = Painter::new(rays, tree.faces(), Order::BackToFront);
-    for_each_piece(tree, viewpoint, |piece, _| painter.draw(piece));
+    let mut buffers = Buffers::default();
+    for &index in order {
+        painter.draw(buffers.piece(&tree.fragment(index)));
+    }
     painter.finish()
 }
 
@@ -80,26 +90,15 @@ pub fn paint_tree_in_colour<K: Kernel>(
     background: [u8; 3],
 ) -> Vec<u8> {
     let mut canvas = Canvas::new(rays, tree.faces(), background);
-    for_each_piece(tree, viewpoint, |piece, polygon| {
-        let (colour, opacity) = look(polygon);
-        canvas.draw(piece, colour, opacity);
-    });
-    canvas.finish()
-}
-
-/// Draws each fragment, back to front, with the number of its polygon.
-fn for_each_piece<K: Kernel>(
-    tree: &BspTree<K>,
-    viewpoint: Viewpoint,
-    mut draw: impl FnMut(Piece<'_>, usize),
-) {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     let mut buffers = Buffers::default();
     for index in order {
         let fragment = tree.fragment(index);
-        draw(buffers.piece(&fragment), fragment.polygon());
+        let (colour, opacity) = look(fragment.polygon());
+        canvas.draw(buffers.piece(&fragment), colour, opacity);
     }
+    canvas.finish()
 }
 
 /// Counts wrong pixels as contested where the plane between the two fragments leaves it open which

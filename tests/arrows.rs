@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer with what it may import: arrows point to the left.
-const LAYERS: [(&str, &[&str]); 7] = [
+const LAYERS: [(&str, &[&str]); 8] = [
     ("error", &["geom"]),
     ("geom", &["error"]),
     ("bsp", &["error", "geom"]),
@@ -13,6 +13,7 @@ const LAYERS: [(&str, &[&str]); 7] = [
     // The judge of the order knows nothing of trees, nor of where polygons come from.
     ("raster", &["error", "geom", "view"]),
     ("verify", &["error", "geom", "bsp", "view", "scene", "raster"]),
+    ("method", &["error", "geom", "bsp", "view", "scene", "raster", "verify"]),
 ];
 
 /// What stands at the crate's root, and where it comes from.

@@ -8,6 +8,9 @@ use crate::geom::{Faces, PlaneId};
 /// Values a bin is to hold in the mean. Larger: more to sort in the bins that are looked at;
 /// smaller: more bins to bound.
 const PER_BIN: usize = 8;
+/// A plane that cuts nothing and leaves at least one in so many pieces on either side is good
+/// enough. Smaller: other axes are searched for what is hardly better; larger: unbalanced trees.
+const UNEVEN: usize = 4;
 /// The most bins. Larger: their counters leave the cache.
 const MOST_BINS: usize = 1024;
 /// To search along an axis is as much work as to look at each piece so often.
@@ -31,19 +34,39 @@ pub(super) struct FreePlane {
 /// thinner than twice the tolerance is *flat*, and can be ended without being begun: it lies on
 /// the plane; others are begun before they are ended, and cut while they are begun and not ended.
 ///
-/// Where pieces begin and end is put into bins, not sorted. The counts at a bin's borders bound
+/// Where pieces begin and end is counted by bins, not sorted. The counts at a bin's borders bound
 /// the cost of every plane inside it, so that only the bins that may hold the best plane are
 /// looked into: O(n) where coordinates spread, O(n log n) at worst.
 #[derive(Debug, Default)]
 pub(super) struct Sweep {
-    begun: Binned,
-    ended: Binned,
-    begun_flat: Binned,
-    ended_flat: Binned,
-    candidates: Binned,
-    /// Lower bounds of the cost in each bin.
-    bounds: Vec<(f64, usize)>,
+    spans: Vec<Span>,
+    /// For each bin, how many of the four kinds there are, and how many candidates; behind the
+    /// last bin, and once summed, how many there are before each.
+    counts: Vec<[u32; 4]>,
+    candidates: Vec<u32>,
+    bounds: Vec<f64>,
+    /// The values of the four kinds, and the candidates, in the bins looked into.
+    values: [Vec<f64>; 4],
+    coordinates: Vec<f64>,
 }
+
+const BEGUN: usize = 0;
+const ENDED: usize = 1;
+/// What is added for flat pieces.
+const FLAT: usize = 2;
+
+/// Where a piece begins and ends along an axis.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    begin: f64,
+    end: f64,
+    /// The bins of `begin`, `end`, and the two candidates.
+    bins: [u16; 4],
+    flat: bool,
+}
+
+/// The bin of what is no candidate.
+const NO_BIN: u16 = u16::MAX;
 
 impl Sweep {
     /// The free plane of least cost, if one has fewer pieces on each side than there are.
@@ -54,73 +77,157 @@ impl Sweep {
         watch: &Watch<'_>,
     ) -> Option<FreePlane> {
         let mut best: Option<FreePlane> = None;
-        for axis in 0..3 {
-            if watch.work(pieces.len() * PASSES).is_err() {
+        let n = pieces.len();
+        let bounds = super::live::bounds(pieces);
+        let extent = |axis: usize| bounds.1[axis] - bounds.0[axis];
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&a, &b| extent(b).total_cmp(&extent(a)));
+        // Other axes are not asked where one has a plane that cuts nothing and divides well.
+        let enough = work(n / UNEVEN) + work(n - n / UNEVEN);
+        for axis in axes {
+            if extent(axis) <= 0.0 || best.is_some_and(|best| best.cost <= enough) {
                 break;
             }
-            let Some(bins) = Bins::of(pieces, axis) else { continue };
-            self.fill(pieces, axis, tolerance, &bins);
-            self.bound(pieces.len(), bins.count);
-            for i in 0..self.bounds.len() {
-                let (bound, bin) = self.bounds[i];
-                if best.is_some_and(|best| bound >= best.cost) {
-                    break;
-                }
-                self.scan(pieces.len(), axis, bin, &mut best);
+            if watch.work(n * PASSES).is_err() {
+                break;
             }
+            let bins = Bins::new(bounds.0[axis], bounds.1[axis], n);
+            self.fill(pieces, axis, tolerance, &bins);
+            let first = self.bound(n);
+            self.look_into(pieces, axis, &bins, &mut best, |bin, _| bin == first);
+            self.look_into(pieces, axis, &bins, &mut best, |bin, may_win| bin != first && may_win);
         }
         best
     }
 
     fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
-        let is_flat = |p: &Live| p.max[axis] - p.min[axis] <= 2.0 * tolerance;
-        // Begun is “beyond”, ended is “at or beyond”: the next number above makes it one rule.
-        let begin = |p: &Live| (p.min[axis] + tolerance).next_up();
-        let end = |p: &Live| p.max[axis] - tolerance;
-        let (flat, thick) =
-            (|| pieces.iter().filter(|p| is_flat(p)), || pieces.iter().filter(|p| !is_flat(p)));
-        self.begun.fill(bins, || thick().map(begin));
-        self.ended.fill(bins, || thick().map(end));
-        self.begun_flat.fill(bins, || flat().map(begin));
-        self.ended_flat.fill(bins, || flat().map(end));
-        self.candidates.fill(bins, || {
-            pieces.iter().flat_map(|piece| {
-                let min = piece.min_is_corner(axis).then_some(piece.min[axis]);
-                let max = piece.max_is_corner(axis).then_some(piece.max[axis]);
-                min.into_iter().chain(max)
-            })
-        });
-    }
-
-    /// Bounds the cost in every bin that has candidates, least first.
-    fn bound(&mut self, pieces: usize, bins: usize) {
-        self.bounds.clear();
-        for bin in (0..bins).filter(|&bin| !self.candidates.range(bin).is_empty()) {
-            let begun = self.begun.before(bin) + self.begun_flat.before(bin);
-            let ended = self.ended.before(bin + 1) + self.ended_flat.before(bin + 1);
-            let splits = self.begun.before(bin).saturating_sub(self.ended.before(bin + 1));
-            let bound = work(pieces - ended) + work(begun) + price(splits);
-            self.bounds.push((bound, bin));
+        self.counts.clear();
+        self.counts.resize(bins.count + 1, [0; 4]);
+        self.candidates.clear();
+        self.candidates.resize(bins.count, 0);
+        self.spans.clear();
+        let (counts, candidates) = (&mut self.counts, &mut self.candidates);
+        self.spans.extend(pieces.iter().map(|piece| {
+            let (min, max) = (piece.min[axis], piece.max[axis]);
+            // Begun is “beyond”, ended is “at or beyond”: the next number above makes it one rule.
+            let (begin, end) = ((min + tolerance).next_up(), max - tolerance);
+            let flat = max - min <= 2.0 * tolerance;
+            let kind = if flat { FLAT } else { 0 };
+            let (begin_bin, end_bin) = (bins.of_value(begin), bins.of_value(end));
+            counts[begin_bin][kind + BEGUN] += 1;
+            counts[end_bin][kind + ENDED] += 1;
+            let mut candidate = |is_corner: bool, value| {
+                if !is_corner {
+                    return NO_BIN;
+                }
+                let bin = bins.of_value(value);
+                candidates[bin] += 1;
+                bin as u16
+            };
+            let low = candidate(piece.min_is_corner(axis), min);
+            let high = candidate(piece.max_is_corner(axis), max);
+            Span { begin, end, bins: [begin_bin as u16, end_bin as u16, low, high], flat }
+        }));
+        let mut total = [0; 4];
+        for count in counts {
+            let here = *count;
+            *count = total;
+            total = std::array::from_fn(|kind| total[kind] + here[kind]);
         }
-        self.bounds.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
 
-    /// Walks the candidates of a bin upwards, with a finger in each list.
-    fn scan(&mut self, pieces: usize, axis: usize, bin: usize, best: &mut Option<FreePlane>) {
-        let mut last = f64::NAN;
-        let mut fingers =
-            [&mut self.begun, &mut self.ended, &mut self.begun_flat, &mut self.ended_flat]
-                .map(|list| Finger { count: list.before(bin), left: list.sorted(bin) });
-        for &coordinate in self.candidates.sorted(bin) {
+    /// Bounds the cost in every bin; gives the one with the least bound.
+    fn bound(&mut self, pieces: usize) -> usize {
+        self.bounds.clear();
+        let mut first = (f64::INFINITY, 0);
+        for (bin, &candidates) in self.candidates.iter().enumerate() {
+            let (before, after) = (&self.counts[bin], &self.counts[bin + 1]);
+            let bound = if candidates == 0 {
+                f64::INFINITY
+            } else {
+                let ended = after[ENDED] + after[FLAT + ENDED];
+                let begun = before[BEGUN] + before[FLAT + BEGUN];
+                let splits = before[BEGUN].saturating_sub(after[ENDED]);
+                work(pieces - ended as usize) + work(begun as usize) + price(splits as usize)
+            };
+            if bound < first.0 {
+                first = (bound, bin);
+            }
+            self.bounds.push(bound);
+        }
+        first.1
+    }
+
+    /// Tries all candidates in the bins chosen by number and by whether they may be better than
+    /// the best so far.
+    fn look_into(
+        &mut self,
+        pieces: &[Live],
+        axis: usize,
+        bins: &Bins,
+        best: &mut Option<FreePlane>,
+        chosen: impl Fn(usize, bool) -> bool,
+    ) {
+        let limit = best.map_or(f64::INFINITY, |best| best.cost);
+        let bounds = &self.bounds;
+        let is_chosen =
+            |bin: u16| bin != NO_BIN && chosen(bin.into(), bounds[usize::from(bin)] < limit);
+        if !(0..bounds.len()).any(|bin| is_chosen(bin as u16)) {
+            return;
+        }
+        self.values.iter_mut().for_each(Vec::clear);
+        self.coordinates.clear();
+        for (span, piece) in self.spans.iter().zip(pieces) {
+            let kind = if span.flat { FLAT } else { 0 };
+            let [begin, end, low, high] = span.bins;
+            if is_chosen(begin) {
+                self.values[kind + BEGUN].push(span.begin);
+            }
+            if is_chosen(end) {
+                self.values[kind + ENDED].push(span.end);
+            }
+            if is_chosen(low) {
+                self.coordinates.push(piece.min[axis]);
+            }
+            if is_chosen(high) {
+                self.coordinates.push(piece.max[axis]);
+            }
+        }
+        self.walk(pieces.len(), axis, bins, best);
+    }
+
+    /// Walks the gathered candidates upwards, with a finger in the list of each kind.
+    fn walk(&mut self, pieces: usize, axis: usize, bins: &Bins, best: &mut Option<FreePlane>) {
+        let sort = |values: &mut Vec<f64>| values.sort_unstable_by(f64::total_cmp);
+        self.values.iter_mut().for_each(sort);
+        sort(&mut self.coordinates);
+        let mut fingers = [0; 4];
+        let (mut last, mut last_bin, mut starts) = (f64::NAN, usize::MAX, [0; 4]);
+        for &coordinate in &self.coordinates {
             if coordinate == last {
                 continue;
             }
             last = coordinate;
-            let [begun, ended, begun_flat, ended_flat] =
-                fingers.each_mut().map(|finger| finger.advance(coordinate));
-            let (behind, in_front) = (begun + begun_flat, pieces - ended - ended_flat);
+            let bin = bins.of_value(coordinate);
+            let mut advance = |kind: usize, passes: &dyn Fn(f64) -> bool| {
+                let (list, at) = (&self.values[kind], &mut fingers[kind]);
+                while *at < list.len() && passes(list[*at]) {
+                    *at += 1;
+                }
+                *at
+            };
+            if bin != last_bin {
+                last_bin = bin;
+                starts = [0, 1, 2, 3].map(|kind| advance(kind, &|v| bins.of_value(v) < bin));
+            }
+            let passed: [usize; 4] = [0, 1, 2, 3].map(|kind| {
+                let here = advance(kind, &|v| v <= coordinate) - starts[kind];
+                self.counts[bin][kind] as usize + here
+            });
+            let behind = passed[BEGUN] + passed[FLAT + BEGUN];
+            let in_front = pieces - passed[ENDED] - passed[FLAT + ENDED];
             // Where rounding makes a piece end before it begins, it counts as uncut.
-            let splits = begun.saturating_sub(ended);
+            let splits = passed[BEGUN].saturating_sub(passed[ENDED]);
             if in_front < pieces && behind < pieces {
                 let cost = work(in_front) + work(behind) + price(splits);
                 if best.is_none_or(|best| cost < best.cost) {
@@ -153,81 +260,14 @@ struct Bins {
 }
 
 impl Bins {
-    /// `None` if the set has no extent along the axis.
-    fn of(pieces: &[Live], axis: usize) -> Option<Self> {
-        let start = pieces.iter().fold(f64::INFINITY, |min, p| min.min(p.min[axis]));
-        let end = pieces.iter().fold(f64::NEG_INFINITY, |max, p| max.max(p.max[axis]));
-        let count = (pieces.len() / PER_BIN).clamp(1, MOST_BINS);
-        (end > start).then(|| Self { start, per_unit: count as f64 / (end - start), count })
+    fn new(start: f64, end: f64, pieces: usize) -> Self {
+        let count = (pieces / PER_BIN).clamp(1, MOST_BINS);
+        Self { start, per_unit: count as f64 / (end - start), count }
     }
 
     /// The bin of a value; a larger value is never in an earlier bin.
     #[inline]
     fn of_value(&self, value: f64) -> usize {
         (((value - self.start) * self.per_unit) as usize).min(self.count - 1)
-    }
-}
-
-/// Values grouped by bin.
-#[derive(Debug, Default)]
-struct Binned {
-    values: Vec<f64>,
-    /// Where each bin ends; before that, while it is filled, where its next value goes.
-    ends: Vec<u32>,
-}
-
-impl Binned {
-    fn fill<I: Iterator<Item = f64>>(&mut self, bins: &Bins, values: impl Fn() -> I) {
-        self.ends.clear();
-        self.ends.resize(bins.count + 1, 0);
-        values().for_each(|value| self.ends[bins.of_value(value) + 1] += 1);
-        let mut total = 0;
-        for end in &mut self.ends {
-            total += *end;
-            *end = total;
-        }
-        // Now `ends[bin]` is where the bin starts; filling it moves that to its end.
-        self.values.clear();
-        self.values.resize(total as usize, 0.0);
-        for value in values() {
-            let next = &mut self.ends[bins.of_value(value)];
-            self.values[*next as usize] = value;
-            *next += 1;
-        }
-    }
-
-    /// How many values are in earlier bins.
-    fn before(&self, bin: usize) -> usize {
-        if bin == 0 { 0 } else { self.ends[bin - 1] as usize }
-    }
-
-    fn range(&self, bin: usize) -> std::ops::Range<usize> {
-        self.before(bin)..self.ends[bin] as usize
-    }
-
-    /// The values of a bin, in order.
-    fn sorted(&mut self, bin: usize) -> &[f64] {
-        let range = self.range(bin);
-        self.values[range.clone()].sort_unstable_by(f64::total_cmp);
-        &self.values[range]
-    }
-}
-
-/// How many values of a list a plane has passed.
-struct Finger<'a> {
-    count: usize,
-    left: &'a [f64],
-}
-
-impl Finger<'_> {
-    #[inline]
-    fn advance(&mut self, coordinate: f64) -> usize {
-        while let [first, rest @ ..] = self.left
-            && *first <= coordinate
-        {
-            self.count += 1;
-            self.left = rest;
-        }
-        self.count
     }
 }

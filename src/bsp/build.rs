@@ -9,7 +9,7 @@ use super::live::Live;
 use super::progress::Watch;
 use super::{BspTree, BuildOptions};
 use crate::Error;
-use crate::geom::{Faces, Kernel, PlaneId, Polygon, Side, split};
+use crate::geom::{Faces, Kernel, PlaneId, Polygon, Preparation, Side, split};
 
 /// Sets on both sides of a plane with at least this many pieces are built as jobs of their own.
 /// Smaller: more copies; larger: threads wait for each other at the end.
@@ -36,6 +36,17 @@ pub(super) fn tree<K: Kernel, P: Polygon>(
             watch.expect(polygons)
         })?;
     watch.expect(faces.len())?;
+    tree_of(kernel, options, faces, preparation, watch)
+}
+
+/// Builds a tree of faces.
+pub(super) fn tree_of<K: Kernel>(
+    kernel: K,
+    options: &BuildOptions,
+    faces: Faces,
+    preparation: Preparation,
+    watch: &Watch<'_>,
+) -> Result<BspTree<K>, Error> {
     let live: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
     let fragments = AtomicUsize::new(live.len());
     let shared = Shared { kernel, faces: &faces, options, watch, fragments };

@@ -2,14 +2,15 @@
 
 use super::Heuristic;
 use super::axis::{FreePlane, Sweep};
-use super::live::Live;
+use super::gather::{Gathered, reach};
+use super::live::{Live, bounds};
 use super::peel::Peeler;
 use super::progress::Watch;
 use crate::geom::{Faces, Kernel, PlaneId, Vertex};
 
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
 /// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
-const OWN_PLANES_BELOW: usize = 400;
+const OWN_PLANES_BELOW: usize = 1000;
 /// How many own planes `auto` tries at a node. More: fewer fragments, for time in proportion.
 const OWN_PLANES: usize = 64;
 /// A free plane that cuts more than one in so many pieces is a poor one, and some own planes are
@@ -26,7 +27,10 @@ const FEW_OWN_PLANES: usize = 16;
 const MOST_CANDIDATES: usize = 256;
 /// The price of each cut in the cost of `auto`, in polygons still to be sorted. Larger: trees
 /// become unbalanced, and unbalanced ones cut more further down; smaller: cuts for balance.
-const SPLIT_PRICE: f64 = 1.5;
+const SPLIT_PRICE: f64 = 1.0;
+/// What a cut by a free plane costs beside that: an own plane also takes its polygon off the set.
+/// Larger: triangles in a heap are cut less, scans and rooms more.
+const FREE_SPLIT_PRICE: f64 = 4.0;
 /// The price of cutting at all: more than any amount of work. A plane that cuts nothing costs no
 /// fragment, now or later: whatever tree there is of all pieces, its parts on either side are trees
 /// of those. So where there is one, it is taken, however unbalanced.
@@ -46,6 +50,11 @@ const PEEL: usize = 16;
 const LARGEST: usize = 2;
 /// The share of the box below which a polygon is not tried as one of the largest.
 const LARGE: f64 = 0.2;
+/// How many of the set's pieces, spread evenly, all own planes are held against first. Larger: time;
+/// smaller: good planes not recognized.
+const LOOKS: usize = 32;
+/// How many own planes, those that promise most, are then held against the whole set. As above.
+const RANKED: usize = 12;
 /// How often a candidate is asked whether it can still win, in pieces.
 const CHECK_EVERY: usize = 64;
 
@@ -58,6 +67,13 @@ pub(super) struct Counts {
 }
 
 impl Counts {
+    #[inline]
+    fn add(&mut self, (front, back): (bool, bool)) {
+        self.splits += usize::from(front & back);
+        self.front += usize::from(front & !back);
+        self.back += usize::from(back & !front);
+    }
+
     /// The work left on both sides, and the cuts: only grows with each count.
     #[inline]
     pub(super) fn cost(&self) -> f64 {
@@ -98,7 +114,11 @@ pub(super) struct Chooser<'a, K: Kernel> {
     sweep: Sweep,
     /// How many more polygons may be taken off a set that looks convex, and at which depth.
     peel: (usize, usize),
-    peeler: Peeler<K>,
+    peeler: Peeler,
+    /// The set at hand, if it is small.
+    set: Gathered<K>,
+    /// Pieces of the set whose planes are to be tried, with what they promise.
+    ranked: Vec<(f64, u32)>,
 }
 
 impl<'a, K: Kernel> Chooser<'a, K> {
@@ -116,6 +136,8 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             sweep: Sweep::default(),
             peel: (0, 0),
             peeler: Peeler::default(),
+            set: Gathered::default(),
+            ranked: vec![],
         }
     }
 
@@ -188,10 +210,8 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         depth: usize,
         both: bool,
     ) -> PlaneId {
-        if both {
-            if let Some(plane) = self.peeler.next(pieces.len()) {
-                return plane;
-            }
+        if both && let Some(plane) = self.peeler.next(pieces.len()) {
+            return plane;
         }
         if self.peel.0 > 0 && self.peel.1 == depth {
             let plane = PlaneId::face(pieces[0].face);
@@ -206,12 +226,14 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             return plane;
         }
         if both {
-            self.peeler.search(&self.kernel, self.faces, pieces, arena);
+            self.set.take(&self.kernel, self.faces, pieces, arena);
+            self.peeler.search(pieces, &self.set);
             if let Some(plane) = self.peeler.next(pieces.len()) {
                 return plane;
             }
         }
         let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
+        best.0 += FREE_SPLIT_PRICE * free.map_or(0.0, |plane| plane.splits as f64);
         let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
         let cell = Cell::around(pieces);
         if self.heuristic == Heuristic::Auto && reward > 0.0 {
@@ -220,16 +242,12 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                 self.try_own(piece, (reward, usize::MAX), pieces, arena, &mut best);
             }
         }
+        if both && self.heuristic == Heuristic::Auto {
+            return self.best_of_small(pieces, reward, &cell, best).1;
+        }
         let poor = free.is_none_or(|plane| plane.splits * POOR > pieces.len());
-        let tries = match (both, poor) {
-            (true, _) => OWN_PLANES,
-            (false, true) => FEW_OWN_PLANES,
-            (false, false) => 0,
-        };
-        let most = match free {
-            Some(plane) if !both => plane.splits / FEWER,
-            _ => usize::MAX,
-        };
+        let tries = if poor { FEW_OWN_PLANES } else { 0 };
+        let most = free.map_or(usize::MAX, |plane| plane.splits / FEWER);
         if named.is_none() || self.heuristic == Heuristic::Auto {
             let mut peels = 0;
             for piece in sample(pieces, tries) {
@@ -242,6 +260,55 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             self.peel = (if convex && is_own { PEEL } else { 0 }, depth + 1);
         }
         best.1
+    }
+
+    /// The best of the planes of the gathered set's pieces, if it is better than what there is.
+    fn best_of_small(
+        &mut self,
+        pieces: &[Live],
+        reward: f64,
+        cell: &Cell,
+        mut best: (f64, PlaneId),
+    ) -> (f64, PlaneId) {
+        let n = pieces.len();
+        let set = &self.set;
+        let count = |candidate: usize, step: usize, limit: f64| {
+            let splitter = set.splitter(candidate);
+            let mut counts = Counts::default();
+            for chunk in (0..n).step_by(CHECK_EVERY * step) {
+                let end = n.min(chunk + CHECK_EVERY * step);
+                (chunk..end).step_by(step).for_each(|q| counts.add(set.reach(splitter, q)));
+                if counts.cost() >= limit {
+                    return None;
+                }
+            }
+            Some(counts.cost())
+        };
+        self.ranked.clear();
+        let tries = n.min(OWN_PLANES);
+        let reward_of = |candidate: usize| reward * cell.share(&pieces[candidate]);
+        let step = n.div_ceil(LOOKS);
+        if step == 1 || n <= OWN_PLANES {
+            self.ranked.extend((0..tries).map(|i| (0.0, (i * n / tries) as u32)));
+        } else {
+            let looks = n.div_ceil(step) as f64;
+            for i in 0..tries {
+                let candidate = i * n / tries;
+                let cost = count(candidate, step, f64::INFINITY).unwrap_or(f64::INFINITY);
+                self.ranked.push((cost - reward_of(candidate) * looks, candidate as u32));
+            }
+            self.ranked.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            self.ranked.truncate(RANKED);
+        }
+        for &(_, candidate) in &self.ranked {
+            let reward = reward_of(candidate as usize) * n as f64;
+            if let Some(cost) = count(candidate as usize, 1, best.0 + reward)
+                && cost - reward < best.0
+            {
+                best = (cost - reward, PlaneId::face(pieces[candidate as usize].face));
+            }
+        }
+        best
     }
 
     /// Takes the plane of a piece if, with a reward for each piece of the set, it is the best so
@@ -274,27 +341,16 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         limit: f64,
     ) -> (Counts, bool) {
         let splitter = self.kernel.splitter(self.faces, plane);
-        let slack = K::slack(&splitter);
         let mut counts = Counts::default();
         if self.watch.work(pieces.len()).is_err() {
             return (counts, false);
         }
         for chunk in pieces.chunks(CHECK_EVERY) {
             for live in chunk {
-                let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-                let mut see = |position| {
-                    let s = K::distance(&splitter, position);
-                    low = low.min(s);
-                    high = high.max(s);
-                };
-                match live.piece(arena).cut {
-                    None => self.faces.corners(live.face).iter().for_each(|&c| see(c)),
-                    Some(vertices) => vertices.iter().for_each(|v| see(v.position())),
-                }
-                let (front, back) = (high > slack, low < -slack);
-                counts.splits += usize::from(front & back);
-                counts.front += usize::from(front & !back);
-                counts.back += usize::from(back & !front);
+                counts.add(match live.piece(arena).cut {
+                    None => reach::<K>(&splitter, self.faces.corners(live.face).iter().copied()),
+                    Some(cut) => reach::<K>(&splitter, cut.iter().map(Vertex::position)),
+                });
             }
             if counts.cost() >= limit {
                 return (counts, false);
@@ -312,13 +368,7 @@ struct Cell {
 
 impl Cell {
     fn around(pieces: &[Live]) -> Self {
-        let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for piece in pieces {
-            for axis in 0..3 {
-                min[axis] = min[axis].min(piece.min[axis]);
-                max[axis] = max[axis].max(piece.max[axis]);
-            }
-        }
+        let (min, max) = bounds(pieces);
         Self { size: std::array::from_fn(|axis| max[axis] - min[axis]) }
     }
 

@@ -92,3 +92,15 @@ impl Live {
         range.find(|&corner| faces.corner(corner as u32)[axis] == coordinate).map(|c| c as u32)
     }
 }
+
+/// The bounding box of some pieces.
+pub(super) fn bounds(pieces: &[Live]) -> ([f64; 3], [f64; 3]) {
+    let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for piece in pieces {
+        for axis in 0..3 {
+            min[axis] = min[axis].min(piece.min[axis]);
+            max[axis] = max[axis].max(piece.max[axis]);
+        }
+    }
+    (min, max)
+}

@@ -5,6 +5,7 @@ mod axis;
 mod build;
 mod choose;
 mod fragment;
+mod gather;
 mod heuristic;
 mod jobs;
 mod live;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::progress::{Progress, Watch, one_at_a_time};
 use super::{BspTree, Heuristic};
 use crate::Error;
-use crate::geom::{Exact, Kernel, Polygon};
+use crate::geom::{Exact, Faces, Kernel, Polygon, Preparation};
 
 /// How a tree is to be built: [`BspTree::build`] with other than the defaults.
 ///
@@ -131,6 +131,17 @@ impl BuildOptions {
     ) -> Result<BspTree, Error> {
         let progress = one_at_a_time(progress);
         super::build::tree(Exact, self, polygons, &Watch::new(&progress))
+    }
+
+    /// Builds a tree of faces that are made already: their tolerance counts, not that of the
+    /// options.
+    pub(crate) fn build_faces<K: Kernel>(
+        &self,
+        kernel: K,
+        faces: Faces,
+        preparation: Preparation,
+    ) -> Result<BspTree<K>, Error> {
+        super::build::tree_of(kernel, self, faces, preparation, &Watch::default())
     }
 }
 

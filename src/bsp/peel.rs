@@ -1,7 +1,8 @@
 //! Pieces that can be taken off a set without a cut.
 
+use super::gather::Gathered;
 use super::live::Live;
-use crate::geom::{Faces, Kernel, PlaneId, Vertex};
+use crate::geom::{Kernel, PlaneId};
 
 /// How many pieces may be looked at in vain, for each piece of the set, before the search for
 /// pieces to take off ends. Larger: time; smaller: pieces that are cut for nothing.
@@ -13,12 +14,8 @@ const PATIENCE: usize = 32;
 /// To take such a piece first never costs a fragment: a tree of the whole set, with the piece and
 /// its plane left out, is one of the rest, with no more fragments. A set in convex position comes
 /// apart entirely.
-#[derive(Debug)]
-pub(super) struct Peeler<K: Kernel> {
-    /// The vertices of all pieces, and where those of each end.
-    points: Vec<[f64; 3]>,
-    ends: Vec<u32>,
-    splitters: Vec<K::Splitter>,
+#[derive(Debug, Default)]
+pub(super) struct Peeler {
     gone: Vec<bool>,
     /// For each piece, what keeps it from being taken: a piece in front of its plane and one
     /// behind, or twice one across.
@@ -32,21 +29,7 @@ pub(super) struct Peeler<K: Kernel> {
 
 const NOBODY: u32 = u32::MAX;
 
-impl<K: Kernel> Default for Peeler<K> {
-    fn default() -> Self {
-        Self {
-            points: vec![],
-            ends: vec![],
-            splitters: vec![],
-            gone: vec![],
-            witnesses: vec![],
-            order: vec![],
-            found: vec![],
-        }
-    }
-}
-
-impl<K: Kernel> Peeler<K> {
+impl Peeler {
     /// The next plane found, if the set is what the one before it left.
     pub(super) fn next(&mut self, pieces: usize) -> Option<PlaneId> {
         match self.found.pop() {
@@ -59,14 +42,8 @@ impl<K: Kernel> Peeler<K> {
     }
 
     /// Searches a set; [`next`](Self::next) gives the planes.
-    pub(super) fn search(
-        &mut self,
-        kernel: &K,
-        faces: &Faces,
-        pieces: &[Live],
-        arena: &[K::Vertex],
-    ) {
-        self.gather(kernel, faces, pieces, arena);
+    pub(super) fn search<K: Kernel>(&mut self, pieces: &[Live], set: &Gathered<K>) {
+        self.reset(pieces.len());
         let (n, mut left) = (pieces.len(), pieces.len());
         let mut patience = PATIENCE * n;
         let mut progress = true;
@@ -76,10 +53,10 @@ impl<K: Kernel> Peeler<K> {
                 if left <= 1 || self.gone[p as usize] || self.is_held(p) {
                     continue;
                 }
-                match self.look(p) {
+                match self.look(p, set) {
                     Ok(coplanar) => {
                         self.found.push((PlaneId::face(pieces[p as usize].face), left));
-                        left -= self.take(p, coplanar);
+                        left -= self.take(p, coplanar, set);
                         progress = true;
                     }
                     Err(looks) => patience = patience.saturating_sub(looks),
@@ -89,24 +66,13 @@ impl<K: Kernel> Peeler<K> {
         self.found.reverse();
     }
 
-    fn gather(&mut self, kernel: &K, faces: &Faces, pieces: &[Live], arena: &[K::Vertex]) {
-        self.points.clear();
-        self.ends.clear();
-        self.splitters.clear();
-        for live in pieces {
-            match live.piece(arena).cut {
-                None => self.points.extend_from_slice(faces.corners(live.face)),
-                Some(vertices) => self.points.extend(vertices.iter().map(Vertex::position)),
-            }
-            self.ends.push(self.points.len() as u32);
-            self.splitters.push(kernel.splitter(faces, PlaneId::face(live.face)));
-        }
+    fn reset(&mut self, pieces: usize) {
         self.gone.clear();
-        self.gone.resize(pieces.len(), false);
+        self.gone.resize(pieces, false);
         self.witnesses.clear();
-        self.witnesses.resize(pieces.len(), [NOBODY; 2]);
+        self.witnesses.resize(pieces, [NOBODY; 2]);
         self.order.clear();
-        self.order.extend(0..pieces.len() as u32);
+        self.order.extend(0..pieces as u32);
         self.found.clear();
     }
 
@@ -115,25 +81,10 @@ impl<K: Kernel> Peeler<K> {
         self.witnesses[p as usize].iter().all(|&w| w != NOBODY && !self.gone[w as usize])
     }
 
-    /// Whether a piece reaches in front of another's plane, and behind it.
-    #[inline]
-    fn reach(&self, splitter: &K::Splitter, q: u32) -> (bool, bool) {
-        let q = q as usize;
-        let start = if q == 0 { 0 } else { self.ends[q - 1] as usize };
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &point in &self.points[start..self.ends[q] as usize] {
-            let s = K::distance(splitter, point);
-            low = low.min(s);
-            high = high.max(s);
-        }
-        let slack = K::slack(splitter);
-        (high > slack, low < -slack)
-    }
-
     /// Holds the others against a piece's plane: whether it has some of them on it, if it has
     /// none on one side, or how many were looked at until there were some on both.
-    fn look(&mut self, p: u32) -> Result<bool, usize> {
-        let splitter = self.splitters[p as usize];
+    fn look<K: Kernel>(&mut self, p: u32, set: &Gathered<K>) -> Result<bool, usize> {
+        let splitter = set.splitter(p as usize);
         let mut seen = [NOBODY; 2];
         let mut coplanar = false;
         for i in 0..self.order.len() {
@@ -141,7 +92,7 @@ impl<K: Kernel> Peeler<K> {
             if q == p || self.gone[q as usize] {
                 continue;
             }
-            let (front, back) = self.reach(&splitter, q);
+            let (front, back) = set.reach(splitter, q as usize);
             coplanar |= !front && !back;
             if front {
                 seen[0] = q;
@@ -159,13 +110,13 @@ impl<K: Kernel> Peeler<K> {
     }
 
     /// Takes a piece, and those on its plane; gives how many.
-    fn take(&mut self, p: u32, coplanar: bool) -> usize {
+    fn take<K: Kernel>(&mut self, p: u32, coplanar: bool, set: &Gathered<K>) -> usize {
         self.gone[p as usize] = true;
         let mut taken = 1;
         if coplanar {
-            let splitter = self.splitters[p as usize];
+            let splitter = set.splitter(p as usize);
             for q in 0..self.gone.len() as u32 {
-                if !self.gone[q as usize] && self.reach(&splitter, q) == (false, false) {
+                if !self.gone[q as usize] && set.reach(splitter, q as usize) == (false, false) {
                     self.gone[q as usize] = true;
                     taken += 1;
                 }

@@ -18,6 +18,12 @@ impl Image {
         Self { size, faces: vec![NONE; pixels], drawn: 0 }
     }
 
+    /// A picture of which the face in each pixel is known, with how many times one was covered.
+    pub(crate) fn from_faces(size: [u32; 2], faces: Vec<u32>, drawn: u64) -> Self {
+        debug_assert_eq!(faces.len(), size[0] as usize * size[1] as usize);
+        Self { size, faces, drawn }
+    }
+
     /// Its width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size

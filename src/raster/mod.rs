@@ -23,7 +23,7 @@ mod zbuffer;
 pub use canvas::Canvas;
 pub use compare::{Comparison, Verdict, compare, is_open};
 pub use image::{Image, NONE};
-pub use painter::{Order, Outline, Painter, Piece, covers, paint};
+pub use painter::{Order, Outline, Painter, Piece, covers, for_each_run, paint};
 pub use picture::{brightness, colour_of, depth_map, difference, picture};
 pub use rays::Rays;
 pub use zbuffer::{DepthImage, zbuffer};

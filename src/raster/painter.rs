@@ -1,5 +1,7 @@
 //! The painter: what is drawn later covers what was drawn before.
 
+use std::ops::Range;
+
 use super::coverage::Coverage;
 use super::image::{Image, NONE};
 use super::rays::Rays;
@@ -77,6 +79,19 @@ impl<'a> Painter<'a> {
     /// The picture.
     pub fn finish(self) -> Image {
         self.image
+    }
+}
+
+/// Calls `run` with the row and the columns of all pixels that a piece covers, row by row from the
+/// top: the pixels that a [`Painter`] would draw.
+pub fn for_each_run(
+    rays: &Rays,
+    faces: &Faces,
+    piece: Piece<'_>,
+    mut run: impl FnMut(u32, Range<u32>),
+) {
+    if let Some(coverage) = Coverage::new(rays, faces, piece.face, piece.outline) {
+        coverage.for_each_run(&mut run);
     }
 }
 

@@ -138,6 +138,11 @@ impl Rays {
         Self { front_only: true, ..self }
     }
 
+    /// Whether the rays meet only the fronts of faces.
+    pub(crate) fn is_front_only(&self) -> bool {
+        self.front_only
+    }
+
     /// The picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size

@@ -27,6 +27,11 @@ impl DepthImage {
         &self.image
     }
 
+    /// The faces alone.
+    pub fn into_image(self) -> Image {
+        self.image
+    }
+
     /// How far the face in each pixel is, rounded, in world units, row by row from the top left;
     /// infinite where there is none.
     ///

@@ -1,0 +1,107 @@
+//! Kernels with an epsilon against the exact one.
+
+use glam::DVec3;
+
+use super::{Random, cameras, disjoint, faces, judge};
+use crate::BuildOptions;
+use crate::geom::{Exact, Faces, Float, Kernel, Piece, PlaneId, Side};
+use crate::method::Bsp;
+use crate::scene;
+
+/// Where a whole face lies against the plane of another.
+fn side<K: Kernel>(kernel: K, faces: &Faces, face: u32, plane: u32) -> Side {
+    let splitter = kernel.splitter(faces, PlaneId::face(plane));
+    kernel.classify(faces, &splitter, Piece { face, cut: None })
+}
+
+/// The least distance of a face's corners from the plane of another, as a share of half the extent
+/// and of up to four times that: what an epsilon is a share of.
+fn least_distance(faces: &Faces, face: u32, plane: u32) -> f64 {
+    let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
+    let normal = (q - p).cross(r - p).normalize();
+    let distance = |corner: &[f64; 3]| (DVec3::from(*corner) - p).dot(normal).abs();
+    let least = faces.corners(face).iter().map(distance).fold(f64::INFINITY, f64::min);
+    least / 2f64.powi(51)
+}
+
+/// Asserts that a kernel agrees with the exact one wherever no distance is within the epsilon and
+/// its own rounding, and gives back how many times it does not elsewhere.
+fn disagreements<K: Kernel>(kernel: K, epsilon: f64, rounding: f64, faces: &Faces) -> usize {
+    let (mut agreed, mut differ) = (0, 0);
+    for plane in 0..faces.len() as u32 {
+        let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
+        // A sliver's plane is as uncertain as its corners are, times its length over its width.
+        let longest = (q - p).length().max((r - p).length()).max((r - q).length());
+        let width = (q - p).cross(r - p).length() / longest;
+        let reach = 2f64.powi(53) / width;
+        for face in (0..faces.len() as u32).filter(|&face| face != plane) {
+            let same = side(kernel, faces, face, plane) == side(Exact, faces, face, plane);
+            if least_distance(faces, face, plane) > epsilon + rounding * reach {
+                assert!(same, "face {face} against {plane}");
+                agreed += 1;
+            } else if !same {
+                differ += 1;
+            }
+        }
+    }
+    assert!(agreed > faces.len(), "only {agreed} pairs are far enough apart");
+    differ
+}
+
+#[test]
+fn beyond_the_epsilon_rounded_sides_are_the_exact_ones() {
+    let mut random = Random(3);
+    let mut polygons = disjoint(3, 4);
+    polygons.extend((0..30).map(|_| (0..3).map(|_| random.point()).collect()));
+    // Lifted by a little from the plane of another, now to one side, now to both.
+    for i in 0..30 {
+        let base = polygons[i].clone();
+        let normal = (base[1] - base[0]).cross(base[2] - base[0]).normalize();
+        let lift = |k: usize| normal * 10f64.powi(-3 - (i % 8) as i32) * [1.0, -0.5, 0.7][k];
+        polygons.push((0..3).map(|k| base[k] + lift(k)).collect());
+    }
+    let faces = faces(&polygons, Some(0.0));
+    for epsilon in [1e-3, 1e-6, 1e-9, 1e-12] {
+        let count = disagreements(Float::<f64>::new(epsilon), epsilon, 1e-15, &faces);
+        assert_eq!(count > 0, epsilon > 1e-11, "{epsilon:e}: {count}");
+    }
+    for epsilon in [1e-3, 1e-4, 1e-5, 1e-6] {
+        assert!(disagreements(Float::<f32>::new(epsilon), epsilon, 4e-7, &faces) > 0);
+    }
+}
+
+#[test]
+fn trees_without_close_calls_paint_the_same() {
+    let polygons = disjoint(4, 8);
+    let faces = faces(&polygons, Some(0.0));
+    for camera in cameras(&polygons, [64, 48], 8) {
+        for epsilon in [1e-12, 1e-9] {
+            let method = Bsp::double(BuildOptions::DEFAULT, epsilon);
+            assert_eq!(judge(&method, &faces, &camera).wrong(), 0, "{epsilon:e}");
+        }
+        // Cuts are rounded to about 1e-7 of the extent: a pixel on one may be missing.
+        let method = Bsp::single(BuildOptions::DEFAULT, 1e-6);
+        assert!(judge(&method, &faces, &camera).wrong() <= 2);
+    }
+}
+
+#[test]
+fn layers_within_the_epsilon_are_mistaken_for_one() {
+    // Squares 1e-5 apart, and half the extent is 1; reversed, so that the lowest comes last.
+    let mut polygons = super::polygons_of(&scene::layers(6, 1e-5));
+    polygons.reverse();
+    let faces = faces(&polygons, Some(0.0));
+    let eye = DVec3::new(0.8, -1.6, 2.6);
+    let camera =
+        crate::view::Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [64, 48]).unwrap();
+    let wrong = |epsilon| {
+        let double = Bsp::double(BuildOptions::DEFAULT, epsilon);
+        judge(&double, &faces, &camera).wrong_order
+    };
+    assert_eq!(wrong(1e-9), 0);
+    assert_eq!(wrong(1e-6), 0);
+    assert!(wrong(1e-3) > 100);
+    let single = |epsilon| Bsp::single(BuildOptions::DEFAULT, epsilon);
+    assert_eq!(judge(&single(1e-6), &faces, &camera).wrong_order, 0);
+    assert!(judge(&single(1e-3), &faces, &camera).wrong_order > 100);
+}
