@@ -3,7 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::assemble::{Child, Output, RawNode, assemble};
-use super::choose::Chooser;
+use super::choose::{Choice, Chooser};
+use super::convex::Taken;
 use super::jobs::{self, Job};
 use super::live::Live;
 use super::progress::Watch;
@@ -176,8 +177,11 @@ impl<K: Kernel> Builder<'_, K> {
             let plane = PlaneId::face(first.face);
             (plane, self.partition(start, plane)?)
         } else {
-            let plane = self.chooser.splitter(set, &self.arena, pending.depth);
             let count = set.len();
+            let plane = match self.chooser.choose(set, &self.arena, pending.depth) {
+                Choice::Split(plane) => plane,
+                Choice::TakeApart(list) => return self.emit_list(start, pending.depth, &list),
+            };
             self.classify(start, plane)?;
             if self.makes_progress(count) {
                 (plane, self.divide(start, plane)?)
@@ -322,6 +326,51 @@ impl<K: Kernel> Builder<'_, K> {
             let (start, end) = (front.0.start, front.0.end);
             self.pending.push(Pending { start, end, arena, depth, job: None });
         }
+    }
+
+    /// Emits the nodes of pieces that are taken off a set, each behind or in front of the one
+    /// before, and puts off what is left.
+    fn emit_list(&mut self, start: usize, depth: usize, list: &[Taken]) -> Result<(), Error> {
+        let depth = depth + list.len();
+        if depth > self.shared.options.max_depth {
+            return Err(Error::depth(self.shared.options.max_depth));
+        }
+        let mut left = vec![true; self.pieces.len() - start];
+        for taken in list {
+            let own = &mut self.scratch.own;
+            own.clear();
+            for &piece in &taken.pieces {
+                left[piece as usize] = false;
+                own.push(self.pieces[start + piece as usize]);
+            }
+            own.sort_by_key(|piece| piece.face);
+            let own = own.len();
+            (0..own).for_each(|i| self.store(self.scratch.own[i]));
+            let child = |side| if taken.rest == side { Child::Node } else { Child::Leaf(0) };
+            let (front, back) = (child(Side::Front), child(Side::Back));
+            self.output.nodes.push(RawNode { plane: taken.plane, own: own as u32, front, back });
+        }
+        let mut left = left.iter();
+        let mut next = start;
+        for i in start..self.pieces.len() {
+            if left.next() == Some(&true) {
+                self.pieces[next] = self.pieces[i];
+                next += 1;
+            }
+        }
+        self.pieces.truncate(next);
+        if is_leaf(&self.pieces[start..]) {
+            (start..next).for_each(|i| self.store(self.pieces[i]));
+            if let Some(node) = self.output.nodes.last_mut() {
+                let child = Child::Leaf((next - start) as u32);
+                let side = if node.front == Child::Node { &mut node.front } else { &mut node.back };
+                *side = child;
+            }
+        } else {
+            let arena = self.arena.len();
+            self.pending.push(Pending { start, end: next, arena, depth, job: None });
+        }
+        Ok(())
     }
 
     /// Clears the arena of the vertices of pieces that have since been cut, so that it stays within

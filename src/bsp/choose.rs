@@ -2,6 +2,7 @@
 
 use super::Heuristic;
 use super::axis::{FreePlane, Sweep};
+use super::convex::{Taken, take_apart};
 use super::gather::{Gathered, reach};
 use super::live::{Live, bounds};
 use super::peel::Peeler;
@@ -42,10 +43,10 @@ const LARGE_REWARD: f64 = 2.0;
 /// The depth from which on no polygon is rewarded for its size: taking one polygon after another
 /// off a large set is quadratic work. Smaller: rooms full of walls are cut; larger: more such work.
 const REWARD_ABOVE: usize = 128;
-/// Where no plane tried had polygons on both sides, so many polygons are taken one after another
-/// before planes are compared again. Smaller: that comparison at every node of the list that a
-/// convex set becomes; larger: planes missed that would divide it.
-const PEEL: usize = 16;
+/// So many times the pieces of a set must have been looked at before it is tried to take it apart
+/// at once, if all planes tried leave the rest on one side. Larger: convex sets are taken apart one
+/// piece at a time; smaller: time for sets that only look convex.
+const CREDIT: usize = 4;
 /// How many of the largest polygons are tried beside free planes at every node.
 const LARGEST: usize = 2;
 /// The share of the box below which a polygon is not tried as one of the largest.
@@ -103,6 +104,15 @@ pub(super) fn work(n: usize) -> f64 {
     if n > 1.0 { n * n.log2() } else { 0.0 }
 }
 
+/// What is to be done with a set.
+#[derive(Debug)]
+pub(super) enum Choice {
+    /// It is divided by this plane.
+    Split(PlaneId),
+    /// It is taken apart piece by piece.
+    TakeApart(Vec<Taken>),
+}
+
 /// Chooses the splitters of one tree.
 #[derive(Debug)]
 pub(super) struct Chooser<'a, K: Kernel> {
@@ -112,8 +122,8 @@ pub(super) struct Chooser<'a, K: Kernel> {
     /// Once a build is cancelled, any plane is chosen, quickly.
     watch: &'a Watch<'a>,
     sweep: Sweep,
-    /// How many more polygons may be taken off a set that looks convex, and at which depth.
-    peel: (usize, usize),
+    /// How many pieces were looked at since a set was last tried to be taken apart.
+    credit: usize,
     peeler: Peeler,
     /// The set at hand, if it is small.
     set: Gathered<K>,
@@ -134,24 +144,19 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             heuristic,
             watch,
             sweep: Sweep::default(),
-            peel: (0, 0),
+            credit: usize::MAX,
             peeler: Peeler::default(),
             set: Gathered::default(),
             ranked: vec![],
         }
     }
 
-    /// The splitter of a set of at least one piece. Either it is the plane of one of them, or
-    /// both its sides have fewer pieces than the set. The set has `depth` nodes above it.
-    pub(super) fn splitter(
-        &mut self,
-        pieces: &[Live],
-        arena: &[K::Vertex],
-        depth: usize,
-    ) -> PlaneId {
+    /// What to do with a set of at least one piece, that has `depth` nodes above it. A splitter is
+    /// either the plane of a piece, or both its sides have fewer pieces than the set.
+    pub(super) fn choose(&mut self, pieces: &[Live], arena: &[K::Vertex], depth: usize) -> Choice {
         let own = |piece: &Live| PlaneId::face(piece.face);
         let lowest = || pieces.iter().min_by_key(|piece| piece.face).unwrap_or(&pieces[0]);
-        match self.heuristic {
+        Choice::Split(match self.heuristic {
             Heuristic::First => own(lowest()),
             Heuristic::Random { seed } => {
                 let set = u64::from(lowest().face) << 32 | pieces.len() as u64;
@@ -175,11 +180,9 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                     8.0 * c.splits as f64 + c.imbalance()
                 })
             }
-            Heuristic::FreePlanes => self.free_or_own(pieces, arena, depth, false),
-            Heuristic::Auto => {
-                self.free_or_own(pieces, arena, depth, pieces.len() < OWN_PLANES_BELOW)
-            }
-        }
+            Heuristic::FreePlanes => self.free(pieces),
+            Heuristic::Auto => return self.auto(pieces, arena, depth),
+        })
     }
 
     /// The best of a sample of own planes by a score, lower being better; the earliest of equals.
@@ -203,73 +206,80 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         best.1
     }
 
-    fn free_or_own(
+    /// The free plane of least cost; where none separates anything, a piece's own.
+    fn free(&mut self, pieces: &[Live]) -> PlaneId {
+        let best = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
+        let named = best.and_then(|plane| plane.id(self.faces, pieces));
+        named.unwrap_or(PlaneId::face(pieces[0].face))
+    }
+
+    /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
+    fn auto(&mut self, pieces: &[Live], arena: &[K::Vertex], depth: usize) -> Choice {
+        let small = pieces.len() < OWN_PLANES_BELOW;
+        if small && let Some(plane) = self.peeler.next(pieces.len()) {
+            return Choice::Split(plane);
+        }
+        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
+        let named = free.and_then(|plane| Some((plane, plane.id(self.faces, pieces)?)));
+        if let Some((FreePlane { splits: 0, .. }, plane)) = named {
+            return Choice::Split(plane);
+        }
+        let splits = named.map_or(pieces.len(), |(plane, _)| plane.splits);
+        let price = FREE_SPLIT_PRICE * splits as f64;
+        let none = (f64::INFINITY, PlaneId::face(pieces[0].face));
+        let best = named.map_or(none, |(free, plane)| (free.cost + price, plane));
+        if small {
+            self.set.take(&self.kernel, self.faces, pieces, arena);
+            self.peeler.search(pieces, &self.set);
+            let peeled = self.peeler.next(pieces.len());
+            let plane = peeled.unwrap_or_else(|| self.best_of_small(pieces, depth, best));
+            return Choice::Split(plane);
+        }
+        self.credit = self.credit.saturating_add(pieces.len());
+        self.best_of_large(pieces, arena, depth, splits, best)
+    }
+
+    /// The best of few own planes, if it is better than the best free plane, which has so many
+    /// splits. A large set in convex position is taken apart.
+    fn best_of_large(
         &mut self,
         pieces: &[Live],
         arena: &[K::Vertex],
         depth: usize,
-        both: bool,
-    ) -> PlaneId {
-        if both && let Some(plane) = self.peeler.next(pieces.len()) {
-            return plane;
-        }
-        if self.peel.0 > 0 && self.peel.1 == depth {
-            let plane = PlaneId::face(pieces[0].face);
-            if self.count(plane, pieces, arena, f64::INFINITY).0.is_peel() {
-                self.peel = (self.peel.0 - 1, depth + 1);
-                return plane;
-            }
-        }
-        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
-        let named = free.and_then(|plane| Some((plane.cost, plane.id(self.faces, pieces)?)));
-        if let (Some(FreePlane { splits: 0, .. }), Some((_, plane))) = (free, named) {
-            return plane;
-        }
-        if both {
-            self.set.take(&self.kernel, self.faces, pieces, arena);
-            self.peeler.search(pieces, &self.set);
-            if let Some(plane) = self.peeler.next(pieces.len()) {
-                return plane;
-            }
-        }
-        let mut best = named.unwrap_or((f64::INFINITY, PlaneId::face(pieces[0].face)));
-        best.0 += FREE_SPLIT_PRICE * free.map_or(0.0, |plane| plane.splits as f64);
-        let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
+        splits: usize,
+        mut best: (f64, PlaneId),
+    ) -> Choice {
         let cell = Cell::around(pieces);
-        if self.heuristic == Heuristic::Auto && reward > 0.0 {
-            for piece in cell.largest(pieces) {
-                let reward = reward * cell.share(piece);
-                self.try_own(piece, (reward, usize::MAX), pieces, arena, &mut best);
+        let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
+        for piece in cell.largest(pieces).take(if reward > 0.0 { LARGEST } else { 0 }) {
+            self.try_own(piece, (reward * cell.share(piece), usize::MAX), pieces, arena, &mut best);
+        }
+        if splits * POOR <= pieces.len() {
+            return Choice::Split(best.1);
+        }
+        let mut all_peel = true;
+        for piece in sample(pieces, FEW_OWN_PLANES) {
+            let reward = (reward * cell.share(piece), splits / FEWER);
+            all_peel &= self.try_own(piece, reward, pieces, arena, &mut best);
+        }
+        if all_peel && self.credit / CREDIT >= pieces.len() {
+            self.credit = 0;
+            if let Some(list) = take_apart(&self.kernel, self.faces, pieces, arena, self.watch) {
+                return Choice::TakeApart(list);
             }
         }
-        if both && self.heuristic == Heuristic::Auto {
-            return self.best_of_small(pieces, reward, &cell, best).1;
-        }
-        let poor = free.is_none_or(|plane| plane.splits * POOR > pieces.len());
-        let tries = if poor { FEW_OWN_PLANES } else { 0 };
-        let most = free.map_or(usize::MAX, |plane| plane.splits / FEWER);
-        if named.is_none() || self.heuristic == Heuristic::Auto {
-            let mut peels = 0;
-            for piece in sample(pieces, tries) {
-                let reward = reward * cell.share(piece);
-                let is_peel = self.try_own(piece, (reward, most), pieces, arena, &mut best);
-                peels += usize::from(is_peel);
-            }
-            let is_own = named.is_none_or(|(_, plane)| plane != best.1);
-            let convex = peels > 0 && peels == tries.min(pieces.len());
-            self.peel = (if convex && is_own { PEEL } else { 0 }, depth + 1);
-        }
-        best.1
+        Choice::Split(best.1)
     }
 
     /// The best of the planes of the gathered set's pieces, if it is better than what there is.
     fn best_of_small(
         &mut self,
         pieces: &[Live],
-        reward: f64,
-        cell: &Cell,
+        depth: usize,
         mut best: (f64, PlaneId),
-    ) -> (f64, PlaneId) {
+    ) -> PlaneId {
+        let cell = Cell::around(pieces);
+        let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
         let n = pieces.len();
         let set = &self.set;
         let count = |candidate: usize, step: usize, limit: f64| {
@@ -308,11 +318,12 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                 best = (cost - reward, PlaneId::face(pieces[candidate as usize].face));
             }
         }
-        best
+        best.1
     }
 
     /// Takes the plane of a piece if, with a reward for each piece of the set, it is the best so
-    /// far and cuts no more than allowed. Tells whether all pieces, as far as they were looked at, are on one side of it.
+    /// far and cuts no more than allowed. Tells whether all pieces, as far as they were looked at,
+    /// are on one side of it.
     fn try_own(
         &self,
         piece: &Live,

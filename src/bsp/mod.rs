@@ -4,6 +4,7 @@ mod assemble;
 mod axis;
 mod build;
 mod choose;
+mod convex;
 mod fragment;
 mod gather;
 mod heuristic;
