@@ -101,7 +101,7 @@ impl BuildOptions {
     /// That is called at the start, then about once in a millisecond's work, and at the end, by
     /// whichever thread has something to say, but never by two at once. By [`ControlFlow::Break`]
     /// it cancels the build: every thread stops as soon as it has finished its pass over the set
-    /// of pieces at hand, which takes milliseconds, or tenths of seconds in sets of millions.
+    /// of pieces at hand, which takes milliseconds, or tenths of a second in sets of some 100 000.
     ///
     /// ```
     /// use std::ops::ControlFlow;
