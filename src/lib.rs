@@ -29,6 +29,7 @@
 mod bsp;
 mod error;
 pub mod geom;
+pub mod measure;
 pub mod method;
 pub mod raster;
 pub mod scene;
@@ -36,8 +37,8 @@ mod verify;
 pub mod view;
 
 pub use bsp::{
-    BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError, Partition,
-    Progress, Stats,
+    Accuracy, BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError,
+    Partition, Progress, Stats,
 };
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};

@@ -4,20 +4,22 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer with what it may import: arrows point to the left.
-const LAYERS: [(&str, &[&str]); 8] = [
+const LAYERS: [(&str, &[&str]); 9] = [
     ("error", &["geom"]),
     ("geom", &["error"]),
     ("bsp", &["error", "geom"]),
     ("view", &["error", "geom"]),
-    ("scene", &["error", "geom"]),
+    ("scene", &["error", "geom", "view"]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.
     ("raster", &["error", "geom", "view"]),
+    ("measure", &["error", "geom", "view", "raster"]),
     ("verify", &["error", "geom", "bsp", "view", "scene", "raster"]),
     ("method", &["error", "geom", "bsp", "view", "scene", "raster", "verify"]),
 ];
 
 /// What stands at the crate's root, and where it comes from.
-const ROOT: [(&str, &str); 14] = [
+const ROOT: [(&str, &str); 15] = [
+    ("Accuracy", "bsp"),
     ("BspTree", "bsp"),
     ("BuildOptions", "bsp"),
     ("Fragment", "bsp"),

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use binspace::glam::DVec3;
+use binspace::scene::Family;
 use binspace::{BuildOptions, Heuristic};
 use clap::{Args, Parser, Subcommand};
 
@@ -30,6 +31,7 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     Stats(StatsArgs),
     Render(RenderArgs),
+    Report(ReportArgs),
     /// List the built-in scenes
     Scenes,
 }
@@ -153,6 +155,39 @@ pub(crate) struct RenderArgs {
     pub(crate) kind: KindArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
+}
+
+/// Measure every way to decide visibility: speed against error
+///
+/// Trees with exact and with rounded decisions, Newell's algorithm, sorted centroids and depth
+/// buffers paint families of scenes that grow harder step by step, and the scenes that are named.
+/// Each pixel, vertex and piece is held against exact truth. Writes report.md, plots as SVG, and
+/// the figures as CSV; errors.csv is the same for the same seed on any machine. What is there is
+/// kept if the command is interrupted. The exit status is 1 if the exact tree errs anywhere.
+#[derive(Args, Debug)]
+#[command(after_help = examples::REPORT)]
+pub(crate) struct ReportArgs {
+    /// OBJ files or built-in scenes to measure as well
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<OsString>,
+    /// Folder to write into; made if it is missing
+    #[arg(short, long, value_name = "DIR", default_value = "report")]
+    pub(crate) output: PathBuf,
+    /// Fewer steps and smaller pictures: about a tenth of the time
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Chooses the scenes of all families, and the views
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Only this family, without growth; may be repeated
+    ///
+    /// One of angle, gap, offset, scale, sliver, nesting, lattice, boxes, cycle, penetration and
+    /// depth-range.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) family: Vec<Family>,
+    /// Size of the pictures in pixels [default: 640x480; 160x120 if quick]
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub(crate) size: Option<[u32; 2]>,
 }
 
 /// What to draw instead of the painter's picture.

@@ -7,6 +7,7 @@ Examples:
   binspace verify teapot --views 20          every pixel against a depth buffer
   binspace stats city:100000 --heuristic all how the heuristics compare
   binspace render scene.obj -o scene.svg     a drawing of the whole scene
+  binspace report --quick                    every method, its speed against its error
 
 Exit status: 0 done; 1 an image differs from the depth buffer's; 2 bad usage or input.";
 
@@ -34,3 +35,10 @@ Examples:
   binspace render cornell -o inside.png --eye=278,273,100 --target=278,200,559 --fov 70
   binspace render city:5000 -o map.svg --direction=1,1,-1
   binspace render scene.obj -o difference.png --difference";
+
+pub(crate) const REPORT: &str = "\
+Examples:
+  binspace report
+  binspace report --quick -o quick
+  binspace report scene.obj teapot:16 --seed 7
+  binspace report --family gap --family sliver --size 640x480";

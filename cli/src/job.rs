@@ -1,5 +1,6 @@
 //! What most commands begin with: a scene, and a tree of it.
 
+use binspace::geom::{Faces, Preparation};
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
@@ -22,7 +23,7 @@ pub(crate) fn scene_and_tree(
     let scene = scene_arg::load(scene)?;
     let options = build.limits.options(build.heuristic);
     let tree = measure::build(&scene, &options).map_err(|error| about(&scene, &error))?;
-    note_preparation(&scene, &tree);
+    note_preparation(&scene, tree.faces(), tree.preparation());
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), "nothing is left to draw: no face has an area"));
     }
@@ -35,11 +36,11 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
 }
 
 /// Says what became of polygons that are not faces as they stand, or are so more than once.
-pub(crate) fn note_preparation(scene: &Scene, tree: &BspTree) {
-    let found = tree.preparation();
+pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
-    let dropped = (found.dropped > 0)
-        .then(|| format!("{} without area dropped: {}", faces(found.dropped), some(scene, tree)));
+    let dropped = (found.dropped > 0).then(|| {
+        format!("{} without area dropped: {}", faces(found.dropped), some(scene, prepared, found))
+    });
     let triangulated = (found.triangulated > 0)
         .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
     let duplicates = (found.duplicates > 0)
@@ -50,13 +51,13 @@ pub(crate) fn note_preparation(scene: &Scene, tree: &BspTree) {
 }
 
 /// The first of the faces that were dropped, and how many more there are.
-fn some(scene: &Scene, tree: &BspTree) -> String {
+fn some(scene: &Scene, prepared: &Faces, found: &Preparation) -> String {
     let name = |face: usize| match scene.line(face) {
         Some(line) => format!("face {face} (line {line})"),
         None => format!("face {face}"),
     };
-    let named: Vec<String> = tree.dropped().take(NAMED).map(name).collect();
-    match tree.preparation().dropped - named.len() {
+    let named: Vec<String> = prepared.dropped(found).take(NAMED).map(name).collect();
+    match found.dropped - named.len() {
         0 => format!("{}, counted from 0", named.join(", ")),
         more => format!("{} and {more} more, counted from 0", named.join(", ")),
     }

@@ -38,6 +38,7 @@ fn main() -> ExitCode {
         Some(Command::Verify(args)) => commands::verify::run(args),
         Some(Command::Stats(args)) => commands::stats::run(args),
         Some(Command::Render(args)) => commands::render::run(args),
+        Some(Command::Report(args)) => commands::report::run(args),
         Some(Command::Scenes) => commands::scenes::run(),
     };
     match result {

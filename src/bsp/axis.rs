@@ -1,6 +1,6 @@
 //! The best free plane of a set of pieces: perpendicular to an axis, through a corner.
 
-use super::choose::{price, work};
+use super::cost::{price, work};
 use super::live::Live;
 use super::progress::Watch;
 use crate::geom::{Faces, PlaneId};

@@ -1,10 +1,14 @@
 //! The tree: building, orders, statistics, validation.
 
+mod accuracy;
 mod assemble;
+mod auto;
 mod axis;
 mod build;
+mod cell;
 mod choose;
 mod convex;
+mod cost;
 mod fragment;
 mod gather;
 mod heuristic;
@@ -22,6 +26,7 @@ mod tree;
 mod validate;
 mod walk;
 
+pub use accuracy::Accuracy;
 pub use fragment::Fragment;
 pub use heuristic::{Heuristic, ParseHeuristicError};
 pub use options::BuildOptions;

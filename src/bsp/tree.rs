@@ -142,14 +142,7 @@ impl<K: Kernel> BspTree<K> {
 
     /// The polygons without area, by number: no fragment is of them.
     pub fn dropped(&self) -> impl Iterator<Item = usize> {
-        let mut faces =
-            (0..self.faces.len() as u32).map(|face| self.faces.polygon(face)).peekable();
-        (0..self.preparation.polygons).filter(move |&polygon| {
-            let is_this = |&of: &u32| of as usize == polygon;
-            let dropped = faces.next_if(is_this).is_none();
-            while faces.next_if(is_this).is_some() {}
-            dropped
-        })
+        self.faces.dropped(&self.preparation)
     }
 }
 

@@ -123,7 +123,7 @@ impl Plane {
 }
 
 /// A vertex as a combination of lattice points: weights and their sum, not zero, of either sign.
-enum Weights {
+pub(super) enum Weights {
     Corner([f64; 3]),
     Edge([[f64; 3]; 2], [Int<3>; 2]),
     Inside([[f64; 3]; 3], [Int<5>; 3]),
@@ -230,7 +230,7 @@ impl Faces {
         }
     }
 
-    fn weights(&self, face: u32, vertex: Symbol) -> Weights {
+    pub(super) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
         let record = &self.faces[face as usize];
         let corners = self.corners(face);
         let triangle = record.frame.triangle().map(|k| corners[k as usize]);

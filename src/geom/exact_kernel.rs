@@ -34,6 +34,11 @@ pub struct ExactSplitter {
 }
 
 impl ExactSplitter {
+    /// The plane.
+    pub(crate) fn plane(&self) -> PlaneId {
+        self.plane
+    }
+
     #[inline]
     fn distance(&self, p: [f64; 3]) -> f64 {
         let n = self.normal;

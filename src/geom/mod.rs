@@ -1,5 +1,6 @@
 //! Exact geometry: the lattice, faces, planes, predicates, and how pieces are cut.
 
+mod drift;
 mod duplicates;
 mod exact;
 mod exact_kernel;
@@ -12,6 +13,7 @@ mod label;
 mod lattice;
 mod polygon;
 mod prepare;
+mod residue;
 mod split;
 mod triangulate;
 
@@ -27,4 +29,5 @@ pub(crate) use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub use polygon::{Point, Polygon};
 pub use prepare::{DEFAULT_TOLERANCE, Preparation};
+pub(crate) use residue::Residue;
 pub use split::split;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{Method, MethodError, Painted, Prepared};
-use crate::bsp::{BspTree, BuildOptions};
+use crate::bsp::{Accuracy, BspTree, BuildOptions};
 use crate::geom::{Exact, Faces, Float, Kernel, Preparation};
 use crate::raster::Rays;
 use crate::verify::paint_order;
@@ -83,5 +83,9 @@ impl<K: Kernel> Prepared for Ready<K> {
             vertices.extend(fragment.lattice_vertices());
             visit(fragment.face(), &vertices);
         }
+    }
+
+    fn accuracy(&self) -> Option<Accuracy> {
+        Some(self.tree.accuracy())
     }
 }

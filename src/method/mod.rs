@@ -53,7 +53,7 @@ pub use newell::Newell;
 
 use std::time::Duration;
 
-use crate::bsp::BuildOptions;
+use crate::bsp::{Accuracy, BuildOptions};
 use crate::geom::Faces;
 use crate::raster::{Image, Rays};
 use crate::view::Camera;
@@ -90,6 +90,11 @@ pub trait Prepared {
     /// nothing.
     fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
         let _ = visit;
+    }
+
+    /// How far the pieces are from their definitions, of methods that keep any.
+    fn accuracy(&self) -> Option<Accuracy> {
+        None
     }
 }
 

@@ -9,6 +9,7 @@ mod bounds;
 mod canvas;
 mod compare;
 mod coverage;
+mod depth_error;
 mod image;
 mod line;
 mod painter;
@@ -22,6 +23,7 @@ mod zbuffer;
 
 pub use canvas::Canvas;
 pub use compare::{Comparison, Verdict, compare, is_open};
+pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};
 pub use painter::{Order, Outline, Painter, Piece, covers, for_each_run, paint};
 pub use picture::{brightness, colour_of, depth_map, difference, picture};

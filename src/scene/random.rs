@@ -25,7 +25,7 @@ impl SplitMix64 {
         low + unit * (high - low)
     }
 
-    fn point(&mut self, low: f64, high: f64) -> DVec3 {
+    pub(super) fn point(&mut self, low: f64, high: f64) -> DVec3 {
         DVec3::new(self.range(low, high), self.range(low, high), self.range(low, high))
     }
 }

@@ -57,15 +57,37 @@ impl Camera {
         field_of_view: f64,
         size: [u32; 2],
     ) -> Result<Self, CameraError> {
-        if !(eye.is_finite() && target.is_finite() && field_of_view.is_finite()) {
+        if !field_of_view.is_finite() {
             return Err(Kind::NonFinite.into());
         }
         if !(field_of_view > 0.0 && field_of_view < std::f64::consts::PI) {
             return Err(Kind::FieldOfView.into());
         }
+        let half_height = (field_of_view * 0.5).tan();
+        Self::perspective_by_slope(eye, target, up, half_height, size)
+    }
+
+    /// A perspective camera whose field of view is given by the tangent of half of it, which, other
+    /// than an angle's, is the same to the last bit on every machine.
+    ///
+    /// # Errors
+    ///
+    /// As for [`perspective`](Self::perspective); the tangent must be positive.
+    pub fn perspective_by_slope(
+        eye: DVec3,
+        target: DVec3,
+        up: DVec3,
+        half_height: f64,
+        size: [u32; 2],
+    ) -> Result<Self, CameraError> {
+        if !(eye.is_finite() && target.is_finite() && half_height.is_finite()) {
+            return Err(Kind::NonFinite.into());
+        }
+        if half_height <= 0.0 {
+            return Err(Kind::FieldOfView.into());
+        }
         // Halved first, so that the difference of two finite points is finite.
         let view = target * 0.5 - eye * 0.5;
-        let half_height = (field_of_view * 0.5).tan();
         Self::oriented(Projection::Perspective { eye, half_height }, view, up, size)
     }
 

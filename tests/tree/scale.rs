@@ -11,7 +11,7 @@ use crate::support::orders;
 const LARGE: u32 = 100_000;
 
 /// Runs in a thread with a stack of 2 MiB, rayon's threads included.
-fn with_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+pub(crate) fn with_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     const STACK: usize = 2 << 20;
     thread::scope(|scope| {
         let small = thread::Builder::new().stack_size(STACK);
@@ -66,8 +66,9 @@ fn a_chain_of_100_000_polygons_needs_a_small_stack_and_a_shallow_tree() {
 fn a_sphere_of_100_000_faces_needs_a_small_stack_and_a_shallow_tree() {
     let sphere = scene::sphere(LARGE);
     let stats = go_through(&sphere, BuildOptions::DEFAULT);
-    assert!(stats.fragments <= stats.faces + stats.faces / 5, "{stats:?}");
-    assert_shallow(&stats);
+    // Never cut, as it comes apart in lists once it is in parts of less than a thousand faces.
+    assert_eq!(stats.fragments, stats.faces, "{stats:?}");
+    assert!(stats.depth_max < 1000, "{stats:?}");
     validate(&sphere, BuildOptions::DEFAULT);
 }
 
@@ -90,7 +91,7 @@ fn a_convex_sphere_by_its_own_planes_is_a_list_that_needs_a_small_stack() {
 }
 
 /// Squares in one plane, side by side.
-fn mosaic(across: u32) -> Scene {
+pub(crate) fn mosaic(across: u32) -> Scene {
     let mut scene = Scene::new("mosaic", DVec3::Z);
     for i in 0..across * across {
         let (x, y) = (f64::from(i % across), f64::from(i / across));

@@ -2,6 +2,7 @@
 
 pub(crate) mod order;
 pub(crate) mod render;
+pub(crate) mod report;
 pub(crate) mod scenes;
 pub(crate) mod stats;
 pub(crate) mod tour;

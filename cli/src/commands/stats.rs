@@ -40,7 +40,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             Err(error) => return Err(job::about(&scene, &error)),
         };
         if is_first {
-            job::note_preparation(&scene, &tree);
+            job::note_preparation(&scene, tree.faces(), tree.preparation());
         }
         let figures = Figures {
             heuristic,

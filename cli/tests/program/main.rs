@@ -7,6 +7,7 @@ mod output;
 mod png_picture;
 mod real_scenes;
 mod render;
+mod report;
 mod run;
 mod stats;
 mod tour;

@@ -1,0 +1,165 @@
+//! The report itself.
+
+use binspace::scene::Family;
+
+use super::figures::{Section, Subject};
+use super::growth::Growth;
+use super::sentences::sentence;
+use super::tables::{Table, details, grouped, steps};
+use super::{Report, machine, summary};
+use crate::units::{bytes, time};
+
+/// All of the report.
+pub(super) fn report(report: &Report<'_>) -> String {
+    let mut text = head(report);
+    text += &format!(
+        "\n## Speed against error\n\n{}.\n\n![Speed against error](speed.svg)\n\n{}\n{}",
+        report.exactness(),
+        summary::headline(&report.sections).markdown(),
+        LEGEND
+    );
+    text += "\n### All methods, all families\n\n";
+    text += &summary::everything(&report.sections).markdown();
+    text += "\n## The families, one by one\n";
+    for section in &report.sections {
+        match section.subject {
+            Subject::Family(family) => text += &of_family(section, family),
+            Subject::Scene(_) => {}
+        }
+    }
+    text += &scenes(&report.sections);
+    text += &growth(&report.growth);
+    text + MEASURES
+}
+
+fn head(report: &Report<'_>) -> String {
+    let args = report.args;
+    let [width, height] = report.size;
+    let state = if report.complete { "" } else { "\n**Not complete: more was asked for.**\n" };
+    format!(
+        "# binspace report\n{state}\n\
+         | | |\n|---|---|\n\
+         | commit | {} |\n| machine | {} |\n| pictures | {width}×{height} pixels |\n\
+         | sweeps | {} |\n| seed | {} |\n\
+         | coplanar tolerance | 0 for the families, 1e-9 of the extent for other scenes |\n",
+        machine::commit(),
+        machine::describe(),
+        if args.quick { "short (`--quick`)" } else { "full" },
+        args.seed,
+    )
+}
+
+const LEGEND: &str = "
+*Wrong pixels* is the share of all covered pixels, of all steps of all families, in which another
+polygon is painted than the nearest, or none, or one where there is none. *Families wrong* counts
+families with any such pixel. *Deepest error* and *largest drift* are shares of the extent.
+*Vertices misplaced* are, by their exact definition, on another side of a partition plane than
+their piece was put. *Build* and *picture* (order and drawing) are geometric means over all trials.
+*Given up* counts trials that ran out of a budget; they are in no other figure. – means that a
+method has no such figure.
+";
+
+fn of_family(section: &Section, family: Family) -> String {
+    let methods = section.methods();
+    format!(
+        "\n### {family}\n\n{}. Swept: {}.\n\n{}\n\n![{family}](error-{family}.svg)\n\n{}\n\
+         At the last step:\n\n{}",
+        capital(family.description()),
+        family.parameter(),
+        sentence(section),
+        steps(section, &methods).markdown(),
+        details(section, &methods).markdown()
+    )
+}
+
+fn scenes(sections: &[Section]) -> String {
+    let mut text = String::new();
+    for section in sections {
+        if let Subject::Scene(name) = &section.subject {
+            let faces = section.rows.first().map_or(0, |row| row.faces);
+            text += &format!(
+                "\n## {name}\n\n{} faces. {}\n\n{}",
+                grouped(faces),
+                sentence(section),
+                details(section, &section.methods()).markdown()
+            );
+        }
+    }
+    text
+}
+
+fn growth(rows: &[Growth]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut table = Table::new(&[
+        "scene",
+        "polygons",
+        "kernel",
+        "fragments",
+        "fragments / polygon",
+        "depth",
+        "build",
+        "order",
+        "memory",
+    ]);
+    for row in rows {
+        let mut cells = vec![row.scene.to_string(), grouped(row.polygons), row.method.to_owned()];
+        match &row.found {
+            Ok(size) => cells.extend([
+                grouped(size.fragments),
+                format!("{:.2}", size.fragments as f64 / row.polygons.max(1) as f64),
+                grouped(size.depth),
+                time(size.build),
+                time(size.order),
+                bytes(size.bytes),
+            ]),
+            Err(failure) => {
+                cells.push(format!("gave up: {failure}"));
+                cells.extend(vec![String::new(); 5]);
+            }
+        }
+        table.push(cells);
+    }
+    format!(
+        "\n## Growth\n\n![Build time](growth-build.svg)\n\n![Fragments](growth-fragments.svg)\n\n{}",
+        table.markdown()
+    )
+}
+
+const MEASURES: &str = "
+## What is measured
+
+- **Truth** is a depth buffer that decides every pixel in exact arithmetic. A pixel is *contested*,
+  and not wrong, where the painted and the nearest polygon are equally far along its ray, exactly,
+  or no further apart than the tolerance allows for.
+- **Wrong order**: a polygon shows that another one hides; **hole**: nothing shows where there is a
+  polygon; **spill**: a polygon shows where there is none. The *deepest error* is the largest
+  difference between the depths of the painted and the nearest polygon in a wrong pixel.
+- **Misplaced vertices** are those of fragments whose definition (corners and planes of the input),
+  evaluated exactly, lies on another side of a plane above them than the fragment was put, or off a
+  plane that it was put on, by more than the tolerance.
+- **Drift** is how far a fragment's vertex is from its exact place, the largest difference of a
+  coordinate: in units of the scene's grid (ulp; 2⁻⁵² to 2⁻⁵⁰ of the extent), and as a share of the
+  extent. The exact tree's is the one rounding of positions that are handed out; no decision uses
+  them.
+- **Torn** polygons are not the sum of their pieces: the areas by the vertices' exact definitions,
+  compared exactly, differ.
+- **Area error** is the largest relative difference between a polygon's area and the sum of its
+  pieces', computed in `f64` from rounded vertices: of a polygon that is hardly wider than a unit of
+  the grid, rounding alone is much.
+- All methods get the same polygons on the scene's grid, centred and scaled to it: offset and scale
+  of the whole scene are taken off before any of them begins.
+- Depth buffers show nothing nearer than 2⁻²⁰ of the furthest depth in the picture.
+- **Times** are wall-clock: of a build, and of each view, the fastest of up to five where that is
+  short; of the views the median. Painters draw by exact coverage, so drawing is not what a graphics
+  card takes; *order* is the time until it is known what to draw when, which depth buffers need not.
+- Figures of errors depend on the seed alone (`errors.csv`); times and memory are in `times.csv`.
+";
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars
+        .next()
+        .map_or(String::new(), |first| first.to_uppercase().collect::<String>() + chars.as_str())
+}

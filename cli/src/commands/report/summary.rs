@@ -1,0 +1,153 @@
+//! All families together: one line a method.
+
+use super::figures::{EXACT, Row, Section, Subject};
+use super::tables::{Table, exponent, grouped, share};
+use crate::units::{bytes, time};
+
+/// The methods of the headline: one of each kind.
+const HEADLINE: [&str; 6] = [EXACT, "bsp f64 1e-9", "bsp f32 1e-4", "newell", "z 24", "centroid"];
+
+/// The sum of a method's figures over all families.
+pub(super) struct Summary<'a> {
+    pub(super) method: &'a str,
+    /// Families in which something is wrong.
+    wrong_families: usize,
+    wrong: usize,
+    covered: usize,
+    depth: f64,
+    misplaced: Option<usize>,
+    drift: Option<f64>,
+    pieces: usize,
+    faces: usize,
+    trials: usize,
+    failed: usize,
+    /// The sums of the logarithms of build times, and of times for a picture.
+    build: f64,
+    picture: f64,
+    bytes: usize,
+}
+
+impl<'a> Summary<'a> {
+    /// One for each method, in order; none without families.
+    pub(super) fn of_families(sections: &'a [Section]) -> Vec<Self> {
+        let families: Vec<&Section> = sections
+            .iter()
+            .filter(|section| matches!(section.subject, Subject::Family(_)))
+            .collect();
+        let methods = families.first().map_or(Vec::new(), |section| section.methods());
+        methods.into_iter().map(|method| Self::of(method, &families)).collect()
+    }
+
+    fn of(method: &'a str, families: &[&'a Section]) -> Self {
+        let mut summary = Self {
+            method,
+            wrong_families: 0,
+            wrong: 0,
+            covered: 0,
+            depth: 0.0,
+            misplaced: None,
+            drift: None,
+            pieces: 0,
+            faces: 0,
+            trials: 0,
+            failed: 0,
+            build: 0.0,
+            picture: 0.0,
+            bytes: 0,
+        };
+        for family in families {
+            let before = summary.wrong;
+            family.of(method).for_each(|row| summary.add(row));
+            summary.wrong_families += usize::from(summary.wrong > before);
+        }
+        summary
+    }
+
+    fn add(&mut self, row: &Row) {
+        let Ok(figures) = &row.found else {
+            self.failed += 1;
+            return;
+        };
+        self.trials += 1;
+        self.wrong += figures.picture.wrong();
+        self.covered += figures.picture.covered;
+        self.depth = self.depth.max(figures.picture.depth_max);
+        if let (Some(accuracy), Some(drift)) = (figures.accuracy, figures.drift()) {
+            *self.misplaced.get_or_insert(0) += accuracy.misplaced + accuracy.undefined;
+            self.drift = Some(self.drift.unwrap_or(0.0).max(drift));
+        }
+        self.pieces += figures.pieces;
+        self.faces += row.faces;
+        // A clock that stands still still says that it was quick.
+        self.build += figures.build.max(1e-9).ln();
+        self.picture += (figures.order + figures.draw).max(1e-9).ln();
+        self.bytes = self.bytes.max(figures.bytes);
+    }
+
+    /// The share of wrong pixels.
+    pub(super) fn wrong_share(&self) -> f64 {
+        self.wrong as f64 / self.covered.max(1) as f64
+    }
+
+    /// The seconds for a picture, order and drawing: the geometric mean over all trials.
+    pub(super) fn time(&self) -> f64 {
+        (self.picture / self.trials.max(1) as f64).exp()
+    }
+
+    fn build_time(&self) -> f64 {
+        (self.build / self.trials.max(1) as f64).exp()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let dash = || "–".to_owned();
+        vec![
+            self.method.to_owned(),
+            share(self.wrong, self.covered),
+            self.wrong_families.to_string(),
+            exponent(self.depth),
+            self.misplaced.map_or_else(dash, grouped),
+            self.drift.map_or_else(dash, exponent),
+            format!("{:.2}", self.pieces as f64 / self.faces.max(1) as f64),
+            if self.misplaced.is_some() { time(self.build_time()) } else { dash() },
+            time(self.time()),
+            if self.failed == 0 { dash() } else { self.failed.to_string() },
+        ]
+    }
+}
+
+const COLUMNS: [&str; 10] = [
+    "method",
+    "wrong pixels",
+    "families wrong",
+    "deepest error",
+    "vertices misplaced",
+    "largest drift",
+    "pieces / polygon",
+    "build",
+    "picture",
+    "given up",
+];
+
+/// The table of six lines.
+pub(super) fn headline(sections: &[Section]) -> Table {
+    let mut table = Table::new(&COLUMNS);
+    for summary in Summary::of_families(sections) {
+        if HEADLINE.contains(&summary.method) {
+            table.push(summary.cells());
+        }
+    }
+    table
+}
+
+/// The table of all methods.
+pub(super) fn everything(sections: &[Section]) -> Table {
+    let mut columns = COLUMNS.to_vec();
+    columns.push("most memory");
+    let mut table = Table::new(&columns);
+    for summary in Summary::of_families(sections) {
+        let mut cells = summary.cells();
+        cells.push(bytes(summary.bytes));
+        table.push(cells);
+    }
+    table
+}

@@ -1,0 +1,193 @@
+//! Tables, as Markdown and as plain text.
+
+use super::figures::{Figures, Row, Section};
+use crate::units::{bytes, time};
+
+/// A table of text.
+pub(super) struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub(super) fn new(columns: &[impl AsRef<str>]) -> Self {
+        let columns = columns.iter().map(|column| column.as_ref().to_owned()).collect();
+        Self { columns, rows: Vec::new() }
+    }
+
+    pub(super) fn push(&mut self, row: Vec<String>) {
+        self.rows.push(row);
+    }
+
+    /// With bars, as Markdown has it; figures to the right.
+    pub(super) fn markdown(&self) -> String {
+        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+        let rule = format!("|---|{}\n", "---:|".repeat(self.columns.len().saturating_sub(1)));
+        let rows = self.rows.iter().map(|row| line(row));
+        line(&self.columns) + &rule + &rows.collect::<String>()
+    }
+
+    /// In columns, for a terminal: titles above each other if they are of several words.
+    pub(super) fn plain(&self) -> String {
+        let words: Vec<Vec<&str>> =
+            self.columns.iter().map(|title| title.split(' ').collect()).collect();
+        let height = words.iter().map(Vec::len).max().unwrap_or(0);
+        let mut lines: Vec<Vec<String>> = (0..height)
+            .map(|i| {
+                let cell = |title: &Vec<&str>| {
+                    (i + title.len()).checked_sub(height).map_or("", |k| title[k]).to_owned()
+                };
+                words.iter().map(cell).collect()
+            })
+            .collect();
+        lines.extend(self.rows.iter().cloned());
+        let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
+        let text = |line: &Vec<String>| {
+            let cells = line.iter().zip(&widths).enumerate().map(|(k, (cell, &width))| match k {
+                0 => format!("{cell:width$}"),
+                _ => format!("{cell:>width$}"),
+            });
+            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+        };
+        lines.iter().map(text).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// Wrong pixels, step by step: a line a method, a column a step.
+pub(super) fn steps(section: &Section, methods: &[&str]) -> Table {
+    let first = methods.first().copied().unwrap_or_default();
+    let mut columns = vec!["wrong pixels".to_owned()];
+    columns.extend(section.of(first).filter_map(|row| row.difficulty).map(difficulty));
+    let mut table = Table::new(&columns);
+    for method in methods {
+        let cell = |row: &Row| match &row.found {
+            Ok(figures) => share(figures.picture.wrong(), figures.picture.covered),
+            Err(_) => "gave up".to_owned(),
+        };
+        let mut cells = vec![(*method).to_owned()];
+        cells.extend(section.of(method).map(cell));
+        table.push(cells);
+    }
+    table
+}
+
+/// All figures of the last row of each method: of a sweep, the hardest step.
+pub(super) fn details(section: &Section, methods: &[&str]) -> Table {
+    let mut table = Table::new(&[
+        "method",
+        "wrong order",
+        "holes",
+        "spills",
+        "contested",
+        "deepest error",
+        "vertices misplaced",
+        "drift [ulp]",
+        "drift [extent]",
+        "torn",
+        "area error",
+        "pieces",
+        "build",
+        "order",
+        "draw",
+        "memory",
+    ]);
+    for method in methods {
+        let mut cells = vec![(*method).to_owned()];
+        match section.of(method).last().map(|row| &row.found) {
+            Some(Ok(figures)) => cells.extend(detail(figures)),
+            Some(Err(failure)) => {
+                cells.push(format!("gave up: {failure}"));
+                cells.extend(vec![String::new(); 14]);
+            }
+            None => continue,
+        }
+        table.push(cells);
+    }
+    table
+}
+
+fn detail(figures: &Figures) -> Vec<String> {
+    let dash = || "–".to_owned();
+    let picture = &figures.picture;
+    let counts = [picture.wrong_order, picture.holes, picture.spills, picture.contested];
+    let mut cells: Vec<String> = counts.map(grouped).to_vec();
+    cells.extend([
+        exponent(picture.depth_max),
+        figures.accuracy.map_or_else(dash, |a| grouped(a.misplaced + a.undefined)),
+        figures.accuracy.map_or_else(dash, |a| exponent(a.drift_max)),
+        figures.drift().map_or_else(dash, exponent),
+        figures.accuracy.map_or_else(dash, |a| grouped(a.torn)),
+        figures.area.map_or_else(dash, |area| exponent(area.worst)),
+        grouped(figures.pieces),
+        time(figures.build),
+        if figures.order > 0.0 { time(figures.order) } else { dash() },
+        time(figures.draw),
+        bytes(figures.bytes),
+    ]);
+    cells
+}
+
+/// A difficulty: small counts as they are, else as a power.
+pub(super) fn difficulty(value: f64) -> String {
+    if (1.0..100_000.0).contains(&value) { grouped(value as usize) } else { format!("{value:e}") }
+}
+
+/// A part of a whole in percent; 0 only if it is 0.
+pub(super) fn share(part: usize, whole: usize) -> String {
+    let percent = 100.0 * part as f64 / whole.max(1) as f64;
+    match percent {
+        _ if part == 0 => "0".to_owned(),
+        p if p >= 9.95 => format!("{p:.0} %"),
+        p if p >= 0.0995 => format!("{p:.1} %"),
+        p => format!("{} %", exponent(p)),
+    }
+}
+
+/// A number with two digits and a power of ten; 0 only if it is 0.
+pub(super) fn exponent(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        v if v.is_infinite() => "∞".to_owned(),
+        v if (0.095..9.95).contains(&v) => format!("{v:.1}"),
+        v => format!("{v:.0e}"),
+    }
+}
+
+/// A count, in groups of three digits.
+pub(super) fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    if digits.len() < 5 {
+        return digits;
+    }
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Table, difficulty, exponent, grouped, share};
+
+    #[test]
+    fn nothing_but_zero_is_written_as_zero() {
+        assert_eq!([0.0, 1e-17, 0.21, 2e13].map(exponent), ["0", "1e-17", "0.2", "2e13"]);
+        assert_eq!([0, 1, 1234].map(|n| share(n, 1_000_000)), ["0", "1e-4 %", "0.1 %"]);
+        assert_eq!(share(5, 10), "50 %");
+        assert_eq!([7, 1234, 12345, 1_234_567].map(grouped), ["7", "1234", "12 345", "1 234 567"]);
+        assert_eq!([1e-3, 10_000.0, 1e9].map(difficulty), ["1e-3", "10 000", "1e9"]);
+    }
+
+    #[test]
+    fn a_table_is_written_in_two_ways() {
+        let mut table = Table::new(&["method", "wrong pixels"]);
+        table.push(vec!["bsp".into(), "0".into()]);
+        assert_eq!(table.markdown(), "| method | wrong pixels |\n|---|---:|\n| bsp | 0 |\n");
+        assert_eq!(table.plain(), "         wrong\nmethod  pixels\nbsp          0");
+    }
+}

@@ -1,0 +1,81 @@
+use std::collections::HashMap;
+use std::fs;
+
+use crate::run::{CROSSING, Folder};
+
+/// The rows of a CSV file as maps from column to cell. None of its cells holds a comma here.
+fn rows(folder: &Folder, name: &str) -> Vec<HashMap<String, String>> {
+    let text = fs::read_to_string(folder.path(name)).unwrap();
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells.len(), head.len(), "{line}");
+        head.iter().zip(cells).map(|(k, v)| ((*k).to_owned(), v.to_owned())).collect()
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn the_exact_rows_are_zero_and_others_are_not() {
+    let folder = Folder::new("report");
+    folder.write("scene.obj", CROSSING);
+    let run = folder.run(
+        "report --quick --size 64x48 --family angle --family boxes --family cycle -o out/new \
+         scene.obj",
+    );
+    let out = run.good();
+    assert!(out.contains("angle") && out.contains("exact: nothing wrong"), "{out}");
+    assert!(out.contains("0 of 15 trials") || out.contains("0 of 13 trials"), "{out}");
+    let rows = rows(&folder, "out/new/errors.csv");
+    let exact: Vec<_> = rows.iter().filter(|row| row["method"] == "bsp exact").collect();
+    assert_eq!(exact.len(), 6 + 3 + 3 + 1);
+    for row in &exact {
+        assert_ne!(row["covered"], "0", "{row:?}");
+        for column in
+            ["wrong", "wrong_order", "holes", "spills", "misplaced_vertices", "torn_faces"]
+        {
+            assert_eq!(row[column], "0", "{column} of {row:?}");
+        }
+        assert!(row["drift_max_ulps"].parse::<f64>().unwrap() < 1.0, "{row:?}");
+    }
+    let wrong = |method: &str| {
+        let cells = rows.iter().filter(|row| row["method"] == method).map(|row| &row["wrong"]);
+        cells.map(|cell| cell.parse::<usize>().unwrap()).sum::<usize>()
+    };
+    for method in ["bsp f64 1e-6", "bsp f32 1e-4", "newell", "centroid", "z 16", "z 24"] {
+        assert!(wrong(method) > 0, "{method} is never wrong");
+    }
+    let text = fs::read_to_string(folder.path("out/new/report.md")).unwrap();
+    assert!(!text.contains("Not complete"), "{text}");
+    for part in ["| bsp exact | 0 | 0 | 0 | 0 |", "### boxes", "## scene.obj", "speed.svg"] {
+        assert!(text.contains(part), "{part}");
+    }
+    for plot in ["speed", "error-angle", "error-boxes", "error-cycle"] {
+        let svg = fs::read_to_string(folder.path(&format!("out/new/{plot}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && svg.contains("bsp exact"), "{plot}");
+    }
+}
+
+#[test]
+fn a_seed_gives_the_same_errors_again() {
+    let folder = Folder::new("report_seed");
+    let errors = |seed: u32, name: &str| {
+        let run = format!("report --quick --size 32x24 --family offset --seed {seed} -o {name}");
+        folder.run(&run).good();
+        fs::read_to_string(folder.path(&format!("{name}/errors.csv"))).unwrap()
+    };
+    let first = errors(3, "a");
+    assert_eq!(first, errors(3, "b"));
+    assert_ne!(first, errors(4, "c"));
+}
+
+#[test]
+fn what_cannot_be_reported_is_refused_before_anything_is_measured() {
+    let folder = Folder::new("report_refused");
+    folder.write("file", "");
+    assert!(folder.run("report --family angel").refused().contains("angle, gap"));
+    assert!(folder.run("report nothing.obj -o out").refused().contains("nothing.obj"));
+    assert!(folder.run("report --family gap -o file/x").refused().contains("cannot be made"));
+    assert_eq!(folder.files(), ["file"]);
+}

@@ -1,0 +1,49 @@
+//! What a plane promises for a set of pieces.
+
+/// The price of each cut in the cost of `auto`, in polygons still to be sorted. Larger: trees
+/// become unbalanced, and unbalanced ones cut more further down; smaller: cuts for balance.
+const SPLIT_PRICE: f64 = 1.0;
+/// The price of cutting at all: more than any amount of work. A plane that cuts nothing costs no
+/// fragment, now or later: whatever tree there is of all pieces, its parts on either side are trees
+/// of those. So where there is one, it is taken, however unbalanced.
+const FIRST_SPLIT_PRICE: f64 = 1e12;
+
+/// How many pieces lie in front of a plane, behind it, and across.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub(super) front: usize,
+    pub(super) back: usize,
+    pub(super) splits: usize,
+}
+
+impl Counts {
+    #[inline]
+    pub(super) fn add(&mut self, (front, back): (bool, bool)) {
+        self.splits += usize::from(front & back);
+        self.front += usize::from(front & !back);
+        self.back += usize::from(back & !front);
+    }
+
+    /// The work left on both sides, and the cuts: only grows with each count.
+    #[inline]
+    pub(super) fn cost(&self) -> f64 {
+        work(self.front + self.splits) + work(self.back + self.splits) + price(self.splits)
+    }
+
+    pub(super) fn imbalance(&self) -> f64 {
+        self.front.abs_diff(self.back) as f64
+    }
+}
+
+/// What cuts cost.
+#[inline]
+pub(super) fn price(splits: usize) -> f64 {
+    if splits == 0 { 0.0 } else { FIRST_SPLIT_PRICE + SPLIT_PRICE * splits as f64 }
+}
+
+/// The work of sorting `n` pieces.
+#[inline]
+pub(super) fn work(n: usize) -> f64 {
+    let n = n as f64;
+    if n > 1.0 { n * n.log2() } else { 0.0 }
+}

@@ -1,0 +1,62 @@
+//! How deep what is painted lies behind what should show.
+
+use super::compare::{Comparison, Verdict};
+use super::coverage::Coverage;
+use super::image::Image;
+use super::painter::Outline;
+use super::plane::{determinant, kappa, phi};
+use super::rays::Rays;
+use crate::geom::{Faces, PlaneId};
+
+/// How far behind the nearest polygon the painted ones are; see [`depth_error`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DepthError {
+    /// Wrong pixels in which the painted face is met at all.
+    pub pixels: usize,
+    /// The largest difference of depths, in world units along the direction of view.
+    pub max: f64,
+    /// The sum of the differences of all these pixels.
+    pub sum: f64,
+}
+
+/// The difference in depth between the painted face and the nearest, over the pixels of a
+/// comparison that are called [wrong order](Verdict::WrongOrder). Those in which the ray does not
+/// meet the painted face at all are left out.
+pub fn depth_error(
+    rays: &Rays,
+    faces: &Faces,
+    painted: &Image,
+    truth: &Image,
+    comparison: &Comparison,
+) -> DepthError {
+    let width = rays.size()[0] as usize;
+    let mut result = DepthError::default();
+    let pixels = painted.faces().iter().zip(truth.faces()).zip(&comparison.verdicts).enumerate();
+    for (i, ((&shown, &nearest), &verdict)) in pixels {
+        let (x, y) = ((i % width) as u32, (i / width) as u32);
+        let is_met = || {
+            let coverage = Coverage::new(rays, faces, shown, Outline::Whole);
+            coverage.is_some_and(|coverage| coverage.covers(x, y))
+        };
+        if verdict == Verdict::WrongOrder && is_met() {
+            let depth = difference(rays, faces, shown, nearest, x, y);
+            result.pixels += 1;
+            result.max = result.max.max(depth);
+            result.sum += depth;
+        }
+    }
+    result
+}
+
+/// Between the points where the ray of a pixel meets two planes: −κ/φ of a perspective, −φ/κ of a
+/// parallel projection, subtracted exactly before anything is rounded.
+fn difference(rays: &Rays, faces: &Faces, p: u32, q: u32, x: u32, y: u32) -> f64 {
+    let [p, q] = [p, q].map(|face| faces.plane(PlaneId::face(face)));
+    let pixel = rays.pixel(x, y);
+    let divisor = |plane| {
+        let value = if rays.is_perspective() { phi(plane, pixel) } else { kappa(rays, plane) };
+        value.to_f64()
+    };
+    let steps = determinant(rays, &p, &q, pixel).to_f64() / divisor(&p) / divisor(&q);
+    (steps * rays.depth_unit).abs()
+}

@@ -1,0 +1,92 @@
+//! Scenes turned off the axes, where free planes cut and own planes have to help.
+
+use std::f64::consts::{PI, TAU};
+
+use binspace::geom::Viewpoint;
+use binspace::glam::{DQuat, DVec3};
+use binspace::scene::{self, Scene};
+use binspace::BspTree;
+
+use super::scale::{mosaic, with_a_small_stack};
+use crate::support::orders;
+
+/// The same turned away from all axes, where every free plane cuts.
+fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {
+    let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
+    let turned = |polygon| binspace::Polygon::corners(&polygon).map(|p| turn * p).collect();
+    scene.polygons().map(turned).collect()
+}
+
+/// A sphere of slices and rings.
+fn globe(slices: u32, rings: u32, radius: f64) -> Vec<[DVec3; 3]> {
+    let at = |slice: u32, ring: u32| {
+        let (a, b) = (f64::from(slice % slices) * TAU / f64::from(slices), f64::from(ring) * PI / f64::from(rings));
+        DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * radius
+    };
+    let mut faces = Vec::new();
+    for (slice, ring) in (0..slices).flat_map(|slice| (0..rings).map(move |ring| (slice, ring))) {
+        let [a, b] = [at(slice, ring), at(slice + 1, ring)];
+        let [c, d] = [at(slice, ring + 1), at(slice + 1, ring + 1)];
+        if ring > 0 {
+            faces.push([a, c, b]);
+        }
+        if ring + 1 < rings {
+            faces.push([b, c, d]);
+        }
+    }
+    faces
+}
+
+fn scene_of(polygons: impl IntoIterator<Item = impl Into<Vec<DVec3>>>) -> Scene {
+    let mut scene = Scene::new("polygons", DVec3::Z);
+    polygons.into_iter().for_each(|polygon| scene.push(polygon.into(), 0));
+    scene
+}
+
+/// Each with the fragments a face that it may become.
+#[test]
+fn scenes_turned_off_the_axes_are_cut_little() {
+    let stack = |gap: f64| {
+        scene_of((0..5000).map(|i| {
+            let corner = |x, y| DVec3::new(x, y, f64::from(i) * gap);
+            [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]
+        }))
+    };
+    let prism = scene_of((0..10_000).map(|i| {
+        let at = |k: i32, z| {
+            let a = f64::from(k) * TAU / 1e4;
+            DVec3::new(a.cos(), a.sin(), z)
+        };
+        [at(i, -20.0), at(i + 1, -20.0), at(i + 1, 20.0), at(i, 20.0)]
+    }));
+    let shells = (1..=10).flat_map(|radius| globe(40, 20, radius.into()));
+    for (name, scene, most) in [
+        ("chain", scene::chain(20_000), 1.0),
+        ("dense stack", stack(0.001), 1.0),
+        ("stack", stack(0.01), 1.2),
+        ("loose stack", stack(0.1), 1.1),
+        ("mosaic", mosaic(100), 1.2),
+        ("prism", prism, 1.0),
+        ("slim globe", scene_of(globe(1000, 4, 1.0)), 1.0),
+        ("globe", scene_of(globe(100, 50, 1.0)), 1.1),
+        ("shells", scene_of(shells), 1.6),
+        ("city", scene::city(3000, 1), 1.4),
+    ] {
+        let stats = with_a_small_stack(|| BspTree::build(tilted(&scene)).expect("finite").stats());
+        assert!(stats.fragments as f64 <= most * stats.faces as f64, "{name}: {stats:?}");
+    }
+}
+
+/// A prism with some polygons inside: what is convex comes off at once, and the rest is divided.
+#[test]
+fn a_convex_set_with_things_inside_is_taken_apart_around_them() {
+    let mut polygons = tilted(&scene_of(globe(600, 4, 2.0)));
+    polygons.extend(tilted(&scene::crossing(20)));
+    let tree = BspTree::build(&polygons).expect("finite");
+    assert_eq!(tree.validate(), Ok(()));
+    let inside = BspTree::build(&polygons[polygons.len() - 20..]).expect("finite").len();
+    assert!(tree.len() <= polygons.len() + 4 * inside, "{tree:?}, {inside}");
+    for viewpoint in [Viewpoint::eye([0.1, 10.3, 0.2]), Viewpoint::eye([0.1, 0.3, 0.2])] {
+        assert_eq!(orders::check(&tree, viewpoint), Ok(()));
+    }
+}
