@@ -14,8 +14,10 @@ enum Kind {
     NotConvex { polygon: usize },
     TooManyCorners,
     Tolerance { value: f64 },
+    Polygons { limit: usize },
     Fragments { limit: usize },
     Depth { limit: usize },
+    Cancelled,
 }
 
 impl Error {
@@ -35,12 +37,20 @@ impl Error {
         Self { kind: Kind::Tolerance { value } }
     }
 
+    pub(crate) const fn polygons(limit: usize) -> Self {
+        Self { kind: Kind::Polygons { limit } }
+    }
+
     pub(crate) const fn fragments(limit: usize) -> Self {
         Self { kind: Kind::Fragments { limit } }
     }
 
     pub(crate) const fn depth(limit: usize) -> Self {
         Self { kind: Kind::Depth { limit } }
+    }
+
+    pub(crate) const fn cancelled() -> Self {
+        Self { kind: Kind::Cancelled }
     }
 
     /// The index of the polygon to blame, in the order in which the polygons were given.
@@ -54,7 +64,14 @@ impl Error {
     /// Whether a budget of [`BuildOptions`](crate::BuildOptions) ran out; a larger one, or another
     /// heuristic, may succeed.
     pub const fn is_over_budget(&self) -> bool {
-        matches!(self.kind, Kind::Fragments { .. } | Kind::Depth { .. })
+        let kind = &self.kind;
+        matches!(kind, Kind::Polygons { .. } | Kind::Fragments { .. } | Kind::Depth { .. })
+    }
+
+    /// Whether the caller cancelled the build; see
+    /// [`build_with_progress`](crate::BuildOptions::build_with_progress).
+    pub const fn is_cancelled(&self) -> bool {
+        matches!(self.kind, Kind::Cancelled)
     }
 }
 
@@ -77,6 +94,11 @@ impl fmt::Display for Error {
             Kind::Tolerance { value } => {
                 write!(f, "the coplanar tolerance must be a length of 0 or more, not {value}")
             }
+            Kind::Polygons { limit } => write!(
+                f,
+                "there are more than {limit} polygons, which is the most fragments that the tree \
+                 may have (`max_fragments`): raise the budget"
+            ),
             Kind::Fragments { limit } => write!(
                 f,
                 "the tree would have more than {limit} fragments (`max_fragments`): raise the \
@@ -87,6 +109,7 @@ impl fmt::Display for Error {
                 "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
                  or choose another heuristic"
             ),
+            Kind::Cancelled => f.write_str("the build was cancelled"),
         }
     }
 }

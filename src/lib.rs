@@ -38,12 +38,12 @@ pub mod view;
 
 pub use bsp::{
     Accuracy, BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError,
-    Partition, Stats,
+    Partition, Progress, Stats,
 };
 pub use error::Error;
 pub use geom::{Point, Polygon, Viewpoint};
 pub use glam;
-pub use verify::{Verification, paint_tree, verify};
+pub use verify::{Verification, paint_tree, paint_tree_in_colour, verify};
 
 /// The README's examples are tested as they stand.
 #[cfg(doctest)]

@@ -3,8 +3,8 @@
 use crate::bsp::{BspTree, Fragment};
 use crate::geom::{Kernel, Line, Viewpoint};
 use crate::raster::{
-    Comparison, DepthImage, Image, Order, Outline, Painter, Piece, Rays, Verdict, compare, covers,
-    is_open, zbuffer,
+    Canvas, Comparison, DepthImage, Image, Order, Outline, Painter, Piece, Rays, Verdict, compare,
+    covers, is_open, zbuffer,
 };
 use crate::view::{Camera, CameraError};
 
@@ -77,6 +77,30 @@ pub(crate) fn paint_order<K: Kernel>(tree: &BspTree<K>, order: &[u32], rays: &Ra
     painter.finish()
 }
 
+/// Paints a tree's fragments in colours, back to front, over a background; `look` gives the colour
+/// and the opacity of a polygon by its number.
+///
+/// The picture is RGB, 8 bits each, row by row from the top left. Where all is opaque it is that
+/// which [`raster::picture`](crate::raster::picture) makes of what [`paint_tree`] paints.
+pub fn paint_tree_in_colour<K: Kernel>(
+    tree: &BspTree<K>,
+    viewpoint: Viewpoint,
+    rays: &Rays,
+    look: impl Fn(usize) -> ([u8; 3], f32),
+    background: [u8; 3],
+) -> Vec<u8> {
+    let mut canvas = Canvas::new(rays, tree.faces(), background);
+    let mut order = Vec::new();
+    tree.back_to_front_into(viewpoint, &mut order);
+    let mut buffers = Buffers::default();
+    for index in order {
+        let fragment = tree.fragment(index);
+        let (colour, opacity) = look(fragment.polygon());
+        canvas.draw(buffers.piece(&fragment), colour, opacity);
+    }
+    canvas.finish()
+}
+
 /// Counts wrong pixels as contested where the plane between the two fragments leaves it open which
 /// of them is painted last.
 fn contest<K: Kernel>(
@@ -142,8 +166,9 @@ impl Buffers {
 
 #[cfg(test)]
 mod tests {
-    use super::verify;
+    use super::{paint_tree_in_colour, verify};
     use crate::geom::Float;
+    use crate::raster::{colour_of, picture};
     use crate::view::{Camera, views};
     use crate::{BspTree, BuildOptions, Heuristic, scene};
     use glam::DVec3;
@@ -226,6 +251,22 @@ mod tests {
         let cameras = views([low, high], scene.up(), 4, [96, 72], 3).unwrap();
         let wrong = cameras.iter().map(|camera| verify(&tree, camera).unwrap().comparison.wrong());
         assert!(wrong.sum::<usize>() > 0);
+    }
+
+    #[test]
+    fn opaque_colours_are_those_of_the_picture_of_polygons() {
+        let scene = scene::random_triangles(60, 1);
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        let (low, high) = scene.bounds().unwrap();
+        let camera = &views([low, high], scene.up(), 1, [96, 72], 3).unwrap()[0];
+        let seen = verify(&tree, camera).unwrap();
+        let look = |polygon: usize| (colour_of(polygon as u32), 1.0);
+        let picture = picture(&seen.rays, tree.faces(), &seen.painted, colour_of, [9; 3]);
+        let viewpoint = camera.viewpoint();
+        assert!(paint_tree_in_colour(&tree, viewpoint, &seen.rays, look, [9; 3]) == picture);
+        let clear = |polygon: usize| (colour_of(polygon as u32), 0.0);
+        let nothing = paint_tree_in_colour(&tree, viewpoint, &seen.rays, clear, [9; 3]);
+        assert!(nothing.iter().all(|&channel| channel == 9));
     }
 
     #[test]

@@ -18,7 +18,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
 ];
 
 /// What stands at the crate's root, and where it comes from.
-const ROOT: [(&str, &str); 14] = [
+const ROOT: [(&str, &str); 15] = [
     ("Accuracy", "bsp"),
     ("BspTree", "bsp"),
     ("BuildOptions", "bsp"),
@@ -28,6 +28,7 @@ const ROOT: [(&str, &str); 14] = [
     ("Ordered", "bsp"),
     ("ParseHeuristicError", "bsp"),
     ("Partition", "bsp"),
+    ("Progress", "bsp"),
     ("Stats", "bsp"),
     ("Error", "error"),
     ("Point", "geom"),

@@ -125,6 +125,35 @@ fn bytes_that_are_no_utf8_may_stand_in_names() {
 }
 
 #[test]
+fn materials_whose_names_differ_in_one_byte_that_is_no_utf8_have_their_own_colours() {
+    let mut text = with_corners("").into_bytes();
+    let mut library = Vec::new();
+    // 0xA0 and 0x85 are spaces in Latin-1, and halves of letters elsewhere.
+    let names = [&b"\xe8"[..], b"\xe9", b"a", b"a\xa0", b"a\x85", b"\xc3\xa9"];
+    for (number, name) in names.iter().enumerate() {
+        text.extend([b"usemtl ", *name, b"\nf 1 2 3\n"].concat());
+        library.extend([b"newmtl ", *name, format!("\nKd 0.{number} 0 0\n").as_bytes()].concat());
+    }
+    let (scene, report) =
+        Scene::from_obj("s", &[b"mtllib m\n", &text[..]].concat(), |_| Some(library.clone()))
+            .expect("a scene");
+    assert!(report.is_clean(), "{report}");
+    for number in 0..names.len() {
+        assert_eq!(scene.material(number).color[0], number as f32 / 10.0);
+    }
+    assert_eq!(scene.material(1).name, "é");
+}
+
+#[test]
+fn utf_32_is_not_called_utf_16() {
+    for mark in [b"\xff\xfe\0\0", b"\0\0\xfe\xff"] {
+        assert!(refused(mark).2.contains("this is UTF-32; save it as UTF-8"));
+    }
+    let unmarked: Vec<u8> = "v 1".chars().flat_map(|c| u32::from(c).to_le_bytes()).collect();
+    assert!(refused(unmarked).2.contains("UTF-32"));
+}
+
+#[test]
 fn wrong_encodings_are_named() {
     let utf16: Vec<u8> =
         with_corners("f 1 2 3").encode_utf16().flat_map(u16::to_le_bytes).collect();
@@ -467,4 +496,12 @@ fn generated_cornell_box_agrees_with_the_real_one() {
         let same = a.iter().all(|p| b.iter().any(|q| near(p, q)));
         assert!(same, "{a:?} {b:?}");
     }
+}
+
+#[test]
+fn every_polygon_knows_its_line() {
+    let text = "v 0 0 0\nv 1 0 0\n\nv 0 1 0\nf 1 2 3\n# f\nf 1 \\\n 2 3\nf 3 2 1\n";
+    let (scene, _) = Scene::from_obj("lines", text.as_bytes(), |_| None).expect("a scene");
+    assert_eq!([0, 1, 2, 3].map(|i| scene.line(i)), [Some(5), Some(7), Some(9), None]);
+    assert_eq!(binspace::scene::newell_bars().line(0), None);
 }

@@ -412,3 +412,13 @@ fn a_scene_keeps_what_it_is_given() {
     assert_eq!(scene.material(1), &scene::Material::DEFAULT);
     assert_eq!(scene.polygons().len(), 2);
 }
+
+#[test]
+fn polygons_are_counted_before_they_are_generated() {
+    for scene in Builtin::ALL {
+        let spec = BuiltinSpec::from(scene);
+        let (said, made) = (spec.polygons(), spec.build(1).len());
+        assert!(said.abs_diff(made) * 10 <= made, "{scene}: {said} {made}");
+    }
+    assert_eq!("teapot:790".parse::<BuiltinSpec>().unwrap().polygons(), 19_971_200);
+}

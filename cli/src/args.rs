@@ -124,6 +124,7 @@ pub(crate) struct StatsArgs {
 ///
 /// Without a camera, all of the scene is shown. Colours are those of the scene's materials, or, if
 /// it has none, different for each polygon; surfaces are darker the more slantingly they are seen.
+/// Opacity counts in SVG and in the painter's PNG, but not in what a depth buffer shows.
 #[derive(Args, Debug)]
 #[command(after_help = examples::RENDER)]
 pub(crate) struct RenderArgs {
@@ -196,7 +197,7 @@ pub(crate) struct KindArgs {
     /// Draw what a depth buffer shows
     #[arg(long)]
     pub(crate) z_buffer: bool,
-    /// Draw where the painter's picture and the depth buffer's differ
+    /// Draw where the painter's picture and the depth buffer's differ; exit status 1 if they do
     #[arg(long)]
     pub(crate) difference: bool,
     /// Draw how far away everything is: the nearer, the brighter
@@ -236,7 +237,8 @@ pub(crate) struct BuildArgs {
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct LimitArgs {
-    /// How far from a plane still counts as on it, a length [default: 1e-9 of the extent]
+    /// How far from a plane still counts as on it, a length [default: 1e-9 of the extent, the
+    /// longest side of the scene's bounding box; more than 1/256 of it counts as that]
     #[arg(long, value_name = "T", value_parser = values::tolerance, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
     /// Give up beyond this many fragments

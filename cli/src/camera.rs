@@ -11,6 +11,9 @@ use crate::framing;
 /// The vertical field of view, in radians, where the user does not say: 40 degrees.
 pub(crate) const FIELD_OF_VIEW: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
+/// Where coordinates reach this far, cameras have no room: a thousandth of the largest number.
+const TOO_LARGE: f64 = f64::MAX / 1000.0;
+
 /// A camera that shows all of the scene.
 pub(crate) fn whole(
     scene: &Scene,
@@ -83,6 +86,16 @@ fn bounds(scene: &Scene) -> [DVec3; 2] {
     scene.bounds().map_or([DVec3::ZERO; 2], |(low, high)| [low, high])
 }
 
+/// A failure to make a camera for a scene.
 pub(crate) fn about(scene: &Scene, error: &CameraError) -> Failure {
-    Failure::about(scene.name(), error)
+    let [low, high] = bounds(scene);
+    let furthest = low.abs().max(high.abs()).max_element();
+    if furthest < TOO_LARGE {
+        return Failure::about(scene.name(), error);
+    }
+    let problem = format!(
+        "the scene is too large for a camera: its coordinates reach {furthest:.1e}, and what is \
+         around it is beyond all numbers; scale it down"
+    );
+    Failure::about(scene.name(), problem)
 }

@@ -33,6 +33,11 @@ impl<'a> Colours<'a> {
         }
     }
 
+    /// Whether anything shows through a polygon.
+    pub(crate) fn are_translucent(&self) -> bool {
+        self.scene.materials().iter().any(|material| material.opacity < 1.0)
+    }
+
     /// From 0, invisible, to 1, opaque.
     pub(crate) fn opacity(&self, polygon: u32) -> f32 {
         self.scene.material(polygon as usize).opacity

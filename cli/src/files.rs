@@ -5,6 +5,10 @@ use std::io::{self, BufWriter, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
+use crate::unfinished;
+
+/// Links that are followed before they count as a circle, as in most systems.
+const MOST_LINKS: usize = 40;
 
 /// Where output goes.
 #[derive(Debug)]
@@ -55,9 +59,13 @@ impl NewFile {
     }
 
     fn try_create(path: &Path) -> io::Result<Self> {
-        let existing = fs::metadata(path).ok();
-        // Through a link, what it leads to is replaced.
-        let target = existing.as_ref().map_or(Ok(path.to_owned()), |_| fs::canonicalize(path))?;
+        let existing = match fs::metadata(path) {
+            Ok(data) => Some(data),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            // Such as that the name is too long: said now, not when all is done.
+            Err(error) => return Err(error),
+        };
+        let target = behind_links(path)?;
         if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
             return Err(io::ErrorKind::IsADirectory.into());
         }
@@ -68,12 +76,8 @@ impl NewFile {
         if existing.as_ref().is_some_and(|data| data.permissions().readonly()) {
             return Err(io::ErrorKind::PermissionDenied.into());
         }
-        let name = target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}.part", std::process::id()));
-        let temporary = target.with_file_name(hidden);
-        let file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
+        target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
+        let (file, temporary) = unfinished::create_beside(&target)?;
         if let Some(data) = existing {
             // Best effort: the content is what matters.
             let _ = file.set_permissions(data.permissions());
@@ -88,7 +92,7 @@ impl NewFile {
     ) -> Result<(), Failure> {
         let written = write(&mut self.writer).and_then(|()| self.writer.flush());
         let placed = written.and_then(|()| match &self.temporary {
-            Some(temporary) => fs::rename(temporary, &self.target),
+            Some(temporary) => unfinished::place(temporary, &self.target),
             None => Ok(()),
         });
         if placed.is_ok() {
@@ -101,10 +105,23 @@ impl NewFile {
 impl Drop for NewFile {
     fn drop(&mut self) {
         if let Some(temporary) = &self.temporary {
-            // Not there, or not to be removed: there is nothing more to do about it.
-            let _ = fs::remove_file(temporary);
+            unfinished::remove(temporary);
         }
     }
+}
+
+/// Where a path leads, through links to files that need not be there: what is behind them is
+/// replaced, not they.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&target) {
+            // Relative links begin in their own folder.
+            Ok(next) => target = target.parent().unwrap_or(Path::new("")).join(next),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(io::Error::other("too many links"))
 }
 
 fn unwritable(path: &Path, error: io::Error) -> Failure {

@@ -1,6 +1,6 @@
 //! What most commands begin with: a scene, and a tree of it.
 
-use binspace::geom::Preparation;
+use binspace::geom::{Faces, Preparation};
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
@@ -11,7 +11,11 @@ use crate::scene_arg;
 use crate::terminal::note;
 use crate::units::count;
 
-/// Loads a scene and builds its tree; says what was left out of either.
+/// How many faces a note names.
+const NAMED: usize = 3;
+
+/// Loads a scene and builds its tree, which has a fragment at least; says what was left out of
+/// either.
 pub(crate) fn scene_and_tree(
     scene: &SceneArgs,
     build: &BuildArgs,
@@ -19,7 +23,10 @@ pub(crate) fn scene_and_tree(
     let scene = scene_arg::load(scene)?;
     let options = build.limits.options(build.heuristic);
     let tree = measure::build(&scene, &options).map_err(|error| about(&scene, &error))?;
-    note_preparation(&scene, tree.preparation());
+    note_preparation(&scene, tree.faces(), tree.preparation());
+    if tree.is_empty() {
+        return Err(Failure::about(scene.name(), "nothing is left to draw: no face has an area"));
+    }
     Ok((scene, tree))
 }
 
@@ -28,18 +35,30 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
     Failure::about(scene.name(), error)
 }
 
-/// Says what became of polygons that are not faces as they stand.
-pub(crate) fn note_preparation(scene: &Scene, preparation: &Preparation) {
-    let Preparation { dropped, triangulated, .. } = *preparation;
-    let dropped = (dropped > 0).then(|| format!("{} without area dropped", faces(dropped)));
-    let triangulated = (triangulated > 0)
-        .then(|| format!("{} not convex or not planar, triangulated", faces(triangulated)));
-    let said: Vec<String> = dropped.into_iter().chain(triangulated).collect();
-    if !said.is_empty() {
-        note(&format!("{}: {}", scene.name(), said.join("; ")));
+/// Says what became of polygons that are not faces as they stand, or are so more than once.
+pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
+    let faces = |number: usize| count(number, "face");
+    let dropped = (found.dropped > 0).then(|| {
+        format!("{} without area dropped: {}", faces(found.dropped), some(scene, prepared, found))
+    });
+    let triangulated = (found.triangulated > 0)
+        .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
+    let duplicates = (found.duplicates > 0)
+        .then(|| format!("{} given before, kept: the later one shows", faces(found.duplicates)));
+    for problem in [dropped, triangulated, duplicates].into_iter().flatten() {
+        note(&format!("{}: {problem}", scene.name()));
     }
 }
 
-fn faces(number: usize) -> String {
-    count(number, "polygon")
+/// The first of the faces that were dropped, and how many more there are.
+fn some(scene: &Scene, prepared: &Faces, found: &Preparation) -> String {
+    let name = |face: usize| match scene.line(face) {
+        Some(line) => format!("face {face} (line {line})"),
+        None => format!("face {face}"),
+    };
+    let named: Vec<String> = prepared.dropped(found).take(NAMED).map(name).collect();
+    match found.dropped - named.len() {
+        0 => format!("{}, counted from 0", named.join(", ")),
+        more => format!("{} and {more} more, counted from 0", named.join(", ")),
+    }
 }

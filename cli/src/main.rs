@@ -10,6 +10,7 @@ mod files;
 mod framing;
 mod job;
 mod measure;
+mod memory;
 mod pictures;
 mod png_file;
 mod progress;
@@ -17,6 +18,7 @@ mod scene_arg;
 mod svg;
 mod table;
 mod terminal;
+mod unfinished;
 mod units;
 mod values;
 

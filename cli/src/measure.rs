@@ -1,5 +1,6 @@
 //! Trees with the time they took.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use binspace::scene::Scene;
@@ -13,19 +14,25 @@ const LONG_ENOUGH: Duration = Duration::from_millis(20);
 
 /// Builds a tree of a scene.
 pub(crate) fn build(scene: &Scene, options: &BuildOptions) -> Result<BspTree, Error> {
-    let _progress = Progress::spinner(format!("building {}", options.heuristic));
-    options.build(scene.polygons())
+    build_shown(scene, options, &Progress::share(format!("building {}", options.heuristic)))
+}
+
+fn build_shown(scene: &Scene, options: &BuildOptions, shown: &Progress) -> Result<BspTree, Error> {
+    options.build_with_progress(scene.polygons(), |progress| {
+        shown.set(progress.done, progress.total);
+        ControlFlow::Continue(())
+    })
 }
 
 /// Builds a tree of a scene, and tells the seconds it takes: the median, where there is time to
 /// build it more than once.
 pub(crate) fn timed_build(scene: &Scene, options: &BuildOptions) -> Result<(BspTree, f64), Error> {
-    let _progress = Progress::spinner(format!("building {}", options.heuristic));
+    let progress = Progress::share(format!("building {}", options.heuristic));
     let begin = Instant::now();
     let mut seconds = Vec::new();
     loop {
         let start = Instant::now();
-        let tree = options.build(scene.polygons())?;
+        let tree = build_shown(scene, options, &progress)?;
         seconds.push(start.elapsed().as_secs_f64());
         if begin.elapsed() >= LONG_ENOUGH {
             return Ok((tree, median(&mut seconds)));

@@ -1,7 +1,7 @@
 //! The pictures that can be drawn of a tree, as RGB pixels.
 
 use binspace::raster::{DepthImage, Image, depth_map, difference, picture};
-use binspace::{BspTree, Verification};
+use binspace::{BspTree, Verification, Viewpoint, paint_tree_in_colour};
 
 use crate::args::KindArgs;
 use crate::colours::{BACKGROUND, Colours};
@@ -43,10 +43,11 @@ impl Kind {
         }
     }
 
-    /// Its pixels.
+    /// Its pixels, seen from a viewpoint. Only in the painter's picture do things show through others.
     pub(crate) fn pixels(
         self,
         tree: &BspTree,
+        viewpoint: Viewpoint,
         seen: &Verification,
         colours: &Colours<'_>,
     ) -> Vec<u8> {
@@ -56,6 +57,10 @@ impl Kind {
         };
         let truth: &DepthImage = &seen.truth;
         match self {
+            Self::Painter if colours.are_translucent() => {
+                let look = |polygon| (colours.rgb(polygon as u32), colours.opacity(polygon as u32));
+                paint_tree_in_colour(tree, viewpoint, &seen.rays, look, BACKGROUND)
+            }
             Self::Painter => show(&seen.painted),
             Self::ZBuffer => show(truth.image()),
             Self::Difference => difference(&seen.comparison, &show(&seen.painted)),

@@ -31,6 +31,15 @@ impl Progress {
         Self::start(ProgressBar::new(steps), template, message.into())
     }
 
+    /// A phase that says how far it is.
+    pub(crate) fn share(message: impl Into<String>) -> Self {
+        Self::start(
+            ProgressBar::new(0),
+            "{spinner} {msg} {percent}% {bar:30} {elapsed}",
+            message.into(),
+        )
+    }
+
     fn start(bar: ProgressBar, template: &str, message: String) -> Self {
         bar.set_draw_target(ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(template) {
@@ -54,6 +63,15 @@ impl Progress {
     /// One step more is done.
     pub(crate) fn step(&self) {
         self.bar.inc(1);
+    }
+
+    /// So much is done of so much.
+    pub(crate) fn set(&self, done: usize, total: usize) {
+        // A new length is drawn at once, however often that is.
+        if self.bar.length() != Some(total as u64) {
+            self.bar.set_length(total as u64);
+        }
+        self.bar.set_position(done as u64);
     }
 
     /// Writes something else to the terminal meanwhile.

@@ -7,6 +7,7 @@ use binspace::scene::{Builtin, BuiltinSpec, Scene};
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
+use crate::memory;
 use crate::progress::Progress;
 use crate::terminal::note;
 
@@ -22,14 +23,18 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
     let name = args.name.to_string_lossy();
     match source(&args.name)? {
         Source::Builtin(spec) => {
+            memory::check(&name, spec.polygons())?;
             let _progress = Progress::spinner(format!("generating {name}"));
             Ok(spec.build(args.seed))
         }
         Source::File(path) => {
             let progress = Progress::spinner(format!("reading {name}"));
-            let (scene, report) =
+            let (scene, mut report) =
                 Scene::read_obj(&path).map_err(|error| Failure::Message(error.to_string()))?;
             drop(progress);
+            memory::check(&name, scene.len())?;
+            // They are among the faces without area, which are named once the tree is built.
+            report.degenerate_faces = 0;
             if !report.is_clean() {
                 note(&format!("{name}: {report}"));
             }

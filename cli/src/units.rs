@@ -20,7 +20,8 @@ pub(crate) fn bytes(bytes: usize) -> String {
     }
 }
 
-fn three_digits(value: f64) -> String {
+/// A number with three digits, or all those before the point.
+pub(crate) fn three_digits(value: f64) -> String {
     let decimals = match value {
         v if v >= 99.95 => 0,
         v if v >= 9.995 => 1,

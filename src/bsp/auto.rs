@@ -66,7 +66,7 @@ impl<K: Kernel> Chooser<'_, K> {
                 return Choice::Split(plane);
             }
         }
-        let free = self.sweep.best(pieces, self.faces.tolerance());
+        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
         let named = free.and_then(|plane| Some((plane, plane.id(self.faces, pieces)?)));
         if let Some((FreePlane { splits: 0, .. }, plane)) = named {
             return Choice::Split(plane);
@@ -111,7 +111,7 @@ impl<K: Kernel> Chooser<'_, K> {
             && sample(pieces, FEW_OWN_PLANES).all(|piece| self.is_at_rim(piece, pieces, arena))
         {
             self.credit = 0;
-            if let Some(list) = take_apart(&self.kernel, self.faces, pieces, arena) {
+            if let Some(list) = take_apart(&self.kernel, self.faces, pieces, arena, self.watch) {
                 return Choice::TakeApart(list);
             }
         }

@@ -2,6 +2,7 @@
 
 use super::cost::{price, work};
 use super::live::Live;
+use super::progress::Watch;
 use crate::geom::{Faces, PlaneId};
 
 /// Values a bin is to hold in the mean. Larger: more to sort in the bins that are looked at;
@@ -12,6 +13,8 @@ const PER_BIN: usize = 8;
 const UNEVEN: usize = 4;
 /// The most bins. Larger: their counters leave the cache.
 const MOST_BINS: usize = 1024;
+/// To search along an axis is as much work as to look at each piece so often.
+const PASSES: usize = 10;
 
 /// A free plane with its cost.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +70,12 @@ const NO_BIN: u16 = u16::MAX;
 
 impl Sweep {
     /// The free plane of least cost, if one has fewer pieces on each side than there are.
-    pub(super) fn best(&mut self, pieces: &[Live], tolerance: f64) -> Option<FreePlane> {
+    pub(super) fn best(
+        &mut self,
+        pieces: &[Live],
+        tolerance: f64,
+        watch: &Watch<'_>,
+    ) -> Option<FreePlane> {
         let mut best: Option<FreePlane> = None;
         let n = pieces.len();
         let bounds = super::live::bounds(pieces);
@@ -78,6 +86,9 @@ impl Sweep {
         let enough = work(n / UNEVEN) + work(n - n / UNEVEN);
         for axis in axes {
             if extent(axis) <= 0.0 || best.is_some_and(|best| best.cost <= enough) {
+                break;
+            }
+            if watch.work(n * PASSES).is_err() {
                 break;
             }
             let bins = Bins::new(bounds.0[axis], bounds.1[axis], n);

@@ -8,6 +8,7 @@ use super::convex::Taken;
 use super::jobs::{self, Job};
 use super::live::Live;
 use super::node::MOST_FRAGMENTS;
+use super::progress::Watch;
 use super::{BspTree, BuildOptions};
 use crate::Error;
 use crate::geom::{Faces, Kernel, PlaneId, Polygon, Preparation, Side, split};
@@ -19,14 +20,25 @@ const JOB: usize = 1024;
 /// The least vertices at which an arena is compacted. Smaller: copies; larger: memory.
 const COMPACT: usize = 1 << 16;
 
+/// So many pieces are put on sides of a plane before it is asked whether to go on. Smaller: time
+/// for asking; larger: it takes longer to stop.
+const AT_ONCE: usize = 4096;
+/// To cut a piece is as much work as to look at so many.
+const CUT: usize = 64;
+
 /// Builds a tree of polygons.
 pub(super) fn tree<K: Kernel, P: Polygon>(
     kernel: K,
     options: &BuildOptions,
     polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
 ) -> Result<BspTree<K>, Error> {
-    let (faces, preparation) = Faces::new(polygons, options.tolerance)?;
-    tree_of(kernel, options, faces, preparation)
+    let (faces, preparation) =
+        Faces::prepare(polygons, options.tolerance, options.max_fragments, &mut |polygons| {
+            watch.expect(polygons)
+        })?;
+    watch.expect(faces.len())?;
+    tree_of(kernel, options, faces, preparation, watch)
 }
 
 /// Builds a tree of faces.
@@ -35,12 +47,15 @@ pub(super) fn tree_of<K: Kernel>(
     options: &BuildOptions,
     faces: Faces,
     preparation: Preparation,
+    watch: &Watch<'_>,
 ) -> Result<BspTree<K>, Error> {
     let live: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
-    let shared = Shared { kernel, faces: &faces, options, fragments: AtomicUsize::new(live.len()) };
+    let fragments = AtomicUsize::new(live.len());
+    let shared = Shared { kernel, faces: &faces, options, watch, fragments };
     shared.count(0)?;
     let outputs = jobs::run(&shared, Job { pieces: live, arena: Vec::new(), depth: 0 })?;
     let parts = assemble(outputs);
+    watch.end()?;
     Ok(BspTree::new(kernel, faces, preparation, parts))
 }
 
@@ -49,6 +64,7 @@ pub(super) struct Shared<'a, K> {
     kernel: K,
     faces: &'a Faces,
     options: &'a BuildOptions,
+    watch: &'a Watch<'a>,
     /// How many pieces there are by now, over all jobs.
     fragments: AtomicUsize,
 }
@@ -107,7 +123,7 @@ pub(super) fn build<'a, K: Kernel>(
     job: Job<K::Vertex>,
     mut hand_over: impl FnMut(Job<K::Vertex>) -> usize,
 ) -> Result<Output<K::Stored>, Error> {
-    let chooser = Chooser::new(shared.kernel, shared.faces, shared.options.heuristic);
+    let chooser = Chooser::new(shared.kernel, shared.faces, shared.options.heuristic, shared.watch);
     let end = job.pieces.len();
     let first = Pending { start: 0, end, arena: job.arena.len(), depth: job.depth, job: None };
     let scratch = Scratch {
@@ -167,7 +183,7 @@ impl<K: Kernel> Builder<'_, K> {
                 Choice::Split(plane) => plane,
                 Choice::TakeApart(list) => return self.emit_list(start, pending.depth, &list),
             };
-            self.classify(start, plane);
+            self.classify(start, plane)?;
             if self.makes_progress(count) {
                 (plane, self.divide(start, plane)?)
             } else {
@@ -180,13 +196,17 @@ impl<K: Kernel> Builder<'_, K> {
         Ok(())
     }
 
-    fn classify(&mut self, start: usize, plane: PlaneId) {
+    fn classify(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let splitter = kernel.splitter(faces, plane);
         let arena = &self.arena;
         let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
         self.scratch.sides.clear();
-        self.scratch.sides.extend(self.pieces[start..].iter().map(side));
+        for pieces in self.pieces[start..].chunks(AT_ONCE) {
+            self.shared.watch.work(pieces.len())?;
+            self.scratch.sides.extend(pieces.iter().map(side));
+        }
+        Ok(())
     }
 
     fn makes_progress(&self, count: usize) -> bool {
@@ -198,7 +218,7 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     fn partition(&mut self, start: usize, plane: PlaneId) -> Result<usize, Error> {
-        self.classify(start, plane);
+        self.classify(start, plane)?;
         self.divide(start, plane)
     }
 
@@ -224,17 +244,18 @@ impl<K: Kernel> Builder<'_, K> {
         }
         self.pieces.truncate(back);
         self.shared.count(self.scratch.spanning.len())?;
-        self.cut_spanning(plane);
+        self.cut_spanning(plane)?;
         let middle = self.pieces.len();
         self.pieces.extend_from_slice(&self.scratch.front);
         Ok(middle)
     }
 
-    fn cut_spanning(&mut self, plane: PlaneId) {
+    fn cut_spanning(&mut self, plane: PlaneId) -> Result<(), Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let splitter = kernel.splitter(faces, plane);
         let scratch = &mut self.scratch;
         for live in &scratch.spanning {
+            self.shared.watch.work(CUT)?;
             scratch.outline.clear();
             match live.piece(&self.arena).cut {
                 Some(vertices) => scratch.outline.extend_from_slice(vertices),
@@ -259,9 +280,10 @@ impl<K: Kernel> Builder<'_, K> {
             {
                 let start = self.arena.len();
                 self.arena.extend_from_slice(part);
-                list.push(Live::cut::<K>(live.face, &self.arena, start));
+                list.push(Live::cut::<K>(live, &self.arena, start));
             }
         }
+        Ok(())
     }
 
     fn emit(
@@ -388,5 +410,6 @@ impl<K: Kernel> Builder<'_, K> {
         let kernel = self.shared.kernel;
         let vertices = live.piece(&self.arena).cut.unwrap_or_default();
         self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)));
+        self.shared.watch.finish(live.cuts);
     }
 }

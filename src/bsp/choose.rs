@@ -7,6 +7,7 @@ use super::cost::Counts;
 use super::gather::Gathered;
 use super::live::Live;
 use super::peel::Peeler;
+use super::progress::Watch;
 use crate::geom::{Faces, Kernel, PlaneId};
 
 /// How many own planes the heuristics that would look at all of them try at most, so that no
@@ -30,6 +31,8 @@ pub(super) struct Chooser<'a, K: Kernel> {
     pub(super) kernel: K,
     pub(super) faces: &'a Faces,
     heuristic: Heuristic,
+    /// Once a build is cancelled, any plane is chosen, quickly.
+    pub(super) watch: &'a Watch<'a>,
     pub(super) sweep: Sweep,
     /// How many pieces were looked at since a set was last tried to be taken apart.
     pub(super) credit: usize,
@@ -41,11 +44,17 @@ pub(super) struct Chooser<'a, K: Kernel> {
 }
 
 impl<'a, K: Kernel> Chooser<'a, K> {
-    pub(super) fn new(kernel: K, faces: &'a Faces, heuristic: Heuristic) -> Self {
+    pub(super) fn new(
+        kernel: K,
+        faces: &'a Faces,
+        heuristic: Heuristic,
+        watch: &'a Watch<'a>,
+    ) -> Self {
         Self {
             kernel,
             faces,
             heuristic,
+            watch,
             sweep: Sweep::default(),
             credit: usize::MAX,
             peeler: Peeler::default(),
@@ -111,7 +120,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
 
     /// The free plane of least cost; where none separates anything, a piece's own.
     fn free(&mut self, pieces: &[Live]) -> PlaneId {
-        let best = self.sweep.best(pieces, self.faces.tolerance());
+        let best = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
         let named = best.and_then(|plane| plane.id(self.faces, pieces));
         named.unwrap_or(PlaneId::face(pieces[0].face))
     }
@@ -127,6 +136,9 @@ impl<'a, K: Kernel> Chooser<'a, K> {
     ) -> (Counts, bool) {
         let splitter = self.kernel.splitter(self.faces, plane);
         let mut counts = Counts::default();
+        if self.watch.work(pieces.len()).is_err() {
+            return (counts, false);
+        }
         for chunk in pieces.chunks(CHECK_EVERY) {
             for live in chunk {
                 counts.add(self.reach(&splitter, live, arena));

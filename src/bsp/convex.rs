@@ -2,10 +2,14 @@
 
 use super::gather::reach;
 use super::live::Live;
+use super::progress::Watch;
 use crate::geom::{Faces, Kernel, PlaneId, Side, Vertex};
 
 /// The most points of a leaf of the box tree. Larger: points looked at one by one; smaller: boxes.
 const LEAF: usize = 8;
+
+/// To find what is near one plane is about as much work as to look at so many pieces.
+const LOOKS: usize = 256;
 
 /// The least part of a set that is worth it. Larger: sets that are convex but for some pieces are
 /// taken apart one piece at a time; smaller: this search at many nodes, for little each.
@@ -32,6 +36,7 @@ pub(super) fn take_apart<K: Kernel>(
     faces: &Faces,
     pieces: &[Live],
     arena: &[K::Vertex],
+    watch: &Watch<'_>,
 ) -> Option<Vec<Taken>> {
     let boxes = BoxTree::new::<K>(faces, pieces, arena);
     let mut gone = vec![false; pieces.len()];
@@ -40,6 +45,7 @@ pub(super) fn take_apart<K: Kernel>(
         if gone[p] {
             continue;
         }
+        watch.work(LOOKS).ok()?;
         let plane = PlaneId::face(pieces[p].face);
         let splitter = kernel.splitter(faces, plane);
         let rest = match reach::<K>(&splitter, std::iter::once(boxes.middle)) {

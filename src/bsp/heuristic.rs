@@ -85,10 +85,15 @@ impl fmt::Display for Heuristic {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParseHeuristicError {
     text: String,
+    /// What the heuristic of that name takes; `None` if there is none.
+    parameters: Option<&'static str>,
 }
 
 impl fmt::Display for ParseHeuristicError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(parameters) = self.parameters {
+            return write!(f, "the parameters of `{}` do not fit: {parameters}", self.text);
+        }
         write!(
             f,
             "no heuristic `{}`; there are first, random(SEED), fewest-splits, balanced, \
@@ -105,7 +110,15 @@ impl FromStr for Heuristic {
 
     /// Reads what `Display` writes; parameters may be left out, or follow a colon (`sampled:8`).
     fn from_str(text: &str) -> Result<Self, ParseHeuristicError> {
-        let error = || ParseHeuristicError { text: text.to_owned() };
+        let name = text.split(['(', ':']).next().unwrap_or_default();
+        let takes = match name {
+            "first" | "fewest-splits" | "balanced" | "free-planes" | "auto" => Some("it has none"),
+            "random" => Some("a whole number, as in random(7)"),
+            "weighted" => Some("up to three finite numbers, as in weighted(8,1,0)"),
+            "sampled" => Some("a whole number from 1, as in sampled(16)"),
+            _ => None,
+        };
+        let error = || ParseHeuristicError { text: text.to_owned(), parameters: takes };
         let (name, parameters) = match text.split_once(['(', ':']) {
             Some((name, rest)) if text.contains(':') => (name, Some(rest)),
             Some((name, rest)) => (name, Some(rest.strip_suffix(')').ok_or_else(error)?)),
@@ -163,18 +176,26 @@ mod tests {
 
     #[test]
     fn other_names_are_errors_that_list_the_right_ones() {
-        for text in [
-            "",
-            "best",
-            "sampled(0)",
-            "sampled(1,2)",
-            "random(x)",
-            "auto(1)",
-            "random(1",
-            "weighted(nan)",
-        ] {
+        for text in ["", "best", "best(1)", "Auto"] {
             let error = text.parse::<Heuristic>().unwrap_err().to_string();
             assert!(error.contains("fewest-splits") && error.contains(text), "{error}");
+        }
+    }
+
+    #[test]
+    fn parameters_that_do_not_fit_are_errors_that_say_which_do() {
+        for (text, takes) in [
+            ("sampled(0)", "a whole number from 1"),
+            ("sampled(1,2)", "a whole number from 1"),
+            ("sampled(99999999999)", "a whole number from 1"),
+            ("random(x)", "a whole number"),
+            ("random(1", "a whole number"),
+            ("auto(1)", "it has none"),
+            ("weighted(nan)", "three finite numbers"),
+            ("weighted(1,2,3,4)", "three finite numbers"),
+        ] {
+            let error = text.parse::<Heuristic>().unwrap_err().to_string();
+            assert!(error.contains(takes) && error.contains(text), "{error}");
         }
     }
 }

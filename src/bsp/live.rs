@@ -12,6 +12,8 @@ pub(super) struct Live {
     /// The vertices in the arena; none for a whole face.
     start: u32,
     len: u32,
+    /// How often it was cut, at most 255.
+    pub(super) cuts: u8,
     /// Which sides of the box a corner of the face touches: bits 0–2 the minima, 3–5 the maxima.
     on_corner: u8,
 }
@@ -27,10 +29,11 @@ impl Live {
         live
     }
 
-    /// A piece whose vertices begin at `start` in the arena and are its last.
-    pub(super) fn cut<K: Kernel>(face: u32, arena: &[K::Vertex], start: usize) -> Self {
+    /// A part of a piece, whose vertices begin at `start` in the arena and are its last.
+    pub(super) fn cut<K: Kernel>(whole: &Self, arena: &[K::Vertex], start: usize) -> Self {
         let vertices = &arena[start..];
-        let mut live = Self::empty(face, start as u32, vertices.len() as u32);
+        let mut live = Self::empty(whole.face, start as u32, vertices.len() as u32);
+        live.cuts = whole.cuts.saturating_add(1);
         for vertex in vertices {
             live.include(vertex.position());
         }
@@ -48,7 +51,7 @@ impl Live {
 
     fn empty(face: u32, start: u32, len: u32) -> Self {
         let (min, max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        Self { min, max, face, start, len, on_corner: 0 }
+        Self { min, max, face, start, len, cuts: 0, on_corner: 0 }
     }
 
     fn include(&mut self, p: [f64; 3]) {

@@ -1,5 +1,8 @@
 //! How a tree is to be built.
 
+use std::ops::ControlFlow;
+
+use super::progress::{Progress, Watch, one_at_a_time};
 use super::{BspTree, Heuristic};
 use crate::Error;
 use crate::geom::{Exact, Faces, Kernel, Polygon, Preparation};
@@ -27,8 +30,9 @@ pub struct BuildOptions {
     /// are. Default: `None`, [`DEFAULT_TOLERANCE`](crate::geom::DEFAULT_TOLERANCE) (1e-9) of the
     /// longest side of the scene's bounding box.
     pub tolerance: Option<f64>,
-    /// The most fragments that a tree may have; more is an error. Default: 2²⁵ (33 554 432, about
-    /// 5 GB). More than 2²⁹ − 1 counts as that.
+    /// The most fragments that a tree may have, and the most polygons it may be built of; more is
+    /// an error, and as to polygons at once. Default: 2²⁵ (33 554 432, about 5 GB). More than
+    /// 2²⁹ − 1 counts as that.
     pub max_fragments: usize,
     /// The most nodes on a path from the root; more is an error. Default: unlimited, as nothing
     /// recurses over the tree.
@@ -90,7 +94,44 @@ impl BuildOptions {
         kernel: K,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<BspTree<K>, Error> {
-        super::build::tree(kernel, self, polygons)
+        super::build::tree(kernel, self, polygons, &Watch::default())
+    }
+
+    /// Builds the same tree as [`build`](Self::build), and tells `progress` how far it is.
+    ///
+    /// That is called at the start, then about once in a millisecond's work, and at the end, by
+    /// whichever thread has something to say, but never by two at once. By [`ControlFlow::Break`]
+    /// it cancels the build: every thread stops as soon as it has finished its pass over the set
+    /// of pieces at hand, which takes milliseconds, or tenths of a second in sets of some 100 000.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    ///
+    /// use binspace::{BuildOptions, scene};
+    ///
+    /// let (scene, mut percent) = (scene::random_triangles(2000, 1), 0);
+    /// let tree = BuildOptions::DEFAULT.build_with_progress(scene.polygons(), |progress| {
+    ///     percent = 100 * progress.done / progress.total.max(1);
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert_eq!(percent, 100);
+    ///
+    /// let never = BuildOptions::DEFAULT
+    ///     .build_with_progress(scene.polygons(), |_| ControlFlow::Break(()));
+    /// assert!(never.is_err_and(|error| error.is_cancelled()));
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As for [`build`](Self::build), and if the build is cancelled.
+    pub fn build_with_progress<P: Polygon>(
+        &self,
+        polygons: impl IntoIterator<Item = P>,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<BspTree, Error> {
+        let progress = one_at_a_time(progress);
+        super::build::tree(Exact, self, polygons, &Watch::new(&progress))
     }
 
     /// Builds a tree of faces that are made already: their tolerance counts, not that of the
@@ -101,7 +142,7 @@ impl BuildOptions {
         faces: Faces,
         preparation: Preparation,
     ) -> Result<BspTree<K>, Error> {
-        super::build::tree_of(kernel, self, faces, preparation)
+        super::build::tree_of(kernel, self, faces, preparation, &Watch::default())
     }
 }
 

@@ -26,6 +26,8 @@ pub struct Stats {
     pub bytes: usize,
     /// Polygons without area, left out.
     pub dropped: usize,
+    /// Polygons with the same corners as an earlier one, kept.
+    pub duplicates: usize,
     /// Polygons that became triangles.
     pub triangulated: usize,
 }
@@ -50,6 +52,7 @@ impl<K: Kernel> BspTree<K> {
             splits: fragments - self.faces.len(),
             bytes: self.bytes(),
             dropped: self.preparation.dropped,
+            duplicates: self.preparation.duplicates,
             triangulated: self.preparation.triangulated,
         }
     }

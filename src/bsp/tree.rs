@@ -139,6 +139,11 @@ impl<K: Kernel> BspTree<K> {
     pub fn preparation(&self) -> &Preparation {
         &self.preparation
     }
+
+    /// The polygons without area, by number: no fragment is of them.
+    pub fn dropped(&self) -> impl Iterator<Item = usize> {
+        self.faces.dropped(&self.preparation)
+    }
 }
 
 impl<K: Kernel> fmt::Debug for BspTree<K> {

@@ -1,6 +1,7 @@
 //! The faces of a scene: convex, planar, on the lattice.
 
 use super::Lattice;
+use super::prepare::Preparation;
 
 /// The faces of a scene in lattice coordinates, each convex and planar, each of one input polygon.
 ///
@@ -110,6 +111,16 @@ impl Faces {
     pub fn reference_triangle(&self, face: u32) -> [u32; 3] {
         let face = &self.faces[face as usize];
         face.frame.triangle().map(|k| face.start + k)
+    }
+
+    /// The polygons without a face, by number, among those that were prepared together.
+    pub fn dropped(&self, preparation: &Preparation) -> impl Iterator<Item = usize> {
+        let mut faces = (0..self.len() as u32).map(|face| self.polygon(face) as usize).peekable();
+        (0..preparation.polygons).filter(move |&polygon| {
+            let is_dropped = faces.next_if_eq(&polygon).is_none();
+            while faces.next_if_eq(&polygon).is_some() {}
+            is_dropped
+        })
     }
 
     /// How many corners all faces have together.

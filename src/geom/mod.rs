@@ -1,6 +1,7 @@
 //! Exact geometry: the lattice, faces, planes, predicates, and how pieces are cut.
 
 mod drift;
+mod duplicates;
 mod exact;
 mod exact_kernel;
 mod eye;

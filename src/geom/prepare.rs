@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::duplicates::Outlines;
 use super::exact::{Plane, cross};
 use super::faces::{Face, Faces, Frame, INNER};
 use super::label::MAX_LABELS;
@@ -20,13 +21,23 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// moved onto a plane must stay within the bits that the exact predicates have room for.
 const LARGEST_TOLERANCE: f64 = super::lattice::LIMIT / 128.0;
 
+/// So many polygons are prepared before it is asked whether to go on. Smaller: time for asking;
+/// larger: it takes longer to stop.
+const AT_ONCE: usize = 1024;
+
 /// What became of the polygons of an input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Preparation {
     /// How many polygons were given.
     pub polygons: usize,
-    /// Polygons without area, of which no face remains.
+    /// Polygons without area, of which no face remains: of fewer than three different corners, or
+    /// with all of them on one line. That is decided exactly, after the corners are rounded to the
+    /// lattice; corners that are on one line as decimal numbers need not be as `f64`.
     pub dropped: usize,
+    /// Polygons with the same corners on the lattice as an earlier one, in the same order around
+    /// them or the reverse. They are kept as they are, and the last one of them shows, as coplanar
+    /// polygons come in input order.
+    pub duplicates: usize,
     /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
     /// Of these, polygons that cross themselves, as their triangles overlap or face both ways: what
@@ -48,10 +59,21 @@ impl Faces {
         polygons: impl IntoIterator<Item = P>,
         tolerance: Option<f64>,
     ) -> Result<(Self, Preparation), Error> {
+        Self::prepare(polygons, tolerance, usize::MAX, &mut |_| Ok(()))
+    }
+
+    /// As [`new`](Self::new), with a limit to the number of polygons, and a function that hears how
+    /// many have been read, and stops it all by an error.
+    pub(crate) fn prepare<P: Polygon>(
+        polygons: impl IntoIterator<Item = P>,
+        tolerance: Option<f64>,
+        limit: usize,
+        watch: &mut dyn FnMut(usize) -> Result<(), Error>,
+    ) -> Result<(Self, Preparation), Error> {
         if let Some(value) = tolerance.filter(|&value| value.is_nan() || value < 0.0) {
             return Err(Error::tolerance(value));
         }
-        let (points, ends) = collect(polygons)?;
+        let (points, ends) = collect(polygons, limit, watch)?;
         let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (min, max) = points.iter().fold(empty, |(min, max), &p| (min.min(p), max.max(p)));
         let (min, max) = if points.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (min, max) };
@@ -72,18 +94,32 @@ impl Faces {
             kept: Vec::new(),
         };
         let mut report = Preparation { polygons: ends.len(), ..Preparation::default() };
-        let mut start = 0;
-        for (polygon, &end) in ends.iter().enumerate() {
-            match builder.add(polygon, &points[start..end as usize])? {
+        let of = |polygon: usize| {
+            let start = polygon.checked_sub(1).map_or(0, |before| ends[before]);
+            &points[start as usize..ends[polygon] as usize]
+        };
+        let mut outlines = Outlines::default();
+        for polygon in 0..ends.len() {
+            if polygon % AT_ONCE == 0 {
+                watch(ends.len())?;
+            }
+            match builder.add(polygon, of(polygon))? {
                 Outcome::Whole => {}
                 Outcome::Triangulated { crosses_itself } => {
                     report.triangulated += 1;
                     report.crossing += usize::from(crosses_itself);
                 }
-                Outcome::Dropped => report.dropped += 1,
+                Outcome::Dropped => {
+                    report.dropped += 1;
+                    continue;
+                }
             }
-            start = end as usize;
+            outlines.add(polygon, builder.kept.iter().map(|&(corner, _)| corner));
         }
+        report.duplicates = outlines.duplicates(|polygon| {
+            builder.keep_distinct(of(polygon));
+            builder.kept.iter().map(|&(corner, _)| corner).collect()
+        });
         Ok((builder.faces, report))
     }
 }
@@ -91,19 +127,30 @@ impl Faces {
 /// All corners, and where those of each polygon end.
 fn collect<P: Polygon>(
     polygons: impl IntoIterator<Item = P>,
+    limit: usize,
+    watch: &mut dyn FnMut(usize) -> Result<(), Error>,
 ) -> Result<(Vec<DVec3>, Vec<u32>), Error> {
     let polygons = polygons.into_iter();
     let expected = polygons.size_hint().0;
+    if expected > limit {
+        return Err(Error::polygons(limit));
+    }
     let (mut points, mut ends) = (Vec::with_capacity(expected * 3), Vec::with_capacity(expected));
     for (index, polygon) in polygons.enumerate() {
+        if index == limit {
+            return Err(Error::polygons(limit));
+        }
+        if index % AT_ONCE == 0 {
+            watch(index)?;
+        }
         for point in polygon.corners() {
             if !point.is_finite() {
                 return Err(Error::non_finite(index));
             }
+            if points.len() >= MAX_LABELS {
+                return Err(Error::too_many_corners());
+            }
             points.push(point);
-        }
-        if points.len() >= MAX_LABELS {
-            return Err(Error::too_many_corners());
         }
         ends.push(points.len() as u32);
     }

@@ -6,6 +6,7 @@
 //! Nothing here knows how an order was found: this module judges those that find one.
 
 mod bounds;
+mod canvas;
 mod compare;
 mod coverage;
 mod depth_error;
@@ -20,6 +21,7 @@ mod runs;
 mod tests;
 mod zbuffer;
 
+pub use canvas::Canvas;
 pub use compare::{Comparison, Verdict, compare, is_open};
 pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};

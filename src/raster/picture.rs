@@ -44,13 +44,22 @@ pub fn picture(
         if face == NONE {
             return background;
         }
-        let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
-        let normal = DVec3::from_array(normal_of(triangle).0).normalize_or_zero();
         let direction = rays.direction((i % width) as u32, (i / width) as u32);
-        let share = brightness(normal, direction);
-        colour(faces.polygon(face)).map(|c| (f64::from(c) * share).round() as u8)
+        shaded(colour(faces.polygon(face)), flat_normal(faces, face), direction)
     });
     pixels.flatten().collect()
+}
+
+/// The normal of a face, of length 1.
+pub(super) fn flat_normal(faces: &Faces, face: u32) -> DVec3 {
+    let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
+    DVec3::from_array(normal_of(triangle).0).normalize_or_zero()
+}
+
+/// A colour as it is seen on a surface.
+pub(super) fn shaded(colour: [u8; 3], normal: DVec3, direction: DVec3) -> [u8; 3] {
+    let share = brightness(normal, direction);
+    colour.map(|c| (f64::from(c) * share).round() as u8)
 }
 
 /// The depths as grey: near is bright, far is dark, and black is nothing. The scale is linear in

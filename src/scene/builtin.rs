@@ -195,6 +195,15 @@ impl BuiltinSpec {
         self.size.or(self.scene.default_size())
     }
 
+    /// About how many polygons the scene has, without generating it if it is large.
+    pub fn polygons(self) -> usize {
+        match (self.scene, self.size()) {
+            (_, None) => self.build(0).len(),
+            (Builtin::Teapot, Some(size)) => 32 * (size as usize).pow(2),
+            (_, Some(size)) => size as usize,
+        }
+    }
+
     /// Generates the scene.
     pub fn build(self, seed: u64) -> Scene {
         self.scene.build(self.size, seed)

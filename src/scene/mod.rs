@@ -64,16 +64,31 @@ use glam::DVec3;
 /// assert_eq!(scene.polygon(0)[1], DVec3::X);
 /// assert_eq!(scene.material(0).name, "red");
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+///
+/// Scenes are equal that hold the same, whichever lines of a file it is from.
+#[derive(Clone, Debug)]
 pub struct Scene {
     name: String,
     corners: Vec<DVec3>,
     /// Polygon `i` owns the corners `ends[i - 1]..ends[i]`.
     ends: Vec<usize>,
     material_of: Vec<u32>,
+    /// The line of each polygon; empty unless the scene is from a file.
+    lines: Vec<usize>,
     materials: Vec<Material>,
     up: DVec3,
     view: Option<(DVec3, DVec3)>,
+}
+
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+            && (self.up, self.view) == (other.up, other.view)
+            && self.corners == other.corners
+            && self.ends == other.ends
+            && self.material_of == other.material_of
+            && self.materials == other.materials
+    }
 }
 
 impl Scene {
@@ -84,6 +99,7 @@ impl Scene {
             corners: Vec::new(),
             ends: Vec::new(),
             material_of: Vec::new(),
+            lines: Vec::new(),
             materials: Vec::new(),
             up,
             view: None,
@@ -150,6 +166,11 @@ impl Scene {
         static UNKNOWN: Material = Material::DEFAULT;
         let number = self.material_of[index] as usize;
         self.materials.get(number).unwrap_or(&UNKNOWN)
+    }
+
+    /// The line of the file that a polygon is from, counted from 1; `None` in generated scenes.
+    pub fn line(&self, index: usize) -> Option<usize> {
+        self.lines.get(index).copied()
     }
 
     /// All materials, in the order in which they were added.

@@ -23,8 +23,8 @@ impl Scene {
     /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from
     /// 0, with all its corners, in whatever object or group it stands. A face of
     /// fewer than three different corners stays in its place and is counted in
-    /// the report; so do duplicates, concave and crooked faces. Points, lines,
-    /// curves, normals and texture coordinates are left out, and so is the
+    /// the report; faces that are given twice, not convex or not planar stay as
+    /// they are, for the tree builder to judge. Points, lines, curves, normals and texture coordinates are left out, and so is the
     /// weight or colour behind the three coordinates of a `v` line. A line that
     /// ends in a backslash goes on in the next.
     ///
@@ -82,6 +82,7 @@ impl Scene {
             }
             scene.push(polygon.iter().copied(), *material);
         }
+        scene.lines = scan.face_lines;
         Ok((scene, scan.report))
     }
 }

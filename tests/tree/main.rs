@@ -6,6 +6,7 @@ mod faults;
 mod input;
 #[cfg(feature = "triangulate")]
 mod picture;
+mod progress;
 mod same;
 mod scale;
 #[path = "../support/mod.rs"]

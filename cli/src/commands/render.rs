@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use binspace::raster::Comparison;
+use binspace::scene::Scene;
 use binspace::verify;
 
 use super::Outcome;
@@ -11,6 +13,8 @@ use crate::failure::Failure;
 use crate::files::NewFile;
 use crate::pictures::Kind;
 use crate::progress::Progress;
+use crate::terminal::note;
+use crate::units::count;
 use crate::{camera, job, png_file, svg};
 
 /// What kind of file a name asks for.
@@ -30,16 +34,35 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let file = NewFile::create(&args.output)?;
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     let camera = camera::asked(args, &scene)?;
-    let _progress = Progress::spinner("drawing");
+    let progress = Progress::spinner("drawing");
     match format {
         Format::Svg => file.write(|out| svg::write(out, &tree, &camera, &scene))?,
         Format::Png => {
             let seen = verify(&tree, &camera).map_err(|error| camera::about(&scene, &error))?;
-            let pixels = kind.pixels(&tree, &seen, &Colours::of(&scene));
+            let pixels = kind.pixels(&tree, camera.viewpoint(), &seen, &Colours::of(&scene));
             file.write(|out| png_file::write(out, camera.size(), &pixels))?;
+            drop(progress);
+            if kind == Kind::Difference {
+                return Ok(judge(&scene, &seen.comparison));
+            }
         }
     }
     Ok(Outcome::Done)
+}
+
+/// Says how many pixels of a picture are wrong, and whether it differs.
+fn judge(scene: &Scene, found: &Comparison) -> Outcome {
+    note(&format!(
+        "{}: {} covered, {} contested; {} wrong ({} wrong order, {}, {})",
+        scene.name(),
+        count(found.covered, "pixel"),
+        found.contested,
+        found.wrong(),
+        found.wrong_order,
+        count(found.holes, "hole"),
+        count(found.spills, "spill"),
+    ));
+    if found.wrong() == 0 { Outcome::Done } else { Outcome::Differs }
 }
 
 fn format(path: &Path) -> Result<Format, Failure> {
@@ -48,5 +71,24 @@ fn format(path: &Path) -> Result<Format, Failure> {
         Some("png") => Ok(Format::Png),
         Some("svg") => Ok(Format::Svg),
         _ => Err(Failure::about(path.display(), "name a file that ends in .png or .svg")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_with_wrong_pixels_is_no_success() {
+        let scene = binspace::scene::crossing(2);
+        let right = Comparison { covered: 9, contested: 1, ..Comparison::default() };
+        assert_eq!(judge(&scene, &right), Outcome::Done);
+        for wrong in [
+            Comparison { wrong_order: 1, ..right.clone() },
+            Comparison { holes: 1, ..right.clone() },
+            Comparison { spills: 1, ..right.clone() },
+        ] {
+            assert_eq!(judge(&scene, &wrong), Outcome::Differs);
+        }
     }
 }

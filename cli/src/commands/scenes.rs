@@ -14,6 +14,7 @@ pub(crate) fn run() -> Result<Outcome, Failure> {
             say(format!("{:10}{scene}:SIZE: {meaning} [default: {size}]", ""))?;
         }
     }
-    say("\nA seed (--seed) chooses among the scenes that are called seeded.")?;
+    say("\nSizes go up to about 20 million polygons, if there is memory for them.")?;
+    say("A seed (--seed) chooses among the scenes that are called seeded.")?;
     Ok(Outcome::Done)
 }

@@ -6,11 +6,14 @@ use binspace::{Heuristic, Stats};
 use super::Outcome;
 use crate::args::StatsArgs;
 use crate::failure::Failure;
-use crate::measure;
+use crate::measure::{order_nanoseconds, timed_build};
 use crate::table::Table;
 use crate::terminal::{HEAD, note, say, styled};
-use crate::units::{bytes, count, time};
+use crate::units::{bytes, count, three_digits, time};
 use crate::{job, scene_arg};
+
+/// How many characters of a heuristic's name the table has room for.
+const NAME: usize = 13;
 
 /// The figures of one tree.
 struct Figures {
@@ -24,10 +27,10 @@ struct Figures {
 pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     let scene = scene_arg::load(&args.scene)?;
     let table = table();
-    let mut failed = None;
-    for (i, &heuristic) in args.heuristic.0.iter().enumerate() {
-        let figures = match measure(args, &scene, heuristic) {
-            Ok(figures) => figures,
+    let (mut failed, mut is_first) = (None, true);
+    for &heuristic in &args.heuristic.0 {
+        let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
+            Ok(built) => built,
             // Another heuristic may stay within the budget.
             Err(error) if error.is_over_budget() && args.heuristic.0.len() > 1 => {
                 note(&format!("{heuristic}: {error}"));
@@ -36,15 +39,25 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             }
             Err(error) => return Err(job::about(&scene, &error)),
         };
+        if is_first {
+            job::note_preparation(&scene, tree.faces(), tree.preparation());
+        }
+        let figures = Figures {
+            heuristic,
+            stats: tree.stats(),
+            build_seconds: seconds,
+            order_nanoseconds: order_nanoseconds(&tree, &scene),
+        };
         if args.json {
             say(json(&figures))?;
         } else {
-            if i == 0 {
+            if is_first {
                 say(title(&scene, &figures.stats))?;
                 say(styled(HEAD, table.head()))?;
             }
             say(row(&table, &figures))?;
         }
+        is_first = false;
     }
     match failed {
         Some(error) => Err(job::about(&scene, &error)),
@@ -52,40 +65,27 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     }
 }
 
-fn measure(
-    args: &StatsArgs,
-    scene: &Scene,
-    heuristic: Heuristic,
-) -> Result<Figures, binspace::Error> {
-    let (tree, seconds) = measure::timed_build(scene, &args.limits.options(heuristic))?;
-    Ok(Figures {
-        heuristic,
-        stats: tree.stats(),
-        build_seconds: seconds,
-        order_nanoseconds: measure::order_nanoseconds(&tree, scene),
-    })
-}
-
 fn title(scene: &Scene, stats: &Stats) -> String {
     format!(
-        "{}: {}, {}; {} dropped, {} triangulated",
+        "{}: {}, {}; {} dropped, {} triangulated, {}",
         styled(HEAD, scene.name()),
         count(stats.polygons, "polygon"),
         count(stats.faces, "face"),
         stats.dropped,
         stats.triangulated,
+        count(stats.duplicates, "duplicate"),
     )
 }
 
 fn table() -> Table {
+    // 80 columns with the gaps between. Splits are the fragments less the faces.
     Table::new(&[
-        ("heuristic", 15),
+        ("heuristic", NAME),
         ("fragments", 0),
         ("/face", 5),
-        ("nodes", 8),
-        ("splits", 8),
-        ("depth", 6),
-        ("mean", 6),
+        ("nodes", 7),
+        ("depth", 5),
+        ("mean", 4),
         ("build", 7),
         ("order", 7),
         ("memory", 7),
@@ -96,17 +96,28 @@ fn row(table: &Table, figures: &Figures) -> String {
     let Figures { heuristic, stats, .. } = figures;
     let per_face = stats.fragments as f64 / stats.faces.max(1) as f64;
     table.row(&[
-        heuristic.to_string(),
+        name(*heuristic),
         stats.fragments.to_string(),
         format!("{per_face:.2}"),
         stats.nodes.to_string(),
-        stats.splits.to_string(),
         stats.depth_max.to_string(),
-        format!("{:.1}", stats.depth_mean),
+        three_digits(stats.depth_mean),
         time(figures.build_seconds),
         time(figures.order_nanoseconds * 1e-9),
         bytes(stats.bytes),
     ])
+}
+
+/// What a heuristic is called in the table: `weighted` by its default weights is just that.
+fn name(heuristic: Heuristic) -> String {
+    let name = match heuristic {
+        _ if "weighted".parse() == Ok(heuristic) => "weighted".to_owned(),
+        other => other.to_string(),
+    };
+    if name.chars().count() <= NAME {
+        return name;
+    }
+    name.chars().take(NAME - 1).chain(['…']).collect()
 }
 
 fn json(figures: &Figures) -> String {
@@ -115,7 +126,7 @@ fn json(figures: &Figures) -> String {
         "{{\"heuristic\": \"{}\", \"polygons\": {}, \"faces\": {}, \"fragments\": {}, \
          \"nodes\": {}, \"depth_max\": {}, \"depth_mean\": {:?}, \"splits\": {}, \
          \"build_seconds\": {:?}, \"order_ns_per_fragment\": {:?}, \"bytes\": {}, \
-         \"dropped\": {}, \"triangulated\": {}}}",
+         \"dropped\": {}, \"triangulated\": {}, \"duplicates\": {}}}",
         figures.heuristic,
         stats.polygons,
         stats.faces,
@@ -129,5 +140,6 @@ fn json(figures: &Figures) -> String {
         stats.bytes,
         stats.dropped,
         stats.triangulated,
+        stats.duplicates,
     )
 }

@@ -176,7 +176,7 @@ fn write_pictures(
     let colours = Colours::of(scene);
     let seen = verify(tree, camera).map_err(|error| camera::about(scene, &error))?;
     for kind in Kind::ALL {
-        let pixels = kind.pixels(tree, &seen, &colours);
+        let pixels = kind.pixels(tree, camera.viewpoint(), &seen, &colours);
         let file = NewFile::create(&folder.join(format!("{builtin}-{}.png", kind.name())))?;
         file.write(|out| png_file::write(out, camera.size(), &pixels))?;
     }

@@ -57,7 +57,7 @@ fn usage_errors_say_what_is_wrong() {
         ("order s.obj --direction=0,0,0", "must not be zero"),
         ("order s.obj --eye=1,2,3 --direction=1,2,3", "cannot be used with"),
         ("order s.obj --eye=1,2,3 --heuristic best", "fewest-splits"),
-        ("order s.obj --eye=1,2,3 --heuristic sampled(0)", "sampled(0)"),
+        ("order s.obj --eye=1,2,3 --heuristic sampled(0)", "`sampled(0)` do not fit: a whole"),
         ("order s.obj --eye=1,2,3 --tolerance -1", "0 or more"),
         ("order s.obj --eye=1,2,3 --tolerance=inf", "not a finite number"),
         ("order s.obj --eye=1,2,3 --max-fragments=-1", "invalid value"),
@@ -115,4 +115,31 @@ fn numbers_at_the_end_of_the_range_are_no_panic() {
             assert!(!run.err.contains("panicked"), "{command}: {run:?}");
         }
     }
+}
+
+#[test]
+fn a_scene_too_large_for_a_camera_is_said_to_be_that() {
+    let folder = Folder::new("bad_large");
+    folder.write("s.obj", "v -1e308 -1e308 0\nv 1e308 0 0\nv 0 1e308 1e308\nf 1 2 3\n");
+    for command in ["verify s.obj", "render s.obj -o p.png", "render s.obj -o p.svg"] {
+        let message = folder.run(command).refused();
+        assert!(message.contains("too large for a camera") && message.contains("1.0e308"));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_memory_does_not_hold_is_refused_not_aborted() {
+    let folder = Folder::new("bad_memory");
+    for scene in ["random:20000000", "teapot:790", "chain:5000000"] {
+        let line =
+            format!("ulimit -v 2000000; exec {} stats {scene}", env!("CARGO_BIN_EXE_binspace"));
+        let mut command = std::process::Command::new("sh");
+        let output = command.args(["-c", &line]).current_dir(folder.path("")).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(&format!("error: {scene}: no memory for ")), "{message}");
+    }
+    let huge = folder.run("stats random:99999999999").refused();
+    assert!(huge.contains("from 1 to 20000000"), "{huge}");
 }

@@ -3,6 +3,7 @@
 mod bad_input;
 mod help;
 mod order;
+mod output;
 mod png_picture;
 mod real_scenes;
 mod render;

@@ -1,4 +1,3 @@
-use std::fs;
 use std::process::Stdio;
 
 use serde_json::Value;
@@ -127,13 +126,41 @@ fn polygons_are_numbered_by_their_line_in_the_file() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nf 1 2 4\nl 1 2 3\nf 1 2\nf 1 2 3\n";
     folder.write("s.obj", text);
     let run = folder.run("order s.obj --eye=0,0,1");
-    for part in ["`p` lines skipped: 1", "`l` lines skipped: 1", "2 polygons without area dropped"]
-    {
+    for part in [
+        "`p` lines skipped: 1",
+        "`l` lines skipped: 1",
+        "2 faces without area dropped: face 0 (line 6), face 1 (line 8), counted from 0",
+    ] {
         assert!(run.err.contains(part), "{part}: {}", run.err);
     }
+    assert_eq!(run.err.lines().count(), 2, "{}", run.err);
     let lines = parse(&run.good());
     assert_eq!(lines.len(), 1);
     assert_eq!(lines[0].polygon, 2);
+}
+
+#[test]
+fn of_many_dropped_faces_the_first_are_named() {
+    let folder = Folder::new("order_dropped");
+    folder.write("s.obj", format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}f 1 2 3\n", "f 1 2 1\n".repeat(9)));
+    let run = folder.run("order s.obj --eye=0,0,1");
+    let names = "face 0 (line 4), face 1 (line 5), face 2 (line 6) and 6 more";
+    assert!(run.err.contains(&format!("9 faces without area dropped: {names}")), "{}", run.err);
+    assert_eq!(run.good().lines().count(), 1);
+}
+
+#[test]
+fn duplicate_faces_are_kept_and_said() {
+    let folder = Folder::new("order_duplicates");
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\n";
+    folder.write("s.obj", format!("{corners}f 1 2 3 4\nf 3 2 5 4\nf 1 2 3\n"));
+    let run = folder.run("order s.obj --eye=0,0,1");
+    assert!(run.err.contains("s.obj: 1 face given before, kept"), "{}", run.err);
+    assert_eq!(run.good().lines().count(), 3);
+    let run = folder.run("stats s.obj --json");
+    assert!(run.err.contains("1 face given before"), "{}", run.err);
+    assert!(run.good().contains("\"duplicates\": 1"));
+    assert!(folder.run("stats s.obj").good().contains("0 triangulated, 1 duplicate\n"));
 }
 
 #[test]
@@ -147,39 +174,6 @@ fn extreme_numbers_come_back_bit_for_bit() {
     let expected =
         vec![[1e300, 0.0, -1e-300], [1.000_000_000_000_000_2e300, 3e299, 0.0], [0.0, 1e22, 0.1]];
     assert_eq!(lines[0].vertices, expected);
-}
-
-#[test]
-fn a_file_is_written_completely_or_not_at_all() {
-    let folder = Folder::new("order_output");
-    folder.write("s.obj", CROSSING);
-    let printed = folder.run("order s.obj --eye=3,2,6").good();
-    assert_eq!(folder.run("order s.obj --eye=3,2,6 -o a.jsonl").good(), "");
-    assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), printed);
-    assert_eq!(folder.run("order s.obj --eye=3,2,6 -o -").good(), printed);
-    // Again, over it; and then errors, which leave it as it is.
-    folder.run("order newell --eye=3,2,6 -o a.jsonl").good();
-    let kept = fs::read_to_string(folder.path("a.jsonl")).unwrap();
-    assert_ne!(kept, printed);
-    folder.write("bad.obj", "v 0 0 nan\nf 1 1 1\n");
-    for command in ["bad.obj", "missing.obj", "random --max-fragments 10"] {
-        folder.run(&format!("order {command} --eye=3,2,6 -o a.jsonl")).refused();
-        assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), kept);
-    }
-    assert_eq!(folder.files(), ["a.jsonl", "bad.obj", "s.obj"]);
-}
-
-#[cfg(unix)]
-#[test]
-fn links_and_devices_are_written_through() {
-    let folder = Folder::new("order_links");
-    folder.write("real.jsonl", "old");
-    std::os::unix::fs::symlink("real.jsonl", folder.path("link.jsonl")).unwrap();
-    folder.run("order newell --eye=3,2,6 -o link.jsonl").good();
-    assert!(folder.path("link.jsonl").is_symlink());
-    assert!(fs::read_to_string(folder.path("real.jsonl")).unwrap().starts_with("{\"polygon\""));
-    folder.run("order newell --eye=3,2,6 -o /dev/null").good();
-    assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
 
 #[test]

@@ -39,6 +39,8 @@ fn the_kinds_of_picture_differ_and_the_first_two_do_not() {
     assert!(painter.count(WHITE) > 100 && painter.colours() > 3);
     assert_eq!(picture(&folder, "--z-buffer"), painter);
     let difference = picture(&folder, "--difference");
+    let said = folder.run("render s.obj -o p.png --size 120x80 --difference").err;
+    assert!(said.contains(" covered, 0 contested; 0 wrong (0 wrong order, 0 holes"), "{said}");
     for wrong in [[255, 40, 40], [255, 230, 0], [255, 0, 255], [70, 130, 255]] {
         assert_eq!(difference.count(wrong), 0);
     }
@@ -72,6 +74,24 @@ fn colours_are_those_of_the_material_library() {
     folder.run("render m.obj -o p.png --direction 0,0,-1 --size 50x50").good();
     let red = Picture::read(&folder.path("p.png"));
     assert!(red.count([255, 0, 0]) > 1000, "{}", red.colours());
+}
+
+#[test]
+fn what_is_behind_glass_shines_through_in_the_png_too() {
+    let folder = Folder::new("render_opacity");
+    folder.write("m.mtl", "newmtl glass\nKd 0 0 1\nd 0.25\nnewmtl red\nKd 1 0 0\n");
+    let square = |z: i32| format!("v -1 -1 {z}\nv 1 -1 {z}\nv 1 1 {z}\nv -1 1 {z}\n");
+    let faces = "usemtl glass\nf 1 2 3 4\nusemtl red\nf 5 6 7 8\n";
+    folder.write("s.obj", format!("mtllib m.mtl\n{}{}{faces}", square(1), square(0)));
+    let picture = |options: &str| {
+        let size = "--size 40x40 --direction";
+        folder.run(&format!("render s.obj -o p.png {size}={options}")).good();
+        Picture::read(&folder.path("p.png"))
+    };
+    // From the front a quarter is blue; from the back all is red.
+    assert!(picture("0,0,-1").count([191, 0, 64]) > 1000);
+    assert!(picture("0,0,1 --z-buffer").count([255, 0, 0]) > 1000);
+    assert!(picture("0,0,-1 --z-buffer").count([0, 0, 255]) > 1000);
 }
 
 #[test]

@@ -30,9 +30,11 @@ fn the_table_is_aligned_and_narrow() {
     let out = folder.run("stats random:100 --heuristic all").good();
     let widths: Vec<usize> = out.lines().skip(1).map(|line| line.chars().count()).collect();
     assert_eq!(widths.len(), 9, "{out}");
-    assert!(widths.iter().all(|&width| width == widths[0] && width <= 100), "{out}");
+    assert!(widths.iter().all(|&width| width == widths[0] && width <= 80), "{out}");
     assert!(out.starts_with("random:100: 100 polygons, 100 faces; 0 dropped"), "{out}");
     assert!(!out.contains('\u{1b}'), "colours are for terminals");
+    let out = folder.run("stats random:10 --heuristic weighted(12.5,1.25,0.125)").good();
+    assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
 }
 
 #[test]

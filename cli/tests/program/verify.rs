@@ -59,13 +59,17 @@ fn what_the_tolerance_makes_equals_is_contested_not_wrong() {
 }
 
 #[test]
-fn a_scene_without_area_is_empty_and_right() {
+fn a_scene_without_area_is_not_called_right() {
     let folder = Folder::new("verify_empty");
     folder.write("s.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-    let run = folder.run("verify s.obj --size 40x30");
-    assert!(run.err.contains("1 polygon without area dropped"), "{run:?}");
-    assert_eq!(figures(run.good().lines().last().unwrap()), [0, 0, 0, 0, 0]);
-    for command in ["order s.obj --eye=0,0,1", "stats s.obj --json", "render s.obj -o s.png"] {
-        folder.run(command).good();
+    for command in ["verify s.obj", "order s.obj --eye=0,0,1", "render s.obj -o s.png"] {
+        let message = folder.run(command).refused();
+        assert!(message.contains("s.obj: nothing is left to draw"), "{message}");
+        assert!(message.contains("1 face without area dropped: face 0 (line 4)"), "{message}");
     }
+    assert_eq!(folder.files(), ["s.obj"]);
+    // What there is to count is counted.
+    let run = folder.run("stats s.obj --json");
+    assert!(run.err.contains("1 face without area dropped: face 0 (line 4)"), "{run:?}");
+    assert!(run.good().contains("\"dropped\": 1"));
 }

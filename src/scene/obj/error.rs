@@ -13,7 +13,7 @@ pub struct ObjError {
 #[derive(Debug)]
 pub(super) enum Kind {
     Read(std::io::Error),
-    Utf16,
+    Encoding(&'static str),
     ZeroByte,
     NoFace,
     TooManyFaces,
@@ -68,10 +68,13 @@ impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Read(error) => write!(f, "cannot be read: {error}"),
-            Self::Utf16 => write!(f, "wrong encoding: this is UTF-16; save it as UTF-8"),
+            Self::Encoding(name) => {
+                write!(f, "wrong encoding: this is {name}; save it as UTF-8")
+            }
             Self::ZeroByte => write!(
                 f,
-                "wrong encoding: a zero byte, so this is UTF-16 or no text at all; save it as UTF-8"
+                "wrong encoding: a zero byte, so this is UTF-16, UTF-32 or no text at all; save it as \
+                 UTF-8"
             ),
             Self::NoFace => write!(f, "no faces: there must be at least one `f` line"),
             Self::TooManyFaces => write!(f, "more than {} faces; divide the file", u32::MAX),

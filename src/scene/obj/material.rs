@@ -46,31 +46,34 @@ pub(super) fn load(
 /// The materials of one library; `None` if it is no text.
 fn parse(bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> {
     let text = decode(bytes).ok()?;
-    let cleaned = clean(&text, report);
+    let (cleaned, names) = clean(&text, report);
     let (materials, _) = tobj::load_mtl_buf(&mut cleaned.as_bytes()).ok()?;
     let look = |material: &tobj::Material| Look {
         color: material.diffuse.map_or(Material::DEFAULT.color, |rgb| rgb.map(narrow)),
         opacity: material.dissolve.map_or(1.0, narrow),
     };
-    let looks = materials.iter().map(|m| (m.name.clone(), look(m)));
-    Some(looks.collect())
+    Some(names.into_iter().zip(materials.iter().map(look)).collect())
 }
 
 /// Keeps `newmtl`, `Kd` and opacity where they are well-formed: `tobj` gives the
-/// whole library up for one bad line, and panics on a `Kd` of one number.
-fn clean(text: &str, report: &mut ObjReport) -> String {
-    let mut cleaned = String::new();
+/// whole library up for one bad line, and panics on a `Kd` of one number. Names
+/// come apart: `tobj` gets their numbers, as it has its own idea of what a space is.
+fn clean(text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
+    let (mut cleaned, mut names) = (String::new(), Vec::new());
     let mut named = false;
     let mut has_dissolve = false;
     for (_, line) in lines(text) {
-        let line = line.trim();
+        let line = line.trim_start();
         let mut words = line.split_whitespace();
         let keyword = words.next().unwrap_or_default();
         let kept = match keyword {
             "newmtl" => {
-                let name = line[keyword.len()..].trim();
+                let name = line[keyword.len()..].trim_ascii();
                 (named, has_dissolve) = (!name.is_empty(), false);
-                named.then(|| format!("newmtl {name}\n"))
+                named.then(|| {
+                    names.push(name.to_owned());
+                    format!("newmtl {}\n", names.len())
+                })
             }
             "Kd" if named => color(words).map(|[r, g, b]| format!("Kd {r} {g} {b}\n")),
             "d" if named => {
@@ -88,7 +91,7 @@ fn clean(text: &str, report: &mut ObjReport) -> String {
             None => report.skipped_material_lines += 1,
         }
     }
-    cleaned
+    (cleaned, names)
 }
 
 /// Red, green and blue, or one number for all.

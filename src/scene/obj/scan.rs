@@ -18,6 +18,8 @@ pub(super) struct Scan {
     pub(super) corners: usize,
     /// Each face's place in `materials`.
     pub(super) material_of: Vec<u32>,
+    /// Each face's line in the file.
+    pub(super) face_lines: Vec<usize>,
     /// The materials that faces use; `None` where no name was given.
     pub(super) materials: Vec<Option<String>>,
     /// Material libraries in the order of their first mention.
@@ -44,16 +46,18 @@ impl Scan {
         let mut numbers: HashMap<Option<String>, u32> = HashMap::new();
         let mut libraries: HashSet<String> = HashSet::new();
         for (number, line) in lines(text) {
-            let line = line.trim();
+            let line = line.trim_start();
             let mut words = line.split_whitespace();
             let keyword = words.next().unwrap_or("#");
-            let rest = || line[keyword.len()..].trim();
+            // The last byte of a name may be what is a space in another encoding.
+            let rest = || line.get(keyword.len()..).unwrap_or_default().trim_ascii();
             match keyword {
                 "v" => scan.vertex(words, number)?,
                 "f" => {
                     scan.face(words, number)?;
                     let material = scan.number_of(&mut numbers, &in_use);
                     scan.material_of.push(material);
+                    scan.face_lines.push(number);
                 }
                 "usemtl" => in_use = Some(rest().to_owned()).filter(|name| !name.is_empty()),
                 "mtllib" if !rest().is_empty() && libraries.insert(rest().to_owned()) => {

@@ -1,11 +1,23 @@
 use super::error::{Kind, ObjError};
 use std::borrow::Cow;
 
-/// The text without its byte-order mark. Bytes that are not UTF-8, as old files
-/// have in names and comments, become U+FFFD.
+/// Byte-order marks of encodings that are not read; that of UTF-32 begins with one of UTF-16.
+const MARKS: [(&[u8], &str); 4] = [
+    (b"\xff\xfe\0\0", "UTF-32"),
+    (b"\0\0\xfe\xff", "UTF-32"),
+    (b"\xff\xfe", "UTF-16"),
+    (b"\xfe\xff", "UTF-16"),
+];
+
+/// The text without its byte-order mark.
+///
+/// Old files have names and comments in other encodings. Where there is a line,
+/// not a comment, that is not UTF-8, each byte becomes the character of that
+/// number (Latin-1), so that different names stay different, and a name in a
+/// material library is the same as in the file that uses it.
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ObjError> {
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Err(Kind::Utf16.at(None, None));
+    if let Some((_, name)) = MARKS.iter().find(|(mark, _)| bytes.starts_with(mark)) {
+        return Err(Kind::Encoding(name).at(None, None));
     }
     if let Some(zero) = bytes.iter().position(|&byte| byte == 0) {
         let before = String::from_utf8_lossy(&bytes[..zero]);
@@ -13,7 +25,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ObjError> {
         return Err(Kind::ZeroByte.at(Some(line), None));
     }
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    Ok(String::from_utf8_lossy(text))
+    let is_good = |line: &[u8]| {
+        line.trim_ascii_start().starts_with(b"#") || std::str::from_utf8(line).is_ok()
+    };
+    if text.split(|&byte| byte == b'\n' || byte == b'\r').all(is_good) {
+        return Ok(String::from_utf8_lossy(text));
+    }
+    Ok(text.iter().map(|&byte| char::from(byte)).collect())
 }
 
 /// Lines with their numbers from 1. They end in LF, CR LF or CR; a line that is
@@ -71,6 +89,17 @@ mod tests {
         let expected = [(1, "f 1  2  3"), (4, "# C:\\"), (5, "v")].map(|(n, s)| (n, s.to_owned()));
         assert_eq!(all("f 1 \\\n2 \\\r\n3\n# C:\\\nv"), expected);
         assert_eq!(all("v \\"), [(1, "v ".to_owned())]);
+    }
+
+    #[test]
+    fn names_that_differ_in_bytes_that_are_no_utf_8_stay_different() {
+        let text = |bytes: &'static [u8]| decode(bytes).map(Cow::into_owned).ok();
+        let names: Vec<Option<String>> =
+            [&b"o \xe9"[..], b"o \xe8", b"o \xc3\xa9\xff", b"o \xe9\xff"].map(text).into();
+        assert_eq!(names[0].as_deref(), Some("o é"));
+        assert!((0..4).all(|i| (0..i).all(|j| names[i] != names[j])), "{names:?}");
+        // A comment in another encoding does not change how names are read.
+        assert_eq!(text(b"# \xe9\no \xc3\xa9").as_deref(), Some("# \u{fffd}\no é"));
     }
 
     #[test]

@@ -64,7 +64,7 @@ impl Trial {
         let (faces, preparation) =
             Faces::new(scene.polygons(), tolerance).map_err(|error| job::about(scene, &error))?;
         if tolerance.is_none() {
-            job::note_preparation(scene, &preparation);
+            job::note_preparation(scene, &faces, &preparation);
         }
         let view = |camera: Camera| {
             let rays = Rays::new(&camera, &faces)?;

@@ -1,0 +1,124 @@
+//! Builds that say how far they are, and can be cancelled.
+
+use std::ops::ControlFlow;
+
+use crate::support::snapshot::Snapshot;
+use binspace::scene::{self, Scene};
+use binspace::{BspTree, BuildOptions, Error, Heuristic, Progress};
+
+const BY: [Heuristic; 3] =
+    [Heuristic::Auto, Heuristic::FreePlanes, Heuristic::Sampled { candidates: 4 }];
+
+/// Builds with several threads, where there are any, until a call number `stop`.
+fn build(
+    scene: &Scene,
+    heuristic: Heuristic,
+    stop: usize,
+) -> (Result<BspTree, Error>, Vec<Progress>) {
+    let mut heard = Vec::new();
+    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    let go = || {
+        options.build_with_progress(scene.polygons(), |progress| {
+            heard.push(progress);
+            if heard.len() < stop { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        })
+    };
+    #[cfg(feature = "parallel")]
+    let tree = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap().install(go);
+    #[cfg(not(feature = "parallel"))]
+    let tree = std::iter::once_with(go).last().expect("a result");
+    (tree, heard)
+}
+
+/// The first call from the build proper, after those from the preparation.
+fn first_of_the_build(heard: &[Progress]) -> usize {
+    let total = heard[heard.len() - 1].total;
+    heard.iter().position(|progress| progress.done > 0 && progress.total == total).unwrap()
+}
+
+#[test]
+fn progress_never_falls_and_ends_at_the_total() {
+    for scene in [scene::random_triangles(1000, 3), scene::city(8000, 3), scene::sphere(8000)] {
+        for heuristic in BY {
+            let (tree, heard) = build(&scene, heuristic, usize::MAX);
+            let faces = tree.unwrap().faces().len();
+            let last = heard[heard.len() - 1];
+            assert_eq!((last.done, last.total), (faces, faces), "{heuristic}");
+            assert!(heard.windows(2).all(|pair| pair[0].done <= pair[1].done), "{heuristic}");
+            assert!(heard.iter().all(|progress| progress.done <= progress.total), "{heuristic}");
+            let built = &heard[first_of_the_build(&heard)..];
+            assert!(built.iter().all(|progress| progress.total == faces), "{heuristic}");
+            let between = built.iter().filter(|progress| progress.done < faces).count();
+            assert!(between > 3, "{} by {heuristic}: {heard:?}", scene.name());
+        }
+    }
+}
+
+#[test]
+fn a_build_that_is_watched_gives_the_same_tree() {
+    for scene in [scene::city(8000, 1), scene::random_triangles(1000, 2)] {
+        for heuristic in BY {
+            let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+            let plain = options.build(scene.polygons()).unwrap();
+            let (watched, _) = build(&scene, heuristic, usize::MAX);
+            assert!(Snapshot::of(&plain) == Snapshot::of(&watched.unwrap()), "{heuristic}");
+        }
+    }
+}
+
+#[test]
+fn a_build_is_cancelled_from_the_first_call_before_it_reads_its_polygons() {
+    let mut read = 0;
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let polygons = (0..1_000_000).map(|_| square).inspect(|_| read += 1);
+    let mut calls = 0;
+    let result = BuildOptions::DEFAULT.build_with_progress(polygons, |_| {
+        calls += 1;
+        ControlFlow::Break(())
+    });
+    let error = result.expect_err("cancelled");
+    assert!(error.is_cancelled() && !error.is_over_budget(), "{error}");
+    assert_eq!((calls, error.to_string().as_str()), (1, "the build was cancelled"));
+    assert!(read <= 1, "{read}");
+}
+
+#[test]
+fn a_build_is_cancelled_anywhere_and_says_no_more() {
+    let scene = scene::city(8000, 3);
+    for heuristic in BY {
+        let (_, all) = build(&scene, heuristic, usize::MAX);
+        let start = first_of_the_build(&all);
+        for stop in [2, start, (start + all.len()) / 2] {
+            let (result, heard) = build(&scene, heuristic, stop);
+            let error = result.expect_err("cancelled");
+            assert!(error.is_cancelled(), "{heuristic}, call {stop}: {error}");
+            assert_eq!(heard.len(), stop, "{heuristic}");
+        }
+    }
+}
+
+#[test]
+fn the_last_call_can_cancel_too() {
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let result = BuildOptions::DEFAULT.build_with_progress([square], |progress| {
+        if progress.done > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(result.expect_err("cancelled").is_cancelled());
+}
+
+#[test]
+fn nothing_to_build_is_done_at_once() {
+    let scene = Scene::new("nothing", binspace::glam::DVec3::Y);
+    let (tree, heard) = build(&scene, Heuristic::Auto, usize::MAX);
+    assert!(tree.unwrap().is_empty());
+    assert!(heard.iter().all(|progress| (progress.done, progress.total) == (0, 0)), "{heard:?}");
+}
+
+#[test]
+fn more_polygons_than_fragments_allowed_are_noticed_before_they_are_all_read() {
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let options = BuildOptions::DEFAULT.with_max_fragments(1000);
+    let error = options.build(std::iter::repeat(square)).expect_err("endless");
+    assert!(error.is_over_budget() && error.to_string().contains("1000 polygons"), "{error}");
+    assert_eq!(options.build(std::iter::repeat_n(square, 1000)).unwrap().len(), 1000);
+}
