@@ -45,7 +45,11 @@ pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparat
         .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
     let duplicates = (found.duplicates > 0)
         .then(|| format!("{} given before, kept: the later one shows", faces(found.duplicates)));
-    for problem in [dropped, triangulated, duplicates].into_iter().flatten() {
+    let crossing = (found.crossing > 0).then(|| {
+        let number = faces(found.crossing);
+        format!("of these, {number} with edges that cross: what is covered is a guess")
+    });
+    for problem in [dropped, triangulated, crossing, duplicates].into_iter().flatten() {
         note(&format!("{}: {problem}", scene.name()));
     }
 }

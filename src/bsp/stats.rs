@@ -30,6 +30,8 @@ pub struct Stats {
     pub duplicates: usize,
     /// Polygons that became triangles.
     pub triangulated: usize,
+    /// Of these, polygons that cross themselves.
+    pub crossing: usize,
 }
 
 impl<K: Kernel> BspTree<K> {
@@ -53,6 +55,7 @@ impl<K: Kernel> BspTree<K> {
             bytes: self.bytes(),
             dropped: self.preparation.dropped,
             duplicates: self.preparation.duplicates,
+            crossing: self.preparation.crossing,
             triangulated: self.preparation.triangulated,
         }
     }

@@ -126,7 +126,8 @@ fn json(figures: &Figures) -> String {
         "{{\"heuristic\": \"{}\", \"polygons\": {}, \"faces\": {}, \"fragments\": {}, \
          \"nodes\": {}, \"depth_max\": {}, \"depth_mean\": {:?}, \"splits\": {}, \
          \"build_seconds\": {:?}, \"order_ns_per_fragment\": {:?}, \"bytes\": {}, \
-         \"dropped\": {}, \"triangulated\": {}, \"duplicates\": {}}}",
+         \"dropped\": {}, \"triangulated\": {}, \"duplicates\": {}, \
+         \"crossing\": {}}}",
         figures.heuristic,
         stats.polygons,
         stats.faces,
@@ -141,5 +142,6 @@ fn json(figures: &Figures) -> String {
         stats.dropped,
         stats.triangulated,
         stats.duplicates,
+        stats.crossing,
     )
 }

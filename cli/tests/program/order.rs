@@ -164,6 +164,15 @@ fn duplicate_faces_are_kept_and_said() {
 }
 
 #[test]
+fn faces_that_cross_themselves_are_said() {
+    let folder = Folder::new("order_crossing");
+    folder.write("s.obj", "v 0 0 0\nv 3 2 0\nv 3 0 0\nv 0 1 0\nf 1 2 3 4\n");
+    let run = folder.run("stats s.obj --json");
+    assert!(run.err.contains("s.obj: of these, 1 face with edges that cross"), "{}", run.err);
+    assert!(run.good().contains("\"crossing\": 1"));
+}
+
+#[test]
 fn extreme_numbers_come_back_bit_for_bit() {
     let folder = Folder::new("order_numbers_extreme");
     folder.write(
