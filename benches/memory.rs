@@ -1,0 +1,69 @@
+//! Bytes of a finished tree, and the peak while it is built. Prints a table of RESULTS.md.
+
+#![allow(missing_docs, reason = "a program")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+
+#[path = "support/mod.rs"]
+mod support;
+
+use binspace::BspTree;
+use dhat::{HeapStats, Profiler};
+use support::{Table, Target, against, check, print_head, scene, viewpoints};
+
+#[global_allocator]
+static COUNTING: dhat::Alloc = dhat::Alloc;
+
+const SCENES: [&str; 12] = [
+    "random:1000",
+    "city:100000",
+    "sphere:100000",
+    "terrain:100000",
+    "terrain:1000000",
+    "bunny_4k.obj",
+    "doom_map12_big.obj",
+    "teapot_quads_32k.obj",
+    "chessboard_63k.obj",
+    "pool_table_29k.obj",
+    "maple_tree_166k.obj",
+    "showroom_big_cc0.obj",
+];
+
+fn main() {
+    print_head("Memory", "cargo bench --bench memory");
+    let table = Table::new(
+        "Memory: the tree, and the peak while it is built",
+        &[
+            "scene",
+            "fragments",
+            "bytes / fragment",
+            "target",
+            "met",
+            "peak / tree",
+            "target",
+            "met",
+        ],
+    );
+    for name in SCENES {
+        let Some(scene) = scene(name) else { continue };
+        // Counts what is allocated from here on: not the scene.
+        let profiler = Profiler::builder().testing().build();
+        let tree = BspTree::build(scene.polygons()).expect("within budget");
+        let built = HeapStats::get();
+        let mut order = Vec::new();
+        for (k, viewpoint) in viewpoints(&scene).into_iter().enumerate() {
+            tree.back_to_front_into(viewpoint, &mut order);
+            let blocks = HeapStats::get().total_blocks - built.total_blocks;
+            assert_eq!(blocks, 1, "only the first of {} orders allocates", k + 1);
+        }
+        drop(profiler);
+        check(&tree, &scene);
+        assert_eq!(order.len(), tree.len());
+
+        let each = built.curr_bytes as f64 / tree.len() as f64;
+        let [each, most, met] = against(each, Target::AtMost(160.0));
+        let peak = built.max_bytes as f64 / built.curr_bytes as f64;
+        let [peak, peak_target, peak_met] = against(peak, Target::AtMost(2.5));
+        let fragments = tree.len().to_string();
+        table.row(&[name.to_owned(), fragments, each, most, met, peak, peak_target, peak_met]);
+    }
+}

@@ -1,0 +1,76 @@
+//! What exactness costs: the same builder with the exact kernel, and with one of f64 and an
+//! epsilon.
+
+use super::support::{Table, Target, against, check, scene, time};
+use binspace::geom::Float;
+use binspace::{BuildOptions, Heuristic};
+use std::time::{Duration, Instant};
+
+const SAMPLED: Heuristic = Heuristic::Sampled { candidates: 16 };
+
+/// The target is looser on lattices, where many points lie exactly on planes.
+const SCENES: [(&str, Heuristic, f64); 13] = [
+    ("random:1000", SAMPLED, 1.3),
+    ("random:1000", Heuristic::Auto, 1.3),
+    ("bunny_4k.obj", SAMPLED, 1.3),
+    ("bunny_4k.obj", Heuristic::Auto, 1.3),
+    ("suzanne_2k.obj", SAMPLED, 1.3),
+    ("maple_tree_166k.obj", Heuristic::Auto, 1.3),
+    ("showroom_big_cc0.obj", Heuristic::Auto, 1.3),
+    ("teapot_quads_32k.obj", Heuristic::Auto, 1.3),
+    ("chessboard_63k.obj", Heuristic::Auto, 1.3),
+    ("doom_e1m1.obj", SAMPLED, 1.5),
+    ("doom_map12_big.obj", Heuristic::Auto, 1.5),
+    ("city:2000", SAMPLED, 1.5),
+    ("city:100000", Heuristic::Auto, 1.5),
+];
+
+pub(crate) fn run() {
+    let table = Table::new(
+        "Exact kernel against f64 with an epsilon of 1e-9",
+        &[
+            "scene",
+            "heuristic",
+            "exact",
+            "epsilon",
+            "pieces",
+            "with epsilon",
+            "ratio",
+            "target",
+            "met",
+        ],
+    );
+    for (name, heuristic, target) in SCENES {
+        let Some(scene) = scene(name) else { continue };
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        let (mut exact, mut epsilon) = (Duration::MAX, Duration::MAX);
+        let mut pieces = [0; 2];
+        for round in 0..if scene.len() > 100_000 { 2 } else { 7 } {
+            let begin = Instant::now();
+            let tree = options.build(scene.polygons()).expect("within budget");
+            exact = exact.min(begin.elapsed());
+            pieces[0] = tree.len();
+            if round == 0 {
+                check(&tree, &scene);
+            }
+            let begin = Instant::now();
+            let float = Float::<f64>::new(1e-9);
+            let tree = options.build_with(float, scene.polygons()).expect("within budget");
+            epsilon = epsilon.min(begin.elapsed());
+            pieces[1] = tree.len();
+        }
+        let ratio = exact.as_secs_f64() / epsilon.as_secs_f64();
+        let [ratio, target, met] = against(ratio, Target::AtMost(target));
+        table.row(&[
+            name.to_owned(),
+            heuristic.to_string(),
+            time(exact),
+            time(epsilon),
+            pieces[0].to_string(),
+            pieces[1].to_string(),
+            ratio,
+            target,
+            met,
+        ]);
+    }
+}

@@ -1,0 +1,40 @@
+//! What the library is measured against: what its users would take instead, on the same work, in
+//! the same run. Prints the tables of RESULTS.md.
+//!
+//! ```sh
+//! BINSPACE_SCENES=… cargo bench --bench peers            # all sections, some minutes
+//! cargo bench --bench peers -- order plane-split         # some of them
+//! ```
+
+#![allow(missing_docs, reason = "a program")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+
+mod build;
+mod fragments;
+mod growth;
+mod kernels;
+mod order;
+mod plane_split;
+#[path = "../support/mod.rs"]
+mod support;
+mod threads;
+
+/// A section's name on the command line, and what it does.
+type Section = (&'static str, fn());
+
+const SECTIONS: [Section; 7] = [
+    ("order", order::run),
+    ("build", build::run),
+    ("threads", threads::run),
+    ("growth", growth::run),
+    ("fragments", fragments::run),
+    ("plane-split", plane_split::run),
+    ("exactness", kernels::run),
+];
+
+fn main() {
+    support::print_head("Measured against peers", "cargo bench --bench peers");
+    for (_, run) in SECTIONS.iter().filter(|(name, _)| support::wanted(name)) {
+        run();
+    }
+}

@@ -1,0 +1,115 @@
+//! Building and ordering by `plane-split`, which takes triangles and quads one after the other.
+
+use super::support::{Table, best, check, random_quads, scene, time};
+use binspace::scene::Scene;
+use binspace::{BspTree, Viewpoint};
+use euclid::default::Point3D;
+use plane_split::BspSplitter;
+use std::thread;
+
+const NAMES: [&str; 3] = ["random", "city", "sphere"];
+const COUNTS: [u32; 3] = [100, 1000, 10_000];
+const DIRECTION: [f64; 3] = [0.3, 0.5, -0.8];
+
+/// It recurses as deep as its tree is, and a sphere makes that a list.
+const THEIR_STACK: usize = 4 << 30;
+
+pub(crate) fn run() {
+    let table = Table::new(
+        "Against plane-split 0.18",
+        &[
+            "scene",
+            "our build",
+            "theirs",
+            "ratio",
+            "our order",
+            "theirs",
+            "our pieces",
+            "theirs",
+            "ratio",
+            "both targets met",
+        ],
+    );
+    for count in COUNTS {
+        if count == 100 {
+            measure(&table, &random_quads(count));
+        }
+        for name in NAMES {
+            // Random triangles are as dense as they are many: 10 000 of them make millions of
+            // pieces of plane-split's.
+            measure(&table, &scene(&format!("{name}:{count}")).expect("built in"));
+        }
+    }
+}
+
+fn measure(table: &Table, scene: &Scene) {
+    let ours = time_ours(scene);
+    let theirs = time_theirs(scene);
+    let faster = theirs.build.as_secs_f64() / ours.build.as_secs_f64();
+    let fewer = ours.pieces as f64 / theirs.pieces as f64;
+    let met = if scene.len() >= 1000 {
+        faster >= 10.0 && fewer <= 1.0 / 3.0
+    } else {
+        ours.build + ours.order <= theirs.build + theirs.order
+    };
+    table.row(&[
+        scene.name().to_owned(),
+        time(ours.build),
+        time(theirs.build),
+        format!("{faster:.1}"),
+        time(ours.order),
+        time(theirs.order),
+        ours.pieces.to_string(),
+        theirs.pieces.to_string(),
+        format!("{fewer:.3}"),
+        if met { "yes" } else { "no" }.to_owned(),
+    ]);
+}
+
+struct Measured {
+    build: std::time::Duration,
+    order: std::time::Duration,
+    pieces: usize,
+}
+
+fn time_ours(scene: &Scene) -> Measured {
+    let (build, tree) = best(|| BspTree::build(scene.polygons()).expect("within budget"));
+    check(&tree, scene);
+    let mut indices = Vec::new();
+    let viewpoint = Viewpoint::direction(DIRECTION);
+    let (order, ()) = best(|| tree.back_to_front_into(viewpoint, &mut indices));
+    assert_eq!(indices.len(), tree.len());
+    Measured { build, order, pieces: tree.len() }
+}
+
+fn time_theirs(scene: &Scene) -> Measured {
+    let work = || {
+        let polygons: Vec<_> = scene.polygons().enumerate().map(polygon).collect();
+        let mut splitter = BspSplitter::<usize>::new();
+        let (build, ()) = best(|| {
+            splitter.reset();
+            for polygon in &polygons {
+                splitter.add(polygon.clone());
+            }
+        });
+        let view = euclid::vec3(-DIRECTION[0], -DIRECTION[1], -DIRECTION[2]);
+        let (order, pieces) = best(|| splitter.sort(view).len());
+        assert!(pieces >= polygons.len());
+        Measured { build, order, pieces }
+    };
+    thread::scope(|scope| {
+        let thread = thread::Builder::new().stack_size(THEIR_STACK).spawn_scoped(scope, work);
+        thread.expect("a thread").join().expect("plane-split does not panic here")
+    })
+}
+
+/// A triangle is a quad with a corner twice.
+fn polygon((index, corners): (usize, &[binspace::glam::DVec3])) -> plane_split::Polygon<usize> {
+    let point = |k: usize| {
+        let corner = corners[k % corners.len()];
+        Point3D::new(corner.x, corner.y, corner.z)
+    };
+    assert!(corners.len() <= 4);
+    let points = [point(0), point(1), point(2), point(3)];
+    plane_split::Polygon::from_points(points, index).expect("it has an area")
+}

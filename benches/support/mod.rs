@@ -1,0 +1,187 @@
+//! What the tables of measured figures share: scenes by name, times, rows.
+
+#![allow(dead_code, reason = "no table needs all of it")]
+
+use binspace::geom::Kernel;
+use binspace::glam::DVec3;
+use binspace::scene::{BuiltinSpec, Scene, random_triangles};
+use binspace::{BspTree, Viewpoint};
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+use std::{env, fs, thread};
+
+/// The seed of every generated scene.
+pub(crate) const SEED: u64 = 1;
+
+/// A built-in scene, or a file in the folder `BINSPACE_SCENES`. A file that cannot be had is
+/// named and left out.
+pub(crate) fn scene(name: &str) -> Option<Scene> {
+    if !name.ends_with(".obj") {
+        let spec: BuiltinSpec = name.parse().expect("the name of a scene");
+        return Some(spec.build(SEED));
+    }
+    let Some(folder) = env::var_os("BINSPACE_SCENES") else {
+        eprintln!("left out: {name} (BINSPACE_SCENES does not name its folder)");
+        return None;
+    };
+    match Scene::read_obj(Path::new(&folder).join(name)) {
+        Ok((scene, _)) => Some(scene),
+        Err(error) => {
+            eprintln!("left out: {name} ({error})");
+            None
+        }
+    }
+}
+
+/// Random triangles that shrink as there are more of them, so that each meets about as many
+/// others: edges of 2 to 6 tenths of the mean distance between neighbours.
+pub(crate) fn small_triangles(count: u32) -> Scene {
+    let shrink = 2.0 * f64::from(count).powf(-1.0 / 3.0);
+    map(&random_triangles(count, SEED), format!("small triangles:{count}"), |[a, b, c]| {
+        vec![a, a + (b - a) * shrink, a + (c - a) * shrink]
+    })
+}
+
+/// Parallelograms anywhere in the unit cube, with edges between 0.1 and 0.3.
+pub(crate) fn random_quads(count: u32) -> Scene {
+    let name = format!("random quads:{count}");
+    map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
+}
+
+fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) -> Scene {
+    let mut mapped = Scene::new(name, scene.up());
+    for corners in scene.polygons() {
+        let corners = <[DVec3; 3]>::try_from(corners).expect("a triangle");
+        mapped.push(polygon(corners), 0);
+    }
+    mapped
+}
+
+/// Work is repeated for so long, or so many times: more would give the same shortest time.
+const ENOUGH: (Duration, u32) = (Duration::from_secs(2), 200);
+
+/// The shortest time of several, three at least, and the last result.
+pub(crate) fn best<T>(run: impl FnMut() -> T) -> (Duration, T) {
+    best_of(3, run)
+}
+
+/// The shortest time of several, and the last result.
+pub(crate) fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
+    let start = Instant::now();
+    let mut shortest = Duration::MAX;
+    let mut times = 0;
+    loop {
+        let begin = Instant::now();
+        let result = run();
+        shortest = shortest.min(begin.elapsed());
+        times += 1;
+        if times >= at_least && start.elapsed() > ENOUGH.0 || times >= ENOUGH.1 {
+            return (shortest, result);
+        }
+    }
+}
+
+/// A tree whose time is reported must be right: valid, and every face in it.
+pub(crate) fn check<K: Kernel>(tree: &BspTree<K>, scene: &Scene) {
+    let stats = tree.stats();
+    assert_eq!(tree.validate(), Ok(()), "{}", scene.name());
+    assert_eq!(stats.polygons, scene.len(), "{}", scene.name());
+    assert_eq!(stats.fragments, stats.faces + stats.splits, "{}", scene.name());
+}
+
+/// Eyes around and inside a scene.
+pub(crate) fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
+    let (low, high) = scene.bounds().expect("a scene with polygons");
+    let at = |share: [f64; 3]| Viewpoint::Eye(low + (high - low) * DVec3::from(share));
+    [[1.8, 0.4, 0.9], [-0.6, -0.7, 1.1], [0.5, 1.9, 0.2], [0.31, 0.47, 0.6], [0.7, 0.2, 0.9]]
+        .map(at)
+        .to_vec()
+}
+
+/// A table in Markdown, each row printed as soon as it is measured.
+pub(crate) struct Table(Vec<usize>);
+
+impl Table {
+    /// Prints the head. The last columns are wide enough for figures; the first for names.
+    pub(crate) fn new(title: &str, columns: &[&str]) -> Self {
+        println!("\n## {title}\n");
+        let width =
+            |(k, name): (usize, &&str)| name.chars().count().max(if k == 0 { 22 } else { 0 });
+        let table = Self(columns.iter().enumerate().map(width).collect());
+        table.row(columns);
+        let rule = |(k, &width): (usize, &usize)| {
+            let rule = "-".repeat(width - usize::from(k > 0));
+            if k == 0 { rule } else { rule + ":" }
+        };
+        table.row(&table.0.iter().enumerate().map(rule).collect::<Vec<_>>());
+        table
+    }
+
+    pub(crate) fn row<S: AsRef<str>>(&self, cells: &[S]) {
+        assert_eq!(cells.len(), self.0.len());
+        for (k, (cell, &width)) in cells.iter().zip(&self.0).enumerate() {
+            let cell = cell.as_ref();
+            if k == 0 { print!("| {cell:<width$} |") } else { print!(" {cell:>width$} |") }
+        }
+        println!();
+    }
+}
+
+/// A measured ratio against its target, the last three cells of a row.
+pub(crate) fn against(measured: f64, target: Target) -> [String; 3] {
+    let (sign, limit, met) = match target {
+        Target::AtMost(limit) => ('≤', limit, measured <= limit),
+        Target::AtLeast(limit) => ('≥', limit, measured >= limit),
+    };
+    let verdict = if met { "yes" } else { "no" };
+    [format!("{measured:.2}"), format!("{sign} {limit}"), verdict.to_owned()]
+}
+
+#[derive(Clone, Copy)]
+pub(crate) enum Target {
+    AtMost(f64),
+    AtLeast(f64),
+}
+
+/// A time with three digits.
+pub(crate) fn time(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    match seconds {
+        s if s < 1e-3 => format!("{:.1} µs", s * 1e6),
+        s if s < 1.0 => format!("{:.2} ms", s * 1e3),
+        s => format!("{s:.2} s"),
+    }
+}
+
+/// The date, the commit and the machine, as the head of a document.
+pub(crate) fn print_head(title: &str, command: &str) {
+    println!("# {title}\n");
+    println!("- command: `{command}`");
+    println!("- date: {}", said_by("date", &["-u", "+%Y-%m-%d %H:%M UTC"]));
+    println!("- commit: {}", said_by("git", &["describe", "--always", "--abbrev=10", "--dirty"]));
+    println!("- machine: {}", machine());
+    println!("- compiler: {}", said_by("rustc", &["--version"]));
+    println!("- generated scenes by seed {SEED}; shortest time of several, all in one run");
+}
+
+fn said_by(program: &str, arguments: &[&str]) -> String {
+    let answer = Command::new(program).args(arguments).output();
+    let said = answer.ok().filter(|answer| answer.status.success());
+    said.and_then(|answer| String::from_utf8(answer.stdout).ok())
+        .map_or("unknown".to_owned(), |text| text.trim().to_owned())
+}
+
+fn machine() -> String {
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let cpuinfo = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpuinfo.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    let model = model.map_or("unknown processor", |(_, model)| model.trim());
+    format!("{model}, {threads} threads, {} {}", env::consts::OS, env::consts::ARCH)
+}
+
+/// The sections named on the command line, or all.
+pub(crate) fn wanted(section: &str) -> bool {
+    let mut named = env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
+    named.peek().is_none() || named.any(|name| name == section)
+}
