@@ -1,0 +1,42 @@
+//! The vertices of cut pieces: clearing out what is done with, and taking a set elsewhere.
+
+use std::ops::Range;
+
+use super::{Builder, COMPACT};
+use crate::Error;
+use crate::bsp::jobs::Job;
+use crate::geom::Kernel;
+
+impl<K: Kernel> Builder<'_, K> {
+    /// Clears the arena of the vertices of pieces that have since been cut, so that it stays within
+    /// twice of what the sets still to be split need, however often one piece is cut.
+    pub(super) fn compact(&mut self) -> Result<(), Error> {
+        let mut arena = Vec::new();
+        for pending in &mut self.pending {
+            if pending.job.is_none() {
+                for live in &mut self.pieces[pending.start..pending.end] {
+                    let start = arena.len();
+                    arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+                    *live = live.moved_to(start);
+                }
+            }
+            pending.arena = arena.len();
+        }
+        self.arena = arena;
+        self.compact_at = COMPACT.max(2 * self.arena.len());
+        // Pieces name their vertices by 32 bits.
+        let limit = self.shared.options.max_fragments;
+        if self.arena.len() > 1 << 31 { Err(Error::fragments(limit)) } else { Ok(()) }
+    }
+
+    /// A set with an arena of its own.
+    pub(super) fn copy(&self, range: Range<usize>, depth: usize) -> Job<K::Vertex> {
+        let mut arena = Vec::new();
+        let pieces = self.pieces[range].iter().map(|live| {
+            let start = arena.len();
+            arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+            live.moved_to(start)
+        });
+        Job { pieces: pieces.collect(), arena, depth }
+    }
+}
