@@ -19,10 +19,13 @@ mod options;
 mod order;
 mod partitions;
 mod peel;
+mod planes;
 mod progress;
+mod schedule;
 mod stats;
 mod traverse;
 mod tree;
+mod twig;
 mod validate;
 mod walk;
 

@@ -1,108 +1,44 @@
-//! Orders as lists of fragment numbers, in one linear pass over the nodes.
+//! Orders as lists of fragment numbers, in linear passes over the tree.
 
-use std::cmp::Ordering;
+use std::hint::select_unpredictable;
 
 use super::BspTree;
-use super::node::Node;
-use crate::geom::{Eye, Kernel, LATTICE_LIMIT, Viewpoint};
+use super::planes::View;
+use super::schedule::{Branch, List, NEXT, ROOT, Run, Schedule};
+use super::twig::FRAGMENTS;
+use crate::geom::{Kernel, Viewpoint};
 
-/// A viewpoint made ready for a tree's nodes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct View {
-    eye: Eye,
-    /// In 2⁵¹ lattice units.
-    point: ([f64; 3], f64),
-    bound: f64,
-}
-
-impl View {
-    pub(super) fn new<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint) -> Self {
-        let eye = Eye::new(viewpoint, tree.faces.lattice());
-        let (e, w) = eye.homogeneous();
-        let unit = if w > 0.0 { LATTICE_LIMIT } else { 1.0 };
-        let point = (e.map(|c| c / unit), w);
-        Self { eye, point, bound: Node::bound(point) }
-    }
-
-    /// Whether the eye is in front of a node's plane; certified.
-    #[inline]
-    pub(super) fn is_in_front<K: Kernel>(&self, tree: &BspTree<K>, node: &Node) -> bool {
-        let distance = node.distance(self.point);
-        if distance.abs() > self.bound {
-            distance > 0.0
-        } else {
-            self.decide(tree, node) == Ordering::Greater
-        }
-    }
-
-    #[cold]
-    fn decide<K: Kernel>(&self, tree: &BspTree<K>, node: &Node) -> Ordering {
-        tree.kernel.eye_side(&tree.faces, node.plane, &self.eye)
-    }
-}
+/// A twig is written as if it had the most fragments, so there is room for more behind an order.
+const ROOM: usize = FRAGMENTS;
 
 impl<K: Kernel> BspTree<K> {
     /// Writes the numbers of all fragments, back to front, into a buffer, in place of what it
-    /// held. Allocates nothing once the buffer has grown to `len + 2 × nodes + 3`.
+    /// held. The buffer is working space as well: it grows to about three numbers for each
+    /// fragment, at most to four and sixteen more, and once it has, nothing is allocated.
     ///
     /// Where the fragments of a subtree begin in the order is known before the subtree is walked,
     /// as every node knows how many lie on each of its sides. So the nodes are taken as they stand
-    /// in memory, without a stack, and each fragment's number is written to its final place.
-    /// Nothing branches on the eye's side or on the shape of the tree: what is not there is written
-    /// to a place of its own that nobody reads.
+    /// in memory, without a stack, and each fragment's number is written to its final place:
+    /// first it is decided for all nodes, four at once, on which side the eye is; then each subtree
+    /// gets its place; last, subtrees of up to four fragments take their order from a table.
+    /// Nothing branches on the eye's side: what is not there has a place that nobody reads.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         let view = View::new(self, viewpoint);
-        let (fragments, nodes) = (self.records.len(), self.nodes.len());
-        // Behind the order and a place for nobody: where each subtree begins in it, and how many
-        // fragments it has; last, again, a place for nobody.
-        order.resize(fragments + 1 + 2 * (nodes + 1), 0);
-        let (order_part, places) = order.split_at_mut(fragments + 1);
-        let (places, _) = places.as_chunks_mut::<2>();
-        let pass = Pass { order: order_part, next: 0 };
-        self.write_order(&view, pass, places);
-        order.truncate(fragments);
-    }
-
-    #[inline]
-    fn write_order(&self, view: &View, mut pass: Pass<'_>, places: &mut [[u32; 2]]) {
-        let nodes = &self.nodes[..];
-        // The subtree at hand: where it begins in the order, and how many fragments it has.
-        let [mut begin, mut len] = [0, self.records.len() as u32];
-        let mut i = 0;
-        while let Some(node) = nodes.get(i) {
-            let is_in_front = view.is_in_front(self, node);
-            i += 1;
-            if node.is_link() {
-                // Its fragment is the furthest or the nearest of the subtree.
-                let is_far = is_in_front != (node.front_nodes == 0);
-                len -= 1;
-                pass.write_one(if is_far { begin } else { begin + len });
-                begin += u32::from(is_far);
-                continue;
-            }
-            let (own, front) = (node.own(), node.front_len);
-            let back = len - own - front;
-            // Far, own, near.
-            let far = begin + if is_in_front { back } else { front };
-            let near = far + own;
-            let front_begin = if is_in_front { near } else { begin };
-            let back_begin = if is_in_front { begin } else { near };
-            let (front_is_node, back_is_node) = (node.front_nodes > 0, node.back_is_node());
-            let front_leaf = if front_is_node { 0 } else { front };
-            let back_leaf = if back_is_node { 0 } else { back };
-            let parts = [(far, own), (front_begin, front_leaf), (back_begin, back_leaf)];
-            if node.is_plain() {
-                parts.into_iter().for_each(|(at, len)| pass.write_at_most_one(at, len));
-            } else {
-                parts.into_iter().for_each(|(at, len)| pass.write(at, len));
-            }
-            let back_node = i + node.front_nodes as usize;
-            let nobody = places.len() - 1;
-            places[if back_is_node { back_node } else { nobody }] = [back_begin, back];
-            // The next in memory is the front subtree, or one whose place was written before.
-            let written = places[i];
-            [begin, len] = if front_is_node { [front_begin, front] } else { written };
+        let (fragments, schedule) = (self.records.len(), &self.schedule);
+        order.resize(fragments + ROOM + schedule.parts() + self.planes.words(), 0);
+        let (numbers, rest) = order.split_at_mut(fragments + ROOM);
+        // Where each part begins in the order; on which side of each node the eye is, a bit each.
+        let (begins, signs) = rest.split_at_mut(schedule.parts());
+        if let Some(root) = begins.get_mut(ROOT as usize) {
+            *root = 0;
         }
+        view.write_signs(self, signs);
+        write_branches(&schedule.branches, signs, begins, numbers);
+        let begins = &begins[ROOT as usize + schedule.branches.len()..];
+        let (of_twigs, of_runs) = begins.split_at(schedule.twigs.len());
+        write_twigs(schedule, signs, of_twigs, numbers);
+        write_runs(&schedule.runs, of_runs, numbers);
+        order.truncate(fragments);
     }
 
     /// Writes the numbers of all fragments, front to back, into a buffer: the reverse of
@@ -113,31 +49,73 @@ impl<K: Kernel> BspTree<K> {
     }
 }
 
-/// An order being written: fragments get their numbers in the order in which they are met.
-struct Pass<'a> {
-    /// At its end, a place for nobody.
-    order: &'a mut [u32],
-    next: u32,
+/// Writes what is on the planes of branches, and notes where the parts on their sides begin.
+fn write_branches(branches: &[Branch], signs: &[u32], begins: &mut [u32], numbers: &mut [u32]) {
+    let nowhere = numbers.len() - 1;
+    let mut begin = 0;
+    for (branch, next) in branches.iter().zip(ROOT as usize + 1..) {
+        let &Branch { own, front, back, .. } = branch;
+        let is_in_front = is_in_front(signs, branch.node);
+        // Far, own, near.
+        let mut to_front = select_unpredictable(is_in_front, back + own, 0);
+        let mut to_back = select_unpredictable(is_in_front, 0, front + own);
+        let to_own = select_unpredictable(is_in_front, back, front);
+        if own <= 1 {
+            let place = select_unpredictable(own == 1, (begin + to_own) as usize, nowhere);
+            numbers[place] = branch.own_first;
+        } else if let Some(list) = branch.list() {
+            let to_rest = write_list(&list, signs, begin, numbers);
+            (to_front, to_back) = (to_rest, to_rest);
+        } else {
+            begins[branch.own_first as usize] = begin + to_own;
+        }
+        begins[branch.front_part as usize] = begin + to_front;
+        begins[branch.back_part as usize] = begin + to_back;
+        // Where the next branch begins is mostly known here, and not worth a way through memory.
+        let stored = begins[next];
+        let from_back = select_unpredictable(branch.back_part == NEXT, begin + to_back, stored);
+        begin = select_unpredictable(branch.front_part == NEXT, begin + to_front, from_back);
+    }
 }
 
-impl Pass<'_> {
-    #[inline]
-    fn write_one(&mut self, at: u32) {
-        self.order[at as usize] = self.next;
-        self.next += 1;
+fn write_twigs(schedule: &Schedule, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
+    for (twig, &begin) in schedule.twigs.iter().zip(begins) {
+        let word = twig.node as usize / 32;
+        let words = u64::from(signs[word]) | u64::from(signs[word + 1]) << 32;
+        let signs = (words >> (twig.node % 32)) as usize % 16;
+        let places = schedule.permutations[twig.row as usize][signs] as usize;
+        let room = numbers[begin as usize..].first_chunk_mut::<FRAGMENTS>();
+        let Some(numbers) = room else { continue };
+        // Those that are not there first: they share the place of the first.
+        numbers[places >> 6] = twig.first + 3;
+        numbers[places >> 4 & 3] = twig.first + 2;
+        numbers[places >> 2 & 3] = twig.first + 1;
+        numbers[places & 3] = twig.first;
     }
+}
 
-    #[inline]
-    fn write_at_most_one(&mut self, at: u32, len: u32) {
-        let nobody = self.order.len() - 1;
-        self.order[if len > 0 { at as usize } else { nobody }] = self.next;
-        self.next += len;
+fn write_runs(runs: &[Run], begins: &[u32], numbers: &mut [u32]) {
+    for (run, &begin) in runs.iter().zip(begins) {
+        let places = &mut numbers[begin as usize..][..run.len as usize];
+        places.iter_mut().zip(run.first..).for_each(|(place, number)| *place = number);
     }
+}
 
-    #[cold]
-    fn write(&mut self, at: u32, len: u32) {
-        let places = &mut self.order[at as usize..(at + len) as usize];
-        places.iter_mut().zip(self.next..).for_each(|(place, number)| *place = number);
-        self.next += len;
+/// Writes the nodes of a list from the outside in, and gives how many fragments come before what
+/// they leave.
+fn write_list(list: &List, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u32 {
+    let places = &mut numbers[begin as usize..][..(list.nodes + list.rest) as usize];
+    let (mut far, mut near) = (0, places.len() - 1);
+    for (node, number) in (list.first_node..).zip(list.first..).take(list.nodes as usize) {
+        let is_far = is_in_front(signs, node) == list.rest_is_front;
+        places[select_unpredictable(is_far, far, near)] = number;
+        far += usize::from(is_far);
+        near -= usize::from(!is_far);
     }
+    far as u32
+}
+
+#[inline]
+fn is_in_front(signs: &[u32], node: u32) -> bool {
+    signs[node as usize / 32] >> (node % 32) & 1 == 1
 }

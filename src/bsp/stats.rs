@@ -65,6 +65,8 @@ impl<K: Kernel> BspTree<K> {
         size_of::<Self>()
             + self.faces.bytes()
             + size_of_val(&*self.nodes)
+            + self.planes.bytes()
+            + self.schedule.bytes()
             + size_of_val(&*self.records)
             + size_of_val(&*self.vertices)
     }

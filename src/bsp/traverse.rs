@@ -3,7 +3,7 @@
 use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
-use super::order::View;
+use super::planes::View;
 use super::{BspTree, Fragment};
 use crate::geom::{Exact, Kernel, Viewpoint};
 
@@ -58,7 +58,7 @@ impl<'t, K: Kernel> Ordered<'t, K> {
         };
         let front = front_leaf.unwrap_or_else(|| subtree(node.front_len, index + 1));
         let back = back_leaf.unwrap_or_else(|| subtree(back_len, index + 1 + node.front_nodes));
-        let is_in_front = self.view.is_in_front(self.tree, node);
+        let is_in_front = self.view.is_in_front(self.tree, index as usize);
         let (first, last) =
             if is_in_front != self.front_to_back { (back, front) } else { (front, back) };
         self.stack.extend([last, own, first]);

@@ -4,6 +4,8 @@ use std::fmt;
 
 use super::assemble::{Output, Record};
 use super::node::{Node, finish};
+use super::planes::Planes;
+use super::schedule::Schedule;
 use super::{BuildOptions, Fragment};
 use crate::Error;
 use crate::geom::{Exact, Faces, Kernel, Polygon, Preparation};
@@ -76,6 +78,8 @@ pub struct BspTree<K: Kernel = Exact> {
     pub(super) faces: Faces,
     pub(super) preparation: Preparation,
     pub(super) nodes: Vec<Node>,
+    pub(super) planes: Planes,
+    pub(super) schedule: Schedule,
     pub(super) records: Vec<Record>,
     pub(super) vertices: Vec<K::Stored>,
 }
@@ -99,11 +103,14 @@ impl<K: Kernel> BspTree<K> {
         preparation: Preparation,
         parts: Output<K::Stored>,
     ) -> Self {
-        let nodes = finish(&faces, &parts.nodes);
+        let nodes = finish(&parts.nodes);
+        drop(parts.nodes);
+        let planes = Planes::new(&faces, nodes.iter().map(|node| node.plane));
+        let schedule = Schedule::new(&nodes, parts.records.len() as u32);
         let (mut records, mut vertices) = (parts.records, parts.vertices);
         records.shrink_to_fit();
         vertices.shrink_to_fit();
-        Self { kernel, faces, preparation, nodes, records, vertices }
+        Self { kernel, faces, preparation, nodes, planes, schedule, records, vertices }
     }
 
     /// How many fragments there are.

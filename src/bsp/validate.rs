@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::BspTree;
+use super::schedule::Schedule;
 use super::walk::Walk;
 use crate::geom::{Kernel, PlaneId, PlaneKind, Side, SymbolKind};
 
@@ -17,6 +18,7 @@ pub struct Invalid {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Fault {
     Counts,
+    Schedule,
     Plane(PlaneId),
     Fragment { fragment: u32, expected: Side, found: Side },
     Outline { fragment: u32 },
@@ -28,6 +30,7 @@ impl fmt::Display for Invalid {
         write!(f, "node {}: ", self.node)?;
         match self.what {
             Fault::Counts => f.write_str("the sizes of its subtrees contradict each other"),
+            Fault::Schedule => f.write_str("orders are not laid out as the nodes below it stand"),
             Fault::Plane(plane) => write!(f, "its plane {plane:?} names nothing of the input"),
             Fault::Fragment { fragment, expected, found } => {
                 write!(f, "fragment {fragment} is {found:?}, not {expected:?} as its place says")
@@ -95,6 +98,9 @@ impl<K: Kernel> BspTree<K> {
         }
         if nodes != self.nodes.len() || fragments != self.records.len() {
             return fault(nodes.saturating_sub(1), Fault::Counts);
+        }
+        if self.schedule != Schedule::new(&self.nodes, fragments as u32) {
+            return fault(0, Fault::Schedule);
         }
         Ok(())
     }
