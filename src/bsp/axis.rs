@@ -65,6 +65,10 @@ struct Span {
     flat: bool,
 }
 
+/// Lists so many times as large as needed are given back. More: memory that other threads could
+/// use; fewer: allocations.
+const MUCH: usize = 8;
+
 /// The bin of what is no candidate.
 const NO_BIN: u16 = u16::MAX;
 
@@ -101,6 +105,9 @@ impl Sweep {
     }
 
     fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
+        if self.spans.capacity() / MUCH > pieces.len() {
+            *self = Self::default();
+        }
         self.counts.clear();
         self.counts.resize(bins.count + 1, [0; 4]);
         self.candidates.clear();

@@ -21,7 +21,7 @@ use crate::geom::{Faces, Kernel, PlaneId, Polygon, Preparation, Side};
 const JOB: usize = 1024;
 
 /// The least vertices at which an arena is compacted. Smaller: copies; larger: memory.
-const COMPACT: usize = 1 << 16;
+const COMPACT: usize = 1 << 13;
 
 /// Builds a tree of polygons.
 pub(super) fn tree<K: Kernel, P: Polygon>(
@@ -169,11 +169,12 @@ impl<K: Kernel> Builder<'_, K> {
         }
         let start = pending.start;
         let set = &self.pieces[start..];
-        let (plane, middle) = if is_leaf(set) {
+        let plane = if is_leaf(set) {
             // Only the root can be a leaf here: others went out with their parents.
             let Some(first) = set.first() else { return Ok(()) };
             let plane = PlaneId::face(first.face);
-            (plane, self.partition(start, plane)?)
+            self.partition(start, plane)?;
+            plane
         } else {
             let count = set.len();
             let plane = match self.chooser.choose(set, &self.arena, pending.depth) {
@@ -182,14 +183,16 @@ impl<K: Kernel> Builder<'_, K> {
             };
             self.classify(start, plane)?;
             if self.makes_progress(count) {
-                (plane, self.divide(start, plane)?)
+                self.divide(start, plane)?;
+                plane
             } else {
                 // Counted by rounded distances, a free plane can promise what exact ones deny.
                 let plane = PlaneId::face(self.pieces[start].face);
-                (plane, self.partition(start, plane)?)
+                self.partition(start, plane)?;
+                plane
             }
         };
-        self.emit(plane, start, middle, depth, hand_over);
+        self.emit(plane, start, depth, hand_over);
         Ok(())
     }
 }

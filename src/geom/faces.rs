@@ -14,9 +14,11 @@ pub struct Faces {
     pub(super) lattice: Lattice,
     pub(super) tolerance: f64,
     pub(super) corners: Vec<[f64; 3]>,
-    /// The number within its polygon of every corner, with [`INNER`] where the edge to the next
-    /// is none of the polygon's; empty while all count up from 0.
+    /// The number within its polygon of the corners of some faces, with [`INNER`] where the edge
+    /// to the next is none of the polygon's. Those of all others count up from 0.
     pub(super) numbers: Vec<u32>,
+    /// These faces, and where their numbers begin.
+    pub(super) numbered: Vec<(u32, u32)>,
     pub(super) faces: Vec<Face>,
 }
 
@@ -149,15 +151,17 @@ impl Faces {
     }
 
     fn number(&self, face: u32, k: u32) -> u32 {
-        if self.numbers.is_empty() {
-            k
-        } else {
-            self.numbers[self.faces[face as usize].start as usize + k as usize]
+        match self.numbered.binary_search_by_key(&face, |&(face, _)| face) {
+            Ok(at) => self.numbers[self.numbered[at].1 as usize + k as usize],
+            Err(_) => k,
         }
     }
 
     /// The resident size in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.corners) + size_of_val(&*self.numbers) + size_of_val(&*self.faces)
+        size_of_val(&*self.corners)
+            + size_of_val(&*self.numbers)
+            + size_of_val(&*self.numbered)
+            + size_of_val(&*self.faces)
     }
 }

@@ -91,6 +91,7 @@ impl Faces {
                 tolerance,
                 corners: Vec::with_capacity(points.len()),
                 numbers: Vec::new(),
+                numbered: Vec::new(),
                 faces: Vec::with_capacity(ends.len()),
             },
             kept: Vec::new(),
@@ -122,7 +123,12 @@ impl Faces {
             builder.keep_distinct(of(polygon));
             builder.kept.iter().map(|&(corner, _)| corner).collect()
         });
-        Ok((builder.faces, report))
+        let mut faces = builder.faces;
+        faces.corners.shrink_to_fit();
+        faces.numbers.shrink_to_fit();
+        faces.numbered.shrink_to_fit();
+        faces.faces.shrink_to_fit();
+        Ok((faces, report))
     }
 }
 
@@ -236,12 +242,8 @@ impl Builder {
             let is_outline = Self::is_outline(&self.kept, kept[k], next);
             self.kept[kept[k]].1 | if is_outline { 0 } else { INNER }
         };
-        if faces.numbers.is_empty() && (0..kept.len()).any(|k| number(k) != k as u32) {
-            // The first face that breaks the count: write out what all before it kept to.
-            let counts = (0..faces.faces.len() as u32).map(|face| faces.corners(face).len());
-            faces.numbers = counts.flat_map(|len| 0..len as u32).collect();
-            faces.numbers.extend((0..kept.len()).map(number));
-        } else if !faces.numbers.is_empty() {
+        if (0..kept.len()).any(|k| number(k) != k as u32) {
+            faces.numbered.push((faces.faces.len() as u32, faces.numbers.len() as u32));
             faces.numbers.extend((0..kept.len()).map(number));
         }
         faces.corners.extend(kept.iter().map(|&k| self.kept[k].0));

@@ -1,6 +1,6 @@
 //! The vertices of cut pieces: clearing out what is done with, and taking a set elsewhere.
 
-use std::ops::Range;
+use std::mem::take;
 
 use super::{Builder, COMPACT};
 use crate::Error;
@@ -29,14 +29,25 @@ impl<K: Kernel> Builder<'_, K> {
         if self.arena.len() > 1 << 31 { Err(Error::fragments(limit)) } else { Ok(()) }
     }
 
-    /// A set with an arena of its own.
-    pub(super) fn copy(&self, range: Range<usize>, depth: usize) -> Job<K::Vertex> {
+    /// Takes the set on top of the stack off it, with an arena of its own.
+    pub(super) fn take(&mut self, start: usize, depth: usize) -> Job<K::Vertex> {
         let mut arena = Vec::new();
-        let pieces = self.pieces[range].iter().map(|live| {
+        let mut pieces =
+            if start == 0 { take(&mut self.pieces) } else { self.pieces.split_off(start) };
+        for live in &mut pieces {
             let start = arena.len();
             arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
-            live.moved_to(start)
-        });
-        Job { pieces: pieces.collect(), arena, depth }
+            *live = live.moved_to(start);
+        }
+        pieces.shrink_to_fit();
+        Job { pieces, arena, depth }
+    }
+}
+
+/// Makes room for more, by an eighth more than is there, so that a large list is not made twice as
+/// large for a few.
+pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) {
+    if list.capacity() - list.len() < more {
+        list.reserve_exact(more + list.len() / 8);
     }
 }

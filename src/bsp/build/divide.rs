@@ -1,5 +1,6 @@
 //! Putting a set's pieces on the sides of a plane, and cutting what spans it.
 
+use super::arena::reserve;
 use super::{Builder, Live};
 use crate::Error;
 use crate::geom::{Kernel, PlaneId, Side, split};
@@ -32,18 +33,20 @@ impl<K: Kernel> Builder<'_, K> {
         reach(Side::Front) < count && reach(Side::Back) < count
     }
 
-    pub(super) fn partition(&mut self, start: usize, plane: PlaneId) -> Result<usize, Error> {
+    pub(super) fn partition(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
         self.classify(start, plane)?;
         self.divide(start, plane)
     }
 
-    /// Divides the set on top of the stack by the sides just found: behind first, then in front;
-    /// gives where the front begins. What is on the plane is left in `scratch.own`.
-    pub(super) fn divide(&mut self, start: usize, plane: PlaneId) -> Result<usize, Error> {
+    /// Divides the set on top of the stack by the sides just found: what is behind stays there, what
+    /// is in front is left in `scratch.front`, and what is on the plane in `scratch.own`.
+    pub(super) fn divide(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
         let scratch = &mut self.scratch;
         scratch.own.clear();
         scratch.front.clear();
         scratch.spanning.clear();
+        let in_front = |side: &&Side| matches!(side, Side::Front | Side::Spanning);
+        reserve(&mut scratch.front, scratch.sides.iter().filter(in_front).count());
         let mut back = start;
         for (i, &side) in scratch.sides.iter().enumerate() {
             let piece = self.pieces[start + i];
@@ -59,10 +62,7 @@ impl<K: Kernel> Builder<'_, K> {
         }
         self.pieces.truncate(back);
         self.shared.count(self.scratch.spanning.len())?;
-        self.cut_spanning(plane)?;
-        let middle = self.pieces.len();
-        self.pieces.extend_from_slice(&self.scratch.front);
-        Ok(middle)
+        self.cut_spanning(plane)
     }
 
     fn cut_spanning(&mut self, plane: PlaneId) -> Result<(), Error> {

@@ -1,7 +1,6 @@
 //! Nodes that are done with, and the sets on their sides that are not.
 
-use std::ops::Range;
-
+use super::arena::reserve;
 use super::{Builder, JOB, Live, Pending, is_leaf};
 use crate::Error;
 use crate::bsp::assemble::{Child, RawNode};
@@ -15,41 +14,44 @@ impl<K: Kernel> Builder<'_, K> {
         &mut self,
         plane: PlaneId,
         start: usize,
-        middle: usize,
         depth: usize,
         hand_over: &mut impl FnMut(Job<K::Vertex>) -> usize,
     ) {
-        let end = self.pieces.len();
         // Coplanar polygons are painted in input order.
         self.scratch.own.sort_by_key(|piece| piece.face);
         let own = self.scratch.own.len();
-        for i in 0..own {
-            self.store(self.scratch.own[i]);
+        (0..own).for_each(|i| self.store(self.scratch.own[i]));
+        let (back, front) = (self.pieces.len() - start, self.scratch.front.len());
+        let back_is_leaf = is_leaf(&self.pieces[start..]);
+        let front_is_leaf = is_leaf(&self.scratch.front);
+        if front_is_leaf {
+            (0..front).for_each(|i| self.store(self.scratch.front[i]));
         }
-        let [back, front] = [start..middle, middle..end].map(|range| {
-            let is_leaf = is_leaf(&self.pieces[range.clone()]);
-            (range, is_leaf)
-        });
-        let mut child = |(range, is_leaf): &(Range<usize>, bool)| {
-            if !is_leaf {
-                return Child::Node;
-            }
-            for i in range.clone() {
-                self.store(self.pieces[i]);
-            }
-            Child::Leaf(range.len() as u32)
-        };
-        let node = RawNode { plane, own: own as u32, front: child(&front), back: child(&back) };
+        if back_is_leaf {
+            (start..start + back).for_each(|i| self.store(self.pieces[i]));
+            self.pieces.truncate(start);
+        }
+        let child =
+            |is_leaf, len: usize| if is_leaf { Child::Leaf(len as u32) } else { Child::Node };
+        let (back_child, front_child) = (child(back_is_leaf, back), child(front_is_leaf, front));
+        let node = RawNode { plane, own: own as u32, front: front_child, back: back_child };
         self.output.nodes.push(node);
         let arena = self.arena.len();
-        if !back.1 {
-            let range = back.0;
-            let both_large = range.len() >= JOB && front.0.len() >= JOB && !front.1;
-            let job = both_large.then(|| hand_over(self.copy(range.clone(), depth)));
-            self.pending.push(Pending { start: range.start, end: range.end, arena, depth, job });
+        if !back_is_leaf {
+            let both_large = back >= JOB && front >= JOB && !front_is_leaf;
+            let job = both_large.then(|| hand_over(self.take(start, depth)));
+            let end = self.pieces.len();
+            self.pending.push(Pending { start, end, arena, depth, job });
         }
-        if !front.1 {
-            let (start, end) = (front.0.start, front.0.end);
+        if !front_is_leaf {
+            let start = self.pieces.len();
+            if start == 0 {
+                std::mem::swap(&mut self.pieces, &mut self.scratch.front);
+            } else {
+                reserve(&mut self.pieces, front);
+                self.pieces.extend_from_slice(&self.scratch.front);
+            }
+            let end = self.pieces.len();
             self.pending.push(Pending { start, end, arena, depth, job: None });
         }
     }
