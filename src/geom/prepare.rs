@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::duplicates::Outlines;
 use super::exact::{Plane, cross};
 use super::faces::{Face, Faces, Frame, INNER};
+use super::growth::reserve;
 use super::label::MAX_LABELS;
 use super::polygon::Polygon;
 use super::{Lattice, triangulate};
@@ -158,6 +159,7 @@ fn collect<P: Polygon>(
             if points.len() >= MAX_LABELS {
                 return Err(Error::too_many_corners());
             }
+            reserve(&mut points, 1);
             points.push(point);
         }
         ends.push(points.len() as u32);
@@ -246,6 +248,8 @@ impl Builder {
             faces.numbered.push((faces.faces.len() as u32, faces.numbers.len() as u32));
             faces.numbers.extend((0..kept.len()).map(number));
         }
+        reserve(&mut faces.corners, kept.len());
+        reserve(&mut faces.faces, 1);
         faces.corners.extend(kept.iter().map(|&k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
         if let Some(axis) = frame.drop_axis() {

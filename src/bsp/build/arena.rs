@@ -43,11 +43,3 @@ impl<K: Kernel> Builder<'_, K> {
         Job { pieces, arena, depth }
     }
 }
-
-/// Makes room for more, by an eighth more than is there, so that a large list is not made twice as
-/// large for a few.
-pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) {
-    if list.capacity() - list.len() < more {
-        list.reserve_exact(more + list.len() / 8);
-    }
-}

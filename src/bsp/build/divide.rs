@@ -1,9 +1,8 @@
 //! Putting a set's pieces on the sides of a plane, and cutting what spans it.
 
-use super::arena::reserve;
 use super::{Builder, Live};
 use crate::Error;
-use crate::geom::{Kernel, PlaneId, Side, split};
+use crate::geom::{Kernel, PlaneId, Side, reserve, split};
 
 /// So many pieces are put on sides of a plane before it is asked whether to go on. Smaller: time
 /// for asking; larger: it takes longer to stop.

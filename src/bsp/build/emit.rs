@@ -1,12 +1,11 @@
 //! Nodes that are done with, and the sets on their sides that are not.
 
-use super::arena::reserve;
 use super::{Builder, JOB, Live, Pending, is_leaf};
 use crate::Error;
 use crate::bsp::assemble::{Child, RawNode};
 use crate::bsp::convex::Taken;
 use crate::bsp::jobs::Job;
-use crate::geom::{Kernel, PlaneId, Side};
+use crate::geom::{Kernel, PlaneId, Side, reserve};
 
 impl<K: Kernel> Builder<'_, K> {
     /// Emits the node of a set that has been divided, and puts off its two sides.
