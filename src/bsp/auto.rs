@@ -9,6 +9,12 @@ use super::gather::reach;
 use super::live::Live;
 use crate::geom::{Kernel, PlaneId, Vertex};
 
+/// Scenes of at most so many faces are taken for layers that are put in order anew for every frame:
+/// their trees are to be had in the time that a few cuts more take. Larger: more cuts in scenes that
+/// are built once; smaller: layers that are late.
+const HASTY: usize = 128;
+/// How many own planes are tried at a node in such a scene. As above.
+const HASTY_TRIES: usize = 8;
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
 /// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
 const OWN_PLANES_BELOW: usize = 1000;
@@ -55,6 +61,9 @@ const RANKED: usize = 12;
 impl<K: Kernel> Chooser<'_, K> {
     /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
     pub(super) fn auto(&mut self, pieces: &[Live], arena: &[K::Vertex], depth: usize) -> Choice {
+        if self.faces.len() <= HASTY {
+            return Choice::Split(self.sampled(pieces, arena, HASTY_TRIES));
+        }
         let small = pieces.len() < OWN_PLANES_BELOW;
         if small && let Some(plane) = self.peeler.next(pieces.len()) {
             return Choice::Split(plane);

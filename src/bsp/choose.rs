@@ -87,11 +87,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
                     splits * c.splits as f64 + balance * c.imbalance() - reward
                 })
             }
-            Heuristic::Sampled { candidates } => {
-                self.scored(pieces, arena, candidates as usize, |c, _| {
-                    8.0 * c.splits as f64 + c.imbalance()
-                })
-            }
+            Heuristic::Sampled { candidates } => self.sampled(pieces, arena, candidates as usize),
             Heuristic::FreePlanes => self.free(pieces),
             Heuristic::Auto => return self.auto(pieces, arena, depth),
         })
@@ -116,6 +112,16 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             }
         }
         best.1
+    }
+
+    /// The best of so many own planes, by what they cut and how evenly they divide.
+    pub(super) fn sampled(
+        &self,
+        pieces: &[Live],
+        arena: &[K::Vertex],
+        candidates: usize,
+    ) -> PlaneId {
+        self.scored(pieces, arena, candidates, |c, _| 8.0 * c.splits as f64 + c.imbalance())
     }
 
     /// The free plane of least cost; where none separates anything, a piece's own.

@@ -14,6 +14,11 @@ pub(super) struct Job<V> {
     pub(super) depth: usize,
 }
 
+/// A build of fewer pieces begins on the thread that asks for it. Larger: the others idle at first;
+/// smaller: they are woken for nothing.
+#[cfg(feature = "parallel")]
+const ALONE: usize = 2048;
+
 /// Builds a job and all those that it hands over; the first output is that of the job itself,
 /// the others are numbered as it and they refer to them.
 #[cfg(feature = "parallel")]
@@ -25,19 +30,20 @@ pub(super) fn run<K: Kernel>(
 
     type Slot<T> = Option<Result<T, Error>>;
 
-    fn spawn<'s, K: Kernel>(
+    fn work<'s, K: Kernel>(
         scope: &rayon::Scope<'s>,
         shared: &'s Shared<'s, K>,
         slots: &'s Mutex<Vec<Slot<Output<K::Stored>>>>,
+        number: usize,
         job: Job<K::Vertex>,
-    ) -> usize {
-        let number = push(slots, None);
-        scope.spawn(move |scope| {
-            let output = build(shared, job, |job| spawn(scope, shared, slots, job));
-            let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            slots[number] = Some(output);
+    ) {
+        let output = build(shared, job, |job| {
+            let number = push(slots, None);
+            scope.spawn(move |scope| work(scope, shared, slots, number, job));
+            number
         });
-        number
+        let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        slots[number] = Some(output);
     }
 
     fn push<T>(slots: &Mutex<Vec<T>>, slot: T) -> usize {
@@ -46,8 +52,13 @@ pub(super) fn run<K: Kernel>(
         slots.len() - 1
     }
 
-    let slots = Mutex::new(Vec::new());
-    rayon::scope(|scope| spawn(scope, shared, &slots, job));
+    let slots = Mutex::new(vec![None]);
+    // To wake other threads takes longer than to build a small tree.
+    if job.pieces.len() < ALONE {
+        rayon::in_place_scope(|scope| work(scope, shared, &slots, 0, job));
+    } else {
+        rayon::scope(|scope| work(scope, shared, &slots, 0, job));
+    }
     let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     // The scope has waited for every job, so every slot is filled.
     slots.into_iter().flatten().collect()

@@ -126,7 +126,7 @@ impl<T: Precision> Kernel for Float<T> {
                 let [p, q, r] = triangle.map(|c| faces.corner(c).map(T::round));
                 // Scaled to at most 1, so that products stay within the range of f32.
                 let edge = |x: [f64; 3]| -> [f64; 3] {
-                    std::array::from_fn(|i| T::round((x[i] - p[i]) * 2f64.powi(-52)))
+                    std::array::from_fn(|i| T::round((x[i] - p[i]) * f64::EPSILON))
                 };
                 let (u, w) = (edge(q), edge(r));
                 let product = |a: f64, b: f64| T::round(a * b);

@@ -121,7 +121,10 @@ impl<const N: usize> Int<N> {
                 || magnitude[..top - 1].iter().any(|&limb| limb != 0);
         }
         let exponent = 64 * top as i32 - lead as i32;
-        let value = (bits | u64::from(sticky)) as f64 * 2f64.powi(exponent);
+        // Two to the power of the exponent, which is at least −63.
+        let bits_of_scale = ((exponent + 1023) as u64) << 52;
+        let scale = if exponent <= 1023 { f64::from_bits(bits_of_scale) } else { f64::INFINITY };
+        let value = (bits | u64::from(sticky)) as f64 * scale;
         if self.is_negative() { -value } else { value }
     }
 
