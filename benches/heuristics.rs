@@ -94,10 +94,7 @@ fn measure(name: &str, scene: &Scene) -> Vec<Row> {
         };
         let order = time_order(&tree, scene);
         let stats = tree.stats();
-        if stats.depth_mean * (stats.fragments as f64) < 1e8 {
-            // Checking takes as many exact decisions as there are fragments times ancestors.
-            check(&tree, scene);
-        }
+        check(&tree, scene);
         table.row(&[
             heuristic.to_string(),
             stats.fragments.to_string(),

@@ -17,7 +17,7 @@ const HASTY: usize = 128;
 const HASTY_TRIES: usize = 8;
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
 /// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
-const OWN_PLANES_BELOW: usize = 1000;
+const OWN_PLANES_BELOW: usize = 400;
 /// How many own planes `auto` tries at a node. More: fewer fragments, for time in proportion.
 const OWN_PLANES: usize = 64;
 /// A free plane that cuts more than one in so many pieces is a poor one, and some own planes are

@@ -149,7 +149,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             for live in chunk {
                 counts.add(self.reach(&splitter, live, arena));
             }
-            if counts.cost() >= limit {
+            if limit < f64::INFINITY && counts.cost() >= limit {
                 return (counts, false);
             }
         }

@@ -41,9 +41,11 @@ pub(super) fn price(splits: usize) -> f64 {
     if splits == 0 { 0.0 } else { FIRST_SPLIT_PRICE + SPLIT_PRICE * splits as f64 }
 }
 
-/// The work of sorting `n` pieces.
+/// The work of sorting `n` pieces: n·log₂ n within one in a hundred, by a parabola between powers
+/// of two. The same on every machine, and faster than a logarithm.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
-    let n = n as f64;
-    if n > 1.0 { n * n.log2() } else { 0.0 }
+    let power = n.max(1).ilog2();
+    let beyond = n.max(1) as f64 / (1_u64 << power) as f64 - 1.0;
+    n as f64 * (f64::from(power) + beyond * (4.0 - beyond) / 3.0)
 }
