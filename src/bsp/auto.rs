@@ -4,7 +4,7 @@ use super::axis::FreePlane;
 use super::cell::{Cell, LARGEST};
 use super::choose::{CHECK_EVERY, Choice, Chooser, sample};
 use super::convex::take_apart;
-use super::cost::Counts;
+use super::cost::{Counts, is_loss};
 use super::gather::reach;
 use super::live::Live;
 use crate::geom::{Kernel, PlaneId, Vertex};
@@ -101,7 +101,9 @@ impl<K: Kernel> Chooser<'_, K> {
     }
 
     /// The best of few own planes, if it is better than the best free plane, which has so many
-    /// splits. A large set in convex position is taken apart.
+    /// splits. A large set in convex position is taken apart. In a heap, of which every plane cuts so
+    /// many that it leaves more work than there was, the least of it would be left by planes at the
+    /// rim: there balance counts more.
     fn best_of_large(
         &mut self,
         pieces: &[Live],
@@ -123,6 +125,9 @@ impl<K: Kernel> Chooser<'_, K> {
             if let Some(list) = take_apart(&self.kernel, self.faces, pieces, arena, self.watch) {
                 return Choice::TakeApart(list);
             }
+        }
+        if is_loss(best.0, pieces.len()) {
+            return Choice::Split(self.sampled(pieces, arena, FEW_OWN_PLANES));
         }
         let tries = if splits * POOR > pieces.len() { FEW_OWN_PLANES } else { 0 };
         for piece in sample(pieces, tries) {

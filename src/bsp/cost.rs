@@ -35,6 +35,11 @@ impl Counts {
     }
 }
 
+/// Whether a plane of this cost cuts, and leaves more work than there was.
+pub(super) fn is_loss(cost: f64, pieces: usize) -> bool {
+    cost >= FIRST_SPLIT_PRICE + work(pieces)
+}
+
 /// What cuts cost.
 #[inline]
 pub(super) fn price(splits: usize) -> f64 {
