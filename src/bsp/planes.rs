@@ -5,11 +5,15 @@ use std::cmp::Ordering;
 use glam::{DVec4, Vec4};
 
 use super::BspTree;
-use crate::geom::{Eye, Faces, Kernel, LATTICE_LIMIT, PlaneId, Viewpoint};
+use super::node::Node;
+use crate::geom::{Eye, Faces, Kernel, LATTICE_LIMIT, Viewpoint, parallel};
 
 /// So many planes stand together, and so many signs in a word.
 const GROUP: usize = 4;
 const WORD: usize = 32;
+
+/// So many groups are made by one thread at a time.
+const PART: usize = 1024;
 
 /// The rounded planes of a tree's nodes, in the order of the nodes and by fours: the three
 /// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
@@ -18,17 +22,23 @@ const WORD: usize = 32;
 pub(super) struct Planes(Vec<[Vec4; 4]>);
 
 impl Planes {
-    pub(super) fn new(faces: &Faces, planes: impl ExactSizeIterator<Item = PlaneId>) -> Self {
-        let mut groups = vec![[Vec4::ZERO; 4]; planes.len().div_ceil(GROUP)];
-        for (i, id) in planes.enumerate() {
-            let plane = faces.plane(id);
-            let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
-            let all = normal.extend(offset / LATTICE_LIMIT) / normal.length();
-            for (part, value) in groups[i / GROUP].iter_mut().zip(all.as_vec4().to_array()) {
-                part[i % GROUP] = value;
+    pub(super) fn new(faces: &Faces, nodes: &[Node]) -> Self {
+        let group = |nodes: &[Node]| {
+            let mut group = [Vec4::ZERO; 4];
+            for (i, node) in nodes.iter().enumerate() {
+                let plane = faces.plane(node.plane);
+                let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
+                let all = normal.extend(offset / LATTICE_LIMIT) / normal.length();
+                for (part, value) in group.iter_mut().zip(all.as_vec4().to_array()) {
+                    part[i] = value;
+                }
             }
-        }
-        Self(groups)
+            group
+        };
+        let parts = parallel::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
+            nodes.chunks(GROUP).map(group).collect::<Vec<_>>()
+        });
+        Self(parts.concat())
     }
 
     /// How many words the signs of all planes take, and one more to read past the end.

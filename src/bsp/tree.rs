@@ -105,7 +105,7 @@ impl<K: Kernel> BspTree<K> {
     ) -> Self {
         let nodes = finish(&parts.nodes);
         drop(parts.nodes);
-        let planes = Planes::new(&faces, nodes.iter().map(|node| node.plane));
+        let planes = Planes::new(&faces, &nodes);
         let schedule = Schedule::new(&nodes, parts.records.len() as u32);
         let (mut records, mut vertices) = (parts.records, parts.vertices);
         records.shrink_to_fit();

@@ -15,6 +15,11 @@ impl Outlines {
         self.seen.push((sum, polygon as u32));
     }
 
+    /// Adds what was seen elsewhere.
+    pub(super) fn append(&mut self, mut other: Self) {
+        self.seen.append(&mut other.seen);
+    }
+
     /// How many of the polygons have the same corners as an earlier one, in the same order around
     /// them or the reverse. Exact, in n log n time; `corners` gives those of a polygon again.
     pub(super) fn duplicates(mut self, mut corners: impl FnMut(usize) -> Vec<[f64; 3]>) -> usize {

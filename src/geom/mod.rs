@@ -12,6 +12,7 @@ mod int;
 mod kernel;
 mod label;
 mod lattice;
+pub(crate) mod parallel;
 mod polygon;
 mod prepare;
 mod residue;

@@ -10,7 +10,7 @@ use super::faces::{Face, Faces, Frame, INNER};
 use super::growth::reserve;
 use super::label::MAX_LABELS;
 use super::polygon::Polygon;
-use super::{Lattice, triangulate};
+use super::{Lattice, parallel, triangulate};
 use crate::Error;
 
 /// The default coplanar tolerance as a share of the scene's extent, the longest side of its
@@ -24,9 +24,13 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// moved onto a plane must stay within the bits that the exact predicates have room for.
 const LARGEST_TOLERANCE: f64 = super::lattice::LIMIT / 128.0;
 
-/// So many polygons are prepared before it is asked whether to go on. Smaller: time for asking;
-/// larger: it takes longer to stop.
-const AT_ONCE: usize = 1024;
+/// So many polygons are prepared by one thread at a time. Smaller: time for changing over; larger:
+/// threads wait for each other.
+const PART: usize = 1024;
+/// So many polygons are prepared before it is asked whether to go on, and before what they have
+/// become is put together. Smaller: threads wait for each other; larger: it takes longer to stop,
+/// and more memory.
+const AT_ONCE: usize = 16 * PART;
 
 /// What became of the polygons of an input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,28 +90,61 @@ impl Faces {
             Some(length) => lattice.length_to_lattice(length).min(LARGEST_TOLERANCE),
             None => DEFAULT_TOLERANCE * extent.max_element(),
         };
-        let mut builder = Builder {
-            faces: Faces {
-                lattice,
-                tolerance,
-                corners: Vec::with_capacity(points.len()),
-                numbers: Vec::new(),
-                numbered: Vec::new(),
-                faces: Vec::with_capacity(ends.len()),
-            },
-            kept: Vec::new(),
-        };
-        let mut report = Preparation { polygons: ends.len(), ..Preparation::default() };
         let of = |polygon: usize| {
             let start = polygon.checked_sub(1).map_or(0, |before| ends[before]);
             &points[start as usize..ends[polygon] as usize]
         };
-        let mut outlines = Outlines::default();
-        for polygon in 0..ends.len() {
-            if polygon % AT_ONCE == 0 {
-                watch(ends.len())?;
+        let mut whole = Part::new(lattice, tolerance);
+        reserve(&mut whole.faces.corners, points.len());
+        reserve(&mut whole.faces.faces, ends.len());
+        for start in (0..ends.len()).step_by(AT_ONCE) {
+            watch(ends.len())?;
+            let end = ends.len().min(start + AT_ONCE);
+            let ranges = (start..end).step_by(PART).map(|start| start..end.min(start + PART));
+            let parts = parallel::map(ranges.collect(), |range| {
+                Part::of(lattice, tolerance, range.map(|polygon| (polygon, of(polygon))))
+            });
+            for part in parts {
+                whole.append(part?)?;
             }
-            match builder.add(polygon, of(polygon))? {
+        }
+        let Part { mut faces, mut report, outlines } = whole;
+        let mut builder = Builder::new(lattice, tolerance);
+        report.duplicates = outlines.duplicates(|polygon| {
+            builder.keep_distinct(of(polygon));
+            builder.kept.iter().map(|&(corner, _)| corner).collect()
+        });
+        faces.corners.shrink_to_fit();
+        faces.numbers.shrink_to_fit();
+        faces.numbered.shrink_to_fit();
+        faces.faces.shrink_to_fit();
+        Ok((faces, report))
+    }
+}
+
+/// What some polygons in a row become.
+struct Part {
+    faces: Faces,
+    report: Preparation,
+    outlines: Outlines,
+}
+
+impl Part {
+    fn new(lattice: Lattice, tolerance: f64) -> Self {
+        let faces = Builder::new(lattice, tolerance).faces;
+        Self { faces, report: Preparation::default(), outlines: Outlines::default() }
+    }
+
+    fn of<'a>(
+        lattice: Lattice,
+        tolerance: f64,
+        polygons: impl Iterator<Item = (usize, &'a [DVec3])>,
+    ) -> Result<Self, Error> {
+        let mut builder = Builder::new(lattice, tolerance);
+        let (mut report, mut outlines) = (Preparation::default(), Outlines::default());
+        for (polygon, points) in polygons {
+            report.polygons += 1;
+            match builder.add(polygon, points)? {
                 Outcome::Whole => {}
                 Outcome::Triangulated { crosses_itself } => {
                     report.triangulated += 1;
@@ -120,16 +157,29 @@ impl Faces {
             }
             outlines.add(polygon, builder.kept.iter().map(|&(corner, _)| corner));
         }
-        report.duplicates = outlines.duplicates(|polygon| {
-            builder.keep_distinct(of(polygon));
-            builder.kept.iter().map(|&(corner, _)| corner).collect()
-        });
-        let mut faces = builder.faces;
-        faces.corners.shrink_to_fit();
-        faces.numbers.shrink_to_fit();
-        faces.numbered.shrink_to_fit();
-        faces.faces.shrink_to_fit();
-        Ok((faces, report))
+        Ok(Self { faces: builder.faces, report, outlines })
+    }
+
+    fn append(&mut self, next: Self) -> Result<(), Error> {
+        let (corners, numbers) = (self.faces.corners.len(), self.faces.numbers.len() as u32);
+        if corners + next.faces.corners.len() >= MAX_LABELS {
+            return Err(Error::too_many_corners());
+        }
+        let first = self.faces.faces.len() as u32;
+        let numbered = next.faces.numbered.iter();
+        self.faces.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
+        self.faces.numbers.extend(next.faces.numbers);
+        reserve(&mut self.faces.corners, next.faces.corners.len());
+        self.faces.corners.extend(next.faces.corners);
+        reserve(&mut self.faces.faces, next.faces.faces.len());
+        let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
+        self.faces.faces.extend(next.faces.faces.into_iter().map(moved));
+        self.report.polygons += next.report.polygons;
+        self.report.dropped += next.report.dropped;
+        self.report.triangulated += next.report.triangulated;
+        self.report.crossing += next.report.crossing;
+        self.outlines.append(next.outlines);
+        Ok(())
     }
 }
 
@@ -149,7 +199,7 @@ fn collect<P: Polygon>(
         if index == limit {
             return Err(Error::polygons(limit));
         }
-        if index % AT_ONCE == 0 {
+        if index % PART == 0 {
             watch(index)?;
         }
         for point in polygon.corners() {
@@ -181,6 +231,18 @@ struct Builder {
 }
 
 impl Builder {
+    fn new(lattice: Lattice, tolerance: f64) -> Self {
+        let faces = Faces {
+            lattice,
+            tolerance,
+            corners: vec![],
+            numbers: vec![],
+            numbered: vec![],
+            faces: vec![],
+        };
+        Self { faces, kept: vec![] }
+    }
+
     fn add(&mut self, polygon: usize, points: &[DVec3]) -> Result<Outcome, Error> {
         self.keep_distinct(points);
         let Some([second, third]) = self.widest_triangle() else {
