@@ -12,9 +12,12 @@ use crate::geom::{Kernel, PlaneId, Vertex};
 /// Scenes of at most so many faces are taken for layers that are put in order anew for every frame:
 /// their trees are to be had in the time that a few cuts more take. Larger: more cuts in scenes that
 /// are built once; smaller: layers that are late.
-const HASTY: usize = 128;
+const HASTY: usize = 200;
 /// How many own planes are tried at a node in such a scene. As above.
 const HASTY_TRIES: usize = 8;
+/// After so many searches for a free plane that cuts nothing, and found none, such a scene is not
+/// searched again. Larger: time; smaller: one knot costs a field of houses its free planes.
+const HASTY_MISSES: usize = 4;
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
 /// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
 const OWN_PLANES_BELOW: usize = 400;
@@ -62,7 +65,10 @@ impl<K: Kernel> Chooser<'_, K> {
     /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
     pub(super) fn auto(&mut self, pieces: &[Live], arena: &[K::Vertex], depth: usize) -> Choice {
         if self.faces.len() <= HASTY {
-            return Choice::Split(self.sampled(pieces, arena, HASTY_TRIES));
+            let plane = self.clean_free(pieces);
+            return Choice::Split(
+                plane.unwrap_or_else(|| self.sampled(pieces, arena, HASTY_TRIES)),
+            );
         }
         let small = pieces.len() < OWN_PLANES_BELOW;
         if small && let Some(plane) = self.peeler.next(pieces.len()) {
@@ -98,6 +104,19 @@ impl<K: Kernel> Chooser<'_, K> {
         }
         self.credit = self.credit.saturating_add(pieces.len());
         self.best_of_large(pieces, arena, depth, splits, best)
+    }
+
+    /// The best free plane, if it cuts nothing, and unless too many searches were in vain. (In sets of
+    /// which all own planes are tried they cost little, and do not count.)
+    fn clean_free(&mut self, pieces: &[Live]) -> Option<PlaneId> {
+        if self.misses == HASTY_MISSES {
+            return None;
+        }
+        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
+        let plane = free.filter(|free| free.splits == 0);
+        let plane = plane.and_then(|free| free.id(self.faces, pieces));
+        self.misses += usize::from(plane.is_none() && pieces.len() > HASTY_TRIES);
+        plane
     }
 
     /// The best of few own planes, if it is better than the best free plane, which has so many

@@ -36,6 +36,8 @@ pub(super) struct Chooser<'a, K: Kernel> {
     pub(super) sweep: Sweep,
     /// How many pieces were looked at since a set was last tried to be taken apart.
     pub(super) credit: usize,
+    /// How often no free plane was found that cuts nothing, in a small scene.
+    pub(super) misses: usize,
     pub(super) peeler: Peeler,
     /// The set at hand, if it is small.
     pub(super) set: Gathered<K>,
@@ -57,6 +59,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             watch,
             sweep: Sweep::default(),
             credit: usize::MAX,
+            misses: 0,
             peeler: Peeler::default(),
             set: Gathered::default(),
             ranked: vec![],

@@ -45,7 +45,9 @@ pub enum Heuristic {
     /// Free planes and the planes of the largest polygons, in small sets a sample of all
     /// polygons' planes too, by the estimate f·log f + b·log b of the work left in front and
     /// behind, a price for cuts, and a reward for taking polygons that fill the set's box before
-    /// they are cut. Fewest fragments and shallow trees on most scenes.
+    /// they are cut. Fewest fragments and shallow trees on most scenes. Scenes of up to 200 faces
+    /// are taken for layers that are rebuilt for every frame: there, free planes that cut nothing,
+    /// and else the choice of [`Sampled`](Self::Sampled) from 8 planes.
     #[default]
     Auto,
 }

@@ -13,7 +13,7 @@ const ROOM: usize = FRAGMENTS;
 
 impl<K: Kernel> BspTree<K> {
     /// Writes the numbers of all fragments, back to front, into a buffer, in place of what it
-    /// held. The buffer is working space as well: it grows to about three numbers for each
+    /// held. The buffer is working space as well: it grows to one or two numbers for each
     /// fragment, at most to four and sixteen more, and once it has, nothing is allocated.
     ///
     /// Where the fragments of a subtree begin in the order is known before the subtree is walked,

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::BspTree;
+use super::planes::Planes;
 use super::schedule::Schedule;
 use super::walk::Walk;
 use crate::geom::{Kernel, PlaneId, PlaneKind, Side, SymbolKind};
@@ -99,7 +100,8 @@ impl<K: Kernel> BspTree<K> {
         if nodes != self.nodes.len() || fragments != self.records.len() {
             return fault(nodes.saturating_sub(1), Fault::Counts);
         }
-        if self.schedule != Schedule::new(&self.nodes, fragments as u32) {
+        let planes = Planes::new(&self.faces, &self.nodes);
+        if self.schedule != Schedule::new(&self.nodes, fragments as u32) || self.planes != planes {
             return fault(0, Fault::Schedule);
         }
         Ok(())

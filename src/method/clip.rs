@@ -14,7 +14,7 @@ pub(super) struct Range {
 
 impl Range {
     /// Everything in front of the eye. Parts of polygons that are nearer to the eye's plane than
-    /// 2⁻³⁰ of the scene's furthest depth are cut off: larger, and what is near the eye goes
+    /// 2⁻⁴⁴ of the scene's furthest depth are cut off: larger, and what is near the eye goes
     /// missing; smaller, and coordinates on the picture lose their digits.
     ///
     /// `None` if nothing is in front of the eye.
@@ -26,7 +26,7 @@ impl Range {
             }
         }
         if space.perspective {
-            range.near = range.near.max(range.far * 2f64.powi(-30));
+            range.near = range.near.max(range.far * 2f64.powi(-44));
             (range.far > 0.0).then_some(range)
         } else {
             (range.far >= range.near).then_some(range)

@@ -51,7 +51,7 @@ pub struct DepthBuffer {
     pub interpolation: Interpolation,
     /// The least depth that is shown, in world units along the direction of view, from the eye, or
     /// from the centre of a parallel camera's picture. Default: `None`, the least that the picture
-    /// shows, though no less than 2⁻²⁰ of the furthest.
+    /// shows, though no less than 2⁻⁴⁴ of the furthest.
     pub near: Option<f64>,
     /// The largest depth that is shown. Default: `None`, the largest that the picture shows.
     pub far: Option<f64>,

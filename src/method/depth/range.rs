@@ -8,7 +8,7 @@ use crate::geom::Faces;
 
 /// The nearest near plane that is chosen, as a share of the far plane's depth. Smaller, and one
 /// face at the eye takes all depths; larger, and it is cut off.
-const NEAREST: f64 = 1.0 / (1u64 << 20) as f64;
+const NEAREST: f64 = 1.0 / (1u64 << 44) as f64;
 /// The least range that is chosen, as a share of the larger depth, so that it can be divided by.
 const SHALLOWEST: f64 = 1.0 / (1u64 << 20) as f64;
 

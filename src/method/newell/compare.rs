@@ -41,7 +41,7 @@ fn has_separating_edge(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     (0..a.len()).any(|i| {
         let (from, to) = (a[i], a[if i + 1 == a.len() { 0 } else { i + 1 }]);
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-        let length = dx.hypot(dy);
+        let length = (dx * dx + dy * dy).sqrt();
         let across = |polygon: &[[f64; 2]]| {
             let values = polygon.iter().map(|p| (p[1] - from[1]) * dx - (p[0] - from[0]) * dy);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {

@@ -150,7 +150,7 @@ const MEASURES: &str = "
   the grid, rounding alone is much.
 - All methods get the same polygons on the scene's grid, centred and scaled to it: offset and scale
   of the whole scene are taken off before any of them begins.
-- Depth buffers show nothing nearer than 2⁻²⁰ of the furthest depth in the picture.
+- Depth buffers and Newell's algorithm show nothing nearer than 2⁻⁴⁴ of the furthest depth.
 - **Times** are wall-clock: of a build, and of each view, the fastest of up to five where that is
   short; of the views the median. Painters draw by exact coverage, so drawing is not what a graphics
   card takes; *order* is the time until it is known what to draw when, which depth buffers need not.

@@ -12,12 +12,14 @@ mod tables;
 mod trial;
 
 use std::path::Path;
+use std::time::{Duration, Instant};
+use std::{fs, io};
 
 use binspace::BuildOptions;
 use binspace::method::{Method, Newell, Options, all};
 use binspace::scene::{Family, Scene};
 
-use self::figures::{Section, Subject};
+use self::figures::{Row, Section, Subject};
 use self::growth::Growth;
 use self::trial::Trial;
 use super::Outcome;
@@ -26,15 +28,22 @@ use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
 use crate::progress::Progress;
 use crate::scene_arg;
-use crate::terminal::{BAD, GOOD, HEAD, say, styled};
+use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use crate::units::count;
 
 /// The most fragments of a tree, and pieces of Newell's algorithm. More, and a single step of a
 /// sweep takes minutes; less, and methods are given up that come to an end.
 const MAX_PIECES: usize = 1 << 19;
+/// A scene that is a file may have so many for each of its corners.
+const PIECES_PER_CORNER: usize = 8;
 /// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if it has to
 /// be quick.
 const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
+/// How long what has been measured may go unwritten. Shorter: time for writing; longer: more is lost
+/// where it is interrupted.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// Build times, fragments and the figures of both.
+const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
 /// Views of scenes that are files.
 const VIEWS: usize = 6;
 
@@ -56,15 +65,23 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     let size = args.size.unwrap_or(if args.quick { [160, 120] } else { [640, 480] });
     let mut report =
         Report { args, size, sections: Vec::new(), growth: Vec::new(), complete: false };
-    let methods = methods(MAX_COMPARISONS[usize::from(args.quick)]);
-    let families = if args.family.is_empty() { &Family::ALL[..] } else { &args.family };
-    for &family in families {
-        let section = run_family(&report, family, &methods)?;
-        report.finish_section(section)?;
+    let max_comparisons = MAX_COMPARISONS[usize::from(args.quick)];
+    let methods_of = |max_pieces| methods(max_comparisons, max_pieces);
+    let all = args.family.is_empty();
+    for family in Family::ALL.into_iter().filter(|family| all || args.family.contains(family)) {
+        report.run_family(family, &methods_of(MAX_PIECES))?;
     }
+    let mut failed = None;
     for scene in &scenes {
-        let section = run_scene(&report, scene, &methods)?;
-        report.finish_section(section)?;
+        let corners: usize = scene.polygons().map(<[_]>::len).sum();
+        let methods = methods_of(MAX_PIECES.max(PIECES_PER_CORNER * corners));
+        match report.run_scene(scene, &methods) {
+            Err(Failure::Message(problem)) => {
+                note(&format!("{problem}; the report goes on without it"));
+                failed = Some(Failure::about(scene.name(), "could not be measured"));
+            }
+            result => result?,
+        }
     }
     if args.family.is_empty() {
         growth::run(args, |growth| {
@@ -74,7 +91,8 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     }
     report.complete = true;
     report.write()?;
-    report.conclude()
+    let outcome = report.conclude()?;
+    failed.map_or(Ok(outcome), Err)
 }
 
 fn load(args: &ReportArgs, name: &std::ffi::OsStr) -> Result<Scene, Failure> {
@@ -82,61 +100,72 @@ fn load(args: &ReportArgs, name: &std::ffi::OsStr) -> Result<Scene, Failure> {
 }
 
 /// All competitors, with budgets that end.
-fn methods(max_comparisons: u64) -> Vec<Box<dyn Method>> {
-    let newell = Newell { max_pieces: MAX_PIECES, max_comparisons, ..Newell::DEFAULT };
-    let build = BuildOptions::DEFAULT.with_max_fragments(MAX_PIECES);
+fn methods(max_comparisons: u64, max_pieces: usize) -> Vec<Box<dyn Method>> {
+    let newell = Newell { max_pieces, max_comparisons, ..Newell::DEFAULT };
+    let build = BuildOptions::DEFAULT.with_max_fragments(max_pieces);
     all(&Options::DEFAULT.with_build(build).with_newell(newell))
 }
 
-fn run_family(
-    report: &Report<'_>,
-    family: Family,
-    methods: &[Box<dyn Method>],
-) -> Result<Section, Failure> {
-    let args = report.args;
-    let sweep = family.sweep(args.quick);
-    let progress = Progress::steps(format!("{family}: step"), sweep.len() as u64);
-    let mut section = Section::new(Subject::Family(family));
-    for &difficulty in sweep {
-        let trial = Trial::of_family(family, difficulty, args.seed, report.size)?;
-        section.rows.extend(trial.measure(methods, Some(difficulty)));
-        progress.step();
-    }
-    Ok(section)
-}
-
-fn run_scene(
-    report: &Report<'_>,
-    scene: &Scene,
-    methods: &[Box<dyn Method>],
-) -> Result<Section, Failure> {
-    let _progress = Progress::spinner(scene.name().to_owned());
-    let trial = Trial::of_scene(scene, VIEWS, report.args.seed, report.size)?;
-    let mut section = Section::new(Subject::Scene(scene.name().to_owned()));
-    section.rows = trial.measure(methods, None);
-    Ok(section)
-}
-
 impl Report<'_> {
-    fn finish_section(&mut self, section: Section) -> Result<(), Failure> {
-        let exact = section.exactness();
-        let verdict = if exact.is_zero() {
-            styled(GOOD, "exact: nothing wrong")
-        } else {
-            styled(BAD, format!("exact: {exact}"))
-        };
-        say(format!(
-            "{:14}{}, {verdict}",
-            section.subject.name(),
-            count(section.rows.len(), "row")
-        ))?;
-        self.sections.push(section);
+    fn run_family(&mut self, family: Family, methods: &[Box<dyn Method>]) -> Result<(), Failure> {
+        let sweep = family.sweep(self.args.quick);
+        let progress = Progress::steps(format!("{family}: step"), sweep.len() as u64);
+        self.sections.push(Section::new(Subject::Family(family)));
+        let mut written = Instant::now();
+        for &difficulty in sweep {
+            let trial = Trial::of_family(family, difficulty, self.args.seed, self.size)?;
+            self.add(trial.measure(methods, Some(difficulty)));
+            if written.elapsed() > PATIENCE {
+                self.write()?;
+                written = Instant::now();
+            }
+            progress.step();
+        }
+        drop(progress);
+        self.finish_section()
+    }
+
+    fn run_scene(&mut self, scene: &Scene, methods: &[Box<dyn Method>]) -> Result<(), Failure> {
+        let progress = Progress::spinner(scene.name().to_owned());
+        let trial = Trial::of_scene(scene, VIEWS, self.args.seed, self.size)?;
+        self.sections.push(Section::new(Subject::Scene(scene.name().to_owned())));
+        self.add(trial.measure(methods, None));
+        drop(progress);
+        self.finish_section()
+    }
+
+    /// Adds rows to the last section.
+    fn add(&mut self, rows: Vec<Row>) {
+        if let Some(section) = self.sections.last_mut() {
+            section.rows.extend(rows);
+        }
+    }
+
+    fn finish_section(&mut self) -> Result<(), Failure> {
+        if let Some(section) = self.sections.last() {
+            let exact = section.exactness();
+            let verdict = if exact.is_zero() {
+                styled(GOOD, "exact: nothing wrong")
+            } else {
+                styled(BAD, format!("exact: {exact}"))
+            };
+            let rows = count(section.rows.len(), "row");
+            say(format!("{:14}{rows}, {verdict}", section.subject.name()))?;
+        }
         self.write()
     }
 
-    /// Writes all files anew.
+    /// Writes all files anew, and removes what an earlier report left that this one does not have.
     fn write(&self) -> Result<(), Failure> {
         let folder = &self.args.output;
+        for family in Family::ALL {
+            if !self.sections.iter().any(|section| section.subject == Subject::Family(family)) {
+                remove(folder, &format!("error-{family}.svg"))?;
+            }
+        }
+        if self.growth.is_empty() {
+            GROWTH_FILES.iter().try_for_each(|name| remove(folder, name))?;
+        }
         for section in &self.sections {
             if let Subject::Family(family) = section.subject {
                 let plot = plots::against_difficulty(section, family)?;
@@ -147,9 +176,10 @@ impl Report<'_> {
             write(folder, "speed.svg", &plot)?;
         }
         if !self.growth.is_empty() {
-            write(folder, "growth-build.svg", &plots::growth_build(&self.growth)?)?;
-            write(folder, "growth-fragments.svg", &plots::growth_fragments(&self.growth)?)?;
-            write(folder, "growth.csv", &csv::growth(&self.growth))?;
+            let [build, fragments, table] = GROWTH_FILES;
+            write(folder, build, &plots::growth_build(&self.growth)?)?;
+            write(folder, fragments, &plots::growth_fragments(&self.growth)?)?;
+            write(folder, table, &csv::growth(&self.growth))?;
         }
         write(folder, "errors.csv", &csv::errors(&self.sections))?;
         write(folder, "times.csv", &csv::times(&self.sections))?;
@@ -166,6 +196,15 @@ impl Report<'_> {
 
     fn exactness(&self) -> figures::Exactness {
         self.sections.iter().map(Section::exactness).fold(Default::default(), |a, b| a + b)
+    }
+}
+
+fn remove(folder: &Path, name: &str) -> Result<(), Failure> {
+    match fs::remove_file(folder.join(name)) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(Failure::about(folder.join(name).display(), error))
+        }
+        _ => Ok(()),
     }
 }
 
