@@ -9,6 +9,8 @@ use binspace::scene::Family;
 
 /// The name of the method whose errors must all be 0.
 pub(super) const EXACT: &str = "bsp exact";
+/// The method whose pictures all others are compared with.
+pub(super) const JUDGE: &str = "z f64";
 
 /// What a section of the report is about.
 #[derive(Clone, Debug, PartialEq)]

@@ -150,7 +150,8 @@ const MEASURES: &str = "
   the grid, rounding alone is much.
 - All methods get the same polygons on the scene's grid, centred and scaled to it: offset and scale
   of the whole scene are taken off before any of them begins.
-- Depth buffers and Newell's algorithm show nothing nearer than 2⁻⁴⁴ of the furthest depth.
+- Depth buffers and Newell's algorithm show nothing nearer than 2⁻⁴⁴ of the furthest depth. The
+  judge, `z f64`, has no such limit; its own rows are 0 because all others are compared with it.
 - **Times** are wall-clock: of a build, and of each view, the fastest of up to five where that is
   short; of the views the median. Painters draw by exact coverage, so drawing is not what a graphics
   card takes; *order* is the time until it is known what to draw when, which depth buffers need not.

@@ -1,13 +1,15 @@
 //! What the figures of a family say, in words.
 
-use super::figures::{EXACT, Row, Section};
+use super::figures::{EXACT, JUDGE, Row, Section};
 use super::tables::{difficulty, exponent, grouped, share};
 
 /// One sentence on a family or a scene: how the exact tree fared, where others begin to err, which
 /// do not, and which gave up.
 pub(super) fn sentence(section: &Section) -> String {
     let mut parts = vec![verdict(section)];
-    let others: Vec<&str> = section.methods().into_iter().filter(|&m| m != EXACT).collect();
+    // The judge is not judged.
+    let is_other = |&method: &&str| method != EXACT && method != JUDGE;
+    let others: Vec<&str> = section.methods().into_iter().filter(is_other).collect();
     let (mut onsets, mut right, mut gave_up) = (Vec::<(usize, Vec<&str>)>::new(), vec![], vec![]);
     for method in others {
         let rows: Vec<&Row> = section.of(method).collect();
@@ -70,13 +72,13 @@ fn worst(section: &Section) -> Option<String> {
     let rows = section.rows.iter().filter(|row| is_wrong(row));
     let pictures = rows.filter_map(|row| Some((row, &row.found.as_ref().ok()?.picture)));
     let (row, picture) = pictures.max_by(|a, b| a.1.wrong_share().total_cmp(&b.1.wrong_share()))?;
-    Some(format!(
-        "the most is {} by {}{}, up to {} of the extent too deep",
-        share(picture.wrong(), picture.covered),
-        row.method,
-        at(row),
-        exponent(picture.depth_max)
-    ))
+    let how = if picture.depth_max > 0.0 {
+        format!("up to {} of the extent too deep", exponent(picture.depth_max))
+    } else {
+        "all of them holes or spills".to_owned()
+    };
+    let share = share(picture.wrong(), picture.covered);
+    Some(format!("the most is {share} by {}{}, {how}", row.method, at(row)))
 }
 
 #[cfg(test)]

@@ -19,6 +19,8 @@ const SIZE: (u32, u32) = (900, 560);
 const LEGEND: u32 = 175;
 /// How high the place for zero is, as a share of the axis above it.
 const LANE: f64 = 0.22;
+/// How far below the axis it is, as a share of its own height.
+const GAP: f64 = 0.3;
 const FONT: &str = "sans-serif";
 
 /// The shape of a point.
@@ -120,10 +122,12 @@ impl Chart<'_> {
         x.falls = self.falls;
         let mut y = Scale::decades(points().map(|&(_, y)| y).filter(|&y| y > 0.0));
         let height = if self.zero { LANE * (y.high - y.low) } else { 0.0 };
-        let lane = Lane { top: y.low, height, ends: [x.low, x.high] };
+        // So far below the axis that no mark in it reaches what is not zero.
+        let gap = GAP * height;
+        let lane = Lane { top: y.low - gap, height, ends: [x.low, x.high] };
         if self.zero {
             y.ticks.insert(0, lane.top - 0.5 * height);
-            y.low -= height;
+            y.low -= gap + height;
         }
         (x, y, lane)
     }
