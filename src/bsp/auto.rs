@@ -4,7 +4,7 @@ use super::axis::FreePlane;
 use super::cell::{Cell, LARGEST};
 use super::choose::{CHECK_EVERY, Choice, Chooser, sample};
 use super::convex::take_apart;
-use super::cost::{Counts, is_loss};
+use super::cost::{Counts, is_loss, work};
 use super::gather::reach;
 use super::live::Live;
 use crate::geom::{Kernel, PlaneId, Vertex};
@@ -15,8 +15,8 @@ use crate::geom::{Kernel, PlaneId, Vertex};
 const HASTY: usize = 200;
 /// How many own planes are tried at a node in such a scene. As above.
 const HASTY_TRIES: usize = 8;
-/// After so many searches for a free plane that cuts nothing, and found none, such a scene is not
-/// searched again. Larger: time; smaller: one knot costs a field of houses its free planes.
+/// After so many searches for a free plane that cuts nothing and divides well, and found none, such a
+/// scene is not searched again. Larger: time; smaller: one knot costs a field of houses its free planes.
 const HASTY_MISSES: usize = 4;
 /// Below this many pieces `auto` tries own planes beside the free ones. Larger: few fragments
 /// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
@@ -106,14 +106,17 @@ impl<K: Kernel> Chooser<'_, K> {
         self.best_of_large(pieces, arena, depth, splits, best)
     }
 
-    /// The best free plane, if it cuts nothing, and unless too many searches were in vain. (In sets of
+    /// The best free plane, if it cuts nothing and divides well, and unless too many searches were in
+    /// vain. (In sets of
     /// which all own planes are tried they cost little, and do not count.)
     fn clean_free(&mut self, pieces: &[Live]) -> Option<PlaneId> {
         if self.misses == HASTY_MISSES {
             return None;
         }
         let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
-        let plane = free.filter(|free| free.splits == 0);
+        let n = pieces.len();
+        let plane =
+            free.filter(|free| free.splits == 0 && free.cost <= work(n / 8) + work(n - n / 8));
         let plane = plane.and_then(|free| free.id(self.faces, pieces));
         self.misses += usize::from(plane.is_none() && pieces.len() > HASTY_TRIES);
         plane
