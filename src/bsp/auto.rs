@@ -106,20 +106,19 @@ impl<K: Kernel> Chooser<'_, K> {
         self.best_of_large(pieces, arena, depth, splits, best)
     }
 
-    /// The best free plane, if it cuts nothing and divides well, and unless too many searches were in
-    /// vain. (In sets of
-    /// which all own planes are tried they cost little, and do not count.)
+    /// The best free plane, if it cuts nothing, and unless too many searches were in vain: found none,
+    /// or one that hardly divides. (In sets of which all own planes are tried they cost little, and do
+    /// not count.)
     fn clean_free(&mut self, pieces: &[Live]) -> Option<PlaneId> {
         if self.misses == HASTY_MISSES {
             return None;
         }
-        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
         let n = pieces.len();
-        let plane =
-            free.filter(|free| free.splits == 0 && free.cost <= work(n / 8) + work(n - n / 8));
-        let plane = plane.and_then(|free| free.id(self.faces, pieces));
-        self.misses += usize::from(plane.is_none() && pieces.len() > HASTY_TRIES);
-        plane
+        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
+        let clean = free.filter(|free| free.splits == 0);
+        let divides = clean.is_some_and(|free| free.cost <= work(n / 8) + work(n - n / 8));
+        self.misses += usize::from(!divides && n > HASTY_TRIES);
+        clean.and_then(|free| free.id(self.faces, pieces))
     }
 
     /// The best of few own planes, if it is better than the best free plane, which has so many
