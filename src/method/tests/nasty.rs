@@ -58,7 +58,7 @@ fn views_in_line_with_much_are_no_worse() {
                     assert_eq!(result.wrong(), 0, "{at}");
                 }
                 let is_clipped = touches && !name.starts_with("bsp");
-                // A cut where an epsilon was too small is a line that means nothing.
+                // Trees with an epsilon may spill: their kernel decides what is cut, and may err.
                 let own_coverage = name.starts_with("bsp f") || name.ends_with("incremental");
                 if !is_clipped && !own_coverage {
                     assert_eq!(result.holes + result.spills, 0, "{at}");
