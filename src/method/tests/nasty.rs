@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::{Polygons, cycle_that_no_plane_cuts, disjoint, faces, judge, polygons_of};
 use crate::method::{Options, all};
-use crate::scene;
 use crate::view::Camera;
+use crate::{BuildOptions, Heuristic, scene};
 
 /// Eyes at corners, in planes, a hair's breadth off them, and far away; and, marked so, those that
 /// touch a face but for their rounding. These may see it all over the picture at no distance, and
@@ -50,17 +50,21 @@ fn views_in_line_with_much_are_no_worse() {
     ];
     for (number, polygons) in scenes.iter().enumerate() {
         let faces = faces(polygons, Some(0.0));
+        let methods = [Heuristic::Auto, Heuristic::Sampled { candidates: 8 }].map(|heuristic| {
+            all(&Options::DEFAULT.with_build(BuildOptions::DEFAULT.with_heuristic(heuristic)))
+        });
         for (touches, camera) in in_line(polygons, [40, 30]) {
-            for method in all(&Options::DEFAULT) {
-                let (name, result) = (method.name(), judge(&*method, &faces, &camera));
+            for method in methods.iter().flatten() {
+                let (name, result) = (method.name(), judge(&**method, &faces, &camera));
                 let at = format!("{name} on scene {number} of {camera:?}");
                 if ["bsp exact", "z f64"].contains(&&*name) || name == "newell" && !touches {
                     assert_eq!(result.wrong(), 0, "{at}");
                 }
-                let is_clipped = touches && !name.starts_with("bsp");
-                // Trees with an epsilon may spill: their kernel decides what is cut, and may err.
-                let own_coverage = name.starts_with("bsp f") || name.ends_with("incremental");
-                if !is_clipped && !own_coverage {
+                // A face that the eye touches is clipped off, or, where it was cut, drawn by rounded
+                // vertices, and so seen from the side.
+                let is_seen_by_rounding = touches && name != "bsp exact";
+                let own_coverage = name.starts_with("bsp f32") || name.ends_with("incremental");
+                if !is_seen_by_rounding && !own_coverage {
                     assert_eq!(result.holes + result.spills, 0, "{at}");
                 }
             }
