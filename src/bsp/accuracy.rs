@@ -155,13 +155,8 @@ impl<K: Kernel> BspTree<K> {
         }
         let (s, slack) = (Exact::distance(&above.splitter, place), Exact::slack(&above.splitter));
         let exactly = |threshold| self.faces.compare(&above.plane, face, symbol, threshold);
-        // Twice the slack is more than the tolerance and the filter's error together.
         let beyond = |threshold: f64, order: Ordering| {
-            if s.abs() > 2.0 * slack {
-                s.total_cmp(&0.0) == order
-            } else {
-                exactly(threshold) == order
-            }
+            if s.abs() > slack { s.total_cmp(&0.0) == order } else { exactly(threshold) == order }
         };
         let in_front = || beyond(above.band, Ordering::Greater);
         let behind = || beyond(-above.band, Ordering::Less);

@@ -71,9 +71,7 @@ impl<K: Kernel> Chooser<'_, K> {
             );
         }
         let small = pieces.len() < OWN_PLANES_BELOW;
-        if small && let Some(plane) = self.peeler.next(pieces.len()) {
-            return Choice::Split(plane);
-        }
+        let is_peeled = self.peeler.has_searched(pieces.len());
         let tiny = pieces.len() <= TINY;
         if tiny {
             self.set.take(&self.kernel, self.faces, pieces, arena);
@@ -97,10 +95,13 @@ impl<K: Kernel> Chooser<'_, K> {
                     return Choice::Split(plane);
                 }
             }
-            self.peeler.search(pieces, &self.set);
-            let peeled = self.peeler.next(pieces.len());
-            let plane = peeled.unwrap_or_else(|| self.best_of_small(pieces, depth, best));
-            return Choice::Split(plane);
+            if !is_peeled {
+                let (by, set) = ((&self.kernel, self.faces), (pieces, arena));
+                if self.peeler.search(by, set, &self.set, &mut self.taken) {
+                    return Choice::TakeApart;
+                }
+            }
+            return Choice::Split(self.best_of_small(pieces, depth, best));
         }
         self.credit = self.credit.saturating_add(pieces.len());
         self.best_of_large(pieces, arena, depth, splits, best)
@@ -143,8 +144,9 @@ impl<K: Kernel> Chooser<'_, K> {
             && sample(pieces, FEW_OWN_PLANES).all(|piece| self.is_at_rim(piece, pieces, arena))
         {
             self.credit = 0;
-            if let Some(list) = take_apart(&self.kernel, self.faces, pieces, arena, self.watch) {
-                return Choice::TakeApart(list);
+            let (by, taken) = ((&self.kernel, self.faces), &mut self.taken);
+            if take_apart(by, (pieces, arena), self.watch, taken) {
+                return Choice::TakeApart;
             }
         }
         if is_loss(best.0, pieces.len()) {

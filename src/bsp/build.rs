@@ -179,7 +179,7 @@ impl<K: Kernel> Builder<'_, K> {
             let count = set.len();
             let plane = match self.chooser.choose(set, &self.arena, pending.depth) {
                 Choice::Split(plane) => plane,
-                Choice::TakeApart(list) => return self.emit_list(start, pending.depth, &list),
+                Choice::TakeApart => return self.emit_list(start, pending.depth),
             };
             self.classify(start, plane)?;
             if self.makes_progress(count) {

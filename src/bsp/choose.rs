@@ -2,12 +2,12 @@
 
 use super::Heuristic;
 use super::axis::Sweep;
-use super::convex::Taken;
 use super::cost::Counts;
 use super::gather::Gathered;
 use super::live::Live;
 use super::peel::Peeler;
 use super::progress::Watch;
+use super::taken::TakenApart;
 use crate::geom::{Faces, Kernel, PlaneId};
 
 /// How many own planes the heuristics that would look at all of them try at most, so that no
@@ -21,8 +21,8 @@ pub(super) const CHECK_EVERY: usize = 64;
 pub(super) enum Choice {
     /// It is divided by this plane.
     Split(PlaneId),
-    /// It is taken apart piece by piece.
-    TakeApart(Vec<Taken>),
+    /// It is taken apart as the chooser has found.
+    TakeApart,
 }
 
 /// Chooses the splitters of one tree.
@@ -39,6 +39,8 @@ pub(super) struct Chooser<'a, K: Kernel> {
     /// How often no free plane was found that cuts nothing, in a small scene.
     pub(super) misses: usize,
     pub(super) peeler: Peeler,
+    /// How a set is taken apart.
+    pub(super) taken: TakenApart,
     /// The set at hand, if it is small.
     pub(super) set: Gathered<K>,
     /// Pieces of the set whose planes are to be tried, with what they promise.
@@ -61,6 +63,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             credit: usize::MAX,
             misses: 0,
             peeler: Peeler::default(),
+            taken: TakenApart::default(),
             set: Gathered::default(),
             ranked: vec![],
         }

@@ -3,6 +3,7 @@
 use super::gather::reach;
 use super::live::Live;
 use super::progress::Watch;
+use super::taken::TakenApart;
 use crate::geom::{Faces, Kernel, PlaneId, Side, Vertex};
 
 /// The most points of a leaf of the box tree. Larger: points looked at one by one; smaller: boxes.
@@ -15,37 +16,29 @@ const LOOKS: usize = 256;
 /// taken apart one piece at a time; smaller: this search at many nodes, for little each.
 const WORTH: usize = 4;
 
-/// A piece that can be taken off its set, without cutting the rest.
-#[derive(Debug)]
-pub(super) struct Taken {
-    pub(super) plane: PlaneId,
-    /// Where all others are that are not taken with it.
-    pub(super) rest: Side,
-    /// The piece and those on its plane.
-    pub(super) pieces: Vec<u32>,
-}
-
 /// Takes those pieces off a set whose planes have all others on one side, or on them: in any order,
-/// then, nothing is ever cut. `None` if they are less than a part of [`WORTH`].
+/// then, nothing is ever cut. Tells whether they are at least a part of [`WORTH`].
 ///
 /// Exact: only what is certain by rounded distances is believed. A tree of boxes around the
 /// vertices tells for all but the neighbours of a piece that they are on one side of its plane, so
 /// this takes O(n log n) where boxes can tell at all.
 pub(super) fn take_apart<K: Kernel>(
-    kernel: &K,
-    faces: &Faces,
-    pieces: &[Live],
-    arena: &[K::Vertex],
+    (kernel, faces): (&K, &Faces),
+    (pieces, arena): (&[Live], &[K::Vertex]),
     watch: &Watch<'_>,
-) -> Option<Vec<Taken>> {
+    taken: &mut TakenApart,
+) -> bool {
+    taken.clear();
     let boxes = BoxTree::new::<K>(faces, pieces, arena);
     let mut gone = vec![false; pieces.len()];
-    let (mut list, mut near, mut count) = (Vec::new(), Vec::new(), 0);
+    let mut near = Vec::new();
     for p in 0..pieces.len() {
         if gone[p] {
             continue;
         }
-        watch.work(LOOKS).ok()?;
+        if watch.work(LOOKS).is_err() {
+            return false;
+        }
         let plane = PlaneId::face(pieces[p].face);
         let splitter = kernel.splitter(faces, plane);
         let rest = match reach::<K>(&splitter, std::iter::once(boxes.middle)) {
@@ -66,10 +59,9 @@ pub(super) fn take_apart<K: Kernel>(
         near.retain(|q| side(q) == Side::Coplanar);
         near.push(p as u32);
         near.iter().for_each(|&q| gone[q as usize] = true);
-        count += near.len();
-        list.push(Taken { plane, rest, pieces: near.clone() });
+        taken.push(plane, rest, &near);
     }
-    (count >= pieces.len() / WORTH).then_some(list)
+    taken.pieces() >= pieces.len() / WORTH
 }
 
 /// A balanced tree of boxes around points: the children of node i are 2i + 1 and 2i + 2.

@@ -43,9 +43,19 @@ impl<K: Kernel> Gathered<K> {
     /// Whether a piece reaches in front of a plane, and behind it; see [`reach`].
     #[inline]
     pub(super) fn reach(&self, splitter: &K::Splitter, piece: usize) -> (bool, bool) {
+        reach::<K>(splitter, self.points(piece))
+    }
+
+    /// The least and the greatest distance of a piece from a plane, rounded.
+    #[inline]
+    pub(super) fn extent(&self, splitter: &K::Splitter, piece: usize) -> (f64, f64) {
+        extent::<K>(splitter, self.points(piece))
+    }
+
+    #[inline]
+    fn points(&self, piece: usize) -> impl Iterator<Item = [f64; 3]> {
         let start = if piece == 0 { 0 } else { self.ends[piece - 1] as usize };
-        let points = &self.points[start..self.ends[piece] as usize];
-        reach::<K>(splitter, points.iter().copied())
+        self.points[start..self.ends[piece] as usize].iter().copied()
     }
 }
 
@@ -56,6 +66,13 @@ pub(super) fn reach<K: Kernel>(
     splitter: &K::Splitter,
     points: impl Iterator<Item = [f64; 3]>,
 ) -> (bool, bool) {
+    let (low, high) = extent::<K>(splitter, points);
+    let slack = K::slack(splitter);
+    (high > slack, low < -slack)
+}
+
+#[inline]
+fn extent<K: Kernel>(splitter: &K::Splitter, points: impl Iterator<Item = [f64; 3]>) -> (f64, f64) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for point in points {
         let s = K::distance(splitter, point);
@@ -63,6 +80,5 @@ pub(super) fn reach<K: Kernel>(
         low = if s < low { s } else { low };
         high = if s > high { s } else { high };
     }
-    let slack = K::slack(splitter);
-    (high > slack, low < -slack)
+    (low, high)
 }

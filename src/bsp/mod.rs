@@ -23,6 +23,7 @@ mod planes;
 mod progress;
 mod schedule;
 mod stats;
+mod taken;
 mod traverse;
 mod tree;
 mod twig;

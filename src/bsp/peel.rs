@@ -1,8 +1,9 @@
-//! Pieces that can be taken off a set without a cut.
+//! Pieces that can be taken off a small set without a cut.
 
 use super::gather::Gathered;
 use super::live::Live;
-use crate::geom::{Kernel, PlaneId};
+use super::taken::TakenApart;
+use crate::geom::{Faces, Kernel, PlaneId, Side};
 
 /// How many pieces may be looked at in vain, for each piece of the set, before the search for
 /// pieces to take off ends. Larger: time; smaller: pieces that are cut for nothing.
@@ -16,54 +17,67 @@ const PATIENCE: usize = 32;
 /// apart entirely.
 #[derive(Debug, Default)]
 pub(super) struct Peeler {
+    /// The pieces that are left, in the order in which they are held against the planes of others:
+    /// those that were witnesses last come first, as they lie at the rim of the set.
+    order: Vec<u32>,
     gone: Vec<bool>,
     /// For each piece, what keeps it from being taken: a piece in front of its plane and one
     /// behind, or twice one across.
     witnesses: Vec<[u32; 2]>,
-    /// The pieces in the order in which others are held against their planes: those that were
-    /// witnesses last come first, as they lie at the rim of the set.
-    order: Vec<u32>,
-    /// The planes found, with the number of pieces that each leaves, the last to be used first.
-    found: Vec<(PlaneId, usize)>,
+    /// Pieces that are not certainly on one side of the plane at hand.
+    near: Vec<u32>,
+    /// The pieces on it.
+    own: Vec<u32>,
+    /// How many pieces the last search left, if it found any to take.
+    left: usize,
 }
 
 const NOBODY: u32 = u32::MAX;
 
 impl Peeler {
-    /// The next plane found, if the set is what the one before it left.
-    pub(super) fn next(&mut self, pieces: usize) -> Option<PlaneId> {
-        match self.found.pop() {
-            Some((plane, expected)) if expected == pieces => Some(plane),
-            _ => {
-                self.found.clear();
-                None
-            }
-        }
+    /// Whether the set at hand, which comes after the one last searched, is what was left of that:
+    /// then another search would be in vain.
+    pub(super) fn has_searched(&mut self, pieces: usize) -> bool {
+        std::mem::take(&mut self.left) == pieces
     }
 
-    /// Searches a set; [`next`](Self::next) gives the planes.
-    pub(super) fn search<K: Kernel>(&mut self, pieces: &[Live], set: &Gathered<K>) {
+    /// Searches a set; tells whether anything was found.
+    pub(super) fn search<K: Kernel>(
+        &mut self,
+        (kernel, faces): (&K, &Faces),
+        (pieces, arena): (&[Live], &[K::Vertex]),
+        set: &Gathered<K>,
+        taken: &mut TakenApart,
+    ) -> bool {
+        taken.clear();
         self.reset(pieces.len());
-        let (n, mut left) = (pieces.len(), pieces.len());
+        let n = pieces.len();
         let mut patience = PATIENCE * n;
         let mut progress = true;
-        while progress && patience > 0 && left > 1 {
+        while progress && patience > 0 && self.order.len() > 1 {
             progress = false;
             for p in 0..n as u32 {
-                if left <= 1 || self.gone[p as usize] || self.is_held(p) {
+                if self.order.len() <= 1 || self.gone[p as usize] || self.is_held(p) {
                     continue;
                 }
-                match self.look(p, set) {
-                    Ok(coplanar) => {
-                        self.found.push((PlaneId::face(pieces[p as usize].face), left));
-                        left -= self.take(p, coplanar, set);
-                        progress = true;
-                    }
-                    Err(looks) => patience = patience.saturating_sub(looks),
+                if let Some(looks) = self.looks_until_held(p, set) {
+                    patience = patience.saturating_sub(looks);
+                    continue;
+                }
+                let splitter = set.splitter(p as usize);
+                let side =
+                    |q: u32| kernel.classify(faces, splitter, pieces[q as usize].piece(arena));
+                if let Some(rest) = self.rest(p, side) {
+                    taken.push(PlaneId::face(pieces[p as usize].face), rest, &self.own);
+                    self.own.iter().for_each(|&q| self.gone[q as usize] = true);
+                    self.order.retain(|&q| !self.gone[q as usize]);
+                    progress = true;
                 }
             }
         }
-        self.found.reverse();
+        let found = taken.len() > 0;
+        self.left = if found { self.order.len() } else { 0 };
+        found
     }
 
     fn reset(&mut self, pieces: usize) {
@@ -73,7 +87,6 @@ impl Peeler {
         self.witnesses.resize(pieces, [NOBODY; 2]);
         self.order.clear();
         self.order.extend(0..pieces as u32);
-        self.found.clear();
     }
 
     /// Whether what kept a piece from being taken is still there.
@@ -81,48 +94,62 @@ impl Peeler {
         self.witnesses[p as usize].iter().all(|&w| w != NOBODY && !self.gone[w as usize])
     }
 
-    /// Holds the others against a piece's plane: whether it has some of them on it, if it has
-    /// none on one side, or how many were looked at until there were some on both.
-    fn look<K: Kernel>(&mut self, p: u32, set: &Gathered<K>) -> Result<bool, usize> {
+    /// Holds the others against a piece's plane until there are some on both sides: how many that
+    /// took, if there are.
+    fn looks_until_held<K: Kernel>(&mut self, p: u32, set: &Gathered<K>) -> Option<usize> {
         let splitter = set.splitter(p as usize);
+        let slack = K::slack(splitter);
         let mut seen = [NOBODY; 2];
-        let mut coplanar = false;
+        self.near.clear();
         for i in 0..self.order.len() {
             let q = self.order[i];
-            if q == p || self.gone[q as usize] {
+            if q == p {
                 continue;
             }
-            let (front, back) = set.reach(splitter, q as usize);
-            coplanar |= !front && !back;
-            if front {
+            let (low, high) = set.extent(splitter, q as usize);
+            if high > slack {
                 seen[0] = q;
             }
-            if back {
+            if low < -slack {
                 seen[1] = q;
             }
             if seen[0] != NOBODY && seen[1] != NOBODY {
                 self.witnesses[p as usize] = seen;
                 self.order.swap(i, i / 2);
-                return Err(i + 1);
+                return Some(i + 1);
+            }
+            if low <= slack && high >= -slack {
+                self.near.push(q);
             }
         }
-        Ok(coplanar)
+        // For now, what is seen on one side alone; what is near has still to be decided.
+        self.witnesses[p as usize] = seen;
+        None
     }
 
-    /// Takes a piece, and those on its plane; gives how many.
-    fn take<K: Kernel>(&mut self, p: u32, coplanar: bool, set: &Gathered<K>) -> usize {
-        self.gone[p as usize] = true;
-        let mut taken = 1;
-        if coplanar {
-            let splitter = set.splitter(p as usize);
-            for q in 0..self.gone.len() as u32 {
-                if !self.gone[q as usize] && set.reach(splitter, q as usize) == (false, false) {
-                    self.gone[q as usize] = true;
-                    taken += 1;
-                }
+    /// On which side of a piece's plane all others are that are left and not on it, if on one; those
+    /// on it, and the piece, are then its own.
+    fn rest(&mut self, p: u32, side: impl Fn(u32) -> Side) -> Option<Side> {
+        let mut seen = self.witnesses[p as usize];
+        self.own.clear();
+        self.own.push(p);
+        for &q in &self.near {
+            let side = side(q);
+            if side == Side::Coplanar {
+                self.own.push(q);
+            }
+            if matches!(side, Side::Front | Side::Spanning) {
+                seen[0] = q;
+            }
+            if matches!(side, Side::Back | Side::Spanning) {
+                seen[1] = q;
             }
         }
-        self.order.retain(|&q| !self.gone[q as usize]);
-        taken
+        self.witnesses[p as usize] = seen;
+        (seen[0] == NOBODY || seen[1] == NOBODY).then_some(if seen[0] == NOBODY {
+            Side::Back
+        } else {
+            Side::Front
+        })
     }
 }

@@ -144,7 +144,7 @@ impl Kernel for Exact {
 
     #[inline]
     fn slack(splitter: &ExactSplitter) -> f64 {
-        splitter.bound.max(splitter.band)
+        splitter.bound + splitter.band
     }
 
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> ExactVertex {

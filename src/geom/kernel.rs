@@ -63,7 +63,8 @@ pub trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
     /// front it is positive.
     fn distance(splitter: &Self::Splitter, position: [f64; 3]) -> f64;
 
-    /// How far off [`distance`](Self::distance) may be, and the tolerance, both in its unit.
+    /// How far off [`distance`](Self::distance) may be and the tolerance, together, in its unit:
+    /// what is further than that from the plane certainly lies on one side of it.
     fn slack(splitter: &Self::Splitter) -> f64;
 
     /// Corner `k` of a face as a vertex.

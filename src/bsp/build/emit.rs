@@ -1,9 +1,10 @@
 //! Nodes that are done with, and the sets on their sides that are not.
 
+use std::mem::take;
+
 use super::{Builder, JOB, Live, Pending, is_leaf};
 use crate::Error;
 use crate::bsp::assemble::{Child, RawNode};
-use crate::bsp::convex::Taken;
 use crate::bsp::jobs::Job;
 use crate::geom::{Kernel, PlaneId, Side, reserve};
 
@@ -57,21 +58,17 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// Emits the nodes of pieces that are taken off a set, each behind or in front of the one
     /// before, and puts off what is left.
-    pub(super) fn emit_list(
-        &mut self,
-        start: usize,
-        depth: usize,
-        list: &[Taken],
-    ) -> Result<(), Error> {
+    pub(super) fn emit_list(&mut self, start: usize, depth: usize) -> Result<(), Error> {
+        let list = take(&mut self.chooser.taken);
         let depth = depth + list.len();
         if depth > self.shared.options.max_depth {
             return Err(Error::depth(self.shared.options.max_depth));
         }
         let mut left = vec![true; self.pieces.len() - start];
-        for taken in list {
+        for taken in list.iter() {
             let own = &mut self.scratch.own;
             own.clear();
-            for &piece in &taken.pieces {
+            for &piece in taken.pieces {
                 left[piece as usize] = false;
                 own.push(self.pieces[start + piece as usize]);
             }
@@ -82,6 +79,7 @@ impl<K: Kernel> Builder<'_, K> {
             let (front, back) = (child(Side::Front), child(Side::Back));
             self.output.nodes.push(RawNode { plane: taken.plane, own: own as u32, front, back });
         }
+        self.chooser.taken = list;
         let mut left = left.iter();
         let mut next = start;
         for i in start..self.pieces.len() {
