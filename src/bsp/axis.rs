@@ -7,7 +7,7 @@ use crate::geom::{Faces, PlaneId};
 
 /// Values a bin is to hold in the mean. Larger: more to sort in the bins that are looked at;
 /// smaller: more bins to bound.
-const PER_BIN: usize = 8;
+const PER_BIN: usize = 2;
 /// A plane that cuts nothing and leaves at least one in so many pieces on either side is good
 /// enough. Smaller: other axes are searched for what is hardly better; larger: unbalanced trees.
 const UNEVEN: usize = 4;
@@ -45,6 +45,7 @@ pub(super) struct Sweep {
     counts: Vec<[u32; 4]>,
     candidates: Vec<u32>,
     bounds: Vec<f64>,
+    chosen: Vec<bool>,
     /// The values of the four kinds, and the candidates, in the bins looked into.
     values: [Vec<f64>; 4],
     coordinates: Vec<f64>,
@@ -69,8 +70,6 @@ struct Span {
 /// use; fewer: allocations.
 const MUCH: usize = 8;
 
-/// The bin of what is no candidate.
-const NO_BIN: u16 = u16::MAX;
 
 impl Sweep {
     /// The free plane of least cost, if one has fewer pieces on each side than there are.
@@ -97,9 +96,11 @@ impl Sweep {
             }
             let bins = Bins::new(bounds.0[axis], bounds.1[axis], n);
             self.fill(pieces, axis, tolerance, &bins);
-            let first = self.bound(n);
-            self.look_into(pieces, axis, &bins, &mut best, |bin, _| bin == first);
-            self.look_into(pieces, axis, &bins, &mut best, |bin, may_win| bin != first && may_win);
+            let limit = best.map_or(f64::INFINITY, |best| best.cost);
+            if self.bound(n, limit) {
+                self.gather(pieces, axis);
+                self.walk(n, axis, &bins, &mut best);
+            }
         }
         best
     }
@@ -125,7 +126,7 @@ impl Sweep {
             counts[end_bin][kind + ENDED] += 1;
             let mut candidate = |is_corner: bool, value| {
                 if !is_corner {
-                    return NO_BIN;
+                    return bins.count as u16;
                 }
                 let bin = bins.of_value(value);
                 candidates[bin] += 1;
@@ -143,45 +144,39 @@ impl Sweep {
         }
     }
 
-    /// Bounds the cost in every bin; gives the one with the least bound.
-    fn bound(&mut self, pieces: usize) -> usize {
+    /// Chooses the bins that may hold a plane of less cost than the limit, and than is certain of
+    /// another bin; tells whether there are any.
+    fn bound(&mut self, pieces: usize, mut limit: f64) -> bool {
+        let cost = |begun: &[u32; 4], ended: &[u32; 4]| {
+            let behind = (begun[BEGUN] + begun[FLAT + BEGUN]) as usize;
+            let in_front = pieces - (ended[ENDED] + ended[FLAT + ENDED]) as usize;
+            let splits = begun[BEGUN].saturating_sub(ended[ENDED]) as usize;
+            let divides = behind < pieces && in_front < pieces;
+            (work(in_front) + work(behind) + price(splits), divides)
+        };
         self.bounds.clear();
-        let mut first = (f64::INFINITY, 0);
         for (bin, &candidates) in self.candidates.iter().enumerate() {
             let (before, after) = (&self.counts[bin], &self.counts[bin + 1]);
-            let bound = if candidates == 0 {
-                f64::INFINITY
-            } else {
-                let ended = after[ENDED] + after[FLAT + ENDED];
-                let begun = before[BEGUN] + before[FLAT + BEGUN];
-                let splits = before[BEGUN].saturating_sub(after[ENDED]);
-                work(pieces - ended as usize) + work(begun as usize) + price(splits as usize)
-            };
-            if bound < first.0 {
-                first = (bound, bin);
+            if candidates == 0 {
+                self.bounds.push(f64::INFINITY);
+                continue;
             }
-            self.bounds.push(bound);
+            self.bounds.push(cost(before, after).0);
+            let (most, divides) = cost(after, before);
+            if divides && most < limit {
+                limit = most.next_up();
+            }
         }
-        first.1
+        self.chosen.clear();
+        self.chosen.extend(self.bounds.iter().map(|&bound| bound < limit));
+        self.chosen.push(false);
+        self.chosen.contains(&true)
     }
 
-    /// Tries all candidates in the bins chosen by number and by whether they may be better than
-    /// the best so far.
-    fn look_into(
-        &mut self,
-        pieces: &[Live],
-        axis: usize,
-        bins: &Bins,
-        best: &mut Option<FreePlane>,
-        chosen: impl Fn(usize, bool) -> bool,
-    ) {
-        let limit = best.map_or(f64::INFINITY, |best| best.cost);
-        let bounds = &self.bounds;
-        let is_chosen =
-            |bin: u16| bin != NO_BIN && chosen(bin.into(), bounds[usize::from(bin)] < limit);
-        if !(0..bounds.len()).any(|bin| is_chosen(bin as u16)) {
-            return;
-        }
+    /// Gathers what is in the chosen bins.
+    fn gather(&mut self, pieces: &[Live], axis: usize) {
+        let chosen = &self.chosen[..];
+        let is_chosen = |bin: u16| chosen[usize::from(bin)];
         self.values.iter_mut().for_each(Vec::clear);
         self.coordinates.clear();
         for (span, piece) in self.spans.iter().zip(pieces) {
@@ -200,7 +195,6 @@ impl Sweep {
                 self.coordinates.push(piece.max[axis]);
             }
         }
-        self.walk(pieces.len(), axis, bins, best);
     }
 
     /// Walks the gathered candidates upwards, with a finger in the list of each kind.

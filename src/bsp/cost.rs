@@ -50,7 +50,21 @@ pub(super) fn price(splits: usize) -> f64 {
 /// of two. The same on every machine, and faster than a logarithm.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
-    let power = n.max(1).ilog2();
-    let beyond = n.max(1) as f64 / (1_u64 << power) as f64 - 1.0;
-    n as f64 * (f64::from(power) + beyond * (4.0 - beyond) / 3.0)
+    const KEPT: usize = 512;
+    const TABLE: [f64; KEPT] = {
+        let (mut table, mut n) = ([0.0; KEPT], 0);
+        while n < KEPT {
+            table[n] = computed(n);
+            n += 1;
+        }
+        table
+    };
+    TABLE.get(n).copied().unwrap_or_else(|| computed(n))
+}
+
+const fn computed(n: usize) -> f64 {
+    let n = if n == 0 { 1 } else { n };
+    let power = n.ilog2();
+    let beyond = n as f64 / (1_u64 << power) as f64 - 1.0;
+    n as f64 * (power as f64 + beyond * (4.0 - beyond) / 3.0)
 }
