@@ -236,7 +236,7 @@ impl<K: Kernel> Chooser<'_, K> {
             let mut counts = Counts::default();
             for chunk in (0..n).step_by(CHECK_EVERY * step) {
                 let end = n.min(chunk + CHECK_EVERY * step);
-                (chunk..end).step_by(step).for_each(|q| counts.add(set.reach(splitter, q)));
+                set.reaches(splitter, chunk..end, step).for_each(|reach| counts.add(reach));
                 if counts.cost() >= limit {
                     return None;
                 }

@@ -70,7 +70,6 @@ struct Span {
 /// use; fewer: allocations.
 const MUCH: usize = 8;
 
-
 impl Sweep {
     /// The free plane of least cost, if one has fewer pieces on each side than there are.
     pub(super) fn best(

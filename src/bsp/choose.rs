@@ -14,7 +14,7 @@ use crate::geom::{Faces, Kernel, PlaneId};
 /// node takes quadratic time. They are spread evenly over the set.
 const MOST_CANDIDATES: usize = 256;
 /// How often a candidate is asked whether it can still win, in pieces.
-pub(super) const CHECK_EVERY: usize = 64;
+pub(super) const CHECK_EVERY: usize = 32;
 
 /// What is to be done with a set.
 #[derive(Debug)]
