@@ -8,7 +8,7 @@ use binspace::scene::{Builtin, Family};
 use self::chart::{Chart, Marker, Series, Style};
 use super::figures::{EXACT, Section};
 use super::growth::{Growth, Size};
-use super::summary::Summary;
+use super::summary::{Summary, label};
 use crate::failure::Failure;
 
 /// The methods that plots show, with their looks: trees round and blue, depth buffers with corners
@@ -38,7 +38,8 @@ pub(super) fn speed(sections: &[Section]) -> Result<Option<String>, Failure> {
         .filter_map(|&(name, style)| {
             let summary = summaries.iter().find(|summary| summary.method == name)?;
             let point = (summary.time(), summary.wrong_share());
-            Some(Series::new(name, style, vec![point]).without_line())
+            (summary.ended > 0)
+                .then(|| Series::new(&summary.label(), style, vec![point]).without_line())
         })
         .collect();
     if series.is_empty() {
@@ -66,7 +67,8 @@ pub(super) fn against_difficulty(section: &Section, family: Family) -> Result<St
                 Some((row.difficulty?, figures.picture.wrong_share()))
             })
             .collect();
-        (!points.is_empty()).then(|| Series::new(name, style, points))
+        let name = label(name, points.len(), section.of(name).count());
+        (!points.is_empty()).then(|| Series::new(&name, style, points))
     });
     let sweep = section.of(EXACT).filter_map(|row| row.difficulty).collect::<Vec<f64>>();
     let title = format!("{family}: error against difficulty");
