@@ -3,7 +3,7 @@
 use super::figures::{EXACT, JUDGE, Row, Section};
 use super::tables::{difficulty, exponent, grouped, share};
 
-/// One sentence on a family or a scene: how the exact tree fared, which others err and from where on,
+/// One sentence on a family or a scene: how the exact tree fared, which others err and where first,
 /// which do not, which gave up, and what is wrong at most.
 pub(super) fn sentence(section: &Section) -> String {
     // The judge is not judged.
