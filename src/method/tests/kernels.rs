@@ -14,8 +14,8 @@ fn side<K: Kernel>(kernel: K, faces: &Faces, face: u32, plane: u32) -> Side {
     kernel.classify(faces, &splitter, Piece { face, cut: None })
 }
 
-/// The least distance of positions from the plane of a face, as a share of half the extent and of up
-/// to four times that: what an epsilon is a share of.
+/// The least distance of positions from the plane of a face, as a share of half the extent and of
+/// up to four times that: what an epsilon is a share of.
 fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let normal = (q - p).cross(r - p).normalize();
@@ -138,8 +138,8 @@ fn part<K: Kernel>(
 }
 
 /// Cuts every face again and again, and asserts that the kernels agree on each piece wherever none
-/// of its vertices, wherever it was rounded to, is within the epsilon and the kernel's own rounding.
-/// Gives back how many times they do not elsewhere.
+/// of its vertices is within the epsilon, what it was moved by rounding, and the kernel's own
+/// rounding of a plane. Gives back how many times they do not elsewhere.
 fn disagreements_on_pieces<K: Kernel>(
     kernel: K,
     epsilon: f64,

@@ -90,8 +90,8 @@ pub(super) fn growth_build(rows: &[Growth]) -> Result<String, Failure> {
     growth(rows, "Time to build a tree", "build [s]", false, |size, _| size.build)
 }
 
-/// Fragments for each polygon, less the one that a polygon is if nothing cuts it, against the number
-/// of polygons.
+/// Fragments for each polygon, less the one that a polygon is if nothing cuts it, against the
+/// number of polygons.
 pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
     let title = "Fragments that cuts add, for each polygon";
     growth(rows, title, "fragments / polygons − 1", true, |size, polygons| {
