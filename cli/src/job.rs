@@ -13,6 +13,8 @@ use crate::units::count;
 
 /// How many faces a note names.
 const NAMED: usize = 3;
+/// What is wrong with a scene of which no face is left.
+pub(crate) const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
 
 /// Loads a scene and builds its tree, which has a fragment at least; says what was left out of
 /// either.
@@ -25,7 +27,7 @@ pub(crate) fn scene_and_tree(
     let tree = measure::build(&scene, &options).map_err(|error| about(&scene, &error))?;
     note_preparation(&scene, tree.faces(), tree.preparation());
     if tree.is_empty() {
-        return Err(Failure::about(scene.name(), "nothing is left to draw: no face has an area"));
+        return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
     Ok((scene, tree))
 }

@@ -41,6 +41,9 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         };
         if is_first {
             job::note_preparation(&scene, tree.faces(), tree.preparation());
+            if tree.is_empty() {
+                note(&format!("{}: {}", scene.name(), job::NOTHING_LEFT));
+            }
         }
         let figures = Figures {
             heuristic,

@@ -78,4 +78,19 @@ fn what_cannot_be_reported_is_refused_before_anything_is_measured() {
     assert!(folder.run("report nothing.obj -o out").refused().contains("nothing.obj"));
     assert!(folder.run("report --family gap -o file/x").refused().contains("cannot be made"));
     assert_eq!(folder.files(), ["file"]);
+    // A folder of earlier files, one of which cannot be replaced.
+    fs::create_dir_all(folder.path("out/speed.svg")).unwrap();
+    folder.write("out/report.md", "earlier");
+    let message = folder.run("report --quick --family gap -o out").refused();
+    assert!(message.contains("out/speed.svg: cannot be written"), "{message}");
+    assert_eq!(fs::read_to_string(folder.path("out/report.md")).unwrap(), "earlier");
+    assert_eq!(fs::read_dir(folder.path("out")).unwrap().count(), 2);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_in_which_nothing_can_be_made_is_refused_before_anything_is_measured() {
+    let folder = Folder::new("report_proc");
+    let message = folder.run("report -o /proc").refused();
+    assert!(message.contains("/proc/report.md: cannot be written"), "{message}");
 }

@@ -62,7 +62,12 @@ fn what_the_tolerance_makes_equals_is_contested_not_wrong() {
 fn a_scene_without_area_is_not_called_right() {
     let folder = Folder::new("verify_empty");
     folder.write("s.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-    for command in ["verify s.obj", "order s.obj --eye=0,0,1", "render s.obj -o s.png"] {
+    for command in [
+        "verify s.obj",
+        "order s.obj --eye=0,0,1",
+        "render s.obj -o s.png",
+        "report --family gap s.obj -o out",
+    ] {
         let message = folder.run(command).refused();
         assert!(message.contains("s.obj: nothing is left to draw"), "{message}");
         assert!(message.contains("1 face without area dropped: face 0 (line 4)"), "{message}");
@@ -71,5 +76,6 @@ fn a_scene_without_area_is_not_called_right() {
     // What there is to count is counted.
     let run = folder.run("stats s.obj --json");
     assert!(run.err.contains("1 face without area dropped: face 0 (line 4)"), "{run:?}");
+    assert!(run.err.contains("s.obj: nothing is left to draw"), "{run:?}");
     assert!(run.good().contains("\"dropped\": 1"));
 }

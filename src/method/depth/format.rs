@@ -57,8 +57,11 @@ impl fmt::Display for DepthFormat {
 /// How depths come from the corners of a face to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the left. What a face
-    /// covers is decided exactly, so that the depths alone can err: there are no holes, no spills.
+    /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the
+    /// left. What a face covers is decided exactly, so that it shows nowhere else: there are no
+    /// spills. A face that is within the range of depths has no holes either. One that reaches out
+    /// of it, as all do that reach behind the eye, ends there by its depths in `f64`; the rest of
+    /// it is missing, which may be all that there is to see of a face that the eye touches.
     EdgeFunctions,
     /// Scanline by scanline, as in Catmull's thesis (1974) and, without a buffer, in Wylie, Romney,
     /// Evans & Erdahl (1967) and Bouknight (1970): x and z grow by a constant along the edges from

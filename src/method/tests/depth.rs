@@ -75,18 +75,36 @@ fn sums_along_scanlines_agree_with_edge_functions() {
     for polygons in &scenes {
         let faces = faces(polygons, Some(0.0));
         for camera in cameras(polygons, [80, 60], 3) {
-            let mut images =
-                [Interpolation::EdgeFunctions, Interpolation::Incremental].map(|how| {
-                    let method = DepthBuffer::new(Integer(24)).with_interpolation(how);
-                    show(&method, &faces, &camera).image.faces().to_vec().into_iter()
-                });
-            let [edges, sums] = &mut images;
-            for (pixel, shown) in (0u32..).zip(edges.zip(sums)) {
-                let (at, shown) = ([pixel % 80, pixel / 80], [shown.0, shown.1]);
-                let excused = shown[0] == shown[1] || is_excused(polygons, &camera, at, shown);
-                assert!(excused, "{shown:?} at {at:?} of {camera:?}");
+            for format in FORMATS {
+                let [edges, sums] =
+                    [Interpolation::EdgeFunctions, Interpolation::Incremental].map(|how| {
+                        let method = DepthBuffer::new(format).with_interpolation(how);
+                        show(&method, &faces, &camera).image
+                    });
+                for (pixel, shown) in (0u32..).zip(edges.faces().iter().zip(sums.faces())) {
+                    let (at, shown) = ([pixel % 80, pixel / 80], [*shown.0, *shown.1]);
+                    let excused = shown[0] == shown[1] || is_excused(polygons, &camera, at, shown);
+                    assert!(excused, "{format}: {shown:?} at {at:?} of {camera:?}");
+                }
             }
         }
+    }
+}
+
+#[test]
+fn edge_functions_leave_holes_only_beyond_the_range_of_depths() {
+    // A floor at the eye's feet, so near below it that the range ends before.
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+    let floor = corners.map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec();
+    let faces = faces(&vec![floor], Some(0.0));
+    let found = |height: f64| {
+        let eye = DVec3::new(0.1, height, 0.2);
+        let camera = Camera::perspective(eye, eye - DVec3::Z, DVec3::Y, 1.0, [12, 12]).unwrap();
+        judge(&DepthBuffer::new(Integer(24)), &faces, &camera)
+    };
+    for (height, holes) in [(1e-3, 0), (1e-9, 0), (1e-15, 72)] {
+        let found = found(height);
+        assert_eq!((found.covered, found.holes, found.spills), (72, holes, 0), "{height:e}");
     }
 }
 

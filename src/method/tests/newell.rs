@@ -1,9 +1,11 @@
 //! Newell's algorithm against brute force, and its cycles.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::oracle::nearest;
-use super::{Polygons, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show};
+use super::{
+    Polygons, Random, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show,
+};
 use crate::method::{Method, Newell};
 use crate::raster::{NONE, Rays};
 use crate::scene;
@@ -113,6 +115,64 @@ fn a_cycle_of_three_is_cut() {
         let pieces = assert_right("three bars", &three_bars(), &[camera]);
         // One cut would do, but each plane cuts both other bars, which counts as penetration.
         assert!((4..=7).contains(&pieces), "{pieces}");
+    }
+}
+
+/// Spikes along the sides of a polygon around the z axis, each over the next where they meet, and
+/// the last over the first. (Triangles, which are planar however they are turned.)
+fn random_ring(random: &mut Random) -> Polygons {
+    let count = 3 + random.bits() % 6;
+    let angle = |i: u64| std::f64::consts::TAU * (i % count) as f64 / count as f64;
+    let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (random.unit() + 1.0);
+    let corners: Vec<DVec3> = (0..count)
+        .map(|i| between(0.8, 1.0) * DVec3::new(angle(i).cos(), angle(i).sin(), 0.0))
+        .collect();
+    let heights: Vec<f64> = corners.iter().map(|_| between(0.02, 0.2)).collect();
+    let mut spike = |i: usize| {
+        let next = (i + 1) % corners.len();
+        let from = corners[i] - DVec3::Z * heights[i];
+        let along = corners[next] + DVec3::Z * heights[next] - from;
+        let (start, end) = (from - 0.2 * along, from + 1.2 * along);
+        let side = 0.5 * between(0.05, 0.1) * along.cross(DVec3::Z).normalize();
+        vec![start - side, start + side, end]
+    };
+    (0..count as usize).map(&mut spike).collect()
+}
+
+#[test]
+fn random_cycles_come_out_as_brute_force_has_them() {
+    let mut random = Random(17);
+    for number in 0..24 {
+        let ring = random_ring(&mut random);
+        let turn = DQuat::from_axis_angle(random.point().normalize(), 3.0 * random.unit());
+        let (scale, shift) = (10f64.powf(random.unit()), 4.0 * random.point());
+        let place = |point: DVec3| turn * point * scale + shift;
+        let polygons: Polygons =
+            ring.iter().map(|spike| spike.iter().map(|&corner| place(corner)).collect()).collect();
+        // From above, all of it is seen, and no order is right.
+        let eye = place(DVec3::new(0.3 * random.unit(), 0.3 * random.unit(), 4.0));
+        let [target, up] = [place(DVec3::ZERO), turn * DVec3::Y];
+        let above = Camera::perspective(eye, target, up, 0.8, [60, 60]).unwrap();
+        let name = format!("ring {number} of {}", ring.len());
+        let pieces = assert_right(&name, &polygons, &[above]);
+        assert!(pieces > ring.len(), "{name}: {pieces}");
+        assert_right(&name, &polygons, &cameras(&polygons, [48, 36], number));
+    }
+}
+
+#[test]
+fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
+    let mut random = Random(23);
+    for number in 0..8 {
+        let mut polygons = Polygons::new();
+        for _ in 0..3 {
+            let turn = DQuat::from_axis_angle(random.point().normalize(), 3.0 * random.unit());
+            let shift = 0.3 * random.point();
+            let place = |spike: Vec<DVec3>| spike.iter().map(|&c| turn * c + shift).collect();
+            polygons.extend(random_ring(&mut random).into_iter().map(place));
+        }
+        let views = cameras(&polygons, [48, 36], number);
+        assert_right(&format!("rings {number}"), &polygons, &views);
     }
 }
 

@@ -13,14 +13,22 @@ use crate::units::{bytes, time};
 pub(super) fn report(report: &Report<'_>) -> String {
     let mut text = head(report);
     text += &format!(
-        "\n## Speed against error\n\n{}.\n\n![Speed against error](speed.svg)\n\n{}\n{}",
+        "\n## Speed against error\n\n{}.\n\n![Speed against error](speed.svg)\n\n{}{}",
         report.exactness(),
         summary::headline(&report.sections).markdown(),
         LEGEND
     );
+    if let Some(table) = summary::in_common(&report.sections) {
+        text += &format!(
+            "\nA method that gave up is compared above over easier trials than the others. All of \
+             them over the trials that every method ended:\n\n{}",
+            table.markdown()
+        );
+    }
     text += "\n### All methods, all families\n\n";
     text += &summary::everything(&report.sections).markdown();
-    text += "\n## The families, one by one\n";
+    text += "\n## The families, one by one\n\n\
+             `f64` and `f32` trees are those with an epsilon; the judge is no depth buffer here.\n";
     for section in &report.sections {
         match section.subject {
             Subject::Family(family) => text += &of_family(section, family),
@@ -54,9 +62,9 @@ const LEGEND: &str = "
 polygon is painted than the nearest, or none, or one where there is none. *Families wrong* counts
 families with any such pixel. *Deepest error* and *largest drift* are shares of the extent.
 *Vertices misplaced* are, by their exact definition, on another side of a partition plane than
-their piece was put. *Build* and *picture* (order and drawing) are geometric means over all trials.
-*Given up* counts trials that ran out of a budget; they are in no other figure. – means that a
-method has no such figure.
+their piece was put. *Build* and *picture* (order and drawing) are geometric means.
+*Ended* counts the trials that did not run out of a budget; a method's other figures are of these
+alone, though those that it gave up are the hardest. – means that a method has no such figure.
 ";
 
 fn of_family(section: &Section, family: Family) -> String {

@@ -11,11 +11,13 @@ mod summary;
 mod tables;
 mod trial;
 
+use std::ffi::OsStr;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use std::{fs, io};
 
 use binspace::BuildOptions;
+use binspace::geom::Faces;
 use binspace::method::{Method, Newell, Options, all};
 use binspace::scene::{Family, Scene};
 
@@ -26,6 +28,7 @@ use super::Outcome;
 use crate::args::{ReportArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
+use crate::job;
 use crate::progress::Progress;
 use crate::scene_arg;
 use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
@@ -44,6 +47,8 @@ const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Build times, fragments and the figures of both.
 const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
+/// What every report has.
+const FILES: [&str; 4] = ["report.md", "speed.svg", "errors.csv", "times.csv"];
 /// Views of scenes that are files.
 const VIEWS: usize = 6;
 
@@ -62,6 +67,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     // Files first: what cannot be read should not cost minutes.
     let scenes = args.scenes.iter().map(|name| load(args, name)).collect::<Result<Vec<_>, _>>()?;
     make_folder(&args.output)?;
+    try_to_write(&args.output)?;
     let size = args.size.unwrap_or(if args.quick { [160, 120] } else { [640, 480] });
     let mut report =
         Report { args, size, sections: Vec::new(), growth: Vec::new(), complete: false };
@@ -95,8 +101,17 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     failed.map_or(Ok(outcome), Err)
 }
 
-fn load(args: &ReportArgs, name: &std::ffi::OsStr) -> Result<Scene, Failure> {
-    scene_arg::load(&SceneArgs { name: name.to_owned(), seed: args.seed })
+/// Reads a scene, of which a face is left at least.
+fn load(args: &ReportArgs, name: &OsStr) -> Result<Scene, Failure> {
+    let scene = scene_arg::load(&SceneArgs { name: name.to_owned(), seed: args.seed })?;
+    match Faces::new(scene.polygons(), None) {
+        Ok((faces, found)) if faces.is_empty() => {
+            job::note_preparation(&scene, &faces, &found);
+            Err(Failure::about(scene.name(), job::NOTHING_LEFT))
+        }
+        // What else may be wrong shows when it is measured, and other scenes are none the worse.
+        _ => Ok(scene),
+    }
 }
 
 /// All competitors, with budgets that end.
@@ -160,7 +175,7 @@ impl Report<'_> {
         let folder = &self.args.output;
         for family in Family::ALL {
             if !self.sections.iter().any(|section| section.subject == Subject::Family(family)) {
-                remove(folder, &format!("error-{family}.svg"))?;
+                remove(folder, &error_plot(family))?;
             }
         }
         if self.growth.is_empty() {
@@ -169,7 +184,7 @@ impl Report<'_> {
         for section in &self.sections {
             if let Subject::Family(family) = section.subject {
                 let plot = plots::against_difficulty(section, family)?;
-                write(folder, &format!("error-{family}.svg"), &plot)?;
+                write(folder, &error_plot(family), &plot)?;
             }
         }
         if let Some(plot) = plots::speed(&self.sections)? {
@@ -197,6 +212,19 @@ impl Report<'_> {
     fn exactness(&self) -> figures::Exactness {
         self.sections.iter().map(Section::exactness).fold(Default::default(), |a, b| a + b)
     }
+}
+
+/// Makes sure that all files of a report can be written, and leaves those that are there alone:
+/// what cannot be kept should not cost minutes.
+fn try_to_write(folder: &Path) -> Result<(), Failure> {
+    let plots = Family::ALL.map(error_plot);
+    let names = FILES.into_iter().chain(GROWTH_FILES).chain(plots.iter().map(String::as_str));
+    // A file that is not written to is removed again.
+    names.into_iter().try_for_each(|name| NewFile::create(&folder.join(name)).map(drop))
+}
+
+fn error_plot(family: Family) -> String {
+    format!("error-{family}.svg")
 }
 
 fn remove(folder: &Path, name: &str) -> Result<(), Failure> {

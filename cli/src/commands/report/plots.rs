@@ -8,7 +8,7 @@ use binspace::scene::{Builtin, Family};
 use self::chart::{Chart, Marker, Series, Style};
 use super::figures::{EXACT, Section};
 use super::growth::{Growth, Size};
-use super::summary::Summary;
+use super::summary::{Summary, label};
 use crate::failure::Failure;
 
 /// The methods that plots show, with their looks: trees round and blue, depth buffers with corners
@@ -21,7 +21,8 @@ const SHOWN: [(&str, Style); 12] = [
     ("bsp f64 1e-6", Style::new([90, 190, 240], Marker::Circle, 5)),
     ("bsp f32 1e-4", Style::new([120, 70, 200], Marker::Circle, 6)),
     ("newell", Style::new([0, 140, 90], Marker::Diamond, 7)),
-    ("centroid", Style::new([130, 130, 130], Marker::Cross, 5)),
+    // Whatever hides its middle, its arms are seen.
+    ("centroid", Style::new([130, 130, 130], Marker::Cross, 8)),
     ("z 16", Style::new([150, 80, 20], Marker::Square, 3)),
     ("z 24", Style::new([215, 60, 20], Marker::Square, 5)),
     ("z f32", Style::new([245, 150, 30], Marker::Triangle, 4)),
@@ -37,7 +38,8 @@ pub(super) fn speed(sections: &[Section]) -> Result<Option<String>, Failure> {
         .filter_map(|&(name, style)| {
             let summary = summaries.iter().find(|summary| summary.method == name)?;
             let point = (summary.time(), summary.wrong_share());
-            Some(Series::new(name, style, vec![point]).without_line())
+            (summary.ended > 0)
+                .then(|| Series::new(&summary.label(), style, vec![point]).without_line())
         })
         .collect();
     if series.is_empty() {
@@ -65,7 +67,8 @@ pub(super) fn against_difficulty(section: &Section, family: Family) -> Result<St
                 Some((row.difficulty?, figures.picture.wrong_share()))
             })
             .collect();
-        (!points.is_empty()).then(|| Series::new(name, style, points))
+        let name = label(name, points.len(), section.of(name).count());
+        (!points.is_empty()).then(|| Series::new(&name, style, points))
     });
     let sweep = section.of(EXACT).filter_map(|row| row.difficulty).collect::<Vec<f64>>();
     let title = format!("{family}: error against difficulty");
@@ -84,14 +87,15 @@ pub(super) fn against_difficulty(section: &Section, family: Family) -> Result<St
 
 /// Build time against the number of polygons.
 pub(super) fn growth_build(rows: &[Growth]) -> Result<String, Failure> {
-    growth(rows, "Time to build a tree", "build [s]", |size, _| size.build)
+    growth(rows, "Time to build a tree", "build [s]", false, |size, _| size.build)
 }
 
-/// Fragments for each polygon against the number of polygons.
+/// Fragments for each polygon, less the one that a polygon is if nothing cuts it, against the
+/// number of polygons.
 pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
-    let title = "Fragments for each polygon";
-    growth(rows, title, "fragments / polygons", |size, polygons| {
-        size.fragments as f64 / polygons as f64
+    let title = "Fragments that cuts add, for each polygon";
+    growth(rows, title, "fragments / polygons − 1", true, |size, polygons| {
+        size.fragments as f64 / polygons as f64 - 1.0
     })
 }
 
@@ -99,6 +103,7 @@ fn growth(
     rows: &[Growth],
     title: &str,
     y_label: &str,
+    zero: bool,
     value: impl Fn(&Size, usize) -> f64,
 ) -> Result<String, Failure> {
     let scenes = [
@@ -109,7 +114,8 @@ fn growth(
     ];
     let mut series = Vec::new();
     for (scene, colour) in scenes {
-        for (is_exact, marker) in [(true, Marker::Circle), (false, Marker::Cross)] {
+        // One within the other where both are the same.
+        for (is_exact, marker, reach) in [(true, Marker::Ring, 7), (false, Marker::Cross, 3)] {
             let of_it = |row: &&Growth| row.scene == scene && (row.method == EXACT) == is_exact;
             let points: Vec<(f64, f64)> = rows
                 .iter()
@@ -122,18 +128,11 @@ fn growth(
             if let Some(row) = rows.iter().find(of_it).filter(|_| !points.is_empty()) {
                 let kernel = row.method.trim_start_matches("bsp ");
                 let name = format!("{scene}, {kernel}");
-                series.push(Series::new(&name, Style::new(colour, marker, 5), points));
+                series.push(Series::new(&name, Style::new(colour, marker, reach), points));
             }
         }
     }
-    let chart = Chart {
-        title,
-        x_label: "polygons",
-        y_label,
-        ticks: None,
-        falls: false,
-        zero: false,
-        series,
-    };
+    let chart =
+        Chart { title, x_label: "polygons", y_label, ticks: None, falls: false, zero, series };
     chart.draw()
 }

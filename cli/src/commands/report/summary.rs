@@ -19,7 +19,7 @@ pub(super) struct Summary<'a> {
     drift: Option<f64>,
     pieces: usize,
     faces: usize,
-    trials: usize,
+    pub(super) ended: usize,
     failed: usize,
     /// The sums of the logarithms of build times, and of times for a picture.
     build: f64,
@@ -28,17 +28,36 @@ pub(super) struct Summary<'a> {
 }
 
 impl<'a> Summary<'a> {
-    /// One for each method, in order; none without families.
+    /// One for each method, in order, over the trials that it ended; none without families.
     pub(super) fn of_families(sections: &'a [Section]) -> Vec<Self> {
+        Self::of_trials(sections, |_, _| true)
+    }
+
+    /// The same over the trials that every method ended.
+    fn of_common_trials(sections: &'a [Section]) -> Vec<Self> {
+        Self::of_trials(sections, |family, row| {
+            let mut same = family.rows.iter().filter(|other| other.difficulty == row.difficulty);
+            same.all(|other| other.found.is_ok())
+        })
+    }
+
+    fn of_trials(
+        sections: &'a [Section],
+        counts: impl Copy + Fn(&Section, &Row) -> bool,
+    ) -> Vec<Self> {
         let families: Vec<&Section> = sections
             .iter()
             .filter(|section| matches!(section.subject, Subject::Family(_)))
             .collect();
         let methods = families.first().map_or(Vec::new(), |section| section.methods());
-        methods.into_iter().map(|method| Self::of(method, &families)).collect()
+        methods.into_iter().map(|method| Self::of(method, &families, counts)).collect()
     }
 
-    fn of(method: &'a str, families: &[&'a Section]) -> Self {
+    fn of(
+        method: &'a str,
+        families: &[&'a Section],
+        counts: impl Fn(&Section, &Row) -> bool,
+    ) -> Self {
         let mut summary = Self {
             method,
             wrong_families: 0,
@@ -49,7 +68,7 @@ impl<'a> Summary<'a> {
             drift: None,
             pieces: 0,
             faces: 0,
-            trials: 0,
+            ended: 0,
             failed: 0,
             build: 0.0,
             picture: 0.0,
@@ -57,7 +76,8 @@ impl<'a> Summary<'a> {
         };
         for family in families {
             let before = summary.wrong;
-            family.of(method).for_each(|row| summary.add(row));
+            let rows = family.of(method).filter(|row| counts(family, row));
+            rows.for_each(|row| summary.add(row));
             summary.wrong_families += usize::from(summary.wrong > before);
         }
         summary
@@ -68,7 +88,7 @@ impl<'a> Summary<'a> {
             self.failed += 1;
             return;
         };
-        self.trials += 1;
+        self.ended += 1;
         self.wrong += figures.picture.wrong();
         self.covered += figures.picture.covered;
         self.depth = self.depth.max(figures.picture.depth_max);
@@ -84,18 +104,23 @@ impl<'a> Summary<'a> {
         self.bytes = self.bytes.max(figures.bytes);
     }
 
+    /// Its name, and how many trials it ended if it gave up in others.
+    pub(super) fn label(&self) -> String {
+        label(self.method, self.ended, self.ended + self.failed)
+    }
+
     /// The share of wrong pixels.
     pub(super) fn wrong_share(&self) -> f64 {
         self.wrong as f64 / self.covered.max(1) as f64
     }
 
-    /// The seconds for a picture, order and drawing: the geometric mean over all trials.
+    /// The seconds for a picture, order and drawing: the geometric mean over what it ended.
     pub(super) fn time(&self) -> f64 {
-        (self.picture / self.trials.max(1) as f64).exp()
+        (self.picture / self.ended.max(1) as f64).exp()
     }
 
     fn build_time(&self) -> f64 {
-        (self.build / self.trials.max(1) as f64).exp()
+        (self.build / self.ended.max(1) as f64).exp()
     }
 
     fn cells(&self) -> Vec<String> {
@@ -110,9 +135,14 @@ impl<'a> Summary<'a> {
             format!("{:.2}", self.pieces as f64 / self.faces.max(1) as f64),
             if self.misplaced.is_some() { time(self.build_time()) } else { dash() },
             time(self.time()),
-            if self.failed == 0 { dash() } else { self.failed.to_string() },
+            format!("{} of {}", self.ended, self.ended + self.failed),
         ]
     }
+}
+
+/// A method's name, and how many of its trials it ended if those were not all.
+pub(super) fn label(method: &str, ended: usize, trials: usize) -> String {
+    if ended == trials { method.to_owned() } else { format!("{method}, {ended} of {trials}") }
 }
 
 const COLUMNS: [&str; 10] = [
@@ -125,13 +155,23 @@ const COLUMNS: [&str; 10] = [
     "pieces / polygon",
     "build",
     "picture",
-    "given up",
+    "ended",
 ];
 
 /// The table of six lines.
 pub(super) fn headline(sections: &[Section]) -> Table {
+    six(Summary::of_families(sections))
+}
+
+/// The same over the trials that every method ended; none if every one ended all.
+pub(super) fn in_common(sections: &[Section]) -> Option<Table> {
+    let all = Summary::of_families(sections);
+    all.iter().any(|summary| summary.failed > 0).then(|| six(Summary::of_common_trials(sections)))
+}
+
+fn six(summaries: Vec<Summary<'_>>) -> Table {
     let mut table = Table::new(&COLUMNS);
-    for summary in Summary::of_families(sections) {
+    for summary in summaries {
         if HEADLINE.contains(&summary.method) {
             table.push(summary.cells());
         }

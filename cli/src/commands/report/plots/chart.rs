@@ -18,7 +18,7 @@ use crate::failure::Failure;
 const SIZE: (u32, u32) = (900, 560);
 const LEGEND: u32 = 175;
 /// How high the place for zero is, as a share of the axis above it.
-const LANE: f64 = 0.22;
+const LANE: f64 = 0.28;
 /// How far below the axis it is, as a share of its own height.
 const GAP: f64 = 0.3;
 const FONT: &str = "sans-serif";
@@ -171,13 +171,15 @@ impl Chart<'_> {
     fn draw_points(&self, chart: &mut Plot<'_>, lane: &Lane) -> Result<(), Failure> {
         let has_zero = |series: &&Series| series.points.iter().any(|point| point.1 <= 0.0);
         let count = self.series.iter().filter(has_zero).count() as f64;
-        let mut slot = lane.top - lane.height * (1.0 - 0.5 / count.max(1.0));
+        // Away from the lane's edges, which would cut through marks.
+        let step = lane.height / (count + 1.0);
+        let mut slot = lane.top - lane.height + step;
         // The first is drawn last, above all others.
         for series in self.series.iter().rev() {
             let place = |&(x, y): &(f64, f64)| (x.log10(), if y > 0.0 { y.log10() } else { slot });
             let places: Vec<(f64, f64)> = series.points.iter().map(place).collect();
             if has_zero(&series) {
-                slot += lane.height / count;
+                slot += step;
             }
             if series.line {
                 let style = series.style.colour.mix(0.75).stroke_width(2);
