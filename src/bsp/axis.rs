@@ -39,7 +39,8 @@ pub(super) struct FreePlane {
 /// looked into: O(n) where coordinates spread, O(n log n) at worst.
 #[derive(Debug, Default)]
 pub(super) struct Sweep {
-    spans: Vec<Span>,
+    /// For each piece, the bins in which it begins and ends, and those of its two candidates.
+    bins: Vec<[u16; 4]>,
     /// For each bin, how many of the four kinds there are, and how many candidates; behind the
     /// last bin, and once summed, how many there are before each.
     counts: Vec<[u32; 4]>,
@@ -56,14 +57,22 @@ const ENDED: usize = 1;
 /// What is added for flat pieces.
 const FLAT: usize = 2;
 
-/// Where a piece begins and ends along an axis.
-#[derive(Clone, Copy, Debug)]
+/// Where a piece begins and ends along an axis: it is begun beyond its beginning, and ended at its
+/// end.
 struct Span {
     begin: f64,
     end: f64,
-    /// The bins of `begin`, `end`, and the two candidates.
-    bins: [u16; 4],
-    flat: bool,
+    /// Zero, or [`FLAT`].
+    kind: usize,
+}
+
+impl Span {
+    #[inline]
+    fn of(piece: &Live, axis: usize, tolerance: f64) -> Self {
+        let (min, max) = (piece.min[axis], piece.max[axis]);
+        let kind = if max - min <= 2.0 * tolerance { FLAT } else { 0 };
+        Self { begin: min + tolerance, end: max - tolerance, kind }
+    }
 }
 
 /// Lists so many times as large as needed are given back. More: memory that other threads could
@@ -97,44 +106,39 @@ impl Sweep {
             self.fill(pieces, axis, tolerance, &bins);
             let limit = best.map_or(f64::INFINITY, |best| best.cost);
             if self.bound(n, limit) {
-                self.gather(pieces, axis);
-                self.walk(n, axis, &bins, &mut best);
+                self.gather(pieces, axis, tolerance);
+                self.walk(n, axis, &mut best);
             }
         }
         best
     }
 
     fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
-        if self.spans.capacity() / MUCH > pieces.len() {
+        if self.bins.capacity() / MUCH > pieces.len() {
             *self = Self::default();
         }
         self.counts.clear();
         self.counts.resize(bins.count + 1, [0; 4]);
         self.candidates.clear();
-        self.candidates.resize(bins.count, 0);
-        self.spans.clear();
+        // The last is for what is no candidate.
+        self.candidates.resize(bins.count + 1, 0);
+        self.bins.clear();
         let (counts, candidates) = (&mut self.counts, &mut self.candidates);
-        self.spans.extend(pieces.iter().map(|piece| {
-            let (min, max) = (piece.min[axis], piece.max[axis]);
-            // Begun is “beyond”, ended is “at or beyond”: the next number above makes it one rule.
-            let (begin, end) = ((min + tolerance).next_up(), max - tolerance);
-            let flat = max - min <= 2.0 * tolerance;
-            let kind = if flat { FLAT } else { 0 };
-            let (begin_bin, end_bin) = (bins.of_value(begin), bins.of_value(end));
-            counts[begin_bin][kind + BEGUN] += 1;
-            counts[end_bin][kind + ENDED] += 1;
+        self.bins.extend(pieces.iter().map(|piece| {
+            let span = Span::of(piece, axis, tolerance);
+            let (begin, end) = (bins.of_value(span.begin), bins.of_value(span.end));
+            counts[begin][span.kind + BEGUN] += 1;
+            counts[end][span.kind + ENDED] += 1;
             let mut candidate = |is_corner: bool, value| {
-                if !is_corner {
-                    return bins.count as u16;
-                }
-                let bin = bins.of_value(value);
+                let bin = if is_corner { bins.of_value(value) } else { bins.count };
                 candidates[bin] += 1;
-                bin as u16
+                bin
             };
-            let low = candidate(piece.min_is_corner(axis), min);
-            let high = candidate(piece.max_is_corner(axis), max);
-            Span { begin, end, bins: [begin_bin as u16, end_bin as u16, low, high], flat }
+            let low = candidate(piece.min_is_corner(axis), piece.min[axis]);
+            let high = candidate(piece.max_is_corner(axis), piece.max[axis]);
+            [begin, end, low, high].map(|bin| bin as u16)
         }));
+        candidates.pop();
         let mut total = [0; 4];
         for count in counts {
             let here = *count;
@@ -173,69 +177,83 @@ impl Sweep {
     }
 
     /// Gathers what is in the chosen bins.
-    fn gather(&mut self, pieces: &[Live], axis: usize) {
+    fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) {
         let chosen = &self.chosen[..];
         let is_chosen = |bin: u16| chosen[usize::from(bin)];
         self.values.iter_mut().for_each(Vec::clear);
         self.coordinates.clear();
-        for (span, piece) in self.spans.iter().zip(pieces) {
-            let kind = if span.flat { FLAT } else { 0 };
-            let [begin, end, low, high] = span.bins;
-            if is_chosen(begin) {
-                self.values[kind + BEGUN].push(span.begin);
+        for (bins, piece) in self.bins.iter().zip(pieces) {
+            let [begin, end, low, high] = bins.map(is_chosen);
+            if !(begin | end | low | high) {
+                continue;
             }
-            if is_chosen(end) {
-                self.values[kind + ENDED].push(span.end);
+            let span = Span::of(piece, axis, tolerance);
+            if begin {
+                self.values[span.kind + BEGUN].push(span.begin);
             }
-            if is_chosen(low) {
+            if end {
+                self.values[span.kind + ENDED].push(span.end);
+            }
+            if low {
                 self.coordinates.push(piece.min[axis]);
             }
-            if is_chosen(high) {
+            if high {
                 self.coordinates.push(piece.max[axis]);
             }
         }
     }
 
-    /// Walks the gathered candidates upwards, with a finger in the list of each kind.
-    fn walk(&mut self, pieces: usize, axis: usize, bins: &Bins, best: &mut Option<FreePlane>) {
+    /// Tries the candidates in the chosen bins, each upwards, with a finger in the list of each kind.
+    fn walk(&mut self, pieces: usize, axis: usize, best: &mut Option<FreePlane>) {
         let sort = |values: &mut Vec<f64>| values.sort_unstable_by(f64::total_cmp);
         self.values.iter_mut().for_each(sort);
         sort(&mut self.coordinates);
-        let mut fingers = [0; 4];
-        let (mut last, mut last_bin, mut starts) = (f64::NAN, usize::MAX, [0; 4]);
-        for &coordinate in &self.coordinates {
-            if coordinate == last {
-                continue;
-            }
-            last = coordinate;
-            let bin = bins.of_value(coordinate);
-            let mut advance = |kind: usize, passes: &dyn Fn(f64) -> bool| {
-                let (list, at) = (&self.values[kind], &mut fingers[kind]);
-                while *at < list.len() && passes(list[*at]) {
-                    *at += 1;
-                }
-                *at
-            };
-            if bin != last_bin {
-                last_bin = bin;
-                starts = [0, 1, 2, 3].map(|kind| advance(kind, &|v| bins.of_value(v) < bin));
-            }
-            let passed: [usize; 4] = [0, 1, 2, 3].map(|kind| {
-                let here = advance(kind, &|v| v <= coordinate) - starts[kind];
-                self.counts[bin][kind] as usize + here
+        let mut lists = self.values.each_ref().map(|values| &values[..]);
+        let mut coordinates = &self.coordinates[..];
+        let chosen = self.chosen.iter().enumerate().filter(|&(_, &chosen)| chosen);
+        for (bin, _) in chosen {
+            let (here, rest) = coordinates.split_at(self.candidates[bin] as usize);
+            coordinates = rest;
+            let mut passed = self.counts[bin].map(|count| count as usize);
+            let mut values: [&[f64]; 4] = std::array::from_fn(|kind| {
+                let count = self.counts[bin + 1][kind] - self.counts[bin][kind];
+                let (here, rest) = lists[kind].split_at(count as usize);
+                lists[kind] = rest;
+                here
             });
-            let behind = passed[BEGUN] + passed[FLAT + BEGUN];
-            let in_front = pieces - passed[ENDED] - passed[FLAT + ENDED];
-            // Where rounding makes a piece end before it begins, it counts as uncut.
-            let splits = passed[BEGUN].saturating_sub(passed[ENDED]);
-            if in_front < pieces && behind < pieces {
-                let cost = work(in_front) + work(behind) + price(splits);
-                if best.is_none_or(|best| cost < best.cost) {
-                    *best = Some(FreePlane { cost, splits, axis, coordinate });
+            let mut last = f64::NAN;
+            for &coordinate in here {
+                if coordinate == last {
+                    continue;
+                }
+                last = coordinate;
+                for kind in [BEGUN, FLAT + BEGUN] {
+                    passed[kind] += pass(&mut values[kind], |v| v < coordinate);
+                }
+                for kind in [ENDED, FLAT + ENDED] {
+                    passed[kind] += pass(&mut values[kind], |v| v <= coordinate);
+                }
+                let behind = passed[BEGUN] + passed[FLAT + BEGUN];
+                let in_front = pieces - passed[ENDED] - passed[FLAT + ENDED];
+                // Where rounding makes a piece end before it begins, it counts as uncut.
+                let splits = passed[BEGUN].saturating_sub(passed[ENDED]);
+                if in_front < pieces && behind < pieces {
+                    let cost = work(in_front) + work(behind) + price(splits);
+                    if best.is_none_or(|best| cost < best.cost) {
+                        *best = Some(FreePlane { cost, splits, axis, coordinate });
+                    }
                 }
             }
         }
     }
+}
+
+/// Drops the values that pass from the front of a list; gives how many.
+#[inline]
+fn pass(list: &mut &[f64], passes: impl Fn(f64) -> bool) -> usize {
+    let count = list.iter().take_while(|&&value| passes(value)).count();
+    *list = &list[count..];
+    count
 }
 
 impl FreePlane {
