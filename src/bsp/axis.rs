@@ -277,15 +277,23 @@ struct Bins {
     count: usize,
 }
 
+/// Added to a number from 0 to 2³², it leaves the nearest integer in the last bits of the sum: faster
+/// than a conversion, which would saturate.
+const TO_INTEGER: f64 = (1_u64 << 52) as f64;
+
 impl Bins {
     fn new(start: f64, end: f64, pieces: usize) -> Self {
         let count = (pieces / PER_BIN).clamp(1, MOST_BINS);
-        Self { start, per_unit: count as f64 / (end - start), count }
+        Self { start, per_unit: (count - 1) as f64 / (end - start), count }
     }
 
     /// The bin of a value; a larger value is never in an earlier bin.
     #[inline]
     fn of_value(&self, value: f64) -> usize {
-        (((value - self.start) * self.per_unit) as usize).min(self.count - 1)
+        let bin = (value - self.start) * self.per_unit;
+        let last = (self.count - 1) as f64;
+        let bin = if bin > 0.0 { bin } else { 0.0 };
+        let bin = if bin < last { bin } else { last };
+        (bin + TO_INTEGER).to_bits() as u32 as usize
     }
 }
