@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::{Random, cameras, disjoint, faces, judge};
+use super::{cameras, disjoint, faces, judge};
 use crate::BuildOptions;
 use crate::geom::{Exact, Faces, Float, Kernel, Piece, PlaneId, Side};
 use crate::method::Bsp;
+use crate::random::SplitMix64;
 use crate::scene;
 
 /// Where a whole face lies against the plane of another.
@@ -50,9 +51,9 @@ fn disagreements<K: Kernel>(kernel: K, epsilon: f64, rounding: f64, faces: &Face
 
 #[test]
 fn beyond_the_epsilon_rounded_sides_are_the_exact_ones() {
-    let mut random = Random(3);
+    let mut random = SplitMix64::new(3);
     let mut polygons = disjoint(3, 4);
-    polygons.extend((0..30).map(|_| (0..3).map(|_| random.point()).collect()));
+    polygons.extend((0..30).map(|_| (0..3).map(|_| random.point(-1.0, 1.0)).collect()));
     // Lifted by a little from the plane of another, now to one side, now to both.
     for i in 0..30 {
         let base = polygons[i].clone();
