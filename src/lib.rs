@@ -31,6 +31,7 @@ mod error;
 pub mod geom;
 pub mod measure;
 pub mod method;
+mod random;
 pub mod raster;
 pub mod scene;
 mod verify;

@@ -4,17 +4,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer with what it may import: arrows point to the left.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("error", &["geom"]),
     ("geom", &["error"]),
-    ("bsp", &["error", "geom"]),
-    ("view", &["error", "geom"]),
-    ("scene", &["error", "geom", "view"]),
+    ("random", &[]),
+    ("bsp", &["error", "geom", "random"]),
+    ("view", &["error", "geom", "random"]),
+    ("scene", &["error", "geom", "random", "view"]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.
-    ("raster", &["error", "geom", "view"]),
+    ("raster", &["error", "geom", "random", "view"]),
     ("measure", &["error", "geom", "view", "raster"]),
     ("verify", &["error", "geom", "bsp", "view", "scene", "raster"]),
-    ("method", &["error", "geom", "bsp", "view", "scene", "raster", "verify"]),
+    ("method", &["error", "geom", "random", "bsp", "view", "scene", "raster", "verify"]),
 ];
 
 /// What stands at the crate's root, and where it comes from.

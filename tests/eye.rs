@@ -6,13 +6,13 @@ mod support;
 use binspace::Viewpoint;
 use binspace::geom::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
 use binspace::glam::DVec3;
-use num_bigint::BigInt;
 use num_traits::Signed;
 use proptest::prelude::*;
 use std::cmp::Ordering;
 use support::hard;
 use support::model;
 use support::rational::{self, Plane, Point, Rational};
+use support::views::{power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {
     Exact.eye_side(faces, plane, &Eye::new(viewpoint, faces.lattice()))
@@ -22,23 +22,6 @@ fn planes(faces: &Faces) -> impl Iterator<Item = PlaneId> {
     let corners = (0..faces.len().min(8) as u32).map(|face| faces.corner_range(face).start as u32);
     let axes = corners.map(|corner| PlaneId::axis(corner as usize % 3, corner));
     (0..faces.len() as u32).map(PlaneId::face).chain(axes)
-}
-
-fn power_of_two(exponent: u32) -> Rational {
-    Rational::from_integer(BigInt::from(1) << exponent)
-}
-
-/// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond
-/// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a point.
-fn rounded_eye(point: [f64; 3]) -> Option<Point> {
-    if point.iter().any(|c| c.is_infinite()) {
-        return None;
-    }
-    let exact: Point = point.map(rational::exact);
-    let size = exact.iter().map(Signed::abs).max().expect("three");
-    let fits = |&shift: &u32| size <= power_of_two(61 + shift);
-    let unit = power_of_two((0..=360).find(fits)?);
-    Some(exact.map(|c| (c / &unit).round() * &unit))
 }
 
 /// The side of an eye infinitely far in a direction, where the direction's rounding to 52 bits

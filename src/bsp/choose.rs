@@ -9,6 +9,7 @@ use super::peel::Peeler;
 use super::progress::Watch;
 use super::taken::TakenApart;
 use crate::geom::{Faces, Kernel, PlaneId};
+use crate::random::mix;
 
 /// How many own planes the heuristics that would look at all of them try at most, so that no
 /// node takes quadratic time. They are spread evenly over the set.
@@ -167,13 +168,4 @@ impl<'a, K: Kernel> Chooser<'a, K> {
 pub(super) fn sample(pieces: &[Live], count: usize) -> impl Iterator<Item = &Live> {
     let count = count.min(pieces.len());
     (0..count).map(move |i| &pieces[i * pieces.len() / count])
-}
-
-/// A well-mixed function of a number (SplitMix64's finalizer: Steele, Lea and Flood, “Fast
-/// splittable pseudorandom number generators”, 2014).
-fn mix(value: u64) -> u64 {
-    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }

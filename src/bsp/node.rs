@@ -5,8 +5,8 @@ use crate::geom::PlaneId;
 
 const BACK_IS_NODE: u32 = 1 << 31;
 
-/// The most fragments of a tree: branches, twigs and runs of a [`Schedule`](super::schedule) are
-/// numbered together in 32 bits, and there are at most four of them to a fragment.
+/// The most fragments of a tree: the parts of a [`Schedule`](super::schedule::Schedule), of which
+/// there are fewer than two to a fragment, are numbered in 30 bits while it is laid out.
 pub(super) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
 
 /// A node.

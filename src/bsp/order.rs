@@ -1,5 +1,8 @@
 //! Orders as lists of fragment numbers, in linear passes over the tree.
 
+#[cfg(test)]
+mod tests;
+
 use std::hint::select_unpredictable;
 
 use super::BspTree;
@@ -24,21 +27,9 @@ impl<K: Kernel> BspTree<K> {
     /// Nothing branches on the eye's side: what is not there has a place that nobody reads.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         let view = View::new(self, viewpoint);
-        let (fragments, schedule) = (self.records.len(), &self.schedule);
-        order.resize(fragments + ROOM + schedule.parts() + self.planes.words(), 0);
-        let (numbers, rest) = order.split_at_mut(fragments + ROOM);
-        // Where each part begins in the order; on which side of each node the eye is, a bit each.
-        let (begins, signs) = rest.split_at_mut(schedule.parts());
-        if let Some(root) = begins.get_mut(ROOT as usize) {
-            *root = 0;
-        }
-        view.write_signs(self, signs);
-        write_branches(&schedule.branches, signs, begins, numbers);
-        let begins = &begins[ROOT as usize + schedule.branches.len()..];
-        let (of_twigs, of_runs) = begins.split_at(schedule.twigs.len());
-        write_twigs(schedule, signs, of_twigs, numbers);
-        write_runs(&schedule.runs, of_runs, numbers);
-        order.truncate(fragments);
+        write_order(&self.schedule, self.records.len(), self.planes.words(), order, |signs| {
+            view.write_signs(self, signs);
+        });
     }
 
     /// Writes the numbers of all fragments, front to back, into a buffer: the reverse of
@@ -47,6 +38,32 @@ impl<K: Kernel> BspTree<K> {
         self.back_to_front_into(viewpoint, order);
         order.reverse();
     }
+}
+
+/// Writes an order of so many fragments, given what writes on which side of each node the eye is,
+/// a bit each, into so many words.
+#[inline]
+fn write_order(
+    schedule: &Schedule,
+    fragments: usize,
+    words: usize,
+    order: &mut Vec<u32>,
+    write_signs: impl FnOnce(&mut [u32]),
+) {
+    order.resize(fragments + ROOM + schedule.parts() + words, 0);
+    let (numbers, rest) = order.split_at_mut(fragments + ROOM);
+    // Where each part begins in the order.
+    let (begins, signs) = rest.split_at_mut(schedule.parts());
+    if let Some(root) = begins.get_mut(ROOT as usize) {
+        *root = 0;
+    }
+    write_signs(signs);
+    write_branches(&schedule.branches, signs, begins, numbers);
+    let begins = &begins[ROOT as usize + schedule.branches.len()..];
+    let (of_twigs, of_runs) = begins.split_at(schedule.twigs.len());
+    write_twigs(schedule, signs, of_twigs, numbers);
+    write_runs(&schedule.runs, of_runs, numbers);
+    order.truncate(fragments);
 }
 
 /// Writes what is on the planes of branches, and notes where the parts on their sides begin.

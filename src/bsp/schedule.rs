@@ -17,6 +17,12 @@ pub(super) const ROOT: u32 = 2;
 /// fragments and [`NODES`] nodes; a run more fragments than that in the order of their numbers,
 /// such as many in one plane. Parts are numbered from [`ROOT`] on, branches first, then twigs,
 /// then runs, each depth first.
+///
+/// There are fewer than two parts to a fragment. Call *ends* the twigs, the runs, and the fragments
+/// that are alone on the plane of a branch: each end has a fragment that no other has. A node has
+/// fragments on its plane, or on both sides. So a branch holds two ends or branches at least, and
+/// branches are fewer than ends; but for those with nothing beside the plane, each of which holds
+/// one run, of more than [`FRAGMENTS`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Schedule {
     pub(super) branches: Vec<Branch>,
@@ -26,29 +32,42 @@ pub(super) struct Schedule {
     pub(super) permutations: Vec<Permutations>,
 }
 
-/// A node with more below it than a twig has; or a list of such nodes, see [`List`].
+/// A node whose subtree is more than a twig; or several such nodes in a row, see [`List`].
+///
+/// What `own` and `own_first` mean depends on the former:
+///
+/// | `own` | is | `own_first` |
+/// |---|---|---|
+/// | 0 | nothing on the plane | any number |
+/// | 1 | one fragment on the plane | the fragment |
+/// | 2 or more, below [`LIST`] | so many fragments on the plane | the part that they are |
+/// | [`LIST`] + n | a list of n nodes | the fragment of the first |
+///
+/// All that is written of an order is known from here but for the signs: with the eye in front,
+/// what is behind comes first, then what is on the plane, then what is in front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Branch {
+    /// The node, or the first of a list.
     pub(super) node: u32,
-    /// How many fragments are on the plane, in front of it, and behind. For a list, how many nodes
-    /// it has, with [`LIST`] added, instead of the first.
     pub(super) own: u32,
+    /// How many fragments are in front and behind, those of all levels below; for a list, in front
+    /// and behind of its last node.
     pub(super) front: u32,
     pub(super) back: u32,
-    /// Which parts those in front and behind are.
+    /// Which parts these are: [`NOBODY`], [`NEXT`], or a number. For a list, one is [`NOBODY`].
     pub(super) front_part: u32,
     pub(super) back_part: u32,
-    /// The first fragment on the plane if that is no more than one or this is a list, else which
-    /// part they are.
     pub(super) own_first: u32,
 }
 
+/// Marks a [`Branch`] that is a list.
 const LIST: u32 = 1 << 31;
 
 /// Shorter lists are branches like others: to tell them apart would cost more.
 const SHORTEST_LIST: usize = 8;
 
-/// Nodes in a row with one fragment on the plane, and all others on one side, always the same.
+/// Nodes in a row, each with one fragment on its plane and all others below one further node,
+/// always on the same side: the order fills up from both ends, and what they leave comes between.
 pub(super) struct List {
     pub(super) first_node: u32,
     pub(super) nodes: u32,
@@ -192,7 +211,7 @@ impl Layout<'_> {
         let mut links = self.links(subtree);
         let first = self.next;
         if links >= SHORTEST_LIST {
-            // The last node is what the others are not but for their number: a branch.
+            // The last node is laid out like one by itself; of the others, only the number counts.
             self.next += links as u32 - 1;
         } else {
             links = 1;

@@ -12,8 +12,10 @@ pub(super) const FRAGMENTS: usize = 4;
 /// Fragments that are not there share the place of the first.
 pub(super) type Permutations = [u8; 1 << NODES];
 
-/// What a twig's nodes are like, each by how many fragments are on its plane, in a leaf in front,
-/// and in a leaf behind; `None` stands for a node instead of a leaf. Without nodes, a leaf.
+/// What the places of a twig's fragments depend on, apart from the signs: its nodes, each by how
+/// many fragments are on its plane, in front and behind, and by which of these are below further
+/// nodes; without nodes, how many fragments a leaf has. Twigs of one shape share a row of the
+/// table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct Shape {
     nodes: [ShapeNode; NODES],
@@ -24,6 +26,7 @@ pub(super) struct Shape {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 struct ShapeNode {
     own: u8,
+    /// How many fragments are in front, in a leaf or below nodes; likewise behind.
     front: u8,
     back: u8,
     /// How many nodes are in front; if none, the front is a leaf.

@@ -71,13 +71,17 @@ impl Lattice {
         })
     }
 
-    /// The world position of a point given in lattice units, rounded to `f64`.
+    /// The world position of a point given in lattice units, rounded to `f64`; may be far out.
     pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|axis| {
             let whole = lattice[axis].floor();
-            let steps = (whole as i128 + self.origin[axis]) as f64;
+            let steps = if whole.abs() < 1e30 {
+                (whole as i128 + self.origin[axis]) as f64 + (lattice[axis] - whole)
+            } else {
+                lattice[axis] + self.origin[axis] as f64
+            };
             // Clamped: the rounding of a corner at the end of the range must not make it infinite.
-            let world = scale(steps + (lattice[axis] - whole), -self.exponent) + self.far[axis];
+            let world = scale(steps, -self.exponent) + self.far[axis];
             world.clamp(f64::MIN, f64::MAX)
         }))
     }
@@ -118,6 +122,17 @@ mod tests {
         for point in [min, max, DVec3::ZERO, DVec3::new(0.1f32.into(), 3.3f32.into(), 1.0)] {
             assert_eq!(lattice.to_world(lattice.snap(point)), point);
         }
+    }
+
+    #[test]
+    fn a_point_beyond_128_bits_of_lattice_steps_comes_back() {
+        let lattice = Lattice::new(DVec3::splat(1.0), DVec3::new(2.0, 3.0, 4.0));
+        for size in [1e29, 1e31, 1.6e38, 1e40, 1e200] {
+            let point = DVec3::new(size, -size, size * 0.5);
+            assert_eq!(lattice.to_world(lattice.to_lattice(point)), point, "{size:e}");
+        }
+        let end = lattice.to_world([f64::INFINITY, f64::NEG_INFINITY, 0.0]);
+        assert_eq!([end.x, end.y], [f64::MAX, f64::MIN]);
     }
 
     #[test]

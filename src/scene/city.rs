@@ -1,6 +1,6 @@
 use super::cuboid::cuboid;
-use super::random::SplitMix64;
 use super::{Material, Scene};
+use crate::random::SplitMix64;
 use glam::DVec3;
 
 /// The side of a building plot with half the street around it, in metres.

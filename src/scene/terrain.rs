@@ -1,5 +1,5 @@
-use super::random::SplitMix64;
 use super::{Material, Scene};
+use crate::random::SplitMix64;
 use glam::DVec3;
 
 /// The side of the terrain.

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::camera::{Camera, unit};
 use super::error::CameraError;
+use crate::random::SplitMix64;
 
 /// The field of view of cameras that stand around a scene, in radians.
 const AROUND: f64 = 0.7;
@@ -42,16 +43,16 @@ pub fn views(
     size: [u32; 2],
     seed: u64,
 ) -> Result<Vec<Camera>, CameraError> {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let up = unit(up).unwrap_or(DVec3::ZERO);
     let (side, ahead) = across(up);
     (0..count)
         .map(|i| {
             if i % 2 == 0 {
                 let (angle, height) =
-                    (random.between(0.0, std::f64::consts::TAU), random.between(-0.6, 0.9));
+                    (random.range(0.0, std::f64::consts::TAU), random.range(-0.6, 0.9));
                 let from = side * angle.cos() + ahead * angle.sin() + up * height;
-                around(bounds, up, from, random.between(0.7, 1.6), size)
+                around(bounds, up, from, random.range(0.7, 1.6), size)
             } else {
                 inside(bounds, up, &mut random, size)
             }
@@ -93,11 +94,11 @@ fn around(
 fn inside(
     [min, max]: [DVec3; 2],
     up: DVec3,
-    random: &mut Random,
+    random: &mut SplitMix64,
     size: [u32; 2],
 ) -> Result<Camera, CameraError> {
     let mut point = || {
-        let share = DVec3::from_array(std::array::from_fn(|_| random.between(0.1, 0.9)));
+        let share = DVec3::from_array(std::array::from_fn(|_| random.range(0.1, 0.9)));
         min * (1.0 - share) + max * share
     };
     let (eye, target) = (point(), point());
@@ -113,20 +114,6 @@ fn across(up: DVec3) -> (DVec3, DVec3) {
     let reference = if up.z.abs() > 0.9 { DVec3::NEG_Y } else { DVec3::Z };
     let side = unit(up.cross(reference)).unwrap_or(DVec3::X);
     (side, side.cross(up))
-}
-
-/// A small generator of even numbers (Steele, Lea & Flood 2014, `SplitMix64`).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        low + (high - low) * ((bits >> 11) as f64 / (1u64 << 53) as f64)
-    }
 }
 
 #[cfg(test)]

@@ -25,7 +25,8 @@ pub(crate) fn check<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint) -> Verdi
     ensure(done.is_continue() && visited == far_first, || format!("visitor {visited:?}"))?;
 
     let reverse: Vec<u32> = far_first.iter().rev().copied().collect();
-    let mut near_first = Vec::new();
+    // Longer than the working space, so that none of it is zero to begin with.
+    let mut near_first = vec![u32::MAX; 4 * tree.len() + 40];
     tree.front_to_back_into(viewpoint, &mut near_first);
     ensure(near_first == reverse, || format!("{near_first:?} not {reverse:?}"))?;
     let listed: Vec<u32> = tree.front_to_back(viewpoint).map(id).collect();

@@ -1,9 +1,13 @@
 //! Viewpoints that are known exactly, many of them where a plane or a corner is.
 
 use super::dice::Dice;
+use super::rational::{self, Plane, Point, Rational};
 use super::rays::{Rays, Vector, vector};
 use binspace::geom::{Faces, Viewpoint};
 use binspace::glam::DVec3;
+use num_bigint::BigInt;
+use num_traits::Signed;
+use std::cmp::Ordering;
 
 /// A viewpoint, with what the library rounds it to.
 #[derive(Clone, Debug)]
@@ -23,13 +27,23 @@ impl View {
 
     /// A direction, rounded to 2⁻⁵² of its largest component.
     pub(crate) fn direction(direction: DVec3) -> Self {
-        let size = direction.abs().max_element();
-        let lattice = (direction / size * (1u64 << 52) as f64).round();
-        Self { viewpoint: Viewpoint::Direction(direction), lattice }
+        Self { viewpoint: Viewpoint::Direction(direction), lattice: whole_direction(direction) }
     }
 
     pub(crate) fn is_parallel(&self) -> bool {
         matches!(self.viewpoint, Viewpoint::Direction(_))
+    }
+
+    /// On which side of a plane it is; on neither if it is on the plane, or looks along it.
+    pub(crate) fn side(&self, plane: &Plane) -> Ordering {
+        let (point, towards) = match self.viewpoint {
+            Viewpoint::Eye(_) => (rounded_eye(self.lattice.to_array()), self.lattice),
+            Viewpoint::Direction(_) => (None, -self.lattice),
+        };
+        rational::sign(&match point {
+            Some(point) => plane.at(&point),
+            None => rational::scalar(&plane.normal, &rational::point(whole_direction(towards))),
+        })
     }
 
     /// The line of sight through a point: where it begins, and where it goes.
@@ -43,6 +57,29 @@ impl View {
             Viewpoint::Direction(_) => (vector(target.round().to_array()), lattice),
         }
     }
+}
+
+/// A direction as integers, the largest 2⁵².
+fn whole_direction(direction: DVec3) -> DVec3 {
+    let size = direction.abs().max_element();
+    (direction / size * (1u64 << 52) as f64).round()
+}
+
+/// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond
+/// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a point.
+pub(crate) fn rounded_eye(point: [f64; 3]) -> Option<Point> {
+    if point.iter().any(|c| c.is_infinite()) {
+        return None;
+    }
+    let exact: Point = point.map(rational::exact);
+    let size = exact.iter().map(Signed::abs).max().expect("three");
+    let fits = |&shift: &u32| size <= power_of_two(61 + shift);
+    let unit = power_of_two((0..=360).find(fits)?);
+    Some(exact.map(|c| (c / &unit).round() * &unit))
+}
+
+pub(crate) fn power_of_two(exponent: u32) -> Rational {
+    Rational::from_integer(BigInt::from(1) << exponent)
 }
 
 /// A viewpoint around, inside, on a plane or a corner of the scene, or in line with two of its

@@ -4,6 +4,7 @@
 mod cases;
 mod faults;
 mod input;
+mod order;
 #[cfg(feature = "triangulate")]
 mod picture;
 mod progress;

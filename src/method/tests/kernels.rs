@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::{Random, cameras, disjoint, faces, judge};
+use super::{cameras, disjoint, faces, judge};
 use crate::BuildOptions;
 use crate::geom::{Exact, Faces, Float, Kernel, Piece, PlaneId, Side, Vertex, split};
 use crate::method::Bsp;
+use crate::random::SplitMix64;
 use crate::scene;
 
 /// Where a whole face lies against the plane of another.
@@ -55,9 +56,9 @@ fn disagreements<K: Kernel>(kernel: K, epsilon: f64, rounding: f64, faces: &Face
 
 /// Crossing and disjoint triangles, and such as lie but for a little in the plane of another.
 fn with_close_calls() -> Faces {
-    let mut random = Random(3);
+    let mut random = SplitMix64::new(3);
     let mut polygons = disjoint(3, 4);
-    polygons.extend((0..30).map(|_| (0..3).map(|_| random.point()).collect()));
+    polygons.extend((0..30).map(|_| (0..3).map(|_| random.point(-1.0, 1.0)).collect()));
     // Lifted by a little from the plane of another, now to one side, now to both.
     for i in 0..30 {
         let base = polygons[i].clone();
@@ -146,13 +147,13 @@ fn disagreements_on_pieces<K: Kernel>(
     rounding: f64,
     faces: &Faces,
 ) -> usize {
-    let mut random = Random(5);
+    let mut random = SplitMix64::new(5);
     let count = faces.len() as u32;
     let (mut agreed, mut differ) = ([0; 7], 0);
     for face in 0..count {
         let mut twins = Twins::new(kernel, faces, face);
         for _ in 0..60 {
-            let plane = (random.bits() % u64::from(count)) as u32;
+            let plane = (random.next() % u64::from(count)) as u32;
             if plane == face || twins.cuts == 6 {
                 continue;
             }
@@ -167,7 +168,7 @@ fn disagreements_on_pieces<K: Kernel>(
             assert_eq!(exact, rounded, "face {face} against {plane}, {} cuts", twins.cuts);
             agreed[twins.cuts] += 1;
             if exact == Side::Spanning {
-                let in_front = random.unit() > 0.0;
+                let in_front = random.range(-1.0, 1.0) > 0.0;
                 twins.cut(kernel, faces, PlaneId::face(plane), in_front);
             }
         }

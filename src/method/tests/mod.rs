@@ -12,44 +12,23 @@ use glam::DVec3;
 
 use super::{Method, Painted};
 use crate::geom::Faces;
+use crate::random::SplitMix64;
 use crate::raster::{Comparison, Rays, compare, zbuffer};
 use crate::scene::Scene;
 use crate::view::{Camera, views};
-
-/// A small generator of even numbers (`SplitMix64`).
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^ bits >> 31
-    }
-
-    /// From −1 to 1.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn point(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit())
-    }
-}
 
 type Polygons = Vec<Vec<DVec3>>;
 
 /// Triangles of which none touches another: each in a cell of its own of a cubic grid in the cube
 /// from −1 to 1, and away from its walls.
 fn disjoint(side: usize, seed: u64) -> Polygons {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let cell = 2.0 / side as f64;
     let mut polygons = Vec::new();
     for i in 0..side * side * side {
         let index = [i % side, i / side % side, i / side / side];
         let centre = DVec3::from_array(index.map(|c| (c as f64 + 0.5) * cell - 1.0));
-        polygons.push((0..3).map(|_| centre + random.point() * 0.45 * cell).collect());
+        polygons.push((0..3).map(|_| centre + random.point(-1.0, 1.0) * 0.45 * cell).collect());
     }
     polygons
 }
@@ -84,12 +63,14 @@ fn cameras(polygons: &Polygons, size: [u32; 2], seed: u64) -> Vec<Camera> {
     let high = corners().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
     let mut cameras = views([low, high], DVec3::Z, 3, size, seed).unwrap();
     let (centre, extent) = ((low + high) * 0.5, (high - low).max_element());
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     for _ in 0..2 {
-        let (eye, target) = (random.point() * extent, random.point() * 0.3 * extent);
+        let (eye, target) =
+            (random.point(-1.0, 1.0) * extent, random.point(-1.0, 1.0) * 0.3 * extent);
         let inside = Camera::perspective(centre + eye * 0.3, centre + target, DVec3::Z, 1.4, size);
         cameras.push(inside.unwrap());
-        let parallel = Camera::parallel(random.point(), DVec3::Z, centre, 1.2 * extent, size);
+        let parallel =
+            Camera::parallel(random.point(-1.0, 1.0), DVec3::Z, centre, 1.2 * extent, size);
         cameras.push(parallel.unwrap());
     }
     cameras

@@ -3,10 +3,9 @@
 use glam::{DQuat, DVec3};
 
 use super::oracle::nearest;
-use super::{
-    Polygons, Random, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show,
-};
+use super::{Polygons, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show};
 use crate::method::{Method, Newell};
+use crate::random::SplitMix64;
 use crate::raster::{NONE, Rays};
 use crate::scene;
 use crate::view::Camera;
@@ -120,10 +119,11 @@ fn a_cycle_of_three_is_cut() {
 
 /// Spikes along the sides of a polygon around the z axis, each over the next where they meet, and
 /// the last over the first. (Triangles, which are planar however they are turned.)
-fn random_ring(random: &mut Random) -> Polygons {
-    let count = 3 + random.bits() % 6;
+fn random_ring(random: &mut SplitMix64) -> Polygons {
+    let count = 3 + random.next() % 6;
     let angle = |i: u64| std::f64::consts::TAU * (i % count) as f64 / count as f64;
-    let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (random.unit() + 1.0);
+    let mut between =
+        |low: f64, high: f64| low + (high - low) * 0.5 * (random.range(-1.0, 1.0) + 1.0);
     let corners: Vec<DVec3> = (0..count)
         .map(|i| between(0.8, 1.0) * DVec3::new(angle(i).cos(), angle(i).sin(), 0.0))
         .collect();
@@ -141,16 +141,20 @@ fn random_ring(random: &mut Random) -> Polygons {
 
 #[test]
 fn random_cycles_come_out_as_brute_force_has_them() {
-    let mut random = Random(17);
+    let mut random = SplitMix64::new(17);
     for number in 0..24 {
         let ring = random_ring(&mut random);
-        let turn = DQuat::from_axis_angle(random.point().normalize(), 3.0 * random.unit());
-        let (scale, shift) = (10f64.powf(random.unit()), 4.0 * random.point());
+        let turn = DQuat::from_axis_angle(
+            random.point(-1.0, 1.0).normalize(),
+            3.0 * random.range(-1.0, 1.0),
+        );
+        let (scale, shift) = (10f64.powf(random.range(-1.0, 1.0)), 4.0 * random.point(-1.0, 1.0));
         let place = |point: DVec3| turn * point * scale + shift;
         let polygons: Polygons =
             ring.iter().map(|spike| spike.iter().map(|&corner| place(corner)).collect()).collect();
         // From above, all of it is seen, and no order is right.
-        let eye = place(DVec3::new(0.3 * random.unit(), 0.3 * random.unit(), 4.0));
+        let eye =
+            place(DVec3::new(0.3 * random.range(-1.0, 1.0), 0.3 * random.range(-1.0, 1.0), 4.0));
         let [target, up] = [place(DVec3::ZERO), turn * DVec3::Y];
         let above = Camera::perspective(eye, target, up, 0.8, [60, 60]).unwrap();
         let name = format!("ring {number} of {}", ring.len());
@@ -162,12 +166,15 @@ fn random_cycles_come_out_as_brute_force_has_them() {
 
 #[test]
 fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
-    let mut random = Random(23);
+    let mut random = SplitMix64::new(23);
     for number in 0..8 {
         let mut polygons = Polygons::new();
         for _ in 0..3 {
-            let turn = DQuat::from_axis_angle(random.point().normalize(), 3.0 * random.unit());
-            let shift = 0.3 * random.point();
+            let turn = DQuat::from_axis_angle(
+                random.point(-1.0, 1.0).normalize(),
+                3.0 * random.range(-1.0, 1.0),
+            );
+            let shift = 0.3 * random.point(-1.0, 1.0);
             let place = |spike: Vec<DVec3>| spike.iter().map(|&c| turn * c + shift).collect();
             polygons.extend(random_ring(&mut random).into_iter().map(place));
         }

@@ -14,7 +14,7 @@ fn box_of(size: f64) -> Faces {
 
 #[test]
 fn the_ray_of_a_pixel_projects_to_its_centre() {
-    let mut random = Random(9);
+    let mut random = Random::new(9);
     for size in [1.0, 1e-30, 3e200] {
         let faces = box_of(size);
         for camera in cameras(&mut random, size, [31, 20]) {

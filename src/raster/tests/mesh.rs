@@ -55,7 +55,7 @@ fn cube(triangles: bool, size: f64) -> Vec<Vec<DVec3>> {
 fn a_cube_has_a_front_for_every_back() {
     for (triangles, size) in [(false, 1.0), (true, 1.0), (true, 3e-20)] {
         let faces = faces(&cube(triangles, size), None);
-        let mut random = Random(5);
+        let mut random = Random::new(5);
         for _ in 0..8 {
             for camera in cameras(&mut random, size, PIXELS) {
                 let Ok(rays) = Rays::new(&camera, &faces) else { continue };

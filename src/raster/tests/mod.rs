@@ -12,31 +12,28 @@ use num_bigint::BigInt;
 
 use super::rays::{Pencil, Rays};
 use crate::geom::Faces;
+use crate::random::SplitMix64;
 use crate::view::Camera;
 
-/// A small generator of even numbers (`SplitMix64`).
-pub(super) struct Random(pub(super) u64);
+/// What scenes, planes and cameras are drawn from.
+pub(super) struct Random(SplitMix64);
 
 impl Random {
-    pub(super) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^ bits >> 31
+    pub(super) fn new(seed: u64) -> Self {
+        Self(SplitMix64::new(seed))
     }
 
     pub(super) fn below(&mut self, limit: u64) -> u64 {
-        self.bits() % limit
+        self.0.next() % limit
     }
 
     /// From −1 to 1.
     pub(super) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        self.0.range(-1.0, 1.0)
     }
 
     pub(super) fn point(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit())
+        self.0.point(-1.0, 1.0)
     }
 
     /// With integer coordinates from −`limit` to `limit`.

@@ -52,7 +52,7 @@ fn in_plane(random: &mut Random, faces: &Faces) -> Option<Camera> {
 }
 
 fn for_each_case(seed: u64, mut check: impl FnMut(&Rays, &Faces, &str)) {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     for round in 0..ROUNDS {
         let (kind, size) = (round % 5, [1.0, 1e-30, 1e30, 64.0][round as usize % 4]);
         let faces = scene(&mut random, kind, size);

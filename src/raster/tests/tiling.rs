@@ -91,7 +91,7 @@ fn square(half: f64, size: f64) -> Vec<DVec3> {
 fn random_cuts_tile_a_square() {
     let mut met = 0;
     for (seed, size) in [(1, 1.0), (2, 1e-30), (3, 1e8), (4, 1.0)] {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let mut polygons = vec![square(1.0, size)];
         polygons.extend((0..12).map(|_| (0..3).map(|_| random.point() * size).collect::<Vec<_>>()));
         let faces = faces(&polygons, Some(0.0));
@@ -106,7 +106,7 @@ fn random_cuts_tile_a_square() {
 fn cuts_on_a_grid_tile_a_square() {
     let mut met = 0;
     for seed in 1..8 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let mut polygons = vec![square(0.9375, 1.0)];
         polygons
             .extend((0..14).map(|_| (0..3).map(|_| random.grid(16) / 16.0).collect::<Vec<_>>()));
@@ -124,7 +124,7 @@ fn cuts_on_a_grid_tile_a_square() {
 fn cuts_tile_a_polygon_that_is_planar_within_the_tolerance() {
     let mut met = 0;
     for seed in 1..7 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let turn = glam::DQuat::from_axis_angle(random.point().normalize(), 1.0 + seed as f64);
         let ring = (0..7).map(|k| {
             let (sin, cos) = (f64::from(k) * 0.9).sin_cos();

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::Trial;
 use super::pose::{Pose, empty, push_shuffled};
+use crate::random::SplitMix64;
 use crate::scene::cuboid::cuboid;
-use crate::scene::random::SplitMix64;
 use crate::scene::turn::unit_circle;
 
 /// Unit squares of an integer grid with `side` cells a side, half of all that there are, some of

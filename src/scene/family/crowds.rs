@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::Trial;
 use super::pose::{Pose, empty, push_shuffled};
+use crate::random::SplitMix64;
 use crate::scene::Scene;
-use crate::scene::random::SplitMix64;
 
 /// A triangle with corners at about `size` from its centre.
 fn around(centre: DVec3, size: f64, random: &mut SplitMix64) -> Vec<DVec3> {

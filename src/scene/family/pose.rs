@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Trial;
-use crate::scene::random::SplitMix64;
+use crate::random::SplitMix64;
 use crate::scene::{Material, Scene};
 
 /// The tangent of half the vertical field of view: about 39 degrees.

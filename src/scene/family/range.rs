@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Trial;
 use super::crowds::push_crowd;
 use super::pose::{HALF_HEIGHT, Look, Pose, empty};
-use crate::scene::random::SplitMix64;
+use crate::random::SplitMix64;
 use crate::scene::{Scene, layers, newell_bars};
 
 /// Twenty crossing triangles, ten layers 1e-4 apart and three bars in a cycle, side by side,

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::Trial;
 use super::pose::{Pose, empty, push_shuffled};
-use crate::scene::random::SplitMix64;
+use crate::random::SplitMix64;
 use crate::scene::turn::unit_circle;
 
 /// Six triangles around one point. Triangle `i` rises by `angle` in a direction of its own, a sixth

@@ -1,0 +1,108 @@
+//! What is refused, and what the error says.
+
+use crate::{CORNERS, read, with_corners};
+use binspace::scene::Scene;
+
+/// Line, face and message of the error.
+fn refused(text: impl AsRef<[u8]>) -> (Option<usize>, Option<u32>, String) {
+    match read(text) {
+        Ok((scene, _)) => panic!("accepted with {} polygons", scene.len()),
+        Err(error) => (error.line(), error.face(), error.to_string()),
+    }
+}
+
+#[test]
+fn utf_32_is_not_called_utf_16() {
+    for mark in [b"\xff\xfe\0\0", b"\0\0\xfe\xff"] {
+        assert!(refused(mark).2.contains("this is UTF-32; save it as UTF-8"));
+    }
+    let unmarked: Vec<u8> = "v 1".chars().flat_map(|c| u32::from(c).to_le_bytes()).collect();
+    assert!(refused(unmarked).2.contains("UTF-32"));
+}
+
+#[test]
+fn wrong_encodings_are_named() {
+    let utf16: Vec<u8> =
+        with_corners("f 1 2 3").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = utf16.chunks(2).flat_map(|pair| [pair[1], pair[0]]).collect();
+    for marked in [[b"\xff\xfe", &utf16[..]].concat(), [b"\xfe\xff", &big[..]].concat()] {
+        assert!(refused(marked).2.contains("UTF-16; save it as UTF-8"));
+    }
+    for unmarked in [utf16, big] {
+        let (line, _, message) = refused(unmarked);
+        assert_eq!(line, Some(1));
+        assert!(message.contains("save it as UTF-8"), "{message}");
+    }
+}
+
+#[test]
+fn bad_coordinates_are_refused_with_their_line() {
+    for (vertex, reason) in [
+        ("v nan 0 0", "not finite"),
+        ("v 0 inf 0", "not finite"),
+        ("v 0 0 -Infinity", "not finite"),
+        ("v 1e999 0 0", "not finite"),
+        ("v 0 3.1+e2 0", "not a number"),
+        ("v 0 0,5 0", "not a number"),
+        ("v 0 0", "must give x, y and z"),
+        ("v", "must give x, y and z"),
+        ("v 0 0 # 0", "must give x, y and z"),
+    ] {
+        let (line, face, message) = refused(format!("{CORNERS}\n{vertex}\nf 1 2 3\n"));
+        assert_eq!((line, face), (Some(7), None), "{vertex}");
+        assert!(message.starts_with("test.obj, line 7: "), "{message}");
+        assert!(message.contains(reason), "{message}");
+    }
+}
+
+/// tobj's own number type would turn it into infinity where that is `f32`.
+#[test]
+fn a_coordinate_beyond_32_bits_is_read_or_refused_but_never_infinite() {
+    match read(with_corners("v 1e39 0 0\nf 1 2 6")) {
+        Ok((scene, _)) => assert_eq!(scene.polygon(0)[2].x, 1e39),
+        Err(error) => {
+            assert_eq!(error.line(), Some(6));
+            assert!(error.to_string().contains("too large for 32 bits"));
+        }
+    }
+}
+
+#[test]
+fn bad_corners_are_refused_with_line_and_face() {
+    for (corner, reason) in [
+        ("6", "vertex 6 does not exist; there are 5"),
+        ("-6", "vertex -6 does not exist"),
+        ("0", "the first is 1"),
+        ("4294967297", "does not exist"),
+        ("99999999999999999999", "does not exist"),
+        ("-99999999999999999999", "does not exist"),
+        ("9223372036854775807", "does not exist"),
+        ("-9223372036854775808", "does not exist"),
+        ("1.5", "names no vertex"),
+        ("x", "names no vertex"),
+        ("/1", "names no vertex"),
+        ("1\u{fffd}", "names no vertex"),
+    ] {
+        let (line, face, message) =
+            refused(with_corners(&format!("f 1 2 3\n\nf 1 2 {corner}\nf 3 4 5")));
+        assert_eq!((line, face), (Some(8), Some(1)), "{corner}");
+        assert!(message.starts_with("test.obj, line 8, face 1 (from 0): "), "{message}");
+        assert!(message.contains(reason), "{message}");
+    }
+}
+
+#[test]
+fn a_file_without_faces_is_refused() {
+    for text in ["", "\n\n", "# nothing", CORNERS, &with_corners("l 1 2 3\np 1")] {
+        assert!(refused(text).2.contains("no faces"), "{text:?}");
+    }
+}
+
+#[test]
+fn unreadable_files_are_errors() {
+    for path in ["no/such/file.obj", "src"] {
+        let error = Scene::read_obj(path).expect_err("not a file");
+        assert!(error.to_string().starts_with(path), "{error}");
+        assert!(std::error::Error::source(&error).is_some());
+    }
+}

@@ -1,0 +1,109 @@
+//! What is kept of faces, and how they may be written.
+
+use crate::{CORNERS, read, sides, with_corners};
+use binspace::glam::{DVec3, dvec3};
+use binspace::scene::{self, Scene};
+
+#[test]
+fn polygons_keep_their_sides_order_and_place() {
+    let text = with_corners(
+        "o one\nf 1 2 3 4\ng two\nusemtl red\nf 1 2 5\nf 1\nusemtl blue\nf\nf 2 3 5\n\
+         usemtl red\nf 1 2 3 4 5\ng\nf 1 1 1\nf 3 4 5\n",
+    );
+    let (scene, report) = read(text).unwrap();
+    assert_eq!(sides(&scene), [4, 3, 1, 0, 3, 5, 3, 3]);
+    assert_eq!((report.faces, report.degenerate_faces), (8, 3));
+    assert_eq!(scene.polygon(4), [dvec3(1., 0., 0.), dvec3(1., 1., 0.), dvec3(0., 0., 5.)]);
+    let names: Vec<&str> = (0..8).map(|i| scene.material(i).name.as_str()).collect();
+    assert_eq!(names, ["", "red", "red", "blue", "blue", "red", "red", "red"]);
+    assert_eq!(report.missing_materials, ["red", "blue"]);
+}
+
+#[test]
+fn only_triangles_stay_triangles() {
+    let (scene, report) = read(with_corners("f 1 2 3\nf 1 3 4")).unwrap();
+    assert_eq!(sides(&scene), [3, 3]);
+    assert!(report.is_clean());
+}
+
+#[test]
+fn a_face_of_two_different_corners_is_degenerate() {
+    let (scene, report) = read(with_corners("f 1 2 1 2 2\nf 1 2 3 1")).unwrap();
+    assert_eq!(sides(&scene), [5, 4]);
+    assert_eq!(report.degenerate_faces, 1);
+}
+
+#[test]
+fn points_lines_and_curves_are_no_faces() {
+    let (scene, report) = read(with_corners("p 1\nl 1 2 3\nl 1 2\ncurv 0 1 1 2\nf 1 2 3")).unwrap();
+    assert_eq!(sides(&scene), [3]);
+    assert_eq!((report.skipped_points, report.skipped_lines), (1, 2));
+    assert_eq!(report.skipped_statements, 1);
+    assert!(!report.to_string().is_empty());
+}
+
+#[test]
+fn byte_order_mark_loses_no_line() {
+    let marked = format!("\u{feff}{}", with_corners("f 1 2 3 4"));
+    assert_eq!(read(marked).unwrap().0.polygon(0)[1], DVec3::X);
+}
+
+#[test]
+fn line_ends_continuations_and_comments_do_not_matter() {
+    let plain = read(with_corners("f 1 2 3 4")).unwrap();
+    for text in [
+        with_corners("f 1 2 3 4").replace('\n', "\r\n"),
+        with_corners("f 1 2 3 4").replace('\n', "\r"),
+        with_corners("f 1 2 \\\n 3 4"),
+        with_corners("f 1 2 3 4 # the floor"),
+        with_corners("# a path: C:\\\nf 1 2 3 4"),
+        with_corners("\tf\t1\t2  3 4  "),
+        with_corners("f 1 2 3 4").trim_end().to_owned(),
+        with_corners("f -5 -4 -3 -2"),
+        format!("f 1 2 3 4\n{CORNERS}"),
+    ] {
+        assert_eq!(read(&text).expect(&text), plain, "{text:?}");
+    }
+}
+
+#[test]
+fn normals_texture_weights_and_colours_are_left_out() {
+    let plain = read(with_corners("f 1 2 3\nf 3 4 5")).unwrap();
+    let faces = [
+        "f 1/1/1 2/1/1 3/1/1\nf 3//1 4//1 5//1",
+        "f 1/9/9 2/-9/-9 3/x/0\nf 3/ 4// 5/7",
+        "vt 1\nvn nan\nvn 0 0\nf 1/1 2/1 3/1\nf 3 4 5/1",
+    ];
+    for face in faces {
+        assert_eq!(read(with_corners(face)).expect(face), plain, "{face}");
+    }
+    let weighted = CORNERS.replace("v 1 0 0", "v 1 0 0 2").replace("v 0 1 0", "v 0 1 0 1 0.5 0");
+    let weighted = format!("{weighted}f 1 2 3\nf 3 4 5");
+    assert_eq!(read(weighted).unwrap(), plain);
+}
+
+#[test]
+fn bytes_that_are_no_utf8_may_stand_in_names() {
+    let mut text = b"# caf\xe9\ng \xff\xc0\nusemtl gr\xfcn\n".to_vec();
+    text.extend(with_corners("f 1 2 3").bytes());
+    assert_eq!(read(text).unwrap().0.len(), 1);
+}
+
+#[test]
+fn every_polygon_knows_its_line() {
+    let text = "v 0 0 0\nv 1 0 0\n\nv 0 1 0\nf 1 2 3\n# f\nf 1 \\\n 2 3\nf 3 2 1\n";
+    let (scene, _) = Scene::from_obj("lines", text.as_bytes(), |_| None).expect("a scene");
+    assert_eq!([0, 1, 2, 3].map(|i| scene.line(i)), [Some(5), Some(7), Some(9), None]);
+    assert_eq!(scene::newell_bars().line(0), None);
+}
+
+#[test]
+fn long_continuations_and_large_faces_are_read_in_linear_time() {
+    let mut text = CORNERS.to_owned();
+    text.push('f');
+    for _ in 0..200_000 {
+        text.push_str(" \\\n1 2 3");
+    }
+    let (scene, _) = read(text).unwrap();
+    assert_eq!(sides(&scene), [600_000]);
+}

@@ -1,0 +1,165 @@
+//! Orders against the tree's planes, of which exact rationals say on which side the eye is.
+
+use crate::support::dice::Dice;
+use crate::support::hard;
+use crate::support::judge::{Verdict, ensure};
+use crate::support::rational::Plane;
+use crate::support::views::View;
+use crate::support::{model, orders};
+use crate::{build, fail};
+use binspace::geom::Faces;
+use binspace::glam::DVec3;
+use binspace::scene;
+use binspace::{BspTree, BuildOptions, Heuristic, Partition};
+use proptest::prelude::*;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// A tree with its planes in rationals.
+struct Sides<'t> {
+    tree: &'t BspTree,
+    planes: Vec<(Partition, Plane)>,
+    /// How many planes have had the eye behind them, on them, and in front.
+    counts: [usize; 3],
+}
+
+impl<'t> Sides<'t> {
+    fn new(tree: &'t BspTree) -> Self {
+        let plane = |partition: Partition| {
+            let plane = model::plane(tree.faces(), partition.plane);
+            (partition, plane)
+        };
+        Self { tree, planes: tree.partitions().map(plane).collect(), counts: [0; 3] }
+    }
+
+    /// Whether every plane has what is on its far side, then what is on it in input order, then
+    /// what is on the near side; an eye on the plane may take either.
+    fn check(&mut self, view: &View) -> Verdict {
+        orders::check(self.tree, view.viewpoint)?;
+        let mut place = vec![0; self.tree.len()];
+        let order = self.tree.back_to_front(view.viewpoint);
+        order.enumerate().for_each(|(at, fragment)| place[fragment.index() as usize] = at);
+        let places = |ids: &Range<u32>| place[ids.start as usize..ids.end as usize].iter();
+        let is_before = |a, b| places(a).max().zip(places(b).min()).is_none_or(|(a, b)| a < b);
+        for (Partition { on, front, back, plane: id, .. }, plane) in &self.planes {
+            let go = |far, near| is_before(far, near) && is_before(far, on) && is_before(on, near);
+            let side = view.side(plane);
+            self.counts[(side as i8 + 1) as usize] += 1;
+            let fits = match side {
+                Ordering::Greater => go(back, front),
+                Ordering::Less => go(front, back),
+                Ordering::Equal => go(back, front) || go(front, back),
+            };
+            ensure(fits && places(on).is_sorted(), || format!("{id:?} is {side:?}: {view:?}"))?;
+        }
+        Ok(())
+    }
+
+    fn check_all(&mut self, views: &[View]) -> Verdict {
+        views.iter().try_for_each(|view| self.check(view))
+    }
+}
+
+/// Eyes on the planes of a face, at its corners, level with them along an axis, and all of these
+/// missed by one step of the lattice.
+fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
+    let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
+    let mut eyes = vec![p, q];
+    for _ in 0..2 {
+        eyes.push(p + (q - p) * dice.around_zero(3) + (r - p) * dice.around_zero(3));
+    }
+    for axis in 0..3 {
+        let mut level = DVec3::from_array([0; 3].map(|_| dice.around_zero(1 << 30) * 1e6));
+        level[axis] = r[axis];
+        eyes.push(level);
+    }
+    let missed: Vec<DVec3> =
+        eyes.iter().map(|&eye| eye + DVec3::AXES[dice.below(3)] * dice.around_zero(1)).collect();
+    eyes.into_iter().chain(missed).map(|eye| View::eye(faces, eye)).collect()
+}
+
+/// Eyes from one extent away to where only their direction counts: along the axes, along planes
+/// and edges of a face, and anywhere.
+fn eyes_far_from(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
+    let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
+    let axis = DVec3::AXES[dice.below(3)];
+    let any = DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+    let ways = [axis, -axis, q - p, (q - p) * dice.around_zero(5) + (r - p), any];
+    let mut eyes = Vec::new();
+    for way in ways {
+        let unit = way / way.abs().max_element();
+        for exponent in [51, 54, 60, 61, 62, 75, 120, 300, 415, 421, 422, 500, 960] {
+            eyes.push(View::eye(faces, p + unit * 2f64.powi(exponent)));
+        }
+    }
+    eyes
+}
+
+/// Directions along the axes, along edges and in the plane of a face, and nearly so.
+fn directions(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
+    let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
+    let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+    let along = [q - p, r - q, (q - p) * 2.0 - (r - p)];
+    let nearly = along.map(|way| way + DVec3::AXES[dice.below(3)] * dice.around_zero(2));
+    let all = axes.chain(along).chain(nearly).filter(|&way| way != DVec3::ZERO);
+    all.map(View::direction).collect()
+}
+
+/// All of these for some faces.
+fn awkward_views(faces: &Faces, count: usize, dice: &mut Dice) -> Vec<View> {
+    let mut views = Vec::new();
+    for _ in 0..count.min(faces.len()) {
+        let face = dice.below(faces.len()) as u32;
+        views.extend(eyes_on(faces, face, dice));
+        views.extend(eyes_far_from(faces, face, dice));
+        views.extend(directions(faces, face, dice));
+    }
+    views
+}
+
+#[test]
+fn eyes_far_away_and_on_planes_are_on_the_sides_that_rationals_say() {
+    let scenes =
+        [scene::sphere(100), scene::city(100, 2), scene::terrain(80, 4), scene::newell_bars()];
+    let mut counts = [0; 3];
+    for scene in &scenes {
+        for by in [Heuristic::Auto, Heuristic::First] {
+            let options = BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0);
+            let tree = options.build(scene.polygons()).expect("within budget");
+            let mut sides = Sides::new(&tree);
+            let views = awkward_views(tree.faces(), 1, &mut Dice(9));
+            assert_eq!(sides.check_all(&views), Ok(()), "{} by {by}", scene.name());
+            (0..3).for_each(|side| counts[side] += sides.counts[side]);
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 500), "{counts:?}");
+}
+
+/// What the layout of orders counts on: no plane has all fragments on one side, and no node has
+/// fewer than two, but for the only one.
+#[test]
+fn every_plane_has_something_on_it_or_on_both_sides() {
+    let scenes = [scene::sphere(900), scene::random_triangles(300, 8), scene::teapot(4)];
+    for scene in scenes {
+        for by in Heuristic::ALL {
+            let tree = BuildOptions::DEFAULT.with_heuristic(by).build(scene.polygons()).unwrap();
+            for Partition { on, front, back, .. } in tree.partitions() {
+                assert!(!on.is_empty() || !front.is_empty() && !back.is_empty(), "{by}");
+                assert!(on.len() + front.len() + back.len() > 1, "{by}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn awkward_eyes_are_on_the_sides_that_rationals_say(
+        scene in hard::scene(), by in crate::heuristic(), seed in any::<u64>(),
+    ) {
+        let tree = build(&scene, by)?;
+        let views = awkward_views(tree.faces(), 2, &mut Dice(seed));
+        Sides::new(&tree).check_all(&views).map_err(fail)?;
+    }
+}
