@@ -13,6 +13,13 @@ const PER_BIN: usize = 2;
 const UNEVEN: usize = 4;
 /// The most bins. Larger: their counters leave the cache.
 const MOST_BINS: usize = 1024;
+/// Bins that are to be looked into are divided first, if they hold more values than that. Larger:
+/// more to sort; smaller: looks at all pieces once more.
+const CROWD: usize = 4096;
+/// Values such a finer bin is to hold in the mean, if they need not be too many.
+const PER_FINE_BIN: usize = 16;
+/// The most of them, roughly. Larger: as for `MOST_BINS`; and all numbers of bins must fit 16 bits.
+const MOST_FINE_BINS: usize = 1 << 14;
 /// To search along an axis is as much work as to look at each piece so often.
 const PASSES: usize = 10;
 
@@ -102,12 +109,19 @@ impl Sweep {
             if watch.work(n * PASSES).is_err() {
                 break;
             }
-            let bins = Bins::new(bounds.0[axis], bounds.1[axis], n);
-            self.fill(pieces, axis, tolerance, &bins);
-            let limit = best.map_or(f64::INFINITY, |best| best.cost);
-            if self.bound(n, limit) {
-                self.gather(pieces, axis, tolerance);
-                self.walk(n, axis, &mut best);
+            let mut bins = Bins::new(bounds.0[axis], bounds.1[axis], n);
+            loop {
+                self.fill(pieces, axis, tolerance, &bins);
+                let limit = best.map_or(f64::INFINITY, |best| best.cost);
+                if !self.bound(n, limit) {
+                    break;
+                }
+                let Some(finer) = self.finer(&bins) else {
+                    self.gather(pieces, axis, tolerance);
+                    self.walk(n, axis, &mut best);
+                    break;
+                };
+                bins = finer;
             }
         }
         best
@@ -174,6 +188,15 @@ impl Sweep {
         self.chosen.extend(self.bounds.iter().map(|&bound| bound < limit));
         self.chosen.push(false);
         self.chosen.contains(&true)
+    }
+
+    /// Finer bins in place of the chosen ones, if those hold much that would have to be sorted.
+    fn finer(&self, bins: &Bins) -> Option<Bins> {
+        let values = |bin: usize| self.candidates[bin] as usize * usize::from(self.chosen[bin]);
+        let total: usize = (0..bins.count).map(values).sum();
+        let per_bin = PER_FINE_BIN.max(total / MOST_FINE_BINS);
+        let much = bins.fine.is_empty() && total > CROWD;
+        much.then(|| bins.divided(|bin| (values(bin) / per_bin).max(1)))
     }
 
     /// Gathers what is in the chosen bins.
@@ -269,12 +292,16 @@ impl FreePlane {
     }
 }
 
-/// Equal bins over the extent of a set along an axis.
+/// Equal bins over the extent of a set along an axis; some of them may be divided again.
 #[derive(Debug)]
 struct Bins {
     start: f64,
     per_unit: f64,
+    /// The number of the last bin, were none divided.
+    last: f64,
     count: usize,
+    /// For each bin of the undivided, the first that it is divided into, and how many more there are.
+    fine: Vec<(u32, f64)>,
 }
 
 /// Added to a number from 0 to 2³², it leaves the nearest integer in the last bits of the sum: faster
@@ -284,16 +311,35 @@ const TO_INTEGER: f64 = (1_u64 << 52) as f64;
 impl Bins {
     fn new(start: f64, end: f64, pieces: usize) -> Self {
         let count = (pieces / PER_BIN).clamp(1, MOST_BINS);
-        Self { start, per_unit: (count - 1) as f64 / (end - start), count }
+        let last = (count - 1) as f64;
+        Self { start, per_unit: last / (end - start), last, count, fine: vec![] }
+    }
+
+    /// The same bins, each divided into so many.
+    fn divided(&self, parts: impl Fn(usize) -> usize) -> Self {
+        let mut count = 0;
+        let fine = (0..self.count).map(|bin| {
+            let (first, parts) = (count, parts(bin));
+            count += parts;
+            (first as u32, (parts - 1) as f64)
+        });
+        let fine = fine.collect();
+        Self { fine, count, ..*self }
     }
 
     /// The bin of a value; a larger value is never in an earlier bin.
     #[inline]
     fn of_value(&self, value: f64) -> usize {
-        let bin = (value - self.start) * self.per_unit;
-        let last = (self.count - 1) as f64;
-        let bin = if bin > 0.0 { bin } else { 0.0 };
-        let bin = if bin < last { bin } else { last };
-        (bin + TO_INTEGER).to_bits() as u32 as usize
+        let place = (value - self.start) * self.per_unit;
+        let place = if place > 0.0 { place } else { 0.0 };
+        let place = if place < self.last { place } else { self.last };
+        let bin = place + TO_INTEGER;
+        let number = bin.to_bits() as u32 as usize;
+        if self.fine.is_empty() {
+            return number;
+        }
+        let (first, more) = self.fine[number];
+        let within = place - (bin - TO_INTEGER) + 0.5;
+        first as usize + (within * more + TO_INTEGER).to_bits() as u32 as usize
     }
 }
