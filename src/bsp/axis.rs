@@ -1,5 +1,8 @@
 //! The best free plane of a set of pieces: perpendicular to an axis, through a corner.
 
+#[cfg(test)]
+mod tests;
+
 use super::cost::{price, work};
 use super::live::Live;
 use super::progress::Watch;

@@ -151,9 +151,9 @@ pub(super) fn build<'a, K: Kernel>(
     Ok(builder.output)
 }
 
-/// Whether pieces need no plane to be put in order: pieces of one face never hide each other.
+/// Whether a set needs no plane to be put in order.
 fn is_leaf(pieces: &[Live]) -> bool {
-    pieces.iter().all(|piece| piece.face == pieces[0].face)
+    pieces.len() <= 1
 }
 
 impl<K: Kernel> Builder<'_, K> {
