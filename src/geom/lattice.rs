@@ -17,9 +17,10 @@ const FAR: f64 = (1u128 << 110) as f64;
 /// `f32`, on integers, or far from the origin are usually not moved at all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
-    /// Lattice coordinate = world coordinate · 2^exponent − origin.
-    exponent: i32,
-    origin: [i128; 3],
+    /// Lattice coordinate = world coordinate · steps − origin.
+    steps: PowerOfTwo,
+    /// Whole numbers.
+    origin: [f64; 3],
     /// The coordinate that all corners share along an axis in which the scene lies so far out, for
     /// its size, that its coordinates cannot differ; 0 for other axes.
     far: [f64; 3],
@@ -41,20 +42,21 @@ impl Lattice {
         } else {
             0
         };
-        let far = centre.to_array().map(|c| if scale(c, exponent).abs() > FAR { c } else { 0.0 });
-        let origin: [i128; 3] = std::array::from_fn(|axis| match far[axis] {
-            0.0 => scale(centre[axis], exponent).round() as i128,
-            _ => 0,
+        let steps = PowerOfTwo::new(exponent);
+        let far = centre.to_array().map(|c| if steps.times(c).abs() > FAR { c } else { 0.0 });
+        let origin = std::array::from_fn(|axis| match far[axis] {
+            0.0 => steps.times(centre[axis]).round(),
+            _ => 0.0,
         });
-        Self { exponent, origin, far }
+        Self { steps, origin, far }
     }
 
     /// The lattice point nearest to a point of the scene's bounding box.
     pub fn snap(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
+        // A difference of whole numbers that a number can hold is exact.
         std::array::from_fn(|axis| {
-            let steps = scale(world[axis] - self.far[axis], self.exponent).round() as i128;
-            (steps - self.origin[axis]) as f64
+            self.steps.times(world[axis] - self.far[axis]).round() - self.origin[axis]
         })
     }
 
@@ -62,12 +64,7 @@ impl Lattice {
     pub fn to_lattice(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
-            let scaled = scale(world[axis] - self.far[axis], self.exponent);
-            if scaled.abs() < 1e30 && scaled.fract() == 0.0 {
-                (scaled as i128 - self.origin[axis]) as f64
-            } else {
-                scaled - self.origin[axis] as f64
-            }
+            self.steps.times(world[axis] - self.far[axis]) - self.origin[axis]
         })
     }
 
@@ -76,24 +73,24 @@ impl Lattice {
         DVec3::from_array(std::array::from_fn(|axis| {
             let whole = lattice[axis].floor();
             let steps = if whole.abs() < 1e30 {
-                (whole as i128 + self.origin[axis]) as f64 + (lattice[axis] - whole)
+                (whole as i128 + self.origin[axis] as i128) as f64 + (lattice[axis] - whole)
             } else {
-                lattice[axis] + self.origin[axis] as f64
+                lattice[axis] + self.origin[axis]
             };
             // Clamped: the rounding of a corner at the end of the range must not make it infinite.
-            let world = scale(steps, -self.exponent) + self.far[axis];
+            let world = self.steps.divides(steps) + self.far[axis];
             world.clamp(f64::MIN, f64::MAX)
         }))
     }
 
     /// A world length in lattice units.
     pub fn length_to_lattice(&self, length: f64) -> f64 {
-        scale(length, self.exponent)
+        self.steps.times(length)
     }
 
     /// A length in lattice units as a world length.
     pub fn length_to_world(&self, length: f64) -> f64 {
-        scale(length, -self.exponent)
+        self.steps.divides(length)
     }
 }
 
@@ -103,10 +100,26 @@ fn exponent_of(value: f64) -> i32 {
     if bits > 0 { bits - 1023 } else { exponent_of(value * 2f64.powi(64)) - 64 }
 }
 
-/// `value · 2^exponent`, in two steps where one power of two would leave the range of `f64`.
-fn scale(value: f64, exponent: i32) -> f64 {
-    let half = exponent / 2;
-    value * 2f64.powi(half) * 2f64.powi(exponent - half)
+/// A power of two that may be beyond the range of `f64`: as two within it, and their inverses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PowerOfTwo {
+    factors: [f64; 2],
+    inverses: [f64; 2],
+}
+
+impl PowerOfTwo {
+    fn new(exponent: i32) -> Self {
+        let halves = [exponent / 2, exponent - exponent / 2];
+        Self { factors: halves.map(|e| 2f64.powi(e)), inverses: halves.map(|e| 2f64.powi(-e)) }
+    }
+
+    fn times(&self, value: f64) -> f64 {
+        value * self.factors[0] * self.factors[1]
+    }
+
+    fn divides(&self, value: f64) -> f64 {
+        value * self.inverses[0] * self.inverses[1]
+    }
 }
 
 #[cfg(test)]
