@@ -115,8 +115,7 @@ impl<K: Kernel> Chooser<'_, K> {
             return None;
         }
         let n = pieces.len();
-        let free = self.sweep.best(pieces, self.faces.tolerance(), self.watch);
-        let clean = free.filter(|free| free.splits == 0);
+        let clean = self.sweep.clean(pieces, self.faces.tolerance());
         let divides = clean.is_some_and(|free| free.cost <= work(n / 8) + work(n - n / 8));
         self.misses += usize::from(!divides && n > HASTY_TRIES);
         clean.and_then(|free| free.id(self.faces, pieces))

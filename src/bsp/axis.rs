@@ -51,6 +51,8 @@ pub(super) struct FreePlane {
 pub(super) struct Sweep {
     /// For each piece, the bins in which it begins and ends, and those of its two candidates.
     bins: Vec<[u16; 4]>,
+    /// Where the pieces of a small set begin and end, and which they are.
+    spans: Vec<(f64, f64, u32)>,
     /// For each bin, how many of the four kinds there are, and how many candidates; behind the
     /// last bin, and once summed, how many there are before each.
     counts: Vec<[u32; 4]>,
@@ -99,20 +101,11 @@ impl Sweep {
     ) -> Option<FreePlane> {
         let mut best: Option<FreePlane> = None;
         let n = pieces.len();
-        let bounds = super::live::bounds(pieces);
-        let extent = |axis: usize| bounds.1[axis] - bounds.0[axis];
-        let mut axes = [0, 1, 2];
-        axes.sort_by(|&a, &b| extent(b).total_cmp(&extent(a)));
-        // Other axes are not asked where one has a plane that cuts nothing and divides well.
-        let enough = work(n / UNEVEN) + work(n - n / UNEVEN);
-        for axis in axes {
-            if extent(axis) <= 0.0 || best.is_some_and(|best| best.cost <= enough) {
+        for (axis, [low, high]) in axes(pieces) {
+            if best.is_some_and(|best| best.is_enough(n)) || watch.work(n * PASSES).is_err() {
                 break;
             }
-            if watch.work(n * PASSES).is_err() {
-                break;
-            }
-            let mut bins = Bins::new(bounds.0[axis], bounds.1[axis], n);
+            let mut bins = Bins::new(low, high, n);
             loop {
                 self.fill(pieces, axis, tolerance, &bins);
                 let limit = best.map_or(f64::INFINITY, |best| best.cost);
@@ -125,6 +118,43 @@ impl Sweep {
                     break;
                 };
                 bins = finer;
+            }
+        }
+        best
+    }
+
+    /// The free plane of least cost among those that cut nothing, for sets so small that they are
+    /// sorted in less time than to count takes.
+    pub(super) fn clean(&mut self, pieces: &[Live], tolerance: f64) -> Option<FreePlane> {
+        let mut best: Option<FreePlane> = None;
+        let n = pieces.len();
+        for (axis, _) in axes(pieces) {
+            if best.is_some_and(|best| best.is_enough(n)) {
+                break;
+            }
+            let spans = pieces.iter().zip(0..).map(|(p, i)| (p.min[axis], p.max[axis], i));
+            self.spans.clear();
+            self.spans.extend(spans);
+            self.spans.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            // Of the pieces so far, the one that reaches furthest, and how far.
+            let mut furthest = (f64::NEG_INFINITY, 0);
+            for (behind, &(min, max, i)) in self.spans.iter().enumerate() {
+                if behind > 0 && min + tolerance >= furthest.0 {
+                    let cost = work(n - behind) + work(behind);
+                    let coordinate = if pieces[i as usize].min_is_corner(axis) {
+                        Some(min)
+                    } else {
+                        pieces[furthest.1 as usize].max_is_corner(axis).then_some(furthest.0)
+                    };
+                    if let Some(coordinate) = coordinate
+                        && best.is_none_or(|best| cost < best.cost)
+                    {
+                        best = Some(FreePlane { cost, splits: 0, axis, coordinate });
+                    }
+                }
+                if max > furthest.0 {
+                    furthest = (max, i);
+                }
             }
         }
         best
@@ -282,7 +312,21 @@ fn pass(list: &mut &[f64], passes: impl Fn(f64) -> bool) -> usize {
     count
 }
 
+/// The axes along which a set has an extent, the longest first, with its ends.
+fn axes(pieces: &[Live]) -> impl Iterator<Item = (usize, [f64; 2])> {
+    let (min, max) = super::live::bounds(pieces);
+    let mut axes = [0, 1, 2].map(|axis| (axis, [min[axis], max[axis]]));
+    let extent = |&(_, [low, high]): &(usize, [f64; 2])| high - low;
+    axes.sort_by(|a, b| extent(b).total_cmp(&extent(a)));
+    axes.into_iter().filter(move |ends| extent(ends) > 0.0)
+}
+
 impl FreePlane {
+    /// Whether it cuts nothing and divides well: then other axes need not be asked.
+    fn is_enough(&self, pieces: usize) -> bool {
+        self.cost <= work(pieces / UNEVEN) + work(pieces - pieces / UNEVEN)
+    }
+
     /// The plane by the name of a corner on it.
     pub(super) fn id(&self, faces: &Faces, pieces: &[Live]) -> Option<PlaneId> {
         let (axis, c) = (self.axis, self.coordinate);
