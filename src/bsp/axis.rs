@@ -46,7 +46,8 @@ pub(super) struct FreePlane {
 ///
 /// Where pieces begin and end is counted by bins, not sorted. The counts at a bin's borders bound
 /// the cost of every plane inside it, so that only the bins that may hold the best plane are
-/// looked into: O(n) where coordinates spread, O(n log n) at worst.
+/// looked into; where these hold much, they are divided once more. O(n) where coordinates spread,
+/// O(n log n) at worst.
 #[derive(Debug, Default)]
 pub(super) struct Sweep {
     /// For each piece, the bins in which it begins and ends, and those of its two candidates.

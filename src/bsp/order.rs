@@ -8,7 +8,7 @@ use std::hint::select_unpredictable;
 use super::BspTree;
 use super::planes::View;
 use super::schedule::{Branch, List, NEXT, ROOT, Run, Schedule};
-use super::twig::FRAGMENTS;
+use super::twig::{FRAGMENTS, NODES};
 use crate::geom::{Kernel, Viewpoint};
 
 /// A twig is written as if it had the most fragments, so there is room for more behind an order.
@@ -99,7 +99,7 @@ fn write_twigs(schedule: &Schedule, signs: &[u32], begins: &[u32], numbers: &mut
     for (twig, &begin) in schedule.twigs.iter().zip(begins) {
         let word = twig.node as usize / 32;
         let words = u64::from(signs[word]) | u64::from(signs[word + 1]) << 32;
-        let signs = (words >> (twig.node % 32)) as usize % 16;
+        let signs = (words >> (twig.node % 32)) as usize % (1 << NODES);
         let places = schedule.permutations[twig.row as usize][signs] as usize;
         let room = numbers[begin as usize..].first_chunk_mut::<FRAGMENTS>();
         let Some(numbers) = room else { continue };

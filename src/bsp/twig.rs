@@ -2,10 +2,10 @@
 
 use super::node::Node;
 
-/// The most nodes of a twig. More: tables of 2 to the power of it; fewer: more branches.
-pub(super) const NODES: usize = 4;
 /// The most fragments of a twig: the places of so many fit a byte, two bits each.
 pub(super) const FRAGMENTS: usize = 4;
+/// The most nodes of a twig: only sets of two pieces and more are divided.
+pub(super) const NODES: usize = FRAGMENTS - 1;
 
 /// The places of a twig's fragments, for each set of signs of its nodes: bit k of a set stands for
 /// an eye in front of node k; bits 2k and 2k + 1 of the places are the place of fragment k.
