@@ -163,7 +163,8 @@ pub(crate) struct RenderArgs {
 /// buffers paint families of scenes that grow harder step by step, and the scenes that are named.
 /// Each pixel, vertex and piece is held against exact truth. Writes report.md, plots as SVG, and
 /// the figures as CSV; errors.csv is the same for the same seed on any machine. What is there is
-/// kept if the command is interrupted. The exit status is 1 if the exact tree errs anywhere.
+/// kept if the command is interrupted. The exit status is 1 if the exact tree errs anywhere, or is
+/// too large to be built.
 #[derive(Args, Debug)]
 #[command(after_help = examples::REPORT)]
 pub(crate) struct ReportArgs {

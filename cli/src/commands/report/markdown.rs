@@ -25,6 +25,7 @@ pub(super) fn report(report: &Report<'_>) -> String {
             table.markdown()
         );
     }
+    text += METHODS;
     text += "\n### All methods, all families\n\n";
     text += &summary::everything(&report.sections).markdown();
     text += "\n## The families, one by one\n\n\
@@ -43,7 +44,13 @@ pub(super) fn report(report: &Report<'_>) -> String {
 fn head(report: &Report<'_>) -> String {
     let args = report.args;
     let [width, height] = report.size;
-    let state = if report.complete { "" } else { "\n**Not complete: more was asked for.**\n" };
+    let mut state = String::new();
+    if !report.complete {
+        state += "\n**Not complete: more was asked for.**\n";
+    }
+    for name in &report.failed {
+        state += &format!("\n**{name} could not be measured.**\n");
+    }
     format!(
         "# binspace report\n{state}\n\
          | | |\n|---|---|\n\
@@ -65,6 +72,28 @@ families with any such pixel. *Deepest error* and *largest drift* are shares of 
 their piece was put. *Build* and *picture* (order and drawing) are geometric means.
 *Ended* counts the trials that did not run out of a budget; a method's other figures are of these
 alone, though those that it gave up are the hardest. – means that a method has no such figure.
+";
+
+const METHODS: &str = "
+### The methods
+
+- *bsp exact*: the tree, by the exact kernel. *bsp f64 1e-9*, *bsp f32 1e-4*: the same builder by
+  rounded numbers and an epsilon, in units of half the extent.
+- *centroid*: painted by the depth of the faces' centroids. *newell*: the algorithm of Newell, Newell
+  and Sancha in f64, with an epsilon of 1e-10 of half the extent and budgets for pieces and
+  comparisons.
+- *z 16*, *z 24*: depth buffers of so many bits after the perspective divide; *f32*: of floats,
+  *reversed*: with 1 at the near plane; *w*: of depths before the divide; *incremental*: scanlines on
+  which depth grows by steps, others by edge functions. *z f64* judges, with exact arithmetic where
+  two depths are closer than its rounding.
+- Near and far planes are fitted to each view, the near one no closer than 2⁻⁴⁴ of the far one. An
+  eye that touches a face leaves a buffer of depths after the divide hardly any precision: one view
+  of `lattice` is such, and the deepest errors are from there.
+- What is painted by edge functions, by an exact tree, or by centroids is covered as the judge
+  covers it: holes and spills are measured for the others.
+- All differences count, however shallow: in `boxes` most are of doubled walls, within some
+  roundings of each other. The plots show twelve methods, the tables all.
+- Times to build are of faces that are prepared already, by all threads; pictures are drawn by one.
 ";
 
 fn of_family(section: &Section, family: Family) -> String {

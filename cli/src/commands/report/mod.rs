@@ -58,6 +58,8 @@ pub(super) struct Report<'a> {
     size: [u32; 2],
     sections: Vec<Section>,
     growth: Vec<Growth>,
+    /// Scenes that could not be measured.
+    failed: Vec<String>,
     /// Whether all that was asked for is in it.
     complete: bool,
 }
@@ -69,22 +71,27 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     make_folder(&args.output)?;
     try_to_write(&args.output)?;
     let size = args.size.unwrap_or(if args.quick { [160, 120] } else { [640, 480] });
-    let mut report =
-        Report { args, size, sections: Vec::new(), growth: Vec::new(), complete: false };
+    let mut report = Report {
+        args,
+        size,
+        sections: Vec::new(),
+        growth: Vec::new(),
+        failed: Vec::new(),
+        complete: false,
+    };
     let max_comparisons = MAX_COMPARISONS[usize::from(args.quick)];
     let methods_of = |max_pieces| methods(max_comparisons, max_pieces);
     let all = args.family.is_empty();
     for family in Family::ALL.into_iter().filter(|family| all || args.family.contains(family)) {
         report.run_family(family, &methods_of(MAX_PIECES))?;
     }
-    let mut failed = None;
     for scene in &scenes {
         let corners: usize = scene.polygons().map(<[_]>::len).sum();
         let methods = methods_of(MAX_PIECES.max(PIECES_PER_CORNER * corners));
         match report.run_scene(scene, &methods) {
             Err(Failure::Message(problem)) => {
                 note(&format!("{problem}; the report goes on without it"));
-                failed = Some(Failure::about(scene.name(), "could not be measured"));
+                report.failed.push(scene.name().to_owned());
             }
             result => result?,
         }
@@ -98,7 +105,10 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     report.complete = true;
     report.write()?;
     let outcome = report.conclude()?;
-    failed.map_or(Ok(outcome), Err)
+    match report.failed.last() {
+        Some(name) => Err(Failure::about(name, "could not be measured")),
+        None => Ok(outcome),
+    }
 }
 
 /// Reads a scene, of which a face is left at least.
@@ -162,10 +172,10 @@ impl Report<'_> {
             let verdict = if exact.is_zero() {
                 styled(GOOD, "exact: nothing wrong")
             } else {
-                styled(BAD, format!("exact: {exact}"))
+                styled(BAD, exact)
             };
             let rows = count(section.rows.len(), "row");
-            say(format!("{:14}{rows}, {verdict}", section.subject.name()))?;
+            say(format!("{:14} {rows}, {verdict}", section.subject.name()))?;
         }
         self.write()
     }

@@ -41,7 +41,7 @@ pub(super) fn sentence(section: &Section) -> String {
     let more = if at_once.is_empty() { "others err" } else { "more err" };
     parts.extend(onsets(section, &later, &others).map(|steps| format!("{more} {steps}")));
     if !right.is_empty() {
-        parts.push(format!("never wrong: {}", names(&right, &others)));
+        parts.push(format!("no wrong pixel: {}", names(&right, &others)));
     }
     let given_up = |(steps, methods): &(String, Vec<&str>)| {
         format!("given up{steps} ({})", names(methods, &others))
@@ -206,7 +206,7 @@ mod tests {
         for part in [
             "**bsp exact** paints 0 wrong pixels of 20",
             "over all 2 steps; others err at every step (z 16); more err first at 1e-2 (newell); ",
-            "never wrong: z; given up at 1e-2 (w); ",
+            "no wrong pixel: z; given up at 1e-2 (w); ",
             "the most is 50 % at 1e-2, by newell",
         ] {
             assert!(text.contains(part), "{part}: {text}");
@@ -217,7 +217,7 @@ mod tests {
     fn of_a_scene_that_is_no_sweep_it_is_told_as_well() {
         let rows = [("bsp exact", 0), ("centroid", 2), ("z", 0)];
         let text = said(rows.map(|(method, wrong)| row(None, method, Some(wrong))).into());
-        assert!(text.contains("others err (centroid); never wrong: z;"));
+        assert!(text.contains("others err (centroid); no wrong pixel: z;"));
         let text = said(vec![row(None, "bsp exact", Some(1)), row(None, "z", Some(0))]);
         assert!(text.starts_with("**bsp exact: 1 of 10 pixels wrong"), "{text}");
     }
