@@ -202,6 +202,22 @@ fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
     }
 }
 
+/// The upper one reaches further down the slope, so that its depth alone would have it painted first.
+#[test]
+fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
+    let square = |half: f64, lift: f64| {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        corners.map(|(x, y)| DVec3::new(half * x, half * y, half * x + lift)).to_vec()
+    };
+    let polygons = vec![square(1.0, 1e-8), square(0.5, 0.0)];
+    let faces = faces(&polygons, Some(0.0));
+    for camera in from_above(2.5, [40, 40]) {
+        let painted = show(&Newell::DEFAULT, &faces, &camera);
+        let shown = painted.image.faces().iter().filter(|&&face| face != NONE);
+        assert!(shown.map(|&face| faces.polygon(face)).all(|polygon| polygon == 0));
+    }
+}
+
 #[test]
 fn what_has_an_order_is_not_cut() {
     let polygons = polygons_of(&scene::layers(40, 0.01));
