@@ -140,7 +140,7 @@ impl<K: Kernel> Chooser<'_, K> {
         }
         if splits * NOTABLE > pieces.len()
             && self.credit / CREDIT >= pieces.len()
-            && sample(pieces, FEW_OWN_PLANES).all(|piece| self.is_at_rim(piece, pieces, arena))
+            && self.looks_convex(pieces, arena)
         {
             self.credit = 0;
             let (by, taken) = ((&self.kernel, self.faces), &mut self.taken);
@@ -157,6 +157,14 @@ impl<K: Kernel> Chooser<'_, K> {
             self.try_own(piece, reward, pieces, arena, &mut best);
         }
         Choice::Split(best.1)
+    }
+
+    /// Whether most pieces of a sample have all others on one side: a few that lie within, as discs
+    /// in a pipe, are no reason to take the rest off one at a time.
+    fn looks_convex(&self, pieces: &[Live], arena: &[K::Vertex]) -> bool {
+        let at_rim = |piece: &&Live| self.is_at_rim(piece, pieces, arena);
+        let sample = || sample(pieces, FEW_OWN_PLANES);
+        sample().filter(at_rim).count() * 4 >= sample().count() * 3
     }
 
     /// Whether all other pieces are on one side of a piece's plane, or on it.

@@ -21,7 +21,8 @@ const WORTH: usize = 4;
 ///
 /// Exact: only what is certain by rounded distances is believed. A tree of boxes around the
 /// vertices tells for all but the neighbours of a piece that they are on one side of its plane, so
-/// this takes O(n log n) where boxes can tell at all.
+/// this takes O(n log n) where boxes can tell at all; where many pieces have a vertex in common, as
+/// the sides of a cone, each is a neighbour of each, and it takes O(n²).
 pub(super) fn take_apart<K: Kernel>(
     (kernel, faces): (&K, &Faces),
     (pieces, arena): (&[Live], &[K::Vertex]),
@@ -36,9 +37,6 @@ pub(super) fn take_apart<K: Kernel>(
         if gone[p] {
             continue;
         }
-        if watch.work(LOOKS).is_err() {
-            return false;
-        }
         let plane = PlaneId::face(pieces[p].face);
         let splitter = kernel.splitter(faces, plane);
         let rest = match reach::<K>(&splitter, std::iter::once(boxes.middle)) {
@@ -48,6 +46,9 @@ pub(super) fn take_apart<K: Kernel>(
         };
         if !boxes.near::<K>(&splitter, rest, &mut near) {
             continue;
+        }
+        if watch.work(LOOKS + near.len()).is_err() {
+            return false;
         }
         let side = |&q: &u32| kernel.classify(faces, &splitter, pieces[q as usize].piece(arena));
         near.retain(|&q| q as usize != p && !gone[q as usize]);

@@ -103,6 +103,7 @@ impl BuildOptions {
     /// whichever thread has something to say, but never by two at once. By [`ControlFlow::Break`]
     /// it cancels the build: every thread stops as soon as it has finished its pass over the set
     /// of pieces at hand, which takes milliseconds, or tenths of a second in sets of some 100 000.
+    /// Once all is divided, the tree is laid out, which cannot be cancelled: another such time.
     ///
     /// ```
     /// use std::ops::ControlFlow;

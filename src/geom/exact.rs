@@ -100,6 +100,18 @@ impl Plane {
         term(0) + term(1) + term(2)
     }
 
+    /// Where an eye lies against the plane perpendicular to an axis through a lattice point: as
+    /// [`at_eye`](Self::at_eye), without products.
+    pub(crate) fn axis_at_eye(axis: usize, point: [f64; 3], eye: &Eye) -> Ordering {
+        let (e, p) = (i128::from(eye.integer()[axis]), i128::from(point[axis] as i64));
+        match eye.shift() {
+            // A whole number that is not zero is then further out than any lattice point.
+            Some(shift) if e == 0 || shift <= 52 => (e << shift.min(52)).cmp(&p),
+            None if e == 0 => 0.cmp(&p),
+            _ => e.cmp(&0),
+        }
+    }
+
     /// The plane at an eye, times a positive number where the eye is infinitely far.
     pub(crate) fn at_eye(&self, eye: &Eye) -> Ordering {
         let p = self.point;

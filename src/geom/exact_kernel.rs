@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::exact::Plane;
 use super::kernel::{Kernel, Piece, Side, Vertex};
 use super::label::{Line, PlaneId, PlaneKind, Symbol};
 use super::lattice::LIMIT;
@@ -227,7 +228,10 @@ impl Kernel for Exact {
     }
 
     fn eye_side(&self, faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering {
-        faces.plane(plane).at_eye(eye)
+        match plane.kind() {
+            PlaneKind::Axis(axis, corner) => Plane::axis_at_eye(axis, faces.corner(corner), eye),
+            PlaneKind::Face(_) => faces.plane(plane).at_eye(eye),
+        }
     }
 }
 
