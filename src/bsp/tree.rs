@@ -71,8 +71,9 @@ use crate::geom::{Exact, Faces, Kernel, Polygon, Preparation};
 ///
 /// Takes about n log n time, but n² where planes that cut nothing take only few polygons off the
 /// rest, as in shells about shells, or where many share a corner of a convex body, as the sides of a
-/// cone. No recursion: a chain of a million polygons needs no more stack than one. Same input and options give the same tree, bit for bit, with any number of
-/// threads. It is a logic error to take fragment numbers of one tree to another.
+/// cone. No recursion: a chain of a million polygons needs no more stack than one. Same input and
+/// options give the same tree, bit for bit, with any number of threads. It is a logic error to take
+/// fragment numbers of one tree to another.
 #[derive(Clone)]
 pub struct BspTree<K: Kernel = Exact> {
     pub(super) kernel: K,
