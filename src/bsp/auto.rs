@@ -43,9 +43,12 @@ const LARGE_REWARD: f64 = 2.0;
 /// off a large set is quadratic work. Smaller: rooms full of walls are cut; larger: more such work.
 const REWARD_ABOVE: usize = 128;
 /// So many times the pieces of a set must have been looked at before it is tried to take it apart
-/// at once, if a sample of own planes all leave the rest on one side. Larger: convex sets are taken apart one
-/// piece at a time; smaller: time for sets that only look convex.
+/// at once, if most own planes of a sample leave the rest on one side. Larger: convex sets are taken
+/// apart one piece at a time; smaller: time for sets that only look convex.
 const CREDIT: usize = 4;
+/// How many of the sample must do so. Larger: a few pieces within a convex set keep it whole;
+/// smaller: time for sets that only look convex.
+const RIM: usize = FEW_OWN_PLANES * 3 / 4;
 /// A free plane that cuts more than one in so many pieces is reason to try that. Smaller: convex
 /// sets off the axes are cut; larger: long lists in place of balanced trees.
 const NOTABLE: usize = 64;
@@ -163,8 +166,7 @@ impl<K: Kernel> Chooser<'_, K> {
     /// in a pipe, are no reason to take the rest off one at a time.
     fn looks_convex(&self, pieces: &[Live], arena: &[K::Vertex]) -> bool {
         let at_rim = |piece: &&Live| self.is_at_rim(piece, pieces, arena);
-        let sample = || sample(pieces, FEW_OWN_PLANES);
-        sample().filter(at_rim).count() * 4 >= sample().count() * 3
+        sample(pieces, FEW_OWN_PLANES).filter(at_rim).count() >= RIM
     }
 
     /// Whether all other pieces are on one side of a piece's plane, or on it.

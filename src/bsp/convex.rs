@@ -37,6 +37,9 @@ pub(super) fn take_apart<K: Kernel>(
         if gone[p] {
             continue;
         }
+        if watch.work(LOOKS).is_err() {
+            return false;
+        }
         let plane = PlaneId::face(pieces[p].face);
         let splitter = kernel.splitter(faces, plane);
         let rest = match reach::<K>(&splitter, std::iter::once(boxes.middle)) {
@@ -47,7 +50,7 @@ pub(super) fn take_apart<K: Kernel>(
         if !boxes.near::<K>(&splitter, rest, &mut near) {
             continue;
         }
-        if watch.work(LOOKS + near.len()).is_err() {
+        if watch.work(near.len()).is_err() {
             return false;
         }
         let side = |&q: &u32| kernel.classify(faces, &splitter, pieces[q as usize].piece(arena));

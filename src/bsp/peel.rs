@@ -72,6 +72,8 @@ impl Peeler {
                     self.own.iter().for_each(|&q| self.gone[q as usize] = true);
                     self.order.retain(|&q| !self.gone[q as usize]);
                     progress = true;
+                } else {
+                    patience = patience.saturating_sub(self.order.len());
                 }
             }
         }
@@ -146,10 +148,10 @@ impl Peeler {
             }
         }
         self.witnesses[p as usize] = seen;
-        (seen[0] == NOBODY || seen[1] == NOBODY).then_some(if seen[0] == NOBODY {
-            Side::Back
-        } else {
-            Side::Front
-        })
+        match seen {
+            [NOBODY, _] => Some(Side::Back),
+            [_, NOBODY] => Some(Side::Front),
+            _ => None,
+        }
     }
 }

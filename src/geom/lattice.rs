@@ -54,9 +54,9 @@ impl Lattice {
     /// The lattice point nearest to a point of the scene's bounding box.
     pub fn snap(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
-        // A difference of whole numbers that a number can hold is exact.
+        // A difference of whole numbers that a number can hold is exact. Zero gets its one form.
         std::array::from_fn(|axis| {
-            self.steps.times(world[axis] - self.far[axis]).round() - self.origin[axis]
+            self.steps.times(world[axis] - self.far[axis]).round() - self.origin[axis] + 0.0
         })
     }
 
@@ -135,6 +135,13 @@ mod tests {
         for point in [min, max, DVec3::ZERO, DVec3::new(0.1f32.into(), 3.3f32.into(), 1.0)] {
             assert_eq!(lattice.to_world(lattice.snap(point)), point);
         }
+    }
+
+    #[test]
+    fn zero_has_one_form() {
+        let lattice = Lattice::new(DVec3::NEG_ONE, DVec3::ONE);
+        let snapped = lattice.snap(DVec3::new(-0.0, -1e-30, 0.0));
+        assert_eq!(snapped.map(f64::to_bits), [0; 3]);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod same;
 mod scale;
 #[path = "../support/mod.rs"]
 mod support;
+mod tilted;
 
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;

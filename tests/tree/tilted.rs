@@ -1,11 +1,12 @@
 //! Scenes turned off the axes, where free planes cut and own planes have to help.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
 use binspace::geom::Viewpoint;
 use binspace::glam::{DQuat, DVec3};
 use binspace::scene::{self, Scene};
-use binspace::BspTree;
+use binspace::{BspTree, BuildOptions};
 
 use super::scale::{mosaic, with_a_small_stack};
 use crate::support::orders;
@@ -13,14 +14,26 @@ use crate::support::orders;
 /// The same turned away from all axes, where every free plane cuts.
 fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
-    let turned = |polygon| binspace::Polygon::corners(&polygon).map(|p| turn * p).collect();
+    let turned = |polygon: &[DVec3]| polygon.iter().map(|&corner| turn * corner).collect();
     scene.polygons().map(turned).collect()
+}
+
+/// The sides of a prism.
+fn prism(sides: u32) -> impl Iterator<Item = Vec<DVec3>> {
+    (0..sides).map(move |i| {
+        let at = |k: u32, z| {
+            let a = f64::from(k) * TAU / f64::from(sides);
+            DVec3::new(a.cos(), a.sin(), z)
+        };
+        vec![at(i, -20.0), at(i + 1, -20.0), at(i + 1, 20.0), at(i, 20.0)]
+    })
 }
 
 /// A sphere of slices and rings.
 fn globe(slices: u32, rings: u32, radius: f64) -> Vec<[DVec3; 3]> {
     let at = |slice: u32, ring: u32| {
-        let (a, b) = (f64::from(slice % slices) * TAU / f64::from(slices), f64::from(ring) * PI / f64::from(rings));
+        let a = f64::from(slice % slices) * TAU / f64::from(slices);
+        let b = f64::from(ring) * PI / f64::from(rings);
         DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * radius
     };
     let mut faces = Vec::new();
@@ -52,21 +65,14 @@ fn scenes_turned_off_the_axes_are_cut_little() {
             [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]
         }))
     };
-    let prism = scene_of((0..10_000).map(|i| {
-        let at = |k: i32, z| {
-            let a = f64::from(k) * TAU / 1e4;
-            DVec3::new(a.cos(), a.sin(), z)
-        };
-        [at(i, -20.0), at(i + 1, -20.0), at(i + 1, 20.0), at(i, 20.0)]
-    }));
     let shells = (1..=10).flat_map(|radius| globe(40, 20, radius.into()));
     for (name, scene, most) in [
-        ("chain", scene::chain(20_000), 1.0),
+        ("chain", scene::chain(20_000), 1.05),
         ("dense stack", stack(0.001), 1.0),
         ("stack", stack(0.01), 1.2),
         ("loose stack", stack(0.1), 1.1),
         ("mosaic", mosaic(100), 1.2),
-        ("prism", prism, 1.0),
+        ("prism", scene_of(prism(10_000)), 1.0),
         ("slim globe", scene_of(globe(1000, 4, 1.0)), 1.0),
         ("globe", scene_of(globe(100, 50, 1.0)), 1.1),
         ("shells", scene_of(shells), 1.6),
@@ -75,6 +81,26 @@ fn scenes_turned_off_the_axes_are_cut_little() {
         let stats = with_a_small_stack(|| BspTree::build(tilted(&scene)).expect("finite").stats());
         assert!(stats.fragments as f64 <= most * stats.faces as f64, "{name}: {stats:?}");
     }
+}
+
+/// How much work there is shows in how often a build says how far it is.
+#[test]
+fn a_disc_within_a_prism_does_not_keep_it_whole() {
+    let calls = |polygons: &[Vec<DVec3>]| {
+        let mut calls = 0;
+        let tree = BuildOptions::DEFAULT.build_with_progress(polygons, |_| {
+            calls += 1;
+            ControlFlow::Continue(())
+        });
+        let tree = tree.expect("finite");
+        assert_eq!((tree.len(), tree.validate()), (polygons.len(), Ok(())));
+        calls
+    };
+    let mut polygons = vec![vec![DVec3::X * 0.3, DVec3::Y * 0.3, DVec3::new(-0.3, -0.3, 0.0)]];
+    polygons.extend(prism(3000));
+    let polygons = tilted(&scene_of(polygons));
+    let (whole, empty) = (calls(&polygons), calls(&polygons[1..]));
+    assert!(whole <= 2 * empty, "{whole} calls, and {empty} without the disc");
 }
 
 /// A prism with some polygons inside: what is convex comes off at once, and the rest is divided.

@@ -13,20 +13,22 @@ use crate::random::SplitMix64;
 /// piece for each.
 fn least(pieces: &[Live], axis: usize, tolerance: f64) -> f64 {
     let coordinates = pieces.iter().flat_map(|piece| [piece.min[axis], piece.max[axis]]);
-    let cost = |c: f64| {
-        let (mut in_front, mut behind, mut splits) = (0, 0, 0);
-        for piece in pieces {
-            let begun = piece.min[axis] + tolerance < c;
-            let ended = piece.max[axis] - tolerance <= c;
-            let flat = piece.max[axis] - piece.min[axis] <= 2.0 * tolerance;
-            in_front += usize::from(!ended);
-            behind += usize::from(begun);
-            splits += usize::from(begun && !ended && !flat);
-        }
-        let divides = in_front < pieces.len() && behind < pieces.len();
-        if divides { work(in_front) + work(behind) + price(splits) } else { f64::INFINITY }
-    };
-    coordinates.map(cost).fold(f64::INFINITY, f64::min)
+    coordinates.map(|c| at(pieces, axis, c, tolerance)).fold(f64::INFINITY, f64::min)
+}
+
+/// What a plane costs; infinite if it leaves all pieces on one side.
+fn at(pieces: &[Live], axis: usize, c: f64, tolerance: f64) -> f64 {
+    let (mut in_front, mut behind, mut splits) = (0, 0, 0);
+    for piece in pieces {
+        let begun = piece.min[axis] + tolerance < c;
+        let ended = piece.max[axis] - tolerance <= c;
+        let flat = piece.max[axis] - piece.min[axis] <= 2.0 * tolerance;
+        in_front += usize::from(!ended);
+        behind += usize::from(begun);
+        splits += usize::from(begun && !ended && !flat);
+    }
+    let divides = in_front < pieces.len() && behind < pieces.len();
+    if divides { work(in_front) + work(behind) + price(splits) } else { f64::INFINITY }
 }
 
 /// Asserts that the plane found is the best of the axes that have to be searched.
@@ -36,6 +38,12 @@ fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let (n, watch) = (pieces.len(), Watch::default());
     let found = Sweep::default().best(&pieces, faces.tolerance(), &watch);
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
+    if tolerance == 0.0 {
+        let clean = Sweep::default().clean(&pieces, 0.0);
+        let cost = clean.map(|plane| at(&pieces, plane.axis, plane.coordinate, 0.0));
+        assert!(cost.is_none_or(|cost| cost < price(1)), "{name}: {clean:?} cuts");
+        assert_eq!(cost.is_some(), costs.iter().any(|&cost| cost < price(1)), "{name}: {clean:?}");
+    }
     let expected = costs.into_iter().fold(f64::INFINITY, f64::min);
     let found = found.map_or(f64::INFINITY, |plane| plane.cost);
     let enough = work(n / UNEVEN) + work(n - n / UNEVEN);

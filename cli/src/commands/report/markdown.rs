@@ -87,12 +87,12 @@ const METHODS: &str = "
   which depth grows by steps, others by edge functions. *z f64* judges, with exact arithmetic where
   two depths are closer than its rounding.
 - Near and far planes are fitted to each view, the near one no closer than 2⁻⁴⁴ of the far one. An
-  eye that touches a face leaves a buffer of depths after the divide hardly any precision: one view
-  of `lattice` is such, and the deepest errors are from there.
+  eye that touches a face, as in one view of `lattice`, leaves a buffer of depths after the divide
+  hardly any precision.
 - What is painted by edge functions, by an exact tree, or by centroids is covered as the judge
   covers it: holes and spills are measured for the others.
-- All differences count, however shallow: in `boxes` most are of doubled walls, within some
-  roundings of each other. The plots show twelve methods, the tables all.
+- All differences count, however shallow: in `boxes` there are doubled walls, within some roundings
+  of each other. The plots show twelve methods, the tables all.
 - Times to build are of faces that are prepared already, by all threads; pictures are drawn by one.
 ";
 
