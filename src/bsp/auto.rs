@@ -240,17 +240,23 @@ impl<K: Kernel> Chooser<'_, K> {
         let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
         let n = pieces.len();
         let set = &self.set;
-        let count = |candidate: usize, step: usize, limit: f64| {
+        let count = |candidate: usize, limit: f64| {
             let splitter = set.splitter(candidate);
             let mut counts = Counts::default();
-            for chunk in (0..n).step_by(CHECK_EVERY * step) {
-                let end = n.min(chunk + CHECK_EVERY * step);
-                set.reaches(splitter, chunk..end, step).for_each(|reach| counts.add(reach));
+            for chunk in (0..n).step_by(CHECK_EVERY) {
+                let pieces = chunk..n.min(chunk + CHECK_EVERY);
+                set.reaches(splitter, pieces).for_each(|reach| counts.add(reach));
                 if counts.cost() >= limit {
                     return None;
                 }
             }
             Some(counts.cost())
+        };
+        let count_some = |candidate: usize, step: usize| {
+            let splitter = set.splitter(candidate);
+            let mut counts = Counts::default();
+            (0..n).step_by(step).for_each(|piece| counts.add(set.reach(splitter, piece)));
+            counts.cost()
         };
         self.ranked.clear();
         let tries = n.min(OWN_PLANES);
@@ -262,7 +268,7 @@ impl<K: Kernel> Chooser<'_, K> {
             let looks = n.div_ceil(step) as f64;
             for i in 0..tries {
                 let candidate = i * n / tries;
-                let cost = count(candidate, step, f64::INFINITY).unwrap_or(f64::INFINITY);
+                let cost = count_some(candidate, step);
                 self.ranked.push((cost - reward_of(candidate) * looks, candidate as u32));
             }
             self.ranked.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -270,7 +276,7 @@ impl<K: Kernel> Chooser<'_, K> {
         }
         for &(_, candidate) in &self.ranked {
             let reward = reward_of(candidate as usize) * n as f64;
-            if let Some(cost) = count(candidate as usize, 1, best.0 + reward)
+            if let Some(cost) = count(candidate as usize, best.0 + reward)
                 && cost - reward < best.0
             {
                 best = (cost - reward, PlaneId::face(pieces[candidate as usize].face));

@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod tests;
 
+use std::cmp::Ordering;
+
 use super::cost::{price, work};
 use super::live::Live;
 use super::progress::Watch;
@@ -108,7 +110,11 @@ impl Sweep {
             }
             let mut bins = Bins::new(low, high, n);
             loop {
-                self.fill(pieces, axis, tolerance, &bins);
+                if bins.fine.is_empty() {
+                    self.fill(pieces, axis, tolerance, (bins.count, |value| bins.coarse(value).1));
+                } else {
+                    self.fill(pieces, axis, tolerance, (bins.count, |value| bins.of_value(value)));
+                }
                 let limit = best.map_or(f64::INFINITY, |best| best.cost);
                 if !self.bound(n, limit) {
                     break;
@@ -136,7 +142,7 @@ impl Sweep {
             let spans = pieces.iter().zip(0..).map(|(p, i)| (p.min[axis], p.max[axis], i));
             self.spans.clear();
             self.spans.extend(spans);
-            self.spans.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            self.spans.sort_unstable_by(|a, b| compare(&a.0, &b.0).then(compare(&a.1, &b.1)));
             // Of the pieces so far, the one that reaches furthest, and how far.
             let mut furthest = (f64::NEG_INFINITY, 0);
             for (behind, &(min, max, i)) in self.spans.iter().enumerate() {
@@ -161,24 +167,30 @@ impl Sweep {
         best
     }
 
-    fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
+    fn fill(
+        &mut self,
+        pieces: &[Live],
+        axis: usize,
+        tolerance: f64,
+        (bins, bin_of): (usize, impl Fn(f64) -> usize),
+    ) {
         if self.bins.capacity() / MUCH > pieces.len() {
             *self = Self::default();
         }
         self.counts.clear();
-        self.counts.resize(bins.count + 1, [0; 4]);
+        self.counts.resize(bins + 1, [0; 4]);
         self.candidates.clear();
         // The last is for what is no candidate.
-        self.candidates.resize(bins.count + 1, 0);
+        self.candidates.resize(bins + 1, 0);
         self.bins.clear();
         let (counts, candidates) = (&mut self.counts, &mut self.candidates);
         self.bins.extend(pieces.iter().map(|piece| {
             let span = Span::of(piece, axis, tolerance);
-            let (begin, end) = (bins.of_value(span.begin), bins.of_value(span.end));
+            let (begin, end) = (bin_of(span.begin), bin_of(span.end));
             counts[begin][span.kind + BEGUN] += 1;
             counts[end][span.kind + ENDED] += 1;
             let mut candidate = |is_corner: bool, value| {
-                let bin = if is_corner { bins.of_value(value) } else { bins.count };
+                let bin = if is_corner { bin_of(value) } else { bins };
                 candidates[bin] += 1;
                 bin
             };
@@ -236,11 +248,11 @@ impl Sweep {
     /// Gathers what is in the chosen bins.
     fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) {
         let chosen = &self.chosen[..];
-        let is_chosen = |bin: u16| chosen[usize::from(bin)];
         self.values.iter_mut().for_each(Vec::clear);
         self.coordinates.clear();
-        for (bins, piece) in self.bins.iter().zip(pieces) {
-            let [begin, end, low, high] = bins.map(is_chosen);
+        for (&[begin, end, low, high], piece) in self.bins.iter().zip(pieces) {
+            let [begin, end] = [chosen[usize::from(begin)], chosen[usize::from(end)]];
+            let [low, high] = [chosen[usize::from(low)], chosen[usize::from(high)]];
             if !(begin | end | low | high) {
                 continue;
             }
@@ -262,7 +274,7 @@ impl Sweep {
 
     /// Tries the candidates in the chosen bins, each upwards, with a finger in the list of each kind.
     fn walk(&mut self, pieces: usize, axis: usize, best: &mut Option<FreePlane>) {
-        let sort = |values: &mut Vec<f64>| values.sort_unstable_by(f64::total_cmp);
+        let sort = |values: &mut Vec<f64>| values.sort_unstable_by(compare);
         self.values.iter_mut().for_each(sort);
         sort(&mut self.coordinates);
         let mut lists = self.values.each_ref().map(|values| &values[..]);
@@ -302,6 +314,18 @@ impl Sweep {
                 }
             }
         }
+    }
+}
+
+/// The order of numbers, none of them NaN: less work than a total one.
+#[inline]
+fn compare(a: &f64, b: &f64) -> Ordering {
+    if a < b {
+        Ordering::Less
+    } else if a > b {
+        Ordering::Greater
+    } else {
+        Ordering::Equal
     }
 }
 
@@ -375,19 +399,21 @@ impl Bins {
         Self { fine, count, ..*self }
     }
 
-    /// The bin of a value; a larger value is never in an earlier bin.
+    /// The bin of a value were none divided, and its place there.
     #[inline]
-    fn of_value(&self, value: f64) -> usize {
+    fn coarse(&self, value: f64) -> (f64, usize) {
         let place = (value - self.start) * self.per_unit;
         let place = if place > 0.0 { place } else { 0.0 };
         let place = if place < self.last { place } else { self.last };
-        let bin = place + TO_INTEGER;
-        let number = bin.to_bits() as u32 as usize;
-        if self.fine.is_empty() {
-            return number;
-        }
+        (place, (place + TO_INTEGER).to_bits() as u32 as usize)
+    }
+
+    /// The bin of a value; a larger value is never in an earlier bin.
+    #[inline]
+    fn of_value(&self, value: f64) -> usize {
+        let (place, number) = self.coarse(value);
         let (first, more) = self.fine[number];
-        let within = place - (bin - TO_INTEGER) + 0.5;
+        let within = place - number as f64 + 0.5;
         first as usize + (within * more + TO_INTEGER).to_bits() as u32 as usize
     }
 }

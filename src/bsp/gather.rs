@@ -59,15 +59,14 @@ impl<K: Kernel> Gathered<K> {
         reach_of::<K>(splitter, self.extent(splitter, piece))
     }
 
-    /// The same for the pieces of a range, every so many.
+    /// The same for the pieces of a range.
     #[inline]
     pub(super) fn reaches(
         &self,
         splitter: &K::Splitter,
         pieces: std::ops::Range<usize>,
-        step: usize,
     ) -> impl Iterator<Item = (bool, bool)> {
-        let outlines = self.outlines[pieces].iter().step_by(step);
+        let outlines = self.outlines[pieces].iter();
         outlines.map(|outline| reach_of::<K>(splitter, self.extent_of(splitter, outline)))
     }
 

@@ -103,8 +103,7 @@ impl Peeler {
         let slack = K::slack(splitter);
         let mut seen = [NOBODY; 2];
         self.near.clear();
-        for i in 0..self.order.len() {
-            let q = self.order[i];
+        for (i, &q) in self.order.iter().enumerate() {
             if q == p {
                 continue;
             }
