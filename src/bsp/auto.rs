@@ -200,7 +200,7 @@ impl<K: Kernel> Chooser<'_, K> {
             let splitter = self.set.splitter(candidate);
             let mut counts = Counts::default();
             let clean = (0..n).all(|q| {
-                counts.add(self.set.reach(splitter, q));
+                counts = counts.with(self.set.reach(splitter, q));
                 counts.splits == 0
             });
             let balance = counts.front.min(counts.back);
@@ -221,7 +221,7 @@ impl<K: Kernel> Chooser<'_, K> {
             let splitter = self.set.splitter(candidate);
             let mut counts = Counts::default();
             (0..n).all(|q| {
-                counts.add(self.set.reach(splitter, q));
+                counts = counts.with(self.set.reach(splitter, q));
                 counts.splits == 0
             }) && counts.front.min(counts.back) > n / 4
         };
@@ -245,7 +245,7 @@ impl<K: Kernel> Chooser<'_, K> {
             let mut counts = Counts::default();
             for chunk in (0..n).step_by(CHECK_EVERY) {
                 let pieces = chunk..n.min(chunk + CHECK_EVERY);
-                set.reaches(splitter, pieces).for_each(|reach| counts.add(reach));
+                counts = set.reaches(splitter, pieces).fold(counts, Counts::with);
                 if counts.cost() >= limit {
                     return None;
                 }
@@ -254,9 +254,8 @@ impl<K: Kernel> Chooser<'_, K> {
         };
         let count_some = |candidate: usize, step: usize| {
             let splitter = set.splitter(candidate);
-            let mut counts = Counts::default();
-            (0..n).step_by(step).for_each(|piece| counts.add(set.reach(splitter, piece)));
-            counts.cost()
+            let reaches = (0..n).step_by(step).map(|piece| set.reach(splitter, piece));
+            reaches.fold(Counts::default(), Counts::with).cost()
         };
         self.ranked.clear();
         let tries = n.min(OWN_PLANES);

@@ -17,6 +17,10 @@ const MOST_CANDIDATES: usize = 256;
 /// How often a candidate is asked whether it can still win, in pieces.
 pub(super) const CHECK_EVERY: usize = 32;
 
+/// So many pieces of a set are gathered at a time, to be held against several planes. Larger:
+/// memory; smaller: planes are fetched more often.
+const GATHERED: usize = 512;
+
 /// What is to be done with a set.
 #[derive(Debug)]
 pub(super) enum Choice {
@@ -44,6 +48,8 @@ pub(super) struct Chooser<'a, K: Kernel> {
     pub(super) taken: TakenApart,
     /// The set at hand, if it is small.
     pub(super) set: Gathered<K>,
+    /// The planes that are tried, and how they divide the set.
+    tried: Vec<(K::Splitter, Counts)>,
     /// Pieces of the set whose planes are to be tried, with what they promise.
     pub(super) ranked: Vec<(f64, u32)>,
 }
@@ -66,6 +72,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
             peeler: Peeler::default(),
             taken: TakenApart::default(),
             set: Gathered::default(),
+            tried: vec![],
             ranked: vec![],
         }
     }
@@ -102,20 +109,34 @@ impl<'a, K: Kernel> Chooser<'a, K> {
 
     /// The best of a sample of own planes by a score, lower being better; the earliest of equals.
     fn scored(
-        &self,
+        &mut self,
         pieces: &[Live],
         arena: &[K::Vertex],
         candidates: usize,
         score: impl Fn(&Counts, bool) -> f64,
     ) -> PlaneId {
+        let ready = |piece: &Live| {
+            let splitter = self.kernel.splitter(self.faces, PlaneId::face(piece.face));
+            (splitter, Counts::default())
+        };
+        self.tried.clear();
+        self.tried.extend(sample(pieces, candidates).map(ready));
+        for part in pieces.chunks(GATHERED) {
+            if self.watch.work(part.len() * self.tried.len()).is_err() {
+                break;
+            }
+            self.set.gather(self.faces, part, arena);
+            for (splitter, counts) in &mut self.tried {
+                let reaches = self.set.reaches(splitter, 0..part.len());
+                *counts = reaches.fold(*counts, Counts::with);
+            }
+        }
         let mut best = (f64::INFINITY, PlaneId::face(pieces[0].face));
-        for piece in sample(pieces, candidates) {
-            let plane = PlaneId::face(piece.face);
-            let (counts, _) = self.count(plane, pieces, arena, f64::INFINITY);
+        for (piece, (_, counts)) in sample(pieces, candidates).zip(&self.tried) {
             let is_axial = (0..3).any(|axis| piece.min[axis] == piece.max[axis]);
-            let score = score(&counts, is_axial);
+            let score = score(counts, is_axial);
             if score < best.0 {
-                best = (score, plane);
+                best = (score, PlaneId::face(piece.face));
             }
         }
         best.1
@@ -123,7 +144,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
 
     /// The best of so many own planes, by what they cut and how evenly they divide.
     pub(super) fn sampled(
-        &self,
+        &mut self,
         pieces: &[Live],
         arena: &[K::Vertex],
         candidates: usize,
@@ -154,7 +175,7 @@ impl<'a, K: Kernel> Chooser<'a, K> {
         }
         for chunk in pieces.chunks(CHECK_EVERY) {
             for live in chunk {
-                counts.add(self.reach(&splitter, live, arena));
+                counts = counts.with(self.reach(&splitter, live, arena));
             }
             if limit < f64::INFINITY && counts.cost() >= limit {
                 return (counts, false);

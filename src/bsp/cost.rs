@@ -17,11 +17,14 @@ pub(super) struct Counts {
 }
 
 impl Counts {
+    /// With one more, that reaches in front of the plane, or behind it, or both.
     #[inline]
-    pub(super) fn add(&mut self, (front, back): (bool, bool)) {
-        self.splits += usize::from(front & back);
-        self.front += usize::from(front & !back);
-        self.back += usize::from(back & !front);
+    pub(super) fn with(self, (front, back): (bool, bool)) -> Self {
+        Self {
+            front: self.front + usize::from(front & !back),
+            back: self.back + usize::from(back & !front),
+            splits: self.splits + usize::from(front & back),
+        }
     }
 
     /// The work left on both sides, and the cuts: only grows with each count.

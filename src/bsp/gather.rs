@@ -26,8 +26,15 @@ impl<K: Kernel> Default for Gathered<K> {
 }
 
 impl<K: Kernel> Gathered<K> {
-    /// Takes a set, in place of what was there.
+    /// Takes a set with the planes of its pieces, in place of what was there.
     pub(super) fn take(&mut self, kernel: &K, faces: &Faces, set: &[Live], arena: &[K::Vertex]) {
+        self.gather(faces, set, arena);
+        let splitter = |live: &Live| kernel.splitter(faces, PlaneId::face(live.face));
+        self.splitters.extend(set.iter().map(splitter));
+    }
+
+    /// Takes a set without the planes.
+    pub(super) fn gather(&mut self, faces: &Faces, set: &[Live], arena: &[K::Vertex]) {
         self.outlines.clear();
         self.more.clear();
         self.splitters.clear();
@@ -36,7 +43,6 @@ impl<K: Kernel> Gathered<K> {
                 None => self.push(faces.corners(live.face), |&corner| corner),
                 Some(vertices) => self.push(vertices, Vertex::position),
             }
-            self.splitters.push(kernel.splitter(faces, PlaneId::face(live.face)));
         }
     }
 
