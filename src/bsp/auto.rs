@@ -22,7 +22,7 @@ const HASTY_MISSES: usize = 4;
 /// less, and quadratic work; smaller: scans, whose surfaces no free plane follows, are cut more.
 const OWN_PLANES_BELOW: usize = 400;
 /// How many own planes `auto` tries at a node. More: fewer fragments, for time in proportion.
-const OWN_PLANES: usize = 64;
+const OWN_PLANES: usize = 96;
 /// A free plane that cuts more than one in so many pieces is a poor one, and some own planes are
 /// tried beside it in sets of any size. Larger: time; smaller: stacks of tilted layers are cut
 /// rather than parted.
@@ -38,7 +38,12 @@ const FREE_SPLIT_PRICE: f64 = 4.0;
 /// What is taken off the cost of the plane of a polygon that fills the set's bounding box, per
 /// polygon in the set; less for one that fills less of it. A floor that is not taken early is cut
 /// again by every wall on it. Larger: depth spent on polygons that nothing would have cut.
-const LARGE_REWARD: f64 = 2.0;
+const LARGE_REWARD: f64 = 0.7;
+/// The same in a heap, where what is not taken is cut again by nearly every plane.
+const HEAP_REWARD: f64 = 4.0;
+/// A heap is a set whose pieces were cut more often than that in the mean. Larger: heaps are cut
+/// more; smaller: other sets are.
+const HEAP: usize = 4;
 /// The depth from which on no polygon is rewarded for its size: taking one polygon after another
 /// off a large set is quadratic work. Smaller: rooms full of walls are cut; larger: more such work.
 const REWARD_ABOVE: usize = 128;
@@ -63,6 +68,16 @@ const HALVES: usize = 4;
 const LOOKS: usize = 32;
 /// How many own planes, those that promise most, are then held against the whole set. As above.
 const RANKED: usize = 12;
+
+/// What is taken off the cost of a large polygon's plane, per polygon in a set at some depth.
+fn large_reward(pieces: &[Live], depth: usize) -> f64 {
+    let cuts: usize = pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
+    match depth {
+        REWARD_ABOVE.. => 0.0,
+        _ if cuts > HEAP * pieces.len() => HEAP_REWARD,
+        _ => LARGE_REWARD,
+    }
+}
 
 impl<K: Kernel> Chooser<'_, K> {
     /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
@@ -137,7 +152,7 @@ impl<K: Kernel> Chooser<'_, K> {
         mut best: (f64, PlaneId),
     ) -> Choice {
         let cell = Cell::around(pieces);
-        let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
+        let reward = large_reward(pieces, depth);
         for piece in cell.largest(pieces).take(if reward > 0.0 { LARGEST } else { 0 }) {
             self.try_own(piece, (reward * cell.share(piece), usize::MAX), pieces, arena, &mut best);
         }
@@ -237,7 +252,7 @@ impl<K: Kernel> Chooser<'_, K> {
         mut best: (f64, PlaneId),
     ) -> PlaneId {
         let cell = Cell::around(pieces);
-        let reward = if depth < REWARD_ABOVE { LARGE_REWARD } else { 0.0 };
+        let reward = large_reward(pieces, depth);
         let n = pieces.len();
         let set = &self.set;
         let count = |candidate: usize, limit: f64| {

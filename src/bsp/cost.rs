@@ -2,7 +2,7 @@
 
 /// The price of each cut in the cost of `auto`, in polygons still to be sorted. Larger: trees
 /// become unbalanced, and unbalanced ones cut more further down; smaller: cuts for balance.
-const SPLIT_PRICE: f64 = 1.0;
+const SPLIT_PRICE: f64 = 0.2;
 /// The price of cutting at all: more than any amount of work. A plane that cuts nothing costs no
 /// fragment, now or later: whatever tree there is of all pieces, its parts on either side are trees
 /// of those. So where there is one, it is taken, however unbalanced.
