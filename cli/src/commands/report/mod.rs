@@ -213,7 +213,12 @@ impl Report<'_> {
 
     fn conclude(&self) -> Result<Outcome, Failure> {
         let table = summary::headline(&self.sections);
-        say(format!("\n{}\n{}", styled(HEAD, "All families together"), table.plain()))?;
+        let head = match self.args.family[..] {
+            [] => "All families together",
+            [_] => "The family that was named",
+            _ => "The families that were named, together",
+        };
+        say(format!("\n{}\n{}", styled(HEAD, head), table.plain()))?;
         let exact = self.exactness();
         say(format!("{exact}\nwritten: {}", self.args.output.join("report.md").display()))?;
         Ok(if exact.is_zero() { Outcome::Done } else { Outcome::Differs })

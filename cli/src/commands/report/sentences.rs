@@ -64,7 +64,7 @@ fn onsets(section: &Section, later: &[(usize, &str)], others: &[&str]) -> Option
     };
     let mut parts = vec![format!("first at {} {}", place(first), group(&|step| step == first))];
     if later.iter().any(|&(step, _)| first < step && step < last) {
-        parts.push(format!("then {}", group(&|step| first < step && step < last)));
+        parts.push(format!("in between {}", group(&|step| first < step && step < last)));
     }
     if first < last {
         parts.push(format!("not before {} {}", place(last), group(&|step| step == last)));
@@ -251,7 +251,9 @@ mod tests {
             }
         }
         let text = said(rows);
-        assert!(text.contains("others err first at 10 (a), then (b), not before 1000 (c, d);"));
+        assert!(
+            text.contains("others err first at 10 (a), in between (b), not before 1000 (c, d);")
+        );
         assert!(text.contains("the most is 10 % at 10, by a,"), "{text}");
     }
 }
