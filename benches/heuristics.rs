@@ -1,5 +1,5 @@
 //! Every heuristic on every scene: pieces, depth, build, order; and what the default loses
-//! against the best. Prints a part of RESULTS.md.
+//! against the best. Prints the tables of HEURISTICS.md.
 //!
 //! ```sh
 //! BINSPACE_SCENES=… cargo bench --bench heuristics

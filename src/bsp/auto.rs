@@ -140,9 +140,9 @@ impl<K: Kernel> Chooser<'_, K> {
     }
 
     /// The best of few own planes, if it is better than the best free plane, which has so many
-    /// splits. A large set in convex position is taken apart. In a heap, of which every plane cuts so
-    /// many that it leaves more work than there was, the least of it would be left by planes at the
-    /// rim: there balance counts more.
+    /// splits. A large set in convex position is taken apart. If every plane cuts so many that it
+    /// leaves more work than there was, the least of it would be left by planes at the rim: there
+    /// balance counts more.
     fn best_of_large(
         &mut self,
         pieces: &[Live],

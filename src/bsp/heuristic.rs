@@ -11,8 +11,8 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Heuristic {
-    /// The plane of the first polygon in input order. The cheapest choice, and 3 to 15 times the
-    /// fragments of a scored one.
+    /// The plane of the first polygon in input order. The cheapest choice, and up to 14 times
+    /// the fragments of a scored one.
     First,
     /// The plane of a random polygon; the same for the same seed. In expectation O(n log n)
     /// fragments in the plane (Paterson and Yao, 1990), O(n²) in space.
@@ -45,7 +45,7 @@ pub enum Heuristic {
     /// Free planes and the planes of the largest polygons, in small sets a sample of all
     /// polygons' planes too, by the estimate f·log f + b·log b of the work left in front and
     /// behind, a price for cuts, and a reward for taking polygons that fill the set's box before
-    /// they are cut. Fewest fragments and shallow trees on most scenes. Scenes of up to 200 faces
+    /// they are cut. Fewest fragments on most scenes. Scenes of up to 200 faces
     /// are taken for layers that are rebuilt for every frame: there, free planes that cut nothing,
     /// and else the choice of [`Sampled`](Self::Sampled) from 8 planes.
     #[default]
