@@ -19,7 +19,7 @@ fn bench(criterion: &mut Criterion) {
     for scene in [random_triangles(500, 1), city(2000, 1), sphere(2000), teapot(8)] {
         let mut group = criterion.benchmark_group(format!("build/{}", scene.name()));
         group.throughput(Throughput::Elements(scene.len() as u64));
-        for heuristic in Heuristic::ALL {
+        for &heuristic in Heuristic::ALL {
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
             let build = || options.build(scene.polygons()).expect("within budget");
             let tree = build();

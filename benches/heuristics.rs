@@ -2,14 +2,11 @@
 //! against the best. Prints the tables of HEURISTICS.md.
 //!
 //! ```sh
-//! BINSPACE_SCENES=… cargo bench --bench heuristics
+//! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench heuristics
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
-
-#[path = "support/mod.rs"]
-mod support;
 
 use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, Heuristic};
@@ -49,7 +46,7 @@ const SCENES: [&str; 25] = [
 const PATIENCE: Duration = Duration::from_secs(30);
 
 fn main() {
-    print_head("Heuristics", "cargo bench --bench heuristics");
+    print_head("Heuristics", "cargo bench -p binspace-benches --bench heuristics");
     let mut losses = Vec::new();
     for name in SCENES {
         let Some(scene) = scene(name) else { continue };
@@ -80,7 +77,7 @@ fn measure(name: &str, scene: &Scene) -> Vec<Row> {
         ],
     );
     let mut rows = Vec::new();
-    for heuristic in Heuristic::ALL {
+    for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let (build, tree) = best_of(1, || build(&options, scene));
         let tree = match tree {

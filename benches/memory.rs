@@ -3,9 +3,6 @@
 #![allow(missing_docs, reason = "a program")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
 
-#[path = "support/mod.rs"]
-mod support;
-
 use binspace::BspTree;
 use dhat::{HeapStats, Profiler};
 use support::{Table, Target, against, check, print_head, scene, viewpoints};
@@ -29,7 +26,7 @@ const SCENES: [&str; 12] = [
 ];
 
 fn main() {
-    print_head("Memory", "cargo bench --bench memory");
+    print_head("Memory", "cargo bench -p binspace-benches --bench memory");
     let table = Table::new(
         "Memory: the tree, and the peak while it is built",
         &[

@@ -2,8 +2,9 @@
 
 #![allow(missing_docs, reason = "criterion's macros make functions without any")]
 
-use binspace::geom::{Exact, Faces, Float, Kernel, Piece, PlaneId, Side, split};
+use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
 use binspace::scene::random_triangles;
+use binspace_evidence::Float;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;

@@ -1,8 +1,8 @@
-//! What can go wrong.
+//! The error of a build.
 
 use std::fmt;
 
-/// Why a tree could not be built, with the polygon that is to blame where one is.
+/// The reason why a tree could not be built, and the polygon to blame if there is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     kind: Kind,
@@ -11,8 +11,10 @@ pub struct Error {
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     NonFinite { polygon: usize },
-    NotConvex { polygon: usize },
-    TooManyCorners,
+    PolygonCorners { polygon: usize, limit: usize },
+    TooManyCorners { limit: usize },
+    TooManyPolygons { limit: usize },
+    OutOfMemory,
     Tolerance { value: f64 },
     Polygons { limit: usize },
     Fragments { limit: usize },
@@ -25,12 +27,20 @@ impl Error {
         Self { kind: Kind::NonFinite { polygon } }
     }
 
-    pub(crate) const fn not_convex(polygon: usize) -> Self {
-        Self { kind: Kind::NotConvex { polygon } }
+    pub(crate) const fn polygon_corners(polygon: usize, limit: usize) -> Self {
+        Self { kind: Kind::PolygonCorners { polygon, limit } }
     }
 
-    pub(crate) const fn too_many_corners() -> Self {
-        Self { kind: Kind::TooManyCorners }
+    pub(crate) const fn too_many_corners(limit: usize) -> Self {
+        Self { kind: Kind::TooManyCorners { limit } }
+    }
+
+    pub(crate) const fn too_many_polygons(limit: usize) -> Self {
+        Self { kind: Kind::TooManyPolygons { limit } }
+    }
+
+    pub(crate) const fn out_of_memory() -> Self {
+        Self { kind: Kind::OutOfMemory }
     }
 
     pub(crate) const fn tolerance(value: f64) -> Self {
@@ -56,16 +66,22 @@ impl Error {
     /// The index of the polygon to blame, in the order in which the polygons were given.
     pub const fn polygon(&self) -> Option<usize> {
         match self.kind {
-            Kind::NonFinite { polygon } | Kind::NotConvex { polygon } => Some(polygon),
+            Kind::NonFinite { polygon } | Kind::PolygonCorners { polygon, .. } => Some(polygon),
             _ => None,
         }
     }
 
-    /// Whether a budget of [`BuildOptions`](crate::BuildOptions) ran out; a larger one, or another
-    /// heuristic, may succeed.
+    /// Whether a budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another
+    /// heuristic may succeed.
     pub const fn is_over_budget(&self) -> bool {
         let kind = &self.kind;
         matches!(kind, Kind::Polygons { .. } | Kind::Fragments { .. } | Kind::Depth { .. })
+    }
+
+    /// Whether memory ran out. Not every lack of memory is reported as an error: a system that
+    /// promises more memory than it has may end the program instead.
+    pub const fn is_out_of_memory(&self) -> bool {
+        matches!(self.kind, Kind::OutOfMemory)
     }
 
     /// Whether the caller cancelled the build; see
@@ -79,25 +95,28 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.kind {
             Kind::NonFinite { polygon } => {
-                write!(f, "polygon {polygon} has a coordinate that is infinite or not a number")
+                write!(f, "polygon {polygon} has a coordinate that is NaN or infinite")
             }
-            Kind::NotConvex { polygon } => write!(
+            Kind::PolygonCorners { polygon, limit } => write!(
                 f,
-                "polygon {polygon} is not convex: triangulate it, or enable the feature \
-                 `triangulate`"
+                "polygon {polygon} has more than {limit} corners: divide it into smaller polygons"
             ),
-            Kind::TooManyCorners => write!(
-                f,
-                "the polygons have more than {} corners together",
-                crate::geom::MAX_LABELS
-            ),
+            Kind::TooManyPolygons { limit } => {
+                write!(f, "there are more than {limit} polygons: divide the scene")
+            }
+            Kind::OutOfMemory => {
+                f.write_str("out of memory: divide the scene, or limit the tree by `max_fragments`")
+            }
+            Kind::TooManyCorners { limit } => {
+                write!(f, "the polygons together have {limit} corners or more: divide the scene")
+            }
             Kind::Tolerance { value } => {
-                write!(f, "the coplanar tolerance must be a length of 0 or more, not {value}")
+                write!(f, "the coplanar tolerance is {value}, but must be a length of 0 or more")
             }
             Kind::Polygons { limit } => write!(
                 f,
-                "there are more than {limit} polygons, which is the most fragments that the tree \
-                 may have (`max_fragments`): raise the budget"
+                "there are more than {limit} polygons, but the tree may have at most {limit} \
+                 fragments (`max_fragments`): raise the budget"
             ),
             Kind::Fragments { limit } => write!(
                 f,

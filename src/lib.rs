@@ -1,14 +1,13 @@
 //! Exact back-to-front orders of polygons from one BSP tree.
 //!
-//! [`BspTree`] is the library's main type, and its page the manual. Around it:
+//! [`BspTree`] is the library's main type, and its page is the manual. Around it:
 //!
-//! | module | holds |
+//! | | |
 //! |---|---|
-//! | [`geom`] | the scene lattice, faces, exact predicates, kernels, the split |
-//! | [`view`] | cameras |
-//! | [`raster`] | a painter and a z-buffer that decide every pixel exactly, and their comparison |
-//! | [`method`] | other ways to decide visibility, behind one trait, to be measured side by side |
-//! | [`scene`] | polygons with colours: generated scenes and OBJ files |
+//! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built |
+//! | [`Polygon`], [`Point`] | what it is built from |
+//! | [`Viewpoint`] | what it is ordered for |
+//! | [`Fragment`], [`Partition`] | what it consists of |
 //!
 //! # Conventions
 //!
@@ -20,31 +19,67 @@
 //!
 //! # Features
 //!
-//! All are on by default; without them the library depends on glam and smallvec alone.
+//! | feature | default | adds |
+//! |---|---|---|
+//! | `parallel` | yes | building with rayon's threads; the tree is the same, bit for bit |
+//! | `raster` | no | modules `view` and `raster`: cameras, a painter and a z-buffer that decide every pixel exactly, and `verify`, which compares them |
+//! | `scene` | no | module `scene`: polygons with colours, generated scenes |
+//! | `obj` | no | reading Wavefront OBJ files into a `Scene`; turns on `scene` |
 //!
-//! - `triangulate`: ear clipping for polygons that are not convex; without it they are an error.
-//! - `parallel`: building with rayon's threads. The tree is the same, bit for bit.
-//! - `obj`: reading Wavefront OBJ files.
+//! Without features the library depends on glam and smallvec alone.
 
-mod bsp;
+mod build;
 mod error;
-pub mod geom;
-pub mod measure;
-pub mod method;
+mod exact;
+mod faces;
+mod input;
+mod memory;
+mod parallel;
 mod random;
+#[cfg(feature = "raster")]
 pub mod raster;
+#[cfg(feature = "scene")]
 pub mod scene;
+mod tree;
+#[cfg(feature = "raster")]
 mod verify;
+#[cfg(feature = "raster")]
 pub mod view;
+mod viewpoint;
 
-pub use bsp::{
-    Accuracy, BspTree, BuildOptions, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError,
-    Partition, Progress, Stats,
-};
+pub use build::{BuildOptions, Heuristic, ParseHeuristicError, Progress};
 pub use error::Error;
-pub use geom::{Point, Polygon, Viewpoint};
+#[cfg(feature = "raster")]
+pub use exact::Faces;
+pub use faces::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};
 pub use glam;
-pub use verify::{Verification, paint_tree, paint_tree_in_colour, verify};
+pub use input::{Point, Polygon};
+pub use tree::{BspTree, Fragment, Fragments, Invalid, Ordered, Partition, Partitions, Stats};
+#[cfg(feature = "raster")]
+pub use verify::{
+    OrderFault, Verification, check_orders, paint_tree, paint_tree_in_colour, verify,
+};
+pub use viewpoint::Viewpoint;
+
+/// What the project's own programs, tests and benches need of the library's insides. It may change in
+/// any release.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::build::choose::Tuning;
+    pub use crate::build::driver::{parts, tree_of_faces, tree_tuned};
+    pub use crate::exact::*;
+    pub use crate::faces::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};
+    pub use crate::random::{SplitMix64, mix};
+    #[cfg(feature = "scene")]
+    pub use crate::scene::cuboid::cuboid;
+    #[cfg(feature = "scene")]
+    pub use crate::scene::turn::unit_circle;
+    pub use crate::tree::apart::parts_of_tree;
+    pub use crate::tree::parts::{Child, Parts, RawNode, Record};
+    #[cfg(feature = "raster")]
+    pub use crate::verify::paint_order;
+    pub use crate::viewpoint::Viewpoint;
+}
 
 /// The README's examples are tested as they stand.
 #[cfg(doctest)]

@@ -1,18 +1,21 @@
-//! Numbers from a seed, the same on every machine.
+//! Pseudo-random numbers from a seed, the same on every machine.
 
 use glam::DVec3;
 
-/// A stream of even numbers, SplitMix64: G. L. Steele, D. Lea and C. H. Flood, "Fast splittable
-/// pseudorandom number generators", OOPSLA 2014.
+/// A stream of uniformly distributed numbers, SplitMix64: G. L. Steele, D. Lea and C. H. Flood,
+/// "Fast splittable pseudorandom number generators", OOPSLA 2014.
 #[derive(Clone, Debug)]
-pub(crate) struct SplitMix64(u64);
+pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    pub(crate) fn new(seed: u64) -> Self {
+    /// The stream of a seed.
+    pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    pub(crate) fn next(&mut self) -> u64 {
+    /// The next number.
+    #[expect(clippy::should_implement_trait, reason = "a stream without an end needs no `Option`")]
+    pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -20,20 +23,20 @@ impl SplitMix64 {
         z ^ (z >> 31)
     }
 
-    /// Uniform in `low..high`; all 53 bits of the unit interval are random.
-    pub(crate) fn range(&mut self, low: f64, high: f64) -> f64 {
+    /// A uniform number in `low..high`, from 53 random bits.
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         low + unit * (high - low)
     }
 
-    /// Each coordinate in `low..high`.
-    pub(crate) fn point(&mut self, low: f64, high: f64) -> DVec3 {
+    /// A point with each coordinate uniform in `low..high`.
+    pub fn point(&mut self, low: f64, high: f64) -> DVec3 {
         DVec3::new(self.range(low, high), self.range(low, high), self.range(low, high))
     }
 }
 
-/// A well-mixed function of a number: the first of its stream.
-pub(crate) fn mix(value: u64) -> u64 {
+/// A hash of a number: the first number of the stream with that seed.
+pub fn mix(value: u64) -> u64 {
     SplitMix64::new(value).next()
 }
 

@@ -2,8 +2,8 @@
 
 mod support;
 
-use binspace::geom::{Exact, Faces, Kernel, Piece, PlaneId, Side, SymbolKind, Vertex, split};
 use binspace::glam::DVec3;
+use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, SymbolKind, Vertex, split};
 use num_traits::Zero;
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -11,6 +11,7 @@ use support::hard;
 use support::model::{self, Face};
 use support::rational;
 use support::shapes::Corners;
+use support::tally::tally;
 
 type ExactVertex = <Exact as Kernel>::Vertex;
 
@@ -185,14 +186,10 @@ fn a_moved_corner_elsewhere_does_not_change_the_bits_of_a_common_edge() {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
-
-    #[test]
-    fn neighbours_cut_their_common_edge_in_the_same_bits(
-        scene in hard::scene(),
-        apex in prop::array::uniform3(-1.0..1.0f64),
-    ) {
+#[test]
+fn neighbours_cut_their_common_edge_in_the_same_bits() {
+    let scenes = (hard::scene(), prop::array::uniform3(-1.0..1.0f64));
+    let counts = tally(file!(), 300, scenes, |[shared, cuts]: &mut [usize; 2], (scene, apex)| {
         let apex = scene.polygons[0][0] + DVec3::from_array(apex) * hard::extent(&scene.polygons);
         let tolerance = scene.tolerance();
         let polygons = with_neighbours(scene.polygons, apex);
@@ -203,16 +200,23 @@ proptest! {
         let planes: Vec<_> = (0..faces.len() as u32).map(PlaneId::face).chain(axes).collect();
         for (&[a, b], &here) in &edges {
             let Some(&there) = edges.get(&[b, a]) else { continue };
+            *shared += 1;
             for &plane in planes.iter().take(24) {
-                let cuts = [here, there].map(|edge| cut_edge(&faces, plane, edge));
-                prop_assert_eq!(cuts[0], cuts[1]);
-                prop_assert!(cuts[0].is_none_or(|[forwards, backwards]| forwards == backwards));
+                let pair = [here, there].map(|edge| cut_edge(&faces, plane, edge));
+                prop_assert_eq!(pair[0], pair[1]);
+                prop_assert!(pair[0].is_none_or(|[forwards, backwards]| forwards == backwards));
+                *cuts += usize::from(pair[0].is_some());
             }
         }
-    }
+        Ok(())
+    });
+    let [shared, cuts] = counts;
+    assert!(shared > 1500 && cuts > 1500, "{shared} edges run both ways, {cuts} cuts");
+}
 
-    #[test]
-    fn a_vertex_on_an_axis_plane_is_on_it_to_the_last_bit(scene in hard::scene()) {
+#[test]
+fn a_vertex_on_an_axis_plane_is_on_it_to_the_last_bit() {
+    let vertices = tally(file!(), 300, hard::scene(), |vertices: &mut usize, scene| {
         let (faces, _) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
         for face in 0..faces.len() as u32 {
             let exact = Face::new(&faces, face);
@@ -229,8 +233,11 @@ proptest! {
                     let corner = matches!(vertex.symbol().kind(), SymbolKind::Corner(_));
                     prop_assert!(corner || exact.is_zero());
                     prop_assert!(corner || vertex.position()[axis] == at);
+                    *vertices += usize::from(!corner);
                 }
             }
         }
-    }
+        Ok(())
+    });
+    assert!(vertices > 5000, "{vertices} vertices");
 }

@@ -4,8 +4,8 @@
 mod support;
 
 use binspace::Viewpoint;
-use binspace::geom::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
 use binspace::glam::DVec3;
+use binspace::internals::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
 use num_traits::Signed;
 use proptest::prelude::*;
 use std::cmp::Ordering;

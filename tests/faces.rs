@@ -2,15 +2,16 @@
 
 mod support;
 
-use binspace::geom::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
 use binspace::glam::DVec3;
-use num_traits::Zero;
+use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
+use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestCaseError;
 use support::checks::{area, assert_convex_and_planar};
 use support::hard::{self, HardScene};
-use support::rational::Rational;
+use support::model::Face;
+use support::rational::{self, Rational};
 use support::shapes;
 
 /// Corners moved onto a plane moved by little, the others not at all.
@@ -28,6 +29,13 @@ fn assert_corners_are_the_input_s(
             .reference_triangle(face)
             .contains(&(faces.corner_range(face).start as u32 + k as u32));
         prop_assert!(moved == 0.0 || !reference);
+    }
+    // Of a corner moved onto the plane, the nearest lattice point is kept.
+    let exact = Face::new(faces, face);
+    let half = Rational::new(1.into(), 2.into());
+    for (kept, exact) in faces.corners(face).iter().zip(&exact.corners) {
+        let off = rational::difference(exact, &rational::point(*kept));
+        prop_assert!(off.iter().all(|off| off.abs() <= half), "{exact:?} kept as {kept:?}");
     }
     Ok(())
 }
@@ -81,7 +89,7 @@ proptest! {
         prop_assert_eq!(report.polygons, scene.polygons.len());
         for face in 0..faces.len() as u32 {
             assert_convex_and_planar(&faces, face)?;
-            let polygon = &scene.polygons[faces.polygon(face) as usize];
+            let polygon = &scene.polygons[faces.polygon(face)];
             assert_corners_are_the_input_s(&faces, face, polygon)?;
         }
     }

@@ -29,6 +29,16 @@ fn tree_regressions_pass() {
     replay("tree", targets::tree::run);
 }
 
+#[test]
+fn faces_regressions_pass() {
+    replay("faces", targets::faces::run);
+}
+
+#[test]
+fn large_regressions_pass() {
+    replay("large", targets::large::run);
+}
+
 #[cfg(feature = "obj")]
 #[test]
 fn obj_regressions_pass() {

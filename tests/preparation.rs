@@ -3,8 +3,8 @@
 
 mod support;
 
-use binspace::geom::{Faces, Preparation};
 use binspace::glam::{DMat3, DVec3};
+use binspace::internals::{Faces, LATTICE_LIMIT, Preparation};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
 use support::checks::{area, assert_convex_and_planar, face_area};
@@ -210,8 +210,60 @@ fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
     );
 }
 
-/// Ear clipping leaves out the corner in the middle of a straight side, or makes a triangle
-/// without area of it; either way the side is still the polygon's.
+/// Many polygons are prepared in parts: what a later one lists counts on from the earlier ones.
+#[test]
+fn corner_numbers_hold_in_later_parts_of_a_large_input() {
+    let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::ONE];
+    let mut polygons = vec![vec![a, b, c]; 3000];
+    polygons[0] = vec![a, a, b, c];
+    polygons[2500] = vec![a, b, b, c];
+    let (faces, _) = prepare(&polygons);
+    let numbers = |face: u32| [0, 1, 2].map(|k| faces.corner_number(face, k));
+    assert_eq!(numbers(0), [1, 2, 3]);
+    assert_eq!(numbers(2499), [0, 1, 2]);
+    assert_eq!(numbers(2500), [0, 2, 3]);
+}
+
+/// The fan over a bent polygon leaves out corners in the middle of its first side, which is one edge
+/// of the polygon's all the same; diagonals are none.
+#[test]
+fn a_side_of_several_steps_is_the_outline_s_where_its_corners_are_left_out() {
+    for middle in 1..5 {
+        let first_side = (0..=middle + 1).map(|k| DVec3::X * f64::from(k));
+        let bent = [DVec3::new(4.0, 7.0, 0.0), DVec3::new(0.0, 7.0, 3.0)];
+        let (faces, report) = prepare(&[first_side.chain(bent).collect()]);
+        assert_eq!((faces.len(), report.triangulated), (2, 1));
+        let numbers = [0, 1].map(|face| [0, 1, 2].map(|k| faces.corner_number(face, k)));
+        assert_eq!(numbers, [[0, middle + 1, middle + 2], [0, middle + 2, middle + 3]]);
+        let edges = [0, 1].map(|face| [0, 1, 2].map(|k| faces.outline_edge(face, k)));
+        let [far, last] = [middle + 1, middle + 2].map(Some);
+        assert_eq!(edges, [[Some(0), far, None], [None, last, Some(middle + 3)]]);
+    }
+}
+
+#[test]
+fn a_polygon_that_ends_where_it_begins_is_the_same_without_its_last_corner() {
+    let square = flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
+    let closed = [&square[..], &square[..1], &square[..1]].concat();
+    let (faces, report) = prepare(&[closed, square]);
+    assert_eq!((faces.len(), report.triangulated, report.duplicates), (2, 0, 1));
+    assert_eq!(faces.corners(0), faces.corners(1));
+}
+
+#[test]
+fn a_tolerance_beyond_the_largest_counts_as_that() {
+    let square = flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
+    let largest = LATTICE_LIMIT / 128.0;
+    for (tolerance, expected) in [(1e300, largest), (f64::INFINITY, largest), (1.0, largest)] {
+        let (faces, _) = Faces::new([&square], Some(tolerance)).expect("a length");
+        assert_eq!(faces.tolerance(), expected);
+    }
+    let (faces, _) = Faces::new([&square], Some(1.0 / 128.0)).expect("a length");
+    assert_eq!(faces.lattice().length_to_world(faces.tolerance()), 1.0 / 128.0);
+}
+
+/// A corner in the middle of a straight side is one of a triangle, or is left out; either way the
+/// side is still the polygon's.
 #[test]
 fn an_outline_with_a_corner_in_the_middle_of_a_side_stays_closed() {
     let arrow = flat(&[[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [1.0, 1.0], [0.0, 4.0], [0.0, 2.0]]);
@@ -229,6 +281,37 @@ fn an_outline_with_a_corner_in_the_middle_of_a_side_stays_closed() {
         }
         let whole = 2.0 * (4.0 + 10f64.sqrt());
         assert!((faces.lattice().length_to_world(length) / whole - 1.0).abs() < 1e-12, "{start}");
+    }
+}
+
+/// The two edges of a bridge cancel: they may be edges of triangles or not.
+#[test]
+fn an_outline_with_a_hole_stays_closed_and_its_corners_keep_their_numbers() {
+    let hole = [[3.0, 3.0], [3.0, 6.0], [6.0, 6.0], [6.0, 3.0], [3.0, 3.0]];
+    let keyhole = [&[[0.0, 0.0]], &hole[..], &[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]]];
+    for start in 0..10 {
+        let mut polygon = flat(&keyhole.concat());
+        polygon.rotate_left(start);
+        let (faces, report) = prepare(std::slice::from_ref(&polygon));
+        assert_eq!((faces.len(), report.triangulated, report.crossing), (8, 1, 0));
+        assert_area_is_conserved(&faces, &polygon);
+        let mut seen = [0; 10];
+        for face in 0..faces.len() as u32 {
+            for k in 0..3 {
+                let number = faces.corner_number(face, k) as usize;
+                assert_eq!(faces.lattice().snap(polygon[number]), faces.corners(face)[k as usize]);
+                if let Some(edge) = faces.outline_edge(face, k) {
+                    seen[edge as usize] += 1;
+                    let end = faces.corner_number(face, (k + 1) % 3) as usize;
+                    assert_eq!(polygon[end], polygon[(number + 1) % 10]);
+                }
+            }
+        }
+        for edge in 0..10 {
+            let [from, to] = [edge, edge + 1].map(|k| polygon[k % 10]);
+            let is_bridge = (0..10).any(|k| polygon[k] == to && polygon[(k + 1) % 10] == from);
+            assert!(seen[edge] == 1 || (is_bridge && seen[edge] == 0), "edge {edge}: {seen:?}");
+        }
     }
 }
 

@@ -306,7 +306,7 @@ fn chains_and_layers_are_parallel() {
 
 #[test]
 fn the_seed_alone_decides() {
-    for scene in Builtin::ALL {
+    for &scene in Builtin::ALL {
         let size = scene.sizes().map(|_| 40);
         let first = scene.build(size, 1);
         assert_eq!(first, scene.build(size, 1), "{scene}");
@@ -325,7 +325,7 @@ fn scenes_are_the_same_everywhere() {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         })
     };
-    let hashes = Builtin::ALL.map(|scene| {
+    let hashes = Builtin::ALL.iter().map(|scene| {
         let built = scene.build(scene.sizes().map(|_| 20), 1);
         format!("{scene} {:016x}", hash(built))
     });
@@ -341,12 +341,12 @@ fn scenes_are_the_same_everywhere() {
         "chain b6cc77bd24afc265",
         "layers 1b65c45c02be0945",
     ];
-    assert_eq!(hashes, expected);
+    assert!(hashes.eq(expected));
 }
 
 #[test]
 fn small_sizes_give_scenes_that_can_be_drawn() {
-    for scene in Builtin::ALL {
+    for &scene in Builtin::ALL {
         for size in 1..=12 {
             let built = scene.build(Some(size), 9);
             assert!(!built.is_empty(), "{scene}:{size}");
@@ -363,7 +363,7 @@ fn small_sizes_give_scenes_that_can_be_drawn() {
 
 #[test]
 fn specs_are_read_and_written() {
-    for scene in Builtin::ALL {
+    for &scene in Builtin::ALL {
         assert_eq!(scene.to_string().parse(), Ok(scene));
         let bare = BuiltinSpec::from(scene);
         assert_eq!(scene.name().parse(), Ok(bare));
@@ -415,7 +415,7 @@ fn a_scene_keeps_what_it_is_given() {
 
 #[test]
 fn polygons_are_counted_before_they_are_generated() {
-    for scene in Builtin::ALL {
+    for &scene in Builtin::ALL {
         let spec = BuiltinSpec::from(scene);
         let (said, made) = (spec.polygons(), spec.build(1).len());
         assert!(said.abs_diff(made) * 10 <= made, "{scene}: {said} {made}");

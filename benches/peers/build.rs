@@ -1,13 +1,13 @@
 //! A build with every thread, against the surface area heuristic of the `bvh` crate with its
 //! rayon executor on the same triangles.
 
-use super::support::{Table, Target, against, best, check, scene, time};
 use binspace::BspTree;
 use binspace::scene::Scene;
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::{Bvh, rayon_executor};
 use nalgebra::Point3;
+use support::{Table, Target, against, best, check, scene, time};
 
 const SCENES: [(&str, f64); 4] = [
     ("chessboard_63k.obj", 8.0),

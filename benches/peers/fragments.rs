@@ -1,7 +1,7 @@
 //! Fragments per face by the default heuristic. No time is taken.
 
-use super::support::{Table, Target, against, check, scene};
 use binspace::BspTree;
+use support::{Table, Target, against, check, scene};
 
 const SCENES: [(&str, f64); 12] = [
     ("city:10000", 1.02),

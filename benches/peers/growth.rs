@@ -1,8 +1,8 @@
 //! Build time at a million polygons against a hundred thousand.
 
-use super::support::{SEED, Table, Target, against, best, check, small_triangles, time};
 use binspace::BspTree;
 use binspace::scene::{Builtin, Scene};
+use support::{SEED, Table, Target, against, best, check, small_triangles, time};
 
 pub(crate) fn run() {
     let table =

@@ -1,10 +1,11 @@
 //! What exactness costs: the same builder with the exact kernel, and with one of f64 and an
 //! epsilon.
 
-use super::support::{Table, Target, against, check, scene, time};
-use binspace::geom::Float;
+use binspace::internals::{Exact, Faces};
 use binspace::{BuildOptions, Heuristic};
+use binspace_evidence::{Float, KernelTree};
 use std::time::{Duration, Instant};
+use support::{Table, Target, against, check, scene, time};
 
 const SAMPLED: Heuristic = Heuristic::Sampled { candidates: 16 };
 
@@ -46,16 +47,17 @@ pub(crate) fn run() {
         let (mut exact, mut epsilon) = (Duration::MAX, Duration::MAX);
         let mut pieces = [0; 2];
         for round in 0..if scene.len() > 100_000 { 2 } else { 7 } {
+            let prepared = || Faces::new(scene.polygons(), None).expect("finite").0;
             let begin = Instant::now();
-            let tree = options.build(scene.polygons()).expect("within budget");
+            let tree = KernelTree::build(Exact, &options, prepared()).expect("within budget");
             exact = exact.min(begin.elapsed());
             pieces[0] = tree.len();
             if round == 0 {
-                check(&tree, &scene);
+                check(&options.build(scene.polygons()).expect("within budget"), &scene);
             }
             let begin = Instant::now();
             let float = Float::<f64>::new(1e-9);
-            let tree = options.build_with(float, scene.polygons()).expect("within budget");
+            let tree = KernelTree::build(float, &options, prepared()).expect("within budget");
             epsilon = epsilon.min(begin.elapsed());
             pieces[1] = tree.len();
         }

@@ -2,8 +2,8 @@
 //! the same run. Prints the tables of RESULTS.md.
 //!
 //! ```sh
-//! BINSPACE_SCENES=… cargo bench --bench peers            # all sections, some minutes
-//! cargo bench --bench peers -- order plane-split         # some of them
+//! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench peers            # all sections, some minutes
+//! cargo bench -p binspace-benches --bench peers -- order plane-split         # some of them
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
@@ -15,8 +15,6 @@ mod growth;
 mod kernels;
 mod order;
 mod plane_split;
-#[path = "../support/mod.rs"]
-mod support;
 mod threads;
 
 /// A section's name on the command line, and what it does.
@@ -33,7 +31,7 @@ const SECTIONS: [Section; 7] = [
 ];
 
 fn main() {
-    support::print_head("Measured against peers", "cargo bench --bench peers");
+    support::print_head("Measured against peers", "cargo bench -p binspace-benches --bench peers");
     for (_, run) in SECTIONS.iter().filter(|(name, _)| support::wanted(name)) {
         run();
     }

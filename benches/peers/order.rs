@@ -1,8 +1,8 @@
 //! An order from the tree, against sorting as many depths with `radsort`.
 
-use super::support::{Table, Target, against, check, scene, viewpoints};
 use binspace::{BspTree, Viewpoint};
 use std::time::{Duration, Instant};
+use support::{Table, Target, against, check, scene, viewpoints};
 
 const SCENES: [(&str, f64); 11] = [
     ("random:700", 0.6),

@@ -3,12 +3,12 @@
 //! Targets: a hundred polygons built and ordered no slower; of more, built 10 times faster, and into
 //! a third of its pieces.
 
-use super::support::{Table, best, best_of, check, random_quads, scene, time};
 use binspace::scene::Scene;
 use binspace::{BspTree, Viewpoint};
 use euclid::default::Point3D;
 use plane_split::BspSplitter;
 use std::thread;
+use support::{Table, best, best_of, check, random_quads, scene, time};
 
 const NAMES: [&str; 3] = ["random", "city", "sphere"];
 const COUNTS: [u32; 3] = [100, 1000, 10_000];

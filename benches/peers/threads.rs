@@ -1,8 +1,8 @@
 //! A build by two threads against one.
 
-use super::support::{Table, Target, against, best, check, scene, time, viewpoints};
 use binspace::BspTree;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use support::{Table, Target, against, best, check, scene, time, viewpoints};
 
 const SCENES: [&str; 6] = [
     "terrain:100000",

@@ -1,8 +1,7 @@
 //! What the tables of measured figures share: scenes by name, times, rows.
 
-#![allow(dead_code, reason = "no table needs all of it")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
 
-use binspace::geom::Kernel;
 use binspace::glam::DVec3;
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
@@ -12,11 +11,11 @@ use std::time::{Duration, Instant};
 use std::{env, fs, thread};
 
 /// The seed of every generated scene.
-pub(crate) const SEED: u64 = 1;
+pub const SEED: u64 = 1;
 
 /// A built-in scene, or a file in the folder `BINSPACE_SCENES`. A file that cannot be had is
 /// named and left out.
-pub(crate) fn scene(name: &str) -> Option<Scene> {
+pub fn scene(name: &str) -> Option<Scene> {
     if !name.ends_with(".obj") {
         let spec: BuiltinSpec = name.parse().expect("the name of a scene");
         return Some(spec.build(SEED));
@@ -36,7 +35,7 @@ pub(crate) fn scene(name: &str) -> Option<Scene> {
 
 /// Random triangles that shrink as there are more of them, so that each meets about as many
 /// others: edges of 2 to 6 tenths of the mean distance between neighbours.
-pub(crate) fn small_triangles(count: u32) -> Scene {
+pub fn small_triangles(count: u32) -> Scene {
     let shrink = 2.0 * f64::from(count).powf(-1.0 / 3.0);
     map(&random_triangles(count, SEED), format!("small triangles:{count}"), |[a, b, c]| {
         vec![a, a + (b - a) * shrink, a + (c - a) * shrink]
@@ -44,7 +43,7 @@ pub(crate) fn small_triangles(count: u32) -> Scene {
 }
 
 /// Parallelograms anywhere in the unit cube, with edges between 0.1 and 0.3.
-pub(crate) fn random_quads(count: u32) -> Scene {
+pub fn random_quads(count: u32) -> Scene {
     let name = format!("random quads:{count}");
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
@@ -62,12 +61,12 @@ fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) 
 const ENOUGH: (Duration, u32) = (Duration::from_secs(2), 200);
 
 /// The shortest time of several, three at least, and the last result.
-pub(crate) fn best<T>(run: impl FnMut() -> T) -> (Duration, T) {
+pub fn best<T>(run: impl FnMut() -> T) -> (Duration, T) {
     best_of(3, run)
 }
 
 /// The shortest time of several, and the last result.
-pub(crate) fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
+pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     let start = Instant::now();
     let mut shortest = Duration::MAX;
     let mut times = 0;
@@ -87,7 +86,7 @@ const MOST_CHECKS: f64 = 3e8;
 
 /// A tree whose time is reported must be right: every face in it, and valid, if that can be checked
 /// in seconds.
-pub(crate) fn check<K: Kernel>(tree: &BspTree<K>, scene: &Scene) {
+pub fn check(tree: &BspTree, scene: &Scene) {
     let stats = tree.stats();
     if stats.depth_mean * (stats.fragments as f64) < MOST_CHECKS {
         assert_eq!(tree.validate(), Ok(()), "{}", scene.name());
@@ -97,7 +96,7 @@ pub(crate) fn check<K: Kernel>(tree: &BspTree<K>, scene: &Scene) {
 }
 
 /// Eyes around and inside a scene.
-pub(crate) fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
+pub fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
     let (low, high) = scene.bounds().expect("a scene with polygons");
     let at = |share: [f64; 3]| Viewpoint::Eye(low + (high - low) * DVec3::from(share));
     [[1.8, 0.4, 0.9], [-0.6, -0.7, 1.1], [0.5, 1.9, 0.2], [0.31, 0.47, 0.6], [0.7, 0.2, 0.9]]
@@ -106,11 +105,11 @@ pub(crate) fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
 }
 
 /// A table in Markdown, each row printed as soon as it is measured.
-pub(crate) struct Table(Vec<usize>);
+pub struct Table(Vec<usize>);
 
 impl Table {
     /// Prints the head. The last columns are wide enough for figures; the first for names.
-    pub(crate) fn new(title: &str, columns: &[&str]) -> Self {
+    pub fn new(title: &str, columns: &[&str]) -> Self {
         println!("\n## {title}\n");
         let width =
             |(k, name): (usize, &&str)| name.chars().count().max(if k == 0 { 22 } else { 0 });
@@ -124,7 +123,8 @@ impl Table {
         table
     }
 
-    pub(crate) fn row<S: AsRef<str>>(&self, cells: &[S]) {
+    /// Prints a row.
+    pub fn row<S: AsRef<str>>(&self, cells: &[S]) {
         assert_eq!(cells.len(), self.0.len());
         for (k, (cell, &width)) in cells.iter().zip(&self.0).enumerate() {
             let cell = cell.as_ref();
@@ -135,7 +135,7 @@ impl Table {
 }
 
 /// A measured ratio against its target, the last three cells of a row.
-pub(crate) fn against(measured: f64, target: Target) -> [String; 3] {
+pub fn against(measured: f64, target: Target) -> [String; 3] {
     let (sign, limit, met) = match target {
         Target::AtMost(limit) => ('≤', limit, measured <= limit),
         Target::AtLeast(limit) => ('≥', limit, measured >= limit),
@@ -144,14 +144,17 @@ pub(crate) fn against(measured: f64, target: Target) -> [String; 3] {
     [format!("{measured:.2}"), format!("{sign} {limit}"), verdict.to_owned()]
 }
 
-#[derive(Clone, Copy)]
-pub(crate) enum Target {
+/// What a figure is to reach.
+#[derive(Clone, Copy, Debug)]
+pub enum Target {
+    /// At most so much.
     AtMost(f64),
+    /// At least so much.
     AtLeast(f64),
 }
 
 /// A time with three digits.
-pub(crate) fn time(time: Duration) -> String {
+pub fn time(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     match seconds {
         s if s < 1e-3 => format!("{:.1} µs", s * 1e6),
@@ -161,7 +164,7 @@ pub(crate) fn time(time: Duration) -> String {
 }
 
 /// The date, the commit and the machine, as the head of a document.
-pub(crate) fn print_head(title: &str, command: &str) {
+pub fn print_head(title: &str, command: &str) {
     println!("# {title}\n");
     println!("- command: `{command}`");
     println!("- date: {}", said_by("date", &["-u", "+%Y-%m-%d %H:%M UTC"]));
@@ -187,7 +190,7 @@ fn machine() -> String {
 }
 
 /// The sections named on the command line, or all.
-pub(crate) fn wanted(section: &str) -> bool {
+pub fn wanted(section: &str) -> bool {
     let mut named = env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
     named.peek().is_none() || named.any(|name| name == section)
 }

@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use binspace::glam::DVec3;
-use binspace::scene::Family;
 use binspace::{BuildOptions, Heuristic};
+use binspace_evidence::Family;
 use clap::{Args, Parser, Subcommand};
 
 use crate::examples;
@@ -13,7 +13,7 @@ use crate::values::{self, Heuristics};
 
 /// Exact back-to-front orders of polygons from one BSP tree.
 ///
-/// Without a command: builds trees of built-in scenes with every heuristic, paints their fragments
+/// Without a command, builds trees of built-in scenes with every heuristic, paints their fragments
 /// in order, compares every pixel with a depth buffer, and writes the pictures.
 #[derive(Debug, Parser)]
 #[command(name = "binspace", version, args_conflicts_with_subcommands = true)]
@@ -38,7 +38,7 @@ pub(crate) enum Command {
 
 #[derive(Args, Debug)]
 pub(crate) struct TourArgs {
-    /// Folder to write the pictures into; made if it is missing
+    /// Folder to write the pictures into; created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub(crate) out: PathBuf,
     /// Views of each scene to compare, around it and inside it
@@ -48,12 +48,12 @@ pub(crate) struct TourArgs {
     /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub(crate) size: [u32; 2],
-    /// Chooses the views
+    /// Seed of the random views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
 }
 
-/// Write a scene's fragments in paint order, one JSON object a line
+/// Write a scene's fragments in paint order, one JSON object per line
 ///
 /// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the polygon of
 /// the i-th `f` line of the file, counted from 0, in the file's coordinates. Back to front: no
@@ -64,14 +64,14 @@ pub(crate) struct TourArgs {
 pub(crate) struct OrderArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// Where the eye is
+    /// Position of the eye
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) eye: Option<DVec3>,
-    /// The way the viewer looks, from infinitely far away
+    /// Direction of view, from infinitely far away
     #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
     #[arg(allow_hyphen_values = true)]
     pub(crate) direction: Option<DVec3>,
-    /// Begin with what is nearest
+    /// List the nearest fragment first
     #[arg(long)]
     pub(crate) front_to_back: bool,
     #[command(flatten)]
@@ -83,8 +83,8 @@ pub(crate) struct OrderArgs {
 
 /// Paint a scene in order and compare every pixel with a depth buffer
 ///
-/// A line for each view: pixels covered; contested, where two polygons are no further apart than
-/// the tolerance and either may show; wrong order, holes and spills, which are errors. The last
+/// Prints a line for each view: the covered pixels; the contested ones, where the tolerance allows
+/// either of two polygons in front; and the wrong ones (wrong order, holes and spills). The last
 /// line is the total. The exit status is 1 if any pixel is wrong.
 #[derive(Args, Debug)]
 #[command(after_help = examples::VERIFY)]
@@ -115,16 +115,16 @@ pub(crate) struct StatsArgs {
     pub(crate) heuristic: Heuristics,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
-    /// Print one JSON object a line for each heuristic
+    /// Print one JSON object per line for each heuristic
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 /// Draw a scene as PNG or SVG
 ///
-/// Without a camera, all of the scene is shown. Colours are those of the scene's materials, or, if
-/// it has none, different for each polygon; surfaces are darker the more slantingly they are seen.
-/// Opacity counts in SVG and in the painter's PNG, but not in what a depth buffer shows.
+/// Without a camera, all of the scene is shown. Colours are those of the scene's materials; if it
+/// has none, each polygon has a different one. Surfaces are darker the more obliquely they are
+/// seen. Transparency shows in SVG and in the painter's PNG, but not in a depth buffer's picture.
 #[derive(Args, Debug)]
 #[command(after_help = examples::RENDER)]
 pub(crate) struct RenderArgs {
@@ -133,14 +133,14 @@ pub(crate) struct RenderArgs {
     /// File to write: .png, or .svg for the fragments themselves, in order
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Where the eye is
+    /// Position of the eye
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) eye: Option<DVec3>,
-    /// The way to look, from infinitely far away: a parallel projection
+    /// Direction of view, from infinitely far away: a parallel projection
     #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["eye", "fov"])]
     pub(crate) direction: Option<DVec3>,
-    /// What is in the middle of the picture [default: the scene's middle]
+    /// Point in the middle of the picture [default: the scene's middle]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) target: Option<DVec3>,
     #[command(flatten)]
@@ -160,24 +160,24 @@ pub(crate) struct RenderArgs {
 /// Measure every way to decide visibility: speed against error
 ///
 /// Trees with exact and with rounded decisions, Newell's algorithm, sorted centroids and depth
-/// buffers paint families of scenes that grow harder step by step, and the scenes that are named.
-/// Each pixel, vertex and piece is held against exact truth. Writes report.md, plots as SVG, and
-/// the figures as CSV; errors.csv is the same for the same seed on any machine. What is there is
-/// kept if the command is interrupted. The exit status is 1 if the exact tree errs anywhere, or is
-/// too large to be built.
+/// buffers paint families of scenes that grow harder step by step, and the scenes that you name.
+/// Each pixel, vertex and piece is compared with exact truth. Writes report.md, plots as SVG, and
+/// the figures as CSV; errors.csv is the same for the same seed on any machine. If the command is
+/// interrupted, the results so far are kept. The exit status is 1 if the exact tree is wrong
+/// anywhere, or is too large to be built.
 #[derive(Args, Debug)]
 #[command(after_help = examples::REPORT)]
 pub(crate) struct ReportArgs {
     /// OBJ files or built-in scenes to measure as well
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<OsString>,
-    /// Folder to write into; made if it is missing
+    /// Folder to write into; created if it does not exist
     #[arg(short, long, value_name = "DIR", default_value = "report")]
     pub(crate) output: PathBuf,
     /// Fewer steps and smaller pictures: about a tenth of the time
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Chooses the scenes of all families, and the views
+    /// Seed of the families' scenes and of the random views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
     /// Only this family, without growth; may be repeated
@@ -198,10 +198,10 @@ pub(crate) struct KindArgs {
     /// Draw what a depth buffer shows
     #[arg(long)]
     pub(crate) z_buffer: bool,
-    /// Draw where the painter's picture and the depth buffer's differ; exit status 1 if they do
+    /// Draw where the painter's and the depth buffer's pictures differ; exit status 1 if they do
     #[arg(long)]
     pub(crate) difference: bool,
-    /// Draw how far away everything is: the nearer, the brighter
+    /// Draw the depth of every pixel: the nearer, the brighter
     #[arg(long)]
     pub(crate) depth: bool,
 }
@@ -210,18 +210,19 @@ pub(crate) struct KindArgs {
 pub(crate) struct SceneArgs {
     /// An OBJ file, or a built-in scene such as teapot or sphere:100000
     ///
-    /// What ends in .obj or holds a path separator is a file; else a built-in scene of that name,
-    /// with its size behind a colon; else a file. `binspace scenes` lists the built-in ones.
+    /// A name that ends in .obj or contains a path separator is a file. Any other is a built-in
+    /// scene, with an optional size after a colon, or, if there is none of that name, a file.
+    /// `binspace scenes` lists the built-in scenes.
     #[arg(value_name = "SCENE")]
     pub(crate) name: OsString,
-    /// Chooses among the built-in scenes that are seeded, and among views
+    /// Seed of built-in scenes that are random, and of random views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
 }
 
 #[derive(Args, Debug)]
 pub(crate) struct UpArgs {
-    /// What is up: x, y, z, or X,Y,Z [default: the scene's up; y for files]
+    /// Direction that points up: x, y, z, or X,Y,Z [default: the scene's up; y for files]
     #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
     pub(crate) up: Option<DVec3>,
 }
@@ -238,11 +239,12 @@ pub(crate) struct BuildArgs {
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct LimitArgs {
-    /// How far from a plane still counts as on it, a length [default: 1e-9 of the extent, the
-    /// longest side of the scene's bounding box; more than 1/256 of it counts as that]
+    /// Coplanar tolerance, a length: points this near to a plane count as on it, and layers up to
+    /// twice as far apart may be exchanged [default: 1e-9 of the extent, the longest side of the
+    /// scene's bounding box; at most 1/256 of the extent is used]
     #[arg(long, value_name = "T", value_parser = values::tolerance, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
-    /// Give up beyond this many fragments
+    /// Give up if there are more fragments than this
     #[arg(long, value_name = "N", default_value_t = BuildOptions::DEFAULT.max_fragments)]
     pub(crate) max_fragments: usize,
 }

@@ -1,4 +1,4 @@
-//! The cameras that the user asks for, or that suit a scene.
+//! Cameras that the user asks for, and default cameras for a scene.
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
@@ -8,10 +8,11 @@ use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::framing;
 
-/// The vertical field of view, in radians, where the user does not say: 40 degrees.
+/// The default vertical field of view in radians: 40 degrees.
 pub(crate) const FIELD_OF_VIEW: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
-/// Where coordinates reach this far, cameras have no room: a thousandth of the largest number.
+/// Scenes with coordinates this large are too large for a camera: a thousandth of the largest
+/// number.
 const TOO_LARGE: f64 = f64::MAX / 1000.0;
 
 /// A camera that shows all of the scene.
@@ -22,12 +23,12 @@ pub(crate) fn whole(
     size: [u32; 2],
 ) -> Result<Camera, Failure> {
     let camera = upright(scene, up, |up| {
-        // Of a usual view, the direction: how near to go, the picture's shape decides.
+        // Of a suggested view, the direction is used; the distance depends on the picture's shape.
         let roughly = match scene.suggested_view() {
             Some((eye, target)) => Camera::perspective(eye, target, up, fov, size)?,
             None => Camera::looking_at_all(bounds(scene), up, size)?,
         };
-        // A scene that is all but a point, or as large as numbers go, has no better one.
+        // There is no better camera for a scene that is almost a point, or as large as numbers go.
         Ok(framing::near(&roughly, scene, fov).unwrap_or(roughly))
     });
     camera.map_err(|error| about(scene, &error))
@@ -67,8 +68,8 @@ pub(crate) fn around_and_inside(
     cameras.map_err(|error| about(scene, &error))
 }
 
-/// Makes a camera with the up vector asked for; if none was, with the scene's, or, for a view along
-/// that, another.
+/// Makes a camera with the up vector that the user asks for. By default it is the scene's, or
+/// another if the view is along that.
 fn upright(
     scene: &Scene,
     up: Option<DVec3>,
@@ -94,8 +95,8 @@ pub(crate) fn about(scene: &Scene, error: &CameraError) -> Failure {
         return Failure::about(scene.name(), error);
     }
     let problem = format!(
-        "the scene is too large for a camera: its coordinates reach {furthest:.1e}, and what is \
-         around it is beyond all numbers; scale it down"
+        "the scene is too large for a camera: its coordinates reach {furthest:.1e}, so points \
+         around it overflow; scale it down"
     );
     Failure::about(scene.name(), problem)
 }

@@ -1,9 +1,9 @@
-//! Which colour a polygon has.
+//! The colours of polygons.
 
 use binspace::raster::colour_of;
 use binspace::scene::{Material, Scene};
 
-/// Behind everything.
+/// The background colour.
 pub(crate) const BACKGROUND: [u8; 3] = [255, 255, 255];
 
 /// The colours of a scene's polygons.
@@ -24,9 +24,9 @@ impl<'a> Colours<'a> {
     }
 
     /// Red, green and blue.
-    pub(crate) fn rgb(&self, polygon: u32) -> [u8; 3] {
+    pub(crate) fn rgb(&self, polygon: usize) -> [u8; 3] {
         if self.by_material {
-            let colour = self.scene.material(polygon as usize).color;
+            let colour = self.scene.material(polygon).color;
             colour.map(|channel| (channel * 255.0).round() as u8)
         } else {
             colour_of(polygon)
@@ -39,7 +39,7 @@ impl<'a> Colours<'a> {
     }
 
     /// From 0, invisible, to 1, opaque.
-    pub(crate) fn opacity(&self, polygon: u32) -> f32 {
-        self.scene.material(polygon as usize).opacity
+    pub(crate) fn opacity(&self, polygon: usize) -> f32 {
+        self.scene.material(polygon).opacity
     }
 }

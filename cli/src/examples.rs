@@ -9,7 +9,8 @@ Examples:
   binspace render scene.obj -o scene.svg     a drawing of the whole scene
   binspace report --quick                    every method, its speed against its error
 
-Exit status: 0 done; 1 an image differs from the depth buffer's; 2 bad usage or input.";
+Exit status: 0 done; 1 an image differs from the depth buffer's; 2 an error: bad usage
+or input, output that cannot be written, too little memory.";
 
 pub(crate) const ORDER: &str = "\
 Examples:

@@ -8,7 +8,9 @@ use std::io;
 pub(crate) enum Failure {
     /// Bad usage or input, in words for the user.
     Message(String),
-    /// The reader of standard output has gone; nobody is interested in the rest.
+    /// A wrong command line; the message has already been printed.
+    Usage,
+    /// The reader of standard output has closed it, so that the rest is not needed.
     ClosedPipe,
 }
 

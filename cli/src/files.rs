@@ -1,13 +1,13 @@
 //! Files that are written completely or not at all.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, StdoutLock, Write};
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, BufWriter, IntoInnerError, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 use crate::unfinished;
 
-/// Links that are followed before they count as a circle, as in most systems.
+/// The most symbolic links that are followed: more count as a circle, as in most systems.
 const MOST_LINKS: usize = 40;
 
 /// Where output goes.
@@ -19,13 +19,21 @@ pub(crate) enum Output {
     File(NewFile),
 }
 
-/// A file that takes its place when it is complete; until then, what was there stays.
+/// A file that replaces an existing one only when it is complete.
 #[derive(Debug)]
 pub(crate) struct NewFile {
     writer: BufWriter<File>,
     target: PathBuf,
-    /// The name until then; none for what is no regular file, such as /dev/null.
-    temporary: Option<PathBuf>,
+    place: Place,
+}
+
+/// How a complete file gets to its place.
+#[derive(Debug)]
+enum Place {
+    /// It is written in place: it is not a regular file, but one such as /dev/null.
+    Same,
+    /// It is moved there when it is complete, with the permissions of the file that it replaces.
+    Later(Option<Permissions>),
 }
 
 impl Output {
@@ -53,7 +61,7 @@ impl Output {
 }
 
 impl NewFile {
-    /// Makes ready to write a file; whether that can be done shows here.
+    /// Prepares to write a file, and fails now if that is not possible.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         Self::try_create(path).map_err(|error| unwritable(path, error))
     }
@@ -62,7 +70,7 @@ impl NewFile {
         let existing = match fs::metadata(path) {
             Ok(data) => Some(data),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            // Such as that the name is too long: said now, not when all is done.
+            // For example, a name that is too long is reported now, not at the end.
             Err(error) => return Err(error),
         };
         let target = behind_links(path)?;
@@ -71,43 +79,37 @@ impl NewFile {
         }
         if existing.as_ref().is_some_and(|data| !data.is_file()) {
             let file = OpenOptions::new().write(true).open(&target)?;
-            return Ok(Self { writer: BufWriter::new(file), target, temporary: None });
+            return Ok(Self { writer: BufWriter::new(file), target, place: Place::Same });
         }
         if existing.as_ref().is_some_and(|data| data.permissions().readonly()) {
             return Err(io::ErrorKind::PermissionDenied.into());
         }
         target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-        let (file, temporary) = unfinished::create_beside(&target)?;
-        if let Some(data) = existing {
-            // Best effort: the content is what matters.
-            let _ = file.set_permissions(data.permissions());
-        }
-        Ok(Self { writer: BufWriter::new(file), target, temporary: Some(temporary) })
+        let writer = BufWriter::new(unfinished::create_in(folder_of(&target))?);
+        let place = Place::Later(existing.map(|data| data.permissions()));
+        Ok(Self { writer, target, place })
     }
 
     /// Writes with `write`, and puts the file in its place.
     pub(crate) fn write(
-        mut self,
+        self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let written = write(&mut self.writer).and_then(|()| self.writer.flush());
-        let placed = written.and_then(|()| match &self.temporary {
-            Some(temporary) => unfinished::place(temporary, &self.target),
-            None => Ok(()),
+        let Self { mut writer, target, place } = self;
+        let written = write(&mut writer).and_then(|()| match place {
+            Place::Same => writer.flush(),
+            Place::Later(permissions) => {
+                let file = writer.into_inner().map_err(IntoInnerError::into_error)?;
+                unfinished::place(file, folder_of(&target), &target, permissions)
+            }
         });
-        if placed.is_ok() {
-            self.temporary = None;
-        }
-        placed.map_err(|error| unwritable(&self.target, error))
+        written.map_err(|error| unwritable(&target, error))
     }
 }
 
-impl Drop for NewFile {
-    fn drop(&mut self) {
-        if let Some(temporary) = &self.temporary {
-            unfinished::remove(temporary);
-        }
-    }
+/// The folder that a file is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
 
 /// Where a path leads, through links to files that need not be there: what is behind them is
@@ -131,5 +133,5 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
 /// Makes a folder, and those above it, unless it is there.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     let made = fs::create_dir_all(path);
-    made.map_err(|error| Failure::about(path.display(), format!("cannot be made: {error}")))
+    made.map_err(|error| Failure::about(path.display(), format!("cannot be created: {error}")))
 }

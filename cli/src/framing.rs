@@ -7,7 +7,8 @@ use binspace::view::{Camera, CameraError};
 /// How much of the picture the scene fills.
 const FILL: f64 = 0.92;
 
-/// A perspective camera in the direction of another, so near that the scene just fills the picture.
+/// A perspective camera with the direction of another, moved so that the scene just fills the
+/// picture.
 ///
 /// The eye sees all corners p if, for each side of the picture, they lie on the inner side of the
 /// plane through the eye and that side. With r, u, b the directions right, up and back, and t the
@@ -22,7 +23,7 @@ pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Cam
     let distance = reaches.iter().map(|[a, b]| 0.5 * a + 0.5 * b).fold(f64::MIN, f64::max);
     let mut eye = back * distance;
     for ((axis, t), [a, b]) in sides.into_iter().zip(reaches) {
-        // Between these, all is seen.
+        // From all positions between these, the whole scene is seen.
         let allowed = [t * (a - distance), t * (distance - b)];
         eye += axis * middle(scene, axis, back, distance, allowed);
     }
@@ -30,8 +31,8 @@ pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Cam
     Camera::perspective(eye, eye - back * furthest, up, fov, like.size())
 }
 
-/// Where along an axis, between two limits, an eye has as much of the scene on one side as on the
-/// other, by bisection.
+/// Finds, by bisection between two limits along an axis, the eye from which the scene reaches
+/// equally far to both sides of the picture.
 fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f64; 2]) -> f64 {
     let mut place = 0.5 * limits[0] + 0.5 * limits[1];
     // Twenty halvings are a thousandth of a pixel.
@@ -65,7 +66,7 @@ pub(crate) fn parallel(
     }
     let extent = |axis| span(axis).0 + span(axis).1;
     let shown = extent(axes.up()).max(extent(axes.right()) * height / width) / FILL;
-    // Something seen edge-on, or a point, has no extent: show its surroundings.
+    // A scene seen edge-on, or a point, has no extent: show its surroundings.
     let fallback = extent(axes.forward()).max(centre.length() * 1e-3);
     let shown = [shown, fallback, 1.0].into_iter().find(|&length| length > 0.0).unwrap_or(1.0);
     Camera::parallel(direction, up, centre, shown, size)

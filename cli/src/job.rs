@@ -1,6 +1,6 @@
-//! What most commands begin with: a scene, and a tree of it.
+//! The first step of most commands: loads a scene and builds its tree.
 
-use binspace::geom::{Faces, Preparation};
+use binspace::internals::{Faces, Preparation};
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
@@ -11,13 +11,13 @@ use crate::scene_arg;
 use crate::terminal::note;
 use crate::units::count;
 
-/// How many faces a note names.
+/// The largest number of faces that a note names.
 const NAMED: usize = 3;
-/// What is wrong with a scene of which no face is left.
+/// The message for a scene of which no face is left.
 pub(crate) const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
 
-/// Loads a scene and builds its tree, which has a fragment at least; says what was left out of
-/// either.
+/// Loads a scene and builds its tree, which has at least one fragment. Notes to the user name
+/// everything that was left out.
 pub(crate) fn scene_and_tree(
     scene: &SceneArgs,
     build: &BuildArgs,
@@ -37,7 +37,7 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
     Failure::about(scene.name(), error)
 }
 
-/// Says what became of polygons that are not faces as they stand, or are so more than once.
+/// Notes which faces were dropped, triangulated, or given more than once.
 pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
@@ -46,10 +46,10 @@ pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparat
     let triangulated = (found.triangulated > 0)
         .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
     let duplicates = (found.duplicates > 0)
-        .then(|| format!("{} given before, kept: the later one shows", faces(found.duplicates)));
+        .then(|| format!("{} given more than once: the last one shows", faces(found.duplicates)));
     let crossing = (found.crossing > 0).then(|| {
         let number = faces(found.crossing);
-        format!("of these, {number} with edges that cross: what is covered is a guess")
+        format!("of these, {number} with crossing edges: the area covered is a guess")
     });
     for problem in [dropped, triangulated, crossing, duplicates].into_iter().flatten() {
         note(&format!("{}: {problem}", scene.name()));
@@ -62,7 +62,7 @@ fn some(scene: &Scene, prepared: &Faces, found: &Preparation) -> String {
         Some(line) => format!("face {face} (line {line})"),
         None => format!("face {face}"),
     };
-    let named: Vec<String> = prepared.dropped(found).take(NAMED).map(name).collect();
+    let named: Vec<String> = prepared.dropped(found.polygons).take(NAMED).map(name).collect();
     match found.dropped - named.len() {
         0 => format!("{}, counted from 0", named.join(", ")),
         more => format!("{} and {more} more, counted from 0", named.join(", ")),

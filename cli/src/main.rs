@@ -15,6 +15,7 @@ mod pictures;
 mod png_file;
 mod progress;
 mod scene_arg;
+mod signals;
 mod svg;
 mod table;
 mod terminal;
@@ -22,6 +23,7 @@ mod unfinished;
 mod units;
 mod values;
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -31,8 +33,25 @@ use commands::Outcome;
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    let result = match &cli.command {
+    memory::fail_when_exhausted();
+    let result = match Cli::try_parse() {
+        Ok(cli) => run(&cli),
+        Err(answer) => print(&answer),
+    };
+    match result {
+        // The reader of the output has closed it: not an error.
+        Ok(Outcome::Done) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
+        Ok(Outcome::Differs) => ExitCode::from(1),
+        Err(Failure::Usage) => ExitCode::from(2),
+        Err(Failure::Message(message)) => {
+            terminal::error(&message);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<Outcome, Failure> {
+    match &cli.command {
         None => commands::tour::run(&cli.tour),
         Some(Command::Order(args)) => commands::order::run(args),
         Some(Command::Verify(args)) => commands::verify::run(args),
@@ -40,14 +59,16 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => commands::render::run(args),
         Some(Command::Report(args)) => commands::report::run(args),
         Some(Command::Scenes) => commands::scenes::run(),
-    };
-    match result {
-        // Whoever reads the output has seen enough.
-        Ok(Outcome::Done) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
-        Ok(Outcome::Differs) => ExitCode::from(1),
-        Err(Failure::Message(message)) => {
-            terminal::error(&message);
-            ExitCode::from(2)
-        }
+    }
+}
+
+/// Prints help, the version, or an error in the command line.
+fn print(answer: &clap::Error) -> Result<Outcome, Failure> {
+    let printed = answer.print().and_then(|()| io::stdout().flush());
+    match printed {
+        // If standard error fails, there is nowhere left to report it.
+        _ if answer.use_stderr() => Err(Failure::Usage),
+        Ok(()) => Ok(Outcome::Done),
+        Err(error) => Err(Failure::of_output(&error)),
     }
 }

@@ -1,4 +1,4 @@
-//! Trees with the time they took.
+//! Measures the time to build a tree and to list an order.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -9,7 +9,8 @@ use binspace::{BspTree, BuildOptions, Error, Viewpoint};
 
 use crate::progress::Progress;
 
-/// How long to go on timing what is short. Less, and figures of small trees are those of the clock.
+/// How long to repeat a short measurement. Smaller: the clock's resolution spoils the figures of
+/// small trees; larger: the command takes longer.
 const LONG_ENOUGH: Duration = Duration::from_millis(20);
 
 /// Builds a tree of a scene.
@@ -24,7 +25,7 @@ fn build_shown(scene: &Scene, options: &BuildOptions, shown: &Progress) -> Resul
     })
 }
 
-/// Builds a tree of a scene, and tells the seconds it takes: the median, where there is time to
+/// Builds a tree of a scene, and returns the seconds it took: the median, if there was time to
 /// build it more than once.
 pub(crate) fn timed_build(scene: &Scene, options: &BuildOptions) -> Result<(BspTree, f64), Error> {
     let progress = Progress::share(format!("building {}", options.heuristic));
@@ -45,13 +46,13 @@ fn median(seconds: &mut [f64]) -> f64 {
     seconds[seconds.len() / 2]
 }
 
-/// The nanoseconds that an order takes for each fragment, as indices in a buffer that is used
-/// again: the median over rounds of several viewpoints. 0 without fragments.
+/// The nanoseconds per fragment that an order takes, as a list of indices in a reused buffer: the
+/// median over rounds of several viewpoints. 0 without fragments.
 pub(crate) fn order_nanoseconds(tree: &BspTree, scene: &Scene) -> f64 {
     let _progress = Progress::spinner("timing orders");
     let viewpoints = viewpoints(scene);
     let mut order = Vec::new();
-    // A round is at least so many fragments, so that the clock's steps do not count.
+    // A round has at least this many fragments, so that the clock's resolution does not matter.
     let repeats = 20_000 / (tree.len() * viewpoints.len()).max(1) + 1;
     let mut round = || {
         let start = Instant::now();
@@ -80,6 +81,6 @@ fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
         .and_then(|(low, high)| views([low, high], scene.up(), 6, [640, 480], 1).ok())
         .unwrap_or_default();
     let eyes = cameras.iter().map(binspace::view::Camera::viewpoint);
-    // A scene as large as numbers go has nothing around it.
+    // Around a scene as large as numbers go, positions overflow: they are left out.
     eyes.chain([Viewpoint::direction([1.0, 2.0, -3.0])]).collect()
 }

@@ -1,26 +1,58 @@
-//! Whether there is memory for a scene.
+//! Checks that there is memory for a scene, and sets the exit status for when there is not.
 
 use std::hint::black_box;
 
 use crate::failure::Failure;
 use crate::units::{bytes, count};
 
-/// What a scene and its tree take for each polygon, with room to spare: some 480 bytes were measured
-/// where nothing is cut. Smaller: a program that ends without a word; larger: scenes refused that
-/// would fit.
+/// Memory that a scene and its tree take per polygon, with a margin: some 480 bytes were measured
+/// for scenes in which nothing is cut. Smaller: the program ends without a message; larger: it
+/// refuses scenes that would fit.
 const BYTES_EACH: usize = 800;
 
-/// An error if the system has no memory for a scene of so many polygons, as it would end the
-/// program if the scene were built.
+/// The least memory that reading a file takes, per byte of the file: 6 to 9 bytes were measured for
+/// files of triangles, more if faces have many corners. Larger: files are refused that would fit;
+/// smaller: the program reads for a while, and then ends with a number of bytes instead of a
+/// message that names the file.
+const READING: usize = 6;
+
+/// From now on, the program ends with exit status 2 if memory runs out.
+///
+/// The standard library then prints how much was asked for, and aborts.
+pub(crate) fn fail_when_exhausted() {
+    #[cfg(unix)]
+    {
+        use signal_hook::{consts::SIGABRT, flag::register_conditional_shutdown};
+        use std::sync::atomic::AtomicBool;
+
+        static ALWAYS: AtomicBool = AtomicBool::new(true);
+        // If this fails, the exit status is that of the signal.
+        let _ = register_conditional_shutdown(SIGABRT, 2, &ALWAYS);
+    }
+}
+
+/// An error if there is too little memory for a scene with this many polygons: building it would
+/// end the program.
 pub(crate) fn check(scene: &str, polygons: usize) -> Result<(), Failure> {
     let needed = polygons.saturating_mul(BYTES_EACH);
-    // Asked for and given back; none of it is touched.
+    find_room(needed).ok_or_else(|| lacking(scene, &count(polygons, "polygon"), needed))
+}
+
+/// An error if there is too little memory to read a file of `size` bytes.
+pub(crate) fn check_file(name: &str, size: u64) -> Result<(), Failure> {
+    let size = usize::try_from(size).unwrap_or(usize::MAX);
+    let needed = size.saturating_mul(READING);
+    find_room(needed).ok_or_else(|| lacking(name, &format!("a file of {}", bytes(size)), needed))
+}
+
+/// Allocates memory and frees it; none of it is touched.
+fn find_room(needed: usize) -> Option<()> {
     let mut room = Vec::<u8>::new();
     let result = room.try_reserve_exact(needed);
     black_box(&mut room);
-    result.map_err(|_| {
-        let polygons = count(polygons, "polygon");
-        let problem = format!("no memory for {polygons}: about {} are needed", bytes(needed));
-        Failure::about(scene, problem)
-    })
+    result.ok()
+}
+
+fn lacking(scene: &str, what: &str, needed: usize) -> Failure {
+    Failure::about(scene, format!("too little memory for {what}: it needs about {}", bytes(needed)))
 }

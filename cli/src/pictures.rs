@@ -6,7 +6,7 @@ use binspace::{BspTree, Verification, Viewpoint, paint_tree_in_colour};
 use crate::args::KindArgs;
 use crate::colours::{BACKGROUND, Colours};
 
-/// What a picture shows.
+/// The kinds of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// The fragments, painted over each other.
@@ -15,7 +15,7 @@ pub(crate) enum Kind {
     ZBuffer,
     /// Where the two differ.
     Difference,
-    /// How far away everything is.
+    /// The depth of every pixel.
     Depth,
 }
 
@@ -33,7 +33,7 @@ impl Kind {
         }
     }
 
-    /// What to call it in a file's name and on the command line.
+    /// Its name in file names and on the command line.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Painter => "painter",
@@ -43,7 +43,7 @@ impl Kind {
         }
     }
 
-    /// Its pixels, seen from a viewpoint. Only in the painter's picture do things show through others.
+    /// Its pixels, seen from a viewpoint. Transparency shows only in the painter's picture.
     pub(crate) fn pixels(
         self,
         tree: &BspTree,
@@ -58,7 +58,7 @@ impl Kind {
         let truth: &DepthImage = &seen.truth;
         match self {
             Self::Painter if colours.are_translucent() => {
-                let look = |polygon| (colours.rgb(polygon as u32), colours.opacity(polygon as u32));
+                let look = |polygon| (colours.rgb(polygon), colours.opacity(polygon));
                 paint_tree_in_colour(tree, viewpoint, &seen.rays, look, BACKGROUND)
             }
             Self::Painter => show(&seen.painted),

@@ -1,4 +1,4 @@
-//! What is being done, shown on a terminal if it takes more than a second.
+//! Progress of long phases, shown on a terminal if they take more than a second.
 
 use std::io::IsTerminal;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// What takes less than this is not worth a word.
+/// Phases shorter than this are not shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A phase of the work: ends when it is dropped.
@@ -25,13 +25,13 @@ impl Progress {
         Self::start(ProgressBar::no_length(), "{spinner} {msg} {elapsed}", message.into())
     }
 
-    /// A phase of so many steps.
+    /// A phase with a known number of steps.
     pub(crate) fn steps(message: impl Into<String>, steps: u64) -> Self {
         let template = "{spinner} {msg} {pos}/{len} {bar:30} {elapsed}";
         Self::start(ProgressBar::new(steps), template, message.into())
     }
 
-    /// A phase that says how far it is.
+    /// A phase that reports the share of its work done.
     pub(crate) fn share(message: impl Into<String>) -> Self {
         Self::start(
             ProgressBar::new(0),
@@ -65,16 +65,16 @@ impl Progress {
         self.bar.inc(1);
     }
 
-    /// So much is done of so much.
+    /// Sets the work done and the total.
     pub(crate) fn set(&self, done: usize, total: usize) {
-        // A new length is drawn at once, however often that is.
+        // Setting a new length redraws at once each time, so it is set only if it changes.
         if self.bar.length() != Some(total as u64) {
             self.bar.set_length(total as u64);
         }
         self.bar.set_position(done as u64);
     }
 
-    /// Writes something else to the terminal meanwhile.
+    /// Hides the progress while `write` writes to the terminal.
     pub(crate) fn suspend<T>(&self, write: impl FnOnce() -> T) -> T {
         self.bar.suspend(write)
     }

@@ -1,4 +1,4 @@
-//! Scenes by name: files, and the built-in ones.
+//! Loads a scene by its name on the command line: a file or a built-in scene.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -11,14 +11,14 @@ use crate::memory;
 use crate::progress::Progress;
 use crate::terminal::note;
 
-/// What a name stands for.
+/// The scene that a name means.
 #[derive(Debug, PartialEq)]
 enum Source {
     File(PathBuf),
     Builtin(BuiltinSpec),
 }
 
-/// Reads or generates the scene that was asked for, and says what was left out.
+/// Reads or generates the scene that the user asks for, and notes what was left out.
 pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
     let name = args.name.to_string_lossy();
     match source(&args.name)? {
@@ -28,6 +28,9 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
             Ok(spec.build(args.seed))
         }
         Source::File(path) => {
+            if let Ok(file) = path.metadata() {
+                memory::check_file(&name, file.len())?;
+            }
             let progress = Progress::spinner(format!("reading {name}"));
             let (scene, mut report) =
                 Scene::read_obj(&path).map_err(|error| Failure::Message(error.to_string()))?;
@@ -57,7 +60,7 @@ fn source(name: &OsStr) -> Result<Source, Failure> {
         Ok(spec) => Ok(Source::Builtin(spec)),
         Err(_) if path.exists() => file(),
         Err(error) if is_like_builtin(text) => Err(Failure::Message(error.to_string())),
-        Err(error) => Err(Failure::Message(format!("{error}; nor is there a file {text:?}"))),
+        Err(error) => Err(Failure::Message(format!("{error}; and there is no file {text:?}"))),
     }
 }
 
@@ -86,8 +89,10 @@ mod tests {
             Err(Failure::Message(message)) => message,
             other => panic!("{text}: {other:?}"),
         };
-        assert!(message("teapto").contains("teapot") && message("teapto").contains("nor is there"));
-        assert!(message("teapot:x").contains("\"x\" is no size"));
+        assert!(
+            message("teapto").contains("teapot") && message("teapto").contains("there is no file")
+        );
+        assert!(message("teapot:x").contains("\"x\" is not a size"));
         assert!(message("newell:3").contains("one size"));
         assert!(message("").contains("no built-in scene"));
     }

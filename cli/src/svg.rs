@@ -10,9 +10,9 @@ use binspace::view::{Camera, Projection};
 
 use crate::colours::{BACKGROUND, Colours};
 
-/// How wide opaque fragments are outlined in their own colour, in pixels. Less, and the background
-/// shines through the seams of neighbours, as viewers blend each with it; more, and thin fragments
-/// grow.
+/// The width of the outline that opaque fragments get in their own colour, in pixels. Smaller: the
+/// background shows through the seams between neighbours, as viewers blend each fragment with it;
+/// larger: thin fragments grow.
 const OUTLINE: f64 = 0.6;
 
 /// Writes the fragments of a tree as a camera sees them, back to front.
@@ -40,8 +40,8 @@ pub(crate) fn write(
         if outline.len() < 3 {
             continue;
         }
-        let polygon = fragment.polygon() as u32;
-        let share = polygon_brightness(scene.polygon(fragment.polygon()), camera);
+        let polygon = fragment.polygon();
+        let share = polygon_brightness(scene.polygon(polygon), camera);
         let fill = hex(colours.rgb(polygon).map(|c| (f64::from(c) * share).round() as u8));
         let opacity = colours.opacity(polygon);
         // The outlines of translucent neighbours would show where they overlap.
@@ -55,12 +55,12 @@ pub(crate) fn write(
     writeln!(out, "</g>\n</svg>")
 }
 
-/// How bright a polygon is: as in the painter's pictures, but the same for all of it, as it is drawn
-/// in fragments whose seams should not show.
+/// The brightness of a polygon: as in the painter's pictures, but constant over the polygon, so
+/// that the seams of its fragments do not show.
 fn polygon_brightness(polygon: &[DVec3], camera: &Camera) -> f64 {
     let share = 1.0 / polygon.len() as f64;
     let middle: DVec3 = polygon.iter().map(|&corner| corner * share).sum();
-    // Newell's normal, of polygons that need not be planar.
+    // Newell's normal, as polygons need not be planar.
     let arms = polygon.iter().map(|&corner| corner - middle);
     let next = arms.clone().cycle().skip(1);
     let normal: DVec3 = arms.zip(next).map(|(arm, next)| arm.cross(next)).sum();
@@ -82,7 +82,8 @@ fn path(outline: &[[f64; 2]]) -> String {
 }
 
 fn short(coordinate: f64) -> f64 {
-    (coordinate * 100.0).round() / 100.0
+    // Adding 0 turns "-0" into "0".
+    (coordinate * 100.0).round() / 100.0 + 0.0
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {

@@ -1,4 +1,4 @@
-//! What is said to the user, on standard output and on standard error.
+//! Messages to the user on standard output and standard error.
 
 use std::fmt::Display;
 use std::io::Write;
@@ -7,11 +7,11 @@ use anstyle::{AnsiColor, Style};
 
 use crate::failure::Failure;
 
-/// For verdicts that all is well.
+/// The style of good verdicts.
 pub(crate) const GOOD: Style = AnsiColor::Green.on_default().bold();
-/// For verdicts that something is wrong.
+/// The style of bad verdicts.
 pub(crate) const BAD: Style = AnsiColor::Red.on_default().bold();
-/// For what one reads first.
+/// The style of headings.
 pub(crate) const HEAD: Style = Style::new().bold();
 
 /// Writes a line to standard output, in colour only where that is a terminal.
@@ -26,17 +26,17 @@ pub(crate) fn styled(style: Style, text: impl Display) -> String {
     format!("{style}{text}{style:#}")
 }
 
-/// Says why the program stops.
+/// Prints why the program stops.
 pub(crate) fn error(message: &str) {
     to_stderr(BAD, "error:", message);
 }
 
-/// Says what the user should know, though it stops nothing.
+/// Prints a note that does not stop the program.
 pub(crate) fn note(message: &str) {
     to_stderr(AnsiColor::Cyan.on_default().bold(), "note:", message);
 }
 
 fn to_stderr(style: Style, label: &str, message: &str) {
-    // There is nowhere left to report a failure to.
+    // If standard error fails, there is nowhere left to report it.
     let _ = writeln!(anstream::stderr().lock(), "{style}{label}{style:#} {message}");
 }

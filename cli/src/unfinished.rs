@@ -1,79 +1,137 @@
-//! Files that are still being written, under names of their own; none is left behind.
+//! Files that have no name until they are complete. If the program ends before, by a signal, by
+//! lack of memory or killed, it leaves nothing behind.
 
-use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions};
-use std::io;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::fs::{File, Permissions};
+use std::io::{self, Seek};
+use std::path::Path;
 
-/// The files that are there now. Whoever makes, moves or removes one holds this meanwhile.
-static FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+use tempfile::{Builder, TempPath};
 
-/// So many names are tried where others of this process, or left by one that was killed, are taken.
-const TRIES: u32 = 1000;
+use crate::signals;
 
-fn files() -> MutexGuard<'static, Vec<PathBuf>> {
-    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+/// Creates a file without a name in a folder.
+pub(crate) fn create_in(folder: &Path) -> io::Result<File> {
+    match nameless(folder) {
+        Ok(file) => Ok(file),
+        // Created with a name, which is removed at once.
+        Err(_) => tempfile::tempfile_in(folder),
+    }
 }
 
-/// Makes a new file in the folder of another, by a short name, as the other's may be as long as
-/// names can be.
-pub(crate) fn create_beside(target: &Path) -> io::Result<(File, PathBuf)> {
-    remove_on_signals();
-    let mut files = files();
-    for number in 0..TRIES {
-        let name = format!(".binspace-{}-{number}.part", std::process::id());
-        let path = target.with_file_name(OsString::from(name));
-        match OpenOptions::new().write(true).create_new(true).open(&path) {
-            Ok(file) => {
-                files.push(path.clone());
-                return Ok((file, path));
-            }
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error),
+/// Puts a complete file in its place, with the given permissions, or the usual ones if there are
+/// none.
+///
+/// The file has a name of its own for the moment before it replaces what is there; signals wait.
+pub(crate) fn place(
+    mut file: File,
+    folder: &Path,
+    target: &Path,
+    permissions: Option<Permissions>,
+) -> io::Result<()> {
+    if let Some(permissions) = permissions.clone() {
+        // Best effort: the content is what matters.
+        let _ = file.set_permissions(permissions);
+    }
+    signals::hold_back(|| {
+        let part = match named(&file, folder) {
+            Ok(part) => part,
+            Err(_) => copied(&mut file, folder, permissions)?,
+        };
+        part.persist(target).map_err(|error| error.error)
+    })
+}
+
+/// A short name, as that of the file to replace may be as long as names can be.
+fn builder() -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(".binspace-").suffix(".part");
+    builder
+}
+
+/// A file that never had a name, if the file system supports that.
+#[cfg(target_os = "linux")]
+fn nameless(folder: &Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags, open};
+
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    // The system removes the permissions that the user's mask excludes.
+    Ok(open(folder, flags, Mode::from_raw_mode(0o666))?.into())
+}
+
+/// Gives such a file a name.
+#[cfg(target_os = "linux")]
+fn named(file: &File, folder: &Path) -> io::Result<TempPath> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+
+    let opened = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let link = |path: &Path| Ok(linkat(CWD, &opened, CWD, path, AtFlags::SYMLINK_FOLLOW)?);
+    Ok(builder().make_in(folder, link)?.into_temp_path())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn nameless(_: &Path) -> io::Result<File> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn named(_: &File, _: &Path) -> io::Result<TempPath> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Copies a file to one with a name.
+fn copied(
+    file: &mut File,
+    folder: &Path,
+    permissions: Option<Permissions>,
+) -> io::Result<TempPath> {
+    let mut builder = builder();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(permissions.clone().unwrap_or(Permissions::from_mode(0o666)));
+    }
+    let mut part = builder.tempfile_in(folder)?;
+    file.rewind()?;
+    io::copy(file, part.as_file_mut())?;
+    if let Some(permissions) = permissions {
+        let _ = part.as_file().set_permissions(permissions);
+    }
+    Ok(part.into_temp_path())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::io::Write;
+
+    use super::*;
+
+    #[test]
+    fn a_file_takes_its_place_with_and_without_a_copy() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a");
+        let names = || fs::read_dir(folder.path()).unwrap().count();
+        // The second has lost its name for ever, as where the file system has none without.
+        let files = [create_in(folder.path()), tempfile::tempfile_in(folder.path())];
+        for (i, file) in files.into_iter().enumerate() {
+            let mut file = file.unwrap();
+            write!(file, "content {i}").unwrap();
+            assert_eq!(names(), i.min(1));
+            place(file, folder.path(), &target, None).unwrap();
+            assert_eq!(fs::read_to_string(&target).unwrap(), format!("content {i}"));
+            assert_eq!(names(), 1);
         }
     }
-    Err(io::ErrorKind::AlreadyExists.into())
+
+    #[test]
+    fn what_cannot_take_its_place_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a");
+        fs::create_dir(&target).unwrap();
+        for file in [create_in(folder.path()), tempfile::tempfile_in(folder.path())] {
+            assert!(place(file.unwrap(), folder.path(), &target, None).is_err());
+            assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        }
+    }
 }
-
-/// Puts a finished file in its place.
-pub(crate) fn place(path: &Path, target: &Path) -> io::Result<()> {
-    let mut files = files();
-    fs::rename(path, target)?;
-    files.retain(|file| file != path);
-    Ok(())
-}
-
-/// Removes a file that will not be finished.
-pub(crate) fn remove(path: &Path) {
-    let mut files = files();
-    // Not there, or not to be removed: there is nothing more to do about it.
-    let _ = fs::remove_file(path);
-    files.retain(|file| file != path);
-}
-
-/// From now on, SIGINT and SIGTERM remove the files before they end the program as they would.
-#[cfg(unix)]
-fn remove_on_signals() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    use signal_hook::iterator::Signals;
-
-    static START: std::sync::Once = std::sync::Once::new();
-    START.call_once(|| {
-        // Without it a file may be left behind, but none is half written.
-        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
-        std::thread::spawn(move || {
-            for signal in signals.forever() {
-                let files = files();
-                for path in files.iter() {
-                    let _ = fs::remove_file(path);
-                }
-                // Ends the program; while it does, no file is made.
-                let _ = signal_hook::low_level::emulate_default_handler(signal);
-            }
-        });
-    });
-}
-
-#[cfg(not(unix))]
-fn remove_on_signals() {}

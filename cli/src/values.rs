@@ -1,4 +1,4 @@
-//! The values of options: vectors, sizes, angles, and what they are refused for.
+//! Parses and checks the values of options: vectors, sizes, angles.
 
 use binspace::Heuristic;
 use binspace::glam::DVec3;
@@ -9,7 +9,7 @@ pub(crate) fn point(text: &str) -> Result<DVec3, String> {
     let parts: Vec<&str> = text.split(',').collect();
     let &[x, y, z] = &parts[..] else {
         let count = if text.is_empty() { 0 } else { parts.len() };
-        return Err(format!("three numbers X,Y,Z are needed, not {count}"));
+        return Err(format!("expected three numbers X,Y,Z, not {count}"));
     };
     Ok(DVec3::new(finite(x)?, finite(y)?, finite(z)?))
 }
@@ -31,7 +31,7 @@ pub(crate) fn up(text: &str) -> Result<DVec3, String> {
         "y" => DVec3::Y,
         "z" => DVec3::Z,
         _ if name.contains(',') => return direction(text),
-        _ => return Err("an axis (x, y, z, -x, …) or a vector X,Y,Z is needed".to_owned()),
+        _ => return Err("expected an axis (x, y, z, -x, …) or a vector X,Y,Z".to_owned()),
     };
     Ok(axis * sign)
 }
@@ -41,7 +41,7 @@ pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     let number = |part: &str| part.trim().parse::<u32>().ok().filter(|&n| n > 0);
     let sides = text.split_once(['x', 'X', '×']);
     let Some((Some(width), Some(height))) = sides.map(|(w, h)| (number(w), number(h))) else {
-        return Err("two whole numbers of pixels are needed, such as 640x480".to_owned());
+        return Err("expected two whole numbers of pixels, such as 640x480".to_owned());
     };
     let pixels = u64::from(width) * u64::from(height);
     if width.max(height) > Camera::MAX_SIDE || pixels > Camera::MAX_PIXELS {
@@ -58,7 +58,7 @@ pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
 pub(crate) fn field_of_view(text: &str) -> Result<f64, String> {
     let degrees = finite(text)?;
     if !(0.001..=179.0).contains(&degrees) {
-        return Err("an angle from 0.001 to 179 degrees is needed".to_owned());
+        return Err("expected an angle from 0.001 to 179 degrees".to_owned());
     }
     Ok(degrees.to_radians())
 }
@@ -67,7 +67,7 @@ pub(crate) fn field_of_view(text: &str) -> Result<f64, String> {
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     let length = finite(text)?;
     if length < 0.0 {
-        return Err("a length of 0 or more is needed".to_owned());
+        return Err("expected a length of 0 or more".to_owned());
     }
     Ok(length)
 }
@@ -81,7 +81,7 @@ pub(crate) fn heuristics(text: &str) -> Result<Heuristics, String> {
     if text == "all" {
         return Ok(Heuristics(Heuristic::ALL.to_vec()));
     }
-    let one = text.parse::<Heuristic>().map_err(|error| format!("{error}; or all"))?;
+    let one = text.parse::<Heuristic>().map_err(|error| format!("{error}; or use `all`"))?;
     Ok(Heuristics(vec![one]))
 }
 
@@ -138,6 +138,6 @@ mod tests {
     fn all_heuristics_are_one_word() {
         assert_eq!(heuristics("all").unwrap().0, Heuristic::ALL);
         assert_eq!(heuristics("random:3").unwrap().0, [Heuristic::Random { seed: 3 }]);
-        assert!(heuristics("best").unwrap_err().ends_with("or all"));
+        assert!(heuristics("best").unwrap_err().ends_with("or use `all`"));
     }
 }

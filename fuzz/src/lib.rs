@@ -19,3 +19,13 @@ pub fn tree(data: &[u8]) {
 pub fn obj(data: &[u8]) {
     support::targets::obj::run(data);
 }
+
+/// Builds trees of some hundred or thousand faces, with budgets, cancelled, by several threads.
+pub fn large(data: &[u8]) {
+    support::targets::large::run(data);
+}
+
+/// Prepares polygons of up to some thousand corners.
+pub fn faces(data: &[u8]) {
+    support::targets::faces::run(data);
+}

@@ -13,17 +13,17 @@ pub(super) struct Window {
     pub(super) rows: Range<u32>,
 }
 
-/// How far a vertex may be from the exact one in each coordinate, in lattice units: 2, and room
-/// for the rounding of those beyond 2⁵³.
+/// The largest error of a vertex's coordinate, in lattice units: 2, and room for the rounding of
+/// coordinates beyond 2⁵³.
 const VERTEX_ERROR: f64 = 2.5;
-/// What is added around a polygon's projection, in pixels: the projection's own rounding.
+/// Margin around a polygon's projection, in pixels, for the rounding of the projection.
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Rays {
     /// All pixels whose rays may meet the convex hull of these points, each given to within
     /// `VERTEX_ERROR`; `None` if there are none.
     ///
-    /// A polygon that reaches behind the eye may be anywhere on the picture, unless all of it is
+    /// A polygon that reaches behind the eye may be anywhere in the picture, unless all of it is
     /// beyond one of the picture's sides.
     pub(super) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
         let [width, height] = self.size.map(f64::from);
@@ -71,8 +71,8 @@ impl Rays {
             Pencil::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
             Pencil::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
         };
-        // The matrix is the inverse of one whose columns are all but perpendicular: its entries,
-        // and their products with the arm, are good to far more than the 2⁻⁴⁶ allowed here.
+        // The matrix is the inverse of one with nearly perpendicular columns. So the errors of its
+        // entries, and of their products with the arm, are far below the 2⁻⁴⁶ allowed here.
         let slack = VERTEX_ERROR + arm.abs().max_element() * 2f64.powi(-46);
         let [a, b, c] = self.to_picture;
         let norm = |row: DVec3| row.abs().element_sum() * slack;

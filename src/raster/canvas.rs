@@ -1,12 +1,12 @@
-//! A painter in colours, for pictures in which things show through others.
+//! A painter in colours, for pictures with transparent polygons.
 
 use glam::DVec3;
 
 use super::coverage::Coverage;
-use super::painter::Piece;
 use super::picture::{flat_normal, shaded};
+use super::piece::Piece;
 use super::rays::Rays;
-use crate::geom::Faces;
+use crate::exact::Faces;
 
 /// A picture on which pieces are painted one over the other, from back to front.
 #[derive(Debug)]
@@ -23,9 +23,9 @@ impl<'a> Canvas<'a> {
         Self { rays, faces, pixels: vec![background.map(f32::from); width * height] }
     }
 
-    /// Paints a piece over what is there, darker the more slantingly it is seen, as
-    /// [`picture`](super::picture) does. With an opacity of 1 it covers all behind it, with 0
-    /// nothing.
+    /// Paints a piece over the picture so far, shaded as by [`picture`](super::picture): darker the
+    /// more obliquely it is seen. An opacity of 1 hides everything behind it; with 0 it is
+    /// invisible.
     pub fn draw(&mut self, piece: Piece<'_>, colour: [u8; 3], opacity: f32) {
         let Some(coverage) = Coverage::new(self.rays, self.faces, piece.face, piece.outline) else {
             return;

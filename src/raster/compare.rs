@@ -1,18 +1,18 @@
-//! What a painted picture shows that the depth buffer does not, pixel by pixel.
+//! Compares a painted picture with a depth buffer's, pixel by pixel.
 
+use super::exact::{Plane, determinant};
 use super::image::{Image, NONE};
-use super::plane::{determinant, kappa, phi};
 use super::rays::{Given, Rays};
-use crate::geom::{Faces, Plane, PlaneId};
+use crate::exact::{Faces, PlaneId};
 
-/// What is to be said of one pixel of a painted picture.
+/// The verdict on one pixel of a painted picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
     /// Nothing is there, and nothing is painted.
     Empty,
     /// The right polygon is painted.
     Right,
-    /// Another polygon is painted than the nearest, but the tolerance makes the two equals.
+    /// Another polygon is painted than the nearest, but the tolerance allows either in front.
     Contested,
     /// A polygon is painted that another one hides.
     WrongOrder,
@@ -46,20 +46,20 @@ impl Comparison {
     }
 }
 
-/// Rounded corners that still count as on a plane, in lattice units: a corner on a plane by
-/// definition alone is kept rounded, by up to 1 unit; 4 such may come together. Nothing is
-/// allowed for where the tolerance is 0 and no corner is moved.
+/// Added to the tolerance, in lattice units, for corners that are on their face's plane only by
+/// definition: each is stored rounded, off by up to 1 unit, and up to 4 such errors add up. If the
+/// tolerance is 0, no corner is moved and nothing is added.
 const MOVED_CORNERS: f64 = 4.0;
 
 /// Compares a painted picture with a true one, both made with the same rays.
 ///
 /// Polygons are compared, not faces: two faces of one polygon are the same. A pixel is *contested*
-/// if, along its ray, the painted face and the true one are equally far, exactly, or one is met
-/// within 2 τ of the plane of the other, τ being the tolerance. That is what the tolerance can do:
-/// two polygons, each within τ of a plane that divides the scene, both count as part of that plane,
-/// and then their order is that of the input. With τ = 0, ties alone are contested.
+/// if, along its ray, the painted face and the true one are at exactly the same distance, or the
+/// ray meets one of them within 2 τ of the plane of the other, where τ is the tolerance. For two
+/// polygons that are each within τ of a partition plane may both count as part of that plane, and
+/// then they are painted in input order. With τ = 0 only ties are contested.
 ///
-/// The rule knows the polygons, not the planes that divided the scene; for these see [`is_open`].
+/// This rule knows the polygons, not the partition planes; for these see [`is_open`].
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
@@ -83,33 +83,38 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
     result
 }
 
-/// Whether the tolerance makes equals of the faces `p` and `q` on the ray of a pixel.
+/// Whether the tolerance allows either of the faces `p` and `q` in front on the ray of a pixel.
 fn is_contested(rays: &Rays, faces: &Faces, p: u32, q: u32, x: u32, y: u32) -> bool {
-    let [p, q] = [p, q].map(|face| faces.plane(PlaneId::face(face)));
+    let [p, q] = [p, q].map(|face| Plane::of(faces, face));
     let pixel = rays.pixel(x, y);
-    // Either plane where the ray meets the other is this, over the other's divisor.
+    // Symmetric in the two planes: it suffices that the ray meets either face near the other's
+    // plane.
     let met = |to, on| distance(rays, to, on, pixel);
     let tolerance = faces.tolerance();
     let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
     met(&p, &q).min(met(&q, &p)) <= allowed
 }
 
-/// How far from a plane the ray of a pixel meets another, in lattice units, rounded.
+/// The distance from the plane `to` of the point where the ray of a pixel meets the plane `on`, in
+/// lattice units, rounded.
 fn distance(rays: &Rays, to: &Plane, on: &Plane, pixel: Given) -> f64 {
-    let divisor = if rays.is_perspective() { phi(on, pixel) } else { kappa(rays, on) };
+    let divisor = if rays.is_perspective() { on.phi(pixel) } else { on.kappa(rays) };
+    // The determinant is exact and is rounded only here, so a tie gives exactly 0. A ray within the
+    // plane `on` gives 0 / 0 = NaN, which compares as too far.
     let value = determinant(rays, to, on, pixel).to_f64().abs();
-    value / (divisor.to_f64().abs() * to.normal_f64().length())
+    value / (divisor.to_f64().abs() * to.normal().length())
 }
 
 /// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the
-/// plane between their pieces: the ray meets the nearer one within the tolerance of that plane, and
-/// meets the other, or begins, within it as well.
+/// partition plane between their pieces. It does if the ray meets the nearer face within the
+/// tolerance of that plane, and either meets the other face, or begins, within it as well.
 ///
-/// That is all that a tolerance can do. Say the eye is in front of the plane, and a piece that the
-/// order puts in front is hidden by one that it puts behind. Along the ray, the height above the
-/// plane is linear. It is positive at the eye, at most τ where the ray meets the hiding piece, and
-/// at least −τ further on, at the hidden one. Where it falls, both pieces are met within τ; where it
-/// rises, it is at most τ from the eye to the hiding piece.
+/// A tolerance can cause no other wrong pixels. Suppose the eye is in front of the plane, and a
+/// piece that the order puts in front is hidden by one that it puts behind. Along the ray, the
+/// height above the plane is linear. It is positive at the eye, at most τ where the ray meets the
+/// hiding piece, and at least −τ further on, at the hidden piece. If the height falls along the
+/// ray, both pieces are met within τ of the plane; if it rises, it is at most τ from the eye to the
+/// hiding piece.
 pub fn is_open(
     rays: &Rays,
     faces: &Faces,
@@ -122,11 +127,11 @@ pub fn is_open(
         return false;
     }
     let allowed = tolerance + MOVED_CORNERS;
-    let plane = faces.plane(plane);
+    let plane = Plane::new(faces, plane);
     let pixel = rays.pixel(x, y);
-    let meets = |face| distance(rays, &plane, &faces.plane(PlaneId::face(face)), pixel) <= allowed;
+    let meets = |face| distance(rays, &plane, &Plane::of(faces, face), pixel) <= allowed;
     let begins = || {
-        let height = kappa(rays, &plane).to_f64().abs() / plane.normal_f64().length();
+        let height = plane.kappa(rays).to_f64().abs() / plane.normal().length();
         rays.is_perspective() && height <= allowed
     };
     meets(nearest) && (meets(other) || begins())

@@ -1,32 +1,33 @@
-//! Which pixels a piece of a face covers.
+//! Decides which pixels a piece of a face covers.
 //!
-//! A pixel is covered if its ray meets the piece: if it passes inside all lines that bound it. An
-//! edge of a face that a ray meets exactly belongs to the face that the ray would enter if it were
-//! moved a little (see [`Seen::tie`]): of two faces that share the edge, just one is met. A cut
-//! that a ray meets exactly belongs to the piece in front. So the pieces of a face tile it, and
-//! the faces of a closed surface tile its picture: no pixel is left out, none is covered twice.
-//! Faces that the rays run along cover nothing.
+//! A pixel is covered if its ray meets the piece, which is so if it passes inside all lines that
+//! bound the piece. A ray that meets an edge of a face exactly counts as moved a little (see
+//! [`Seen::tie`]), so that of two faces that share the edge it meets just one. A ray that meets a
+//! cut exactly belongs to the piece in front. So the pieces of a face tile it, and the faces of a
+//! closed surface tile its picture: no pixel is left out, none is covered twice. Faces seen exactly
+//! edge-on cover nothing.
 //!
-//! The functions of lines in homogeneous coordinates, which make clipping at the eye superfluous,
-//! are those of Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
+//! The functions of lines are in homogeneous coordinates, so that nothing is clipped at the eye:
+//! Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
 
 use smallvec::SmallVec;
 
 use super::bounds::Window;
+use super::exact::Plane;
 use super::line::{Boundary, Seen, Source};
-use super::painter::Outline;
-use super::plane::{Sheet, kappa};
+use super::piece::Outline;
 use super::rays::Rays;
-use crate::geom::{Faces, PlaneId};
+use super::sheet::Sheet;
+use crate::exact::{Faces, PlaneId};
 
-/// A piece of a face, ready to be asked for its pixels.
+/// A piece of a face, prepared to test pixels.
 #[derive(Debug)]
 pub(super) struct Coverage<'a> {
     pub(super) seen: Seen<'a>,
     pub(super) lines: SmallVec<[Boundary; 8]>,
     pub(super) window: Window,
-    /// Whether the lines are not all the edges of the face, and a pixel on one of them has yet to
-    /// prove that it belongs to the face.
+    /// Whether some edges of the face are not among the lines. Then a pixel exactly on a line must
+    /// also be tested against the whole face.
     partial: bool,
 }
 
@@ -62,8 +63,9 @@ impl<'a> Coverage<'a> {
                 }
             }
         }
-        // Lines through the eye that bound a plane polygon all around bound a cone; the lines of
-        // others may bound its mirror image behind the eye as well.
+        // The edges of a planar face are planes through the eye that bound a cone in front of it.
+        // The lines of other pieces may also bound a mirror image of the piece behind the eye, so
+        // rays must be restricted to the half-space ahead.
         let whole = matches!(outline, Outline::Whole);
         let cone = whole && faces.upright_axis(face).is_none();
         if rays.is_perspective() && !cone {
@@ -80,6 +82,7 @@ impl<'a> Coverage<'a> {
         let mut certain = true;
         for line in &self.lines {
             let [k0, kx, ky] = line.k;
+            // Certainly outside one line is outside the piece, whatever the other lines say.
             let value = k0 + row * ky + column * kx;
             if value < -line.bound {
                 return false;
@@ -95,6 +98,8 @@ impl<'a> Coverage<'a> {
         for line in &self.lines {
             let side = self.seen.exact(line.source, x, y);
             on_a_line |= side.is_eq();
+            // A ray exactly on a line: of the two pieces along a cut the one in front covers the
+            // pixel; of the faces along an edge the one that a ray moved a little would meet.
             let inside = side.is_gt()
                 || side.is_eq()
                     && match line.source {
@@ -106,7 +111,8 @@ impl<'a> Coverage<'a> {
                 return false;
             }
         }
-        // A vertex of a piece may touch an edge of the face that is none of the piece's lines.
+        // The ray may meet a vertex where cuts meet on an edge of the face that is not among the
+        // piece's lines: that edge's tie must be respected too.
         !(on_a_line && self.partial) || self.face_covers(x, y)
     }
 
@@ -120,15 +126,16 @@ impl<'a> Coverage<'a> {
     }
 }
 
-/// The largest coordinate of a rounded piece's vertices that counts; beyond, the integers overflow.
+/// Coordinates of a rounded piece's vertices are limited to this; beyond, the integers overflow.
 const LARGEST: f64 = (1u64 << 51) as f64;
 
 impl<'a> Seen<'a> {
-    /// A face as the rays see it; `None` if they run along it, or see its back and are not to.
+    /// A face as the rays see it; `None` if they run along it, or see its back and only fronts are
+    /// to be seen.
     pub(super) fn new(rays: &'a Rays, faces: &'a Faces, face: u32) -> Option<Self> {
-        let plane = PlaneId::face(face);
-        let sheet = Sheet::new(rays, faces, plane);
-        let side = sheet.certain_side().unwrap_or_else(|| kappa(rays, &faces.plane(plane)).sign());
+        let sheet = Sheet::new(rays, faces, PlaneId::face(face));
+        let side =
+            sheet.certain_side().unwrap_or_else(|| Plane::of(faces, face).kappa(rays).sign());
         let positive = side.is_gt();
         let front = positive == rays.is_perspective();
         if side.is_eq() || rays.front_only && !front {

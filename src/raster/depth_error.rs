@@ -1,12 +1,12 @@
-//! How deep what is painted lies behind what should show.
+//! How far wrongly painted faces lie behind the ones that should show.
 
 use super::compare::{Comparison, Verdict};
 use super::coverage::Coverage;
+use super::exact::{Plane, determinant};
 use super::image::Image;
-use super::painter::Outline;
-use super::plane::{determinant, kappa, phi};
+use super::piece::Outline;
 use super::rays::Rays;
-use crate::geom::{Faces, PlaneId};
+use crate::exact::Faces;
 
 /// How far behind the nearest polygon the painted ones are; see [`depth_error`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,9 +19,9 @@ pub struct DepthError {
     pub sum: f64,
 }
 
-/// The difference in depth between the painted face and the nearest, over the pixels of a
-/// comparison that are called [wrong order](Verdict::WrongOrder). Those in which the ray does not
-/// meet the painted face at all are left out.
+/// The difference in depth between the painted face and the nearest, over the pixels with the
+/// verdict [wrong order](Verdict::WrongOrder). Pixels whose ray does not meet the painted face at
+/// all are left out.
 pub fn depth_error(
     rays: &Rays,
     faces: &Faces,
@@ -48,13 +48,14 @@ pub fn depth_error(
     result
 }
 
-/// Between the points where the ray of a pixel meets two planes: −κ/φ of a perspective, −φ/κ of a
-/// parallel projection, subtracted exactly before anything is rounded.
+/// The distance along the ray of a pixel between its points on two planes. The points are at −κ/φ
+/// for a perspective, at −φ/κ for parallel rays; they are subtracted exactly before anything is
+/// rounded.
 fn difference(rays: &Rays, faces: &Faces, p: u32, q: u32, x: u32, y: u32) -> f64 {
-    let [p, q] = [p, q].map(|face| faces.plane(PlaneId::face(face)));
+    let [p, q] = [p, q].map(|face| Plane::of(faces, face));
     let pixel = rays.pixel(x, y);
-    let divisor = |plane| {
-        let value = if rays.is_perspective() { phi(plane, pixel) } else { kappa(rays, plane) };
+    let divisor = |plane: &Plane| {
+        let value = if rays.is_perspective() { plane.phi(pixel) } else { plane.kappa(rays) };
         value.to_f64()
     };
     let steps = determinant(rays, &p, &q, pixel).to_f64() / divisor(&p) / divisor(&q);

@@ -1,6 +1,6 @@
 //! Pictures of which face shows where.
 
-/// The face of a pixel where there is none.
+/// Face number for "no face".
 pub const NONE: u32 = u32::MAX;
 
 /// Which face shows in each pixel, row by row from the top left.
@@ -12,14 +12,14 @@ pub struct Image {
 }
 
 impl Image {
-    /// A picture without anything in it.
+    /// An empty picture.
     pub(super) fn new(size: [u32; 2]) -> Self {
         let pixels = size[0] as usize * size[1] as usize;
         Self { size, faces: vec![NONE; pixels], drawn: 0 }
     }
 
-    /// A picture of which the face in each pixel is known, with how many times one was covered.
-    pub(crate) fn from_faces(size: [u32; 2], faces: Vec<u32>, drawn: u64) -> Self {
+    /// A picture with the given face in each pixel, and the number of times pixels were covered.
+    pub fn from_faces(size: [u32; 2], faces: Vec<u32>, drawn: u64) -> Self {
         debug_assert_eq!(faces.len(), size[0] as usize * size[1] as usize);
         Self { size, faces, drawn }
     }
@@ -39,7 +39,7 @@ impl Image {
         self.faces.iter().filter(|&&face| face != NONE).count()
     }
 
-    /// How many times a pixel was covered by a piece, overdrawn ones included.
+    /// How many times pixels were covered by a piece, overdrawn ones included.
     pub fn drawn(&self) -> u64 {
         self.drawn
     }

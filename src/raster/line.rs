@@ -2,11 +2,12 @@
 
 use std::cmp::Ordering;
 
-use super::plane::{ROUNDING, Sheet, determinant, phi};
-use super::rays::{Given, Pencil, Rays, dot, float};
-use crate::geom::{Faces, Line, Plane, PlaneId};
+use super::exact::{Plane, determinant, volume};
+use super::rays::{Given, Pencil, Rays, float};
+use super::sheet::{ROUNDING, Sheet};
+use crate::exact::{Faces, Line};
 
-/// What a line is.
+/// Where a boundary line comes from.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     /// The edge from one lattice point to another, straight through both.
@@ -15,12 +16,12 @@ pub(super) enum Source {
     Upright([[f64; 3]; 2], usize),
     /// A plane that cut the face.
     Cut(Line),
-    /// The eye's own plane: what lies ahead of it.
+    /// The plane through the eye across the direction of view: inside is ahead of it.
     Ahead,
 }
 
-/// A line of a face: a linear function of the pixel that is positive inside, rounded, with a
-/// bound on the error of its values, and what it takes to get the exact ones.
+/// A line of a face: a rounded linear function of the pixel that is positive inside, a bound on the
+/// error of its values, and the source from which the exact values are computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Boundary {
     pub(super) k: [f64; 3],
@@ -40,7 +41,7 @@ pub(super) struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// A line of the face, ready to be evaluated.
+    /// A line of the face, prepared for evaluation.
     pub(super) fn boundary(&self, source: Source) -> Boundary {
         let (mut k, bound) = match source {
             Source::Edge(ends) => self.edge(ends),
@@ -65,7 +66,7 @@ impl Seen<'_> {
             Source::Edge(_) => self.positive == self.rays.is_perspective(),
             // The upright plane faces outwards where the face's normal runs with the axis.
             Source::Upright(_, axis) => {
-                let normal = self.faces.plane(PlaneId::face(self.face)).normal_f64();
+                let normal = Plane::of(self.faces, self.face).normal();
                 self.positive == (normal[axis] > 0.0)
             }
             Source::Cut(line) => self.positive == line.is_behind(),
@@ -82,9 +83,10 @@ impl Seen<'_> {
         (k, 40.0 * ROUNDING * size)
     }
 
-    /// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b − a)),
-    /// or (point − a) · ((a − b) × direction). The factor's components are off by 4.4 roundings of
-    /// the sum of their two products, their scalar products by 3 more, the evaluation by 4.
+    /// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b −
+    /// a)), or (point − a) · ((a − b) × direction). The factor's components are off by 4.4
+    /// roundings of the sum of their two products, their scalar products by 3 more, the evaluation
+    /// by 4.
     fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
         let rays = self.rays;
         let origin = rays.origin_from(a);
@@ -117,53 +119,27 @@ impl Seen<'_> {
         self.oriented(source, self.rays.pixel(x, y))
     }
 
-    /// To which side of an edge a ray that meets it belongs, so that of two faces on either side
-    /// of it just one is met: as if the ray were moved a little to the right, and, should that be
-    /// along the edge, by much less downwards.
+    /// On which side of an edge a ray counts that meets it exactly, so that of two faces that share
+    /// the edge it meets just one: the ray counts as moved a little to the right, and by much less
+    /// downwards, which matters if the edge runs to the right.
     pub(super) fn tie(&self, source: Source) -> Ordering {
         let right = self.oriented(source, Given::Step(self.rays.right));
         if right.is_ne() { right } else { self.oriented(source, Given::Step(self.rays.down)) }
     }
 
     fn oriented(&self, source: Source, given: Given) -> Ordering {
-        let (rays, plane) = (self.rays, |id| self.faces.plane(id));
-        let own = PlaneId::face(self.face);
+        let (rays, faces) = (self.rays, self.faces);
+        let own = || Plane::of(faces, self.face);
         let sign = match source {
             Source::Edge(ends) => volume(rays, ends, given).sign(),
             Source::Upright([a, b], axis) => {
-                determinant(rays, &plane(own), &Plane::upright(a, b, axis), given).sign()
+                determinant(rays, &own(), &Plane::upright(a, b, axis), given).sign()
             }
             Source::Cut(line) => line.as_cut().map_or(Ordering::Equal, |cut| {
-                determinant(rays, &plane(own), &plane(cut), given).sign()
+                determinant(rays, &own(), &Plane::new(faces, cut), given).sign()
             }),
-            Source::Ahead => phi(&plane(own), given).sign(),
+            Source::Ahead => own().phi(given).sign(),
         };
         if self.is_flipped(source) { sign.reverse() } else { sign }
-    }
-}
-
-/// The exact volume of [`Seen::edge`]: with m = (b − a) × direction of 106 bits, an eye of 82 bits
-/// and three terms, 190 bits.
-fn volume(rays: &Rays, [a, b]: [[f64; 3]; 2], given: Given) -> crate::geom::Int<3> {
-    let (a, b) = (a.map(|c| c as i64), b.map(|c| c as i64));
-    let cross = |v: [i64; 3]| -> [i128; 3] {
-        let arm: [i128; 3] = std::array::from_fn(|i| i128::from(b[i] - a[i]));
-        let v = v.map(i128::from);
-        std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            arm[j] * v[k] - arm[k] * v[j]
-        })
-    };
-    match (rays.pencil, given) {
-        (Pencil::From { eye, shift }, Given::Step(v) | Given::Point(v)) => {
-            // v · ((a − eye) × arm) = (a − eye) · (arm × v)
-            let m = cross(v);
-            dot(m, a) - Rays::dot_eye(m, eye, shift)
-        }
-        // (v − a) · ((a − b) × direction) = −(v − a) · (arm × direction)
-        (Pencil::Along { direction }, Given::Step(v)) => -dot(cross(direction), v),
-        (Pencil::Along { direction }, Given::Point(v)) => {
-            -dot(cross(direction), std::array::from_fn(|i| v[i] - a[i]))
-        }
     }
 }

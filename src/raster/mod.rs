@@ -1,31 +1,45 @@
-//! Pictures of faces, exact in every pixel, and what tells two of them apart.
+//! Pictures of faces, exact in every pixel, and their comparison.
 //!
-//! A camera becomes [`Rays`]: one integer ray a pixel. Whether a ray meets a piece of a face, and
-//! which of two faces it meets first, are signs of integer polynomials, so a painter and a depth
-//! buffer that are both right make the *same* picture, and where they differ one of them is wrong.
-//! Nothing here knows how an order was found: this module judges those that find one.
+//! A camera becomes [`Rays`]: one integer ray per pixel. Whether a ray meets a piece of a face, and
+//! which of two faces it meets first, are signs of integer polynomials. So a painter and a depth
+//! buffer that are both right make the *same* picture; if they differ, one of them is wrong. This
+//! module judges orders, so it does not know how an order was found.
+//!
+//! It shares no arithmetic with the builder either. It computes planes from the corners that define
+//! them, in integers of its own, so that a mistake in the builder's arithmetic shows as wrong
+//! pixels and is not repeated here. It takes over the input: the faces' corners on the lattice;
+//! which of them define a face's plane, and along which axis the others are moved to it; the eye on
+//! the lattice; and the labels that name the lines of a piece. Tests of the preparation compare
+//! these with the polygons as given.
 
 mod bounds;
 mod canvas;
 mod compare;
 mod coverage;
 mod depth_error;
+mod digits;
+mod exact;
 mod image;
+mod layers;
 mod line;
 mod painter;
 mod picture;
-mod plane;
+mod piece;
 mod rays;
 mod runs;
+mod sheet;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod zbuffer;
 
 pub use canvas::Canvas;
 pub use compare::{Comparison, Verdict, compare, is_open};
 pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};
-pub use painter::{Order, Outline, Painter, Piece, covers, for_each_run, paint};
+pub(crate) use layers::Layers;
+pub use painter::{Order, Painter, covers, for_each_run, paint};
 pub use picture::{brightness, colour_of, depth_map, difference, picture};
+pub use piece::{Outline, Piece};
 pub use rays::Rays;
+pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};

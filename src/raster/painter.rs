@@ -1,38 +1,12 @@
-//! The painter: what is drawn later covers what was drawn before.
+//! The painter: a later piece covers earlier ones.
 
 use std::ops::Range;
 
 use super::coverage::Coverage;
 use super::image::{Image, NONE};
+use super::piece::Piece;
 use super::rays::Rays;
-use crate::geom::{Faces, Line};
-
-/// A piece of a face, to be drawn.
-#[derive(Clone, Copy, Debug)]
-pub struct Piece<'a> {
-    /// The face.
-    pub face: u32,
-    /// Which part of it.
-    pub outline: Outline<'a>,
-}
-
-/// Which part of a face a piece is.
-#[derive(Clone, Copy, Debug)]
-pub enum Outline<'a> {
-    /// All of it.
-    Whole,
-    /// What lies on the right side of each of these lines: exact, however small the piece.
-    Lines {
-        /// The lines that bound the piece: edges of the face, and cuts.
-        lines: &'a [Line],
-        /// The piece's vertices in lattice units, each coordinate within 2 of the exact one. They
-        /// only say which pixels to look at.
-        vertices: &'a [[f64; 3]],
-    },
-    /// What lies between these vertices, in lattice units, in the face's orientation, rounded to
-    /// the lattice: for algorithms that do not keep the lines.
-    Vertices(&'a [[f64; 3]]),
-}
+use crate::exact::Faces;
 
 /// The order in which pieces are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,19 +27,25 @@ pub struct Painter<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// A painter before an empty picture.
+    /// A painter with an empty picture.
     pub fn new(rays: &'a Rays, faces: &'a Faces, order: Order) -> Self {
         Self { rays, faces, order, image: Image::new(rays.size()) }
     }
 
     /// Draws a piece.
     pub fn draw(&mut self, piece: Piece<'_>) {
+        self.draw_and(piece, |_, _| {});
+    }
+
+    /// Draws a piece, and calls `also` with the row and the columns of all pixels that it covers.
+    pub(crate) fn draw_and(&mut self, piece: Piece<'_>, mut also: impl FnMut(u32, Range<u32>)) {
         let Some(coverage) = Coverage::new(self.rays, self.faces, piece.face, piece.outline) else {
             return;
         };
         let (image, order) = (&mut self.image, self.order);
         coverage.for_each_run(&mut |y, columns| {
             image.drawn += columns.len() as u64;
+            also(y, columns.clone());
             let pixels = &mut image.row(y)[columns.start as usize..columns.end as usize];
             match order {
                 Order::BackToFront => pixels.fill(piece.face),

@@ -2,16 +2,16 @@
 
 use super::compare::{Comparison, Verdict};
 use super::image::{Image, NONE};
-use super::plane::normal_of;
 use super::rays::Rays;
+use super::sheet::normal_of;
 use super::zbuffer::DepthImage;
-use crate::geom::Faces;
+use crate::exact::Faces;
 use glam::DVec3;
 
 /// A colour for a polygon by its number: neighbours in number differ clearly.
-pub fn colour_of(polygon: u32) -> [u8; 3] {
+pub fn colour_of(polygon: usize) -> [u8; 3] {
     // Steps of the golden ratio spread the hues evenly however many there are.
-    let hue = (f64::from(polygon) * 0.618_033_988_749_894_9).fract() * 6.0;
+    let hue = (polygon as f64 * 0.618_033_988_749_894_9).fract() * 6.0;
     let (saturation, value) = match polygon % 3 {
         0 => (0.55, 0.95),
         1 => (0.75, 0.85),
@@ -24,19 +24,19 @@ pub fn colour_of(polygon: u32) -> [u8; 3] {
     })
 }
 
-/// How bright a surface is, from 0 to 1, by its normal and the direction in which it is seen, both of
-/// length 1: as lit by a lamp at the eye, and faintly from everywhere.
+/// The brightness of a surface, from 0 to 1, given its normal and the direction in which it is
+/// seen, both of length 1: lit by a lamp at the eye, and faintly from everywhere.
 pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }
 
-/// The picture, each polygon in the colour that `colour` gives for its number, darker the more
-/// slantingly it is seen; `background` where there is none.
+/// The picture in colours: each polygon in the colour that `colour` returns for its number, darker
+/// the more obliquely it is seen; `background` where there is no polygon.
 pub fn picture(
     rays: &Rays,
     faces: &Faces,
     image: &Image,
-    colour: impl Fn(u32) -> [u8; 3],
+    colour: impl Fn(usize) -> [u8; 3],
     background: [u8; 3],
 ) -> Vec<u8> {
     let width = rays.size()[0] as usize;
@@ -82,8 +82,8 @@ pub fn depth_map(depth: &DepthImage) -> Vec<u8> {
     depths.into_iter().flat_map(|depth| [grey(depth); 3]).collect()
 }
 
-/// Where a painted picture differs: `picture`, as RGB, at a quarter of its brightness, with
-/// contested pixels blue, wrong order red, holes yellow, and spills magenta.
+/// A picture of the differences: `picture`, as RGB, at a quarter of its brightness, with contested
+/// pixels blue, wrong order red, holes yellow, and spills magenta.
 pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
     let pixels = comparison.verdicts.iter().zip(picture.chunks_exact(3));
     let colours = pixels.map(|(verdict, pixel)| match verdict {

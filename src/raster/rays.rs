@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geom::{Eye, Faces, Int};
+use crate::exact::{Eye, Faces};
 use crate::view::{Camera, CameraError, CameraProblem, Projection};
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
@@ -16,26 +16,26 @@ use crate::view::{Camera, CameraError, CameraProblem, Projection};
 ///
 /// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel
 /// unless it is more than a million extents away, and every decision after that is exact. The eye
-/// and the direction are those of [`Eye`], which is what trees are ordered for.
+/// and the direction are those of [`Eye`], for which trees are ordered too.
 #[derive(Clone, Debug)]
 pub struct Rays {
     pub(super) size: [u32; 2],
-    /// Whether faces are left out that are seen from behind.
+    /// Whether faces seen from behind are left out.
     pub(super) front_only: bool,
     pub(super) pencil: Pencil,
     pub(super) base: [i64; 3],
     pub(super) right: [i64; 3],
     pub(super) down: [i64; 3],
-    /// What the ray through the middle of the picture is given by.
+    /// The parameter of the ray through the middle of the picture.
     pub(super) middle: [i64; 3],
-    /// Takes a point relative to the eye, or to the middle of the picture, to multiples of right,
+    /// Maps a point relative to the eye, or to the middle of the picture, to multiples of right,
     /// down, and the direction through the middle.
     pub(super) to_picture: [DVec3; 3],
-    /// What the third of these stands for as a length in the world.
+    /// The world length that a multiple of 1 of the third stands for.
     pub(super) depth_unit: f64,
 }
 
-/// What the rays have in common.
+/// The start or the direction that all rays share.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Pencil {
     /// They start at the eye: an integer times 2^shift.
@@ -44,18 +44,19 @@ pub(super) enum Pencil {
     Along { direction: [i64; 3] },
 }
 
-/// A direction, or, for parallel rays, a point as well: what the ray of a pixel is given by.
+/// Per-pixel ray parameter: a direction (perspective) or a point (parallel).
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Given {
     Point([i64; 3]),
     Step([i64; 3]),
 }
 
-/// The size of directions, and the largest eye distance in powers of two beyond 2⁶¹.
+/// The magnitude of directions, and the largest shift of an eye (its distance in powers of two
+/// beyond 2⁶¹).
 ///
 /// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a
-/// direction 160, and the product of two such 350: 384 bits hold every decision (see
-/// [`line`](super::line)). More, and they do not; less, and narrow views lose accuracy.
+/// direction 160, and the product of two such 350: [`Digits`](super::digits) hold every decision.
+/// Larger: they do not. Smaller: narrow views lose accuracy.
 const DIRECTION: f64 = (1u64 << 50) as f64;
 const FURTHEST: u32 = 20;
 /// Points that parallel rays go through are below this in magnitude.
@@ -98,7 +99,7 @@ impl Rays {
         }
     }
 
-    /// Rays of which the middle one is given by `middle`, with pixels of size `step`.
+    /// Rays with pixels of size `step`; `middle` is the parameter of the middle one.
     fn build(
         camera: &Camera,
         pencil: Pencil,
@@ -117,7 +118,8 @@ impl Rays {
             return Err(CameraProblem::TooNarrow.into());
         }
         let integer = |v: DVec3| v.to_array().map(|c| c.round() as i64);
-        // Even steps: then the middle of the picture is where it should be, whatever its size.
+        // Even steps, so that half a step is an integer and the middle of the picture is exact,
+        // whatever the picture's size.
         let even = |v: DVec3| integer(v * 0.5).map(|c| 2 * c);
         let (right, down, middle) = (even(right), even(down), integer(middle));
         let [columns, rows] = camera.size().map(|c| i64::from(c) - 1);
@@ -132,14 +134,14 @@ impl Rays {
         Ok(Self { size, front_only, pencil, base, right, down, middle, to_picture, depth_unit })
     }
 
-    /// The same rays, that meet only the fronts of faces: the sides from which their corners run
-    /// counter-clockwise.
+    /// The same rays, restricted to meet only the fronts of faces: the sides from which their
+    /// corners run counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }
 
     /// Whether the rays meet only the fronts of faces.
-    pub(crate) fn is_front_only(&self) -> bool {
+    pub fn is_front_only(&self) -> bool {
         self.front_only
     }
 
@@ -172,8 +174,8 @@ impl Rays {
         }
     }
 
-    /// The eye relative to a lattice point, or, of parallel rays, the point that the first pixel's
-    /// goes through: each component within 2.4 roundings.
+    /// The eye relative to a lattice point; for parallel rays, the point that the first pixel's ray
+    /// goes through. Each component is within 2.4 roundings.
     ///
     /// (An integer beyond 2⁵³, rounded, less a coordinate of at most 2⁵¹.)
     #[inline]
@@ -187,18 +189,6 @@ impl Rays {
             Pencil::Along { .. } => std::array::from_fn(|i| self.base[i] as f64 - point[i]),
         }
     }
-
-    /// The scalar product of integer components below 2¹⁰⁶ and the eye.
-    pub(super) fn dot_eye(m: [i128; 3], eye: [i64; 3], shift: u32) -> Int<3> {
-        let product = dot(m, eye);
-        if shift == 0 { product } else { product.shifted(shift) }
-    }
-}
-
-/// The scalar product of components below 2¹²⁷ and below 2⁶³.
-pub(super) fn dot(m: [i128; 3], v: [i64; 3]) -> Int<3> {
-    let term = |i: usize| Int::<2>::from(m[i]).times::<1, 3>(&Int::from(v[i]));
-    term(0) + term(1) + term(2)
 }
 
 pub(super) fn float(v: [i64; 3]) -> DVec3 {

@@ -1,10 +1,12 @@
-//! The pixels of a convex region, row by row.
+//! Finds the covered pixels of a convex region, row by row.
 
 use std::ops::Range;
 
 use super::coverage::Coverage;
 
-/// Rows narrower than this are tested pixel by pixel; wider ones are first narrowed by the lines.
+/// In windows of at most this many columns every pixel is tested; in wider ones the lines first
+/// narrow each row. Smaller: the narrowing costs more than it saves; larger: more pixels are
+/// tested.
 const NARROW: u32 = 8;
 
 impl Coverage<'_> {
@@ -42,8 +44,8 @@ impl Coverage<'_> {
         }
     }
 
-    /// The columns of a row outside which nothing is covered, and those within which everything
-    /// is; the latter part of the former, or empty at its end.
+    /// Two ranges of columns of a row: no pixel outside the first is covered, and every pixel
+    /// within the second is. The second lies within the first, or is empty at its end.
     fn narrow(&self, y: u32) -> (Range<u32>, Range<u32>) {
         let Range { start, end } = self.window.columns;
         let (mut outer, mut inner) =
@@ -59,7 +61,7 @@ impl Coverage<'_> {
                 }
                 continue;
             }
-            // A pixel is more than all that the division and the bound's own rounding amount to.
+            // A margin of one pixel is more than the rounding of the division and of the bound.
             let (zero, margin) = (-value / kx, line.bound / kx.abs() + 1.0);
             if kx > 0.0 {
                 outer[0] = outer[0].max((zero - margin).floor());

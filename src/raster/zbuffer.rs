@@ -1,21 +1,25 @@
 //! The depth buffer (Catmull 1974): in each pixel the nearest face, whatever the order.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::coverage::Coverage;
+use super::digits;
+use super::exact::Plane;
 use super::image::{Image, NONE};
+use super::layers::Layers;
 use super::line::Seen;
-use super::painter::Outline;
-use super::plane::{ROUNDING, kappa, phi};
+use super::piece::Outline;
 use super::rays::Rays;
-use crate::geom::{Faces, Int, PlaneId};
+use super::sheet::ROUNDING;
+use crate::exact::Faces;
 
 /// Which face is nearest in each pixel, and how near it is.
 #[derive(Clone, Debug)]
 pub struct DepthImage {
     image: Image,
-    /// 1/t of a perspective and −t of a parallel projection, where t times what the ray is given
-    /// by leads to the face: larger is nearer.
+    /// 1/t for a perspective and −t for a parallel projection, where the ray meets the face after t
+    /// times its direction: larger is nearer.
     nearness: Vec<f64>,
     unit: f64,
     perspective: bool,
@@ -32,11 +36,11 @@ impl DepthImage {
         self.image
     }
 
-    /// How far the face in each pixel is, rounded, in world units, row by row from the top left;
-    /// infinite where there is none.
+    /// The depth of the face in each pixel, rounded, in world units, row by row from the top left;
+    /// infinite where there is no face.
     ///
-    /// It is measured along the direction in which the camera looks: from the eye, or, for
-    /// parallel rays, from the plane through the middle of the scene, and then of either sign.
+    /// Depth is measured along the direction in which the camera looks: from the eye, or, for
+    /// parallel rays, from the plane through the middle of the scene; then it may have either sign.
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
             if face == NONE {
@@ -61,8 +65,8 @@ impl Nearness {
     fn new(seen: &Seen<'_>) -> Self {
         let sheet = &seen.sheet;
         let factor = if seen.rays.is_perspective() { -1.0 } else { 1.0 } / sheet.kappa;
-        // φ is off by 12 roundings of its size, κ by 8 of its own; a few more for the quotient
-        // and the evaluation. Where κ is all rounding, nothing is known.
+        // φ is off by 12 roundings of its size, κ by 8 of its size; the quotient and the evaluation
+        // add a few more. If κ is uncertain by a quarter, nothing is known.
         let uncertainty = 9.0 * ROUNDING * sheet.kappa_size / sheet.kappa.abs();
         let error = if uncertainty < 0.25 {
             sheet.phi_size * factor.abs() * (20.0 * ROUNDING + 2.0 * uncertainty)
@@ -77,9 +81,25 @@ impl Nearness {
     }
 }
 
-/// The nearest face in each pixel. Of faces at exactly the same distance, that of the later polygon
-/// counts, as if it had been painted over the earlier one.
+/// The nearest face in each pixel. Of faces at exactly the same distance, the later polygon's wins,
+/// as if it had been painted over the earlier one.
 pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
+    zbuffer_and(rays, faces, |_, _, _| {})
+}
+
+/// The nearest face in each pixel, and all that cover it.
+pub(crate) fn zbuffer_layers(rays: &Rays, faces: &Faces) -> (DepthImage, Layers) {
+    let mut layers = Layers::new(rays);
+    let depth = zbuffer_and(rays, faces, |face, y, columns| layers.add(face, y, columns));
+    (depth, layers)
+}
+
+/// Like [`zbuffer`]; calls `also` with each face, and a row and columns that it covers.
+fn zbuffer_and(
+    rays: &Rays,
+    faces: &Faces,
+    mut also: impl FnMut(u32, u32, Range<u32>),
+) -> DepthImage {
     let mut image = Image::new(rays.size());
     let mut nearness = vec![f64::NEG_INFINITY; image.faces.len()];
     let mut errors = vec![0.0f64; image.faces.len()];
@@ -89,9 +109,12 @@ pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
         let near = Nearness::new(&coverage.seen);
         coverage.for_each_run(&mut |y, columns| {
             image.drawn += columns.len() as u64;
+            also(face, y, columns.clone());
             for x in columns {
                 let i = y as usize * width + x as usize;
                 let value = near.at(x, y);
+                // Rounded values decide if they differ by more than their errors; otherwise
+                // integers.
                 let doubt = errors[i] + near.error;
                 let wins = if image.faces[i] == NONE || value - nearness[i] > doubt {
                     true
@@ -120,8 +143,7 @@ fn is_drawn_over(rays: &Rays, faces: &Faces, face: u32, other: u32, x: u32, y: u
 
 /// Which of two faces the ray of a pixel meets first, exactly: `Greater` if it is the first.
 ///
-/// Nearness is ∓φ/κ, so this is the sign of ∓(φ_a κ_b − φ_b κ_a), times those of the two κ: 348 bits
-/// (see [`determinant`](super::plane::determinant)).
+/// Nearness is ∓φ/κ, so this is the sign of ∓(φ_a κ_b − φ_b κ_a), times the signs of both κ.
 pub(super) fn compare_nearness(
     rays: &Rays,
     faces: &Faces,
@@ -130,12 +152,13 @@ pub(super) fn compare_nearness(
     x: u32,
     y: u32,
 ) -> Ordering {
-    let [a, b] = [a, b].map(|face| faces.plane(PlaneId::face(face)));
-    let (kappa_a, kappa_b) = (kappa(rays, &a), kappa(rays, &b));
     let pixel = rays.pixel(x, y);
-    let (phi_a, phi_b) = (phi(&a, pixel), phi(&b, pixel));
-    let difference: Int<6> = phi_a.times(&kappa_b) - phi_b.times(&kappa_a);
-    let flips = [kappa_a.is_negative(), kappa_b.is_negative(), rays.is_perspective()];
+    let [a, b] = [a, b].map(|face| {
+        let plane = Plane::of(faces, face);
+        [plane.phi(pixel), plane.kappa(rays)]
+    });
+    let difference = digits::determinant([a.each_ref(), b.each_ref()]).sign();
+    let flips = [a[1].sign().is_lt(), b[1].sign().is_lt(), rays.is_perspective()];
     let flipped = flips.into_iter().fold(false, |odd, flip| odd != flip);
-    if flipped { difference.sign().reverse() } else { difference.sign() }
+    if flipped { difference.reverse() } else { difference }
 }

@@ -6,10 +6,10 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// Most polygons of a generated scene: about 2 GB of corners.
+/// The largest number of polygons of a generated scene: about 2 GB of corners.
 const MOST: u32 = 20_000_000;
 
-/// The distance of neighbours in the built-in scene `layers`, of side 2.
+/// The distance between neighbouring layers in the built-in scene `layers`, whose side is 2.
 const LAYER_GAP: f64 = 1e-4;
 
 /// The generated scenes, by name.
@@ -39,7 +39,7 @@ pub enum Builtin {
 
 impl Builtin {
     /// Every scene, in the order in which to list them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: &'static [Self] = &[
         Self::Newell,
         Self::Cornell,
         Self::Teapot,
@@ -97,7 +97,7 @@ impl Builtin {
         }
     }
 
-    /// The size where none is asked for; `None` for scenes of one size.
+    /// The default size; `None` for scenes of one size.
     pub fn default_size(self) -> Option<u32> {
         match self {
             Self::Newell | Self::Cornell => None,
@@ -112,8 +112,7 @@ impl Builtin {
         }
     }
 
-    /// The sizes that can be asked for; `None` for scenes of one size. At most
-    /// about 20 million polygons.
+    /// The range of valid sizes; `None` for scenes of one size. At most about 20 million polygons.
     pub fn sizes(self) -> Option<RangeInclusive<u32>> {
         match self {
             Self::Newell | Self::Cornell => None,
@@ -128,8 +127,8 @@ impl Builtin {
         matches!(self, Self::Terrain | Self::City | Self::Random)
     }
 
-    /// Generates the scene. A size outside [`sizes`](Self::sizes) is brought
-    /// within; scenes of one size ignore it, and unseeded ones the seed.
+    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of one
+    /// size ignore the size, and unseeded scenes the seed.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
         let size = match (self.sizes(), size.or(self.default_size())) {
             (Some(sizes), Some(size)) => size.clamp(*sizes.start(), *sizes.end()),
@@ -162,7 +161,8 @@ impl FromStr for Builtin {
     /// Reads a bare name; [`BuiltinSpec`] reads a name with a size.
     fn from_str(text: &str) -> Result<Self, BuiltinError> {
         Self::ALL
-            .into_iter()
+            .iter()
+            .copied()
             .find(|scene| scene.name() == text)
             .ok_or_else(|| BuiltinError(Kind::Name(text.to_owned())))
     }
@@ -259,7 +259,8 @@ impl fmt::Display for BuiltinError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Kind::Name(name) => {
-                let names = Builtin::ALL.map(Builtin::name).join(", ");
+                let names =
+                    Builtin::ALL.iter().map(|scene| scene.name()).collect::<Vec<_>>().join(", ");
                 write!(f, "no built-in scene is called {name:?}; there are {names}")
             }
             Kind::OneSize(scene) => {
@@ -269,7 +270,7 @@ impl fmt::Display for BuiltinError {
                 let (low, high) = scene.sizes().unwrap_or(1..=1).into_inner();
                 write!(
                     f,
-                    "{digits:?} is no size for the scene {scene}; give a whole number from {low} \
+                    "{digits:?} is not a size of the scene {scene}; give a whole number from {low} \
                      to {high}, such as {scene}:{}",
                     scene.default_size().unwrap_or(low)
                 )

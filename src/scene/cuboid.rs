@@ -2,7 +2,7 @@ use glam::DVec3;
 
 /// The six rectangles of an axis-aligned box, counter-clockwise from outside,
 /// in the order −x +x −y +y −z +z.
-pub(super) fn cuboid(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
+pub fn cuboid(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
     let corner = |x: bool, y: bool, z: bool| {
         DVec3::new(
             if x { high.x } else { low.x },

@@ -21,7 +21,7 @@ impl Material {
 
     /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito,
     /// "Color Universal Design", 2008, with grey in place of black.
-    pub(super) fn palette() -> impl Iterator<Item = Self> {
+    pub fn palette() -> impl Iterator<Item = Self> {
         const PALETTE: [(&str, [u8; 3]); 8] = [
             ("orange", [230, 159, 0]),
             ("sky blue", [86, 180, 233]),

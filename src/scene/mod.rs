@@ -16,8 +16,7 @@ mod chain;
 mod city;
 mod cornell;
 mod crossing;
-mod cuboid;
-mod family;
+pub(crate) mod cuboid;
 mod layers;
 mod material;
 mod newell;
@@ -27,14 +26,13 @@ mod random;
 mod sphere;
 mod teapot;
 mod terrain;
-mod turn;
+pub(crate) mod turn;
 
 pub use builtin::{Builtin, BuiltinError, BuiltinSpec};
 pub use chain::chain;
 pub use city::city;
 pub use cornell::cornell_box;
 pub use crossing::crossing;
-pub use family::{Family, FamilyError};
 pub use layers::layers;
 pub use material::Material;
 pub use newell::newell_bars;
@@ -50,8 +48,8 @@ use glam::DVec3;
 /// Polygons with colours.
 ///
 /// Polygons are numbered from 0 in the order in which they were pushed. A scene
-/// holds whatever it is given: polygons of fewer than three corners, zero area
-/// or non-finite coordinates are for the tree builder to judge.
+/// accepts everything: the tree builder decides about polygons of fewer than three corners, without
+/// area or with non-finite coordinates.
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -65,7 +63,7 @@ use glam::DVec3;
 /// assert_eq!(scene.material(0).name, "red");
 /// ```
 ///
-/// Scenes are equal that hold the same, whichever lines of a file it is from.
+/// Two scenes are equal if they hold the same, even if it is from different lines of a file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     name: String,
@@ -183,15 +181,15 @@ impl Scene {
         self.up
     }
 
-    /// The least and the greatest corner of the axis-aligned box around all
-    /// polygons; `None` without corners. Takes time linear in the corners.
+    /// The least and the greatest corner of the bounding box of all polygons; `None` without
+    /// corners. O(n) in the corners.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let (&first, rest) = self.corners.split_first()?;
         Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
-    /// An eye point and a point to look at, for scenes with a usual or
-    /// necessary view, such as the Cornell box through its open side.
+    /// An eye point and a point to look at, for scenes that have a usual or only possible view,
+    /// such as the Cornell box through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
     }

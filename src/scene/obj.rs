@@ -1,9 +1,9 @@
 //! Wavefront OBJ files as scenes.
 
 mod error;
+mod lines;
 mod material;
 mod report;
-mod scan;
 mod text;
 
 pub use error::ObjError;
@@ -12,8 +12,8 @@ pub use report::ObjReport;
 use super::{Material, Scene};
 use error::Kind;
 use glam::DVec3;
+use lines::Scan;
 use material::Look;
-use scan::Scan;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -24,17 +24,22 @@ impl Scene {
     /// 0, with all its corners, in whatever object or group it stands. A face of
     /// fewer than three different corners stays in its place and is counted in
     /// the report; faces that are given twice, not convex or not planar stay as
-    /// they are, for the tree builder to judge. Points, lines, curves, normals and texture coordinates are left out, and so is the
-    /// weight or colour behind the three coordinates of a `v` line. A line that
-    /// ends in a backslash goes on in the next.
+    /// they are, for the tree builder to judge. Points, lines, curves, normals and
+    /// texture coordinates are left out, and so is the weight or colour behind the
+    /// three coordinates of a `v` line. A line that ends in a backslash goes on in
+    /// the next.
+    ///
+    /// Coordinates are read as `f64`. Up is y, as OBJ files do not say.
     ///
     /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d`
     /// or `Tr` as opacity. A library that is missing or unreadable is no error;
     /// its materials show as [`Material::DEFAULT`], and the report says so.
-    /// Libraries are looked for beside the file, and only regular files are read.
     ///
-    /// Coordinates are read by `tobj`: in 32 bits, or in 64 where anything in the
-    /// build turns on its feature `use_f64`. Up is y, as OBJ files do not say.
+    /// Libraries are read from the file's folder and the folders in it. A name
+    /// that leads out of it, because it is absolute or contains `..`, is not
+    /// followed, and the report lists it. (Symbolic links are followed: they were
+    /// put there by whoever owns the folder, not by the file.) Only regular files
+    /// are read.
     ///
     /// # Errors
     ///
@@ -57,7 +62,8 @@ impl Scene {
     /// Reads the text of an OBJ file as [`read_obj`](Self::read_obj) does.
     ///
     /// `name` becomes the scene's name and stands in errors. `library` gives the
-    /// content of a material library by the name used in the text, or `None`.
+    /// content of a material library by the name used in the text, or `None`;
+    /// it is never asked for a name that is absolute or contains `..`.
     ///
     /// # Errors
     ///
@@ -116,7 +122,7 @@ fn load(scan: &Scan) -> Result<Polygons, ObjError> {
         sides: Vec::with_capacity(scan.report.faces as usize),
     };
     for mesh in models.iter().map(|model| &model.mesh) {
-        let points: Vec<DVec3> = mesh.positions.chunks_exact(3).map(point).collect();
+        let points: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
         let corners = mesh.indices.iter().filter_map(|&i| points.get(i as usize));
         polygons.corners.extend(corners);
         if mesh.face_arities.is_empty() {
@@ -138,11 +144,6 @@ fn load(scan: &Scan) -> Result<Polygons, ObjError> {
         return Err(Kind::Reader(problem).at(None, None));
     }
     Ok(polygons)
-}
-
-/// Generic because tobj's number type is `f32` or `f64` by its features.
-fn point<T: Copy + Into<f64>>(xyz: &[T]) -> DVec3 {
-    DVec3::new(xyz[0].into(), xyz[1].into(), xyz[2].into())
 }
 
 fn is_degenerate(polygon: &[DVec3]) -> bool {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 ///
 /// Not `f64::sin_cos`, whose last bits depend on the platform. The circle's
 /// eightfold symmetry is kept exactly: quarter turns give exact zeros and ones.
-pub(super) fn unit_circle(step: u64, steps: u64) -> DVec2 {
+pub fn unit_circle(step: u64, steps: u64) -> DVec2 {
     let eighths = 8 * (step % steps);
     let (octant, rest) = (eighths / steps, eighths % steps);
     // Odd octants are mirror images: measure back from their end.

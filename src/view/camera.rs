@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::error::{CameraError, Kind};
-use crate::geom::Viewpoint;
+use crate::viewpoint::Viewpoint;
 
 /// A camera: a viewpoint, an orientation, and a picture's size in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,11 +28,11 @@ pub enum Projection {
     },
     /// Along a direction, from infinitely far away.
     Parallel {
-        /// The direction in which the camera looks, as it was given.
+        /// The direction in which the camera looks, not normalised.
         direction: DVec3,
         /// The point in the middle of the picture.
         centre: DVec3,
-        /// The length that the picture is high.
+        /// The picture's height, a length in the world.
         height: f64,
     },
 }
@@ -67,8 +67,8 @@ impl Camera {
         Self::perspective_by_slope(eye, target, up, half_height, size)
     }
 
-    /// A perspective camera whose field of view is given by the tangent of half of it, which, other
-    /// than an angle's, is the same to the last bit on every machine.
+    /// A perspective camera with a given tangent of half the vertical field of view. Unlike an
+    /// angle, which must be converted, it gives the same bits on every machine.
     ///
     /// # Errors
     ///
@@ -126,11 +126,12 @@ impl Camera {
         let sides = 1..=Self::MAX_SIDE;
         let pixels = u64::from(width) * u64::from(height);
         if !sides.contains(&width) || !sides.contains(&height) || pixels > Self::MAX_PIXELS {
-            return Err(Kind::Size { width, height }.into());
+            let (max_side, max_pixels) = (Self::MAX_SIDE, Self::MAX_PIXELS);
+            return Err(Kind::Size { size: [width, height], max_side, max_pixels }.into());
         }
         let forward = unit(view).ok_or(Kind::NoDirection)?;
         let side = forward.cross(unit(up).ok_or(Kind::UpAlongView)?);
-        // Less, and the picture's orientation is the rounding of its input.
+        // Smaller: rounding would decide the picture's orientation.
         if side.length() < 1e-9 {
             return Err(Kind::UpAlongView.into());
         }
@@ -167,12 +168,12 @@ impl Camera {
         self.up
     }
 
-    /// The unit vector in which the camera looks.
+    /// The unit vector in the direction in which the camera looks.
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
-    /// The side of a pixel: at distance 1 from the eye, or, of a parallel camera, a length.
+    /// The side of a pixel: at distance 1 from the eye, or, for a parallel camera, at any distance.
     pub fn pixel_size(&self) -> f64 {
         let span = match self.projection {
             Projection::Perspective { half_height, .. } => 2.0 * half_height,
@@ -181,7 +182,7 @@ impl Camera {
         span / f64::from(self.size[1])
     }
 
-    /// The same view for a picture of another size; the field of view up and down stays.
+    /// The same view with a picture of another size; the vertical field of view stays.
     ///
     /// # Errors
     ///
@@ -191,7 +192,7 @@ impl Camera {
     }
 }
 
-/// The unit vector along a vector, of any size that `f64` can express; `None` for zero.
+/// The unit vector along a vector of any length that `f64` can express; `None` for zero.
 pub(super) fn unit(v: DVec3) -> Option<DVec3> {
     let size = v.abs().max_element();
     if size > 0.0 && size.is_finite() { Some((v / size).normalize()) } else { None }

@@ -1,12 +1,11 @@
-//! From the world onto the picture.
+//! Projects points and clips polygons to the picture.
 
 use glam::DVec3;
 
 use super::camera::{Camera, Projection};
 
-/// The nearest that a clipped polygon comes to the eye's plane, as a share of its furthest
-/// vertex's distance. Larger, and what is near the eye goes missing; smaller, and coordinates
-/// before clipping lose their digits.
+/// Polygons are clipped at this distance from the eye's plane, as a share of the distance of their
+/// furthest vertex. Larger: parts near the eye are missing. Smaller: coordinates lose digits.
 const NEAR: f64 = 1e-9;
 
 impl Camera {
@@ -28,8 +27,8 @@ impl Camera {
         )
     }
 
-    /// Where on the picture a point comes to lie, in pixels, outside the picture too; `None` for
-    /// a point that is not in front of the eye.
+    /// Where in the picture a point appears, in pixels; it may be outside the picture. `None` for a
+    /// point that is not in front of the eye.
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
         let [x, y, w] = self.homogeneous(point).to_array();
         let position = [x / w, y / w];
@@ -37,9 +36,9 @@ impl Camera {
         seen.then_some(position)
     }
 
-    /// The part of a convex polygon that the picture shows, in pixels; empty if none.
+    /// The part of a convex polygon that the picture shows, in pixels; empty if it shows none.
     ///
-    /// Polygons that share an edge share the clipped edge's ends, but for rounding.
+    /// Polygons that share an edge also share the ends of the clipped edge, up to rounding.
     pub fn clip(&self, polygon: &[DVec3]) -> Vec<[f64; 2]> {
         let mut here: Vec<DVec3> = polygon.iter().map(|&point| self.homogeneous(point)).collect();
         let furthest = here.iter().fold(0.0f64, |max, vertex| max.max(vertex.z));
@@ -69,7 +68,7 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
             kept.push(here);
         }
         if (a >= 0.0) != (b >= 0.0) {
-            // From the inner end, whichever way the edge runs.
+            // Always from the inner end, so that both polygons at the edge compute the same.
             let (inner, outer, a, b) =
                 if a >= 0.0 { (here, next, a, b) } else { (next, here, b, a) };
             kept.push(inner + (outer - inner) * (a / (a - b)));

@@ -1,4 +1,4 @@
-//! Why there is no such camera.
+//! Why a camera cannot be made.
 
 use std::fmt;
 
@@ -15,7 +15,7 @@ pub(crate) enum Kind {
     UpAlongView,
     FieldOfView,
     Height,
-    Size { width: u32, height: u32 },
+    Size { size: [u32; 2], max_side: u32, max_pixels: u64 },
     TooFar,
     TooNarrow,
     TooWide,
@@ -30,7 +30,7 @@ impl From<Kind> for CameraError {
 impl fmt::Display for CameraError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.kind {
-            Kind::NonFinite => f.write_str("the camera has a number that is infinite or not one"),
+            Kind::NonFinite => f.write_str("a camera parameter is NaN or infinite"),
             Kind::NoDirection => f.write_str(
                 "the camera looks nowhere: its eye and target are the same, or its direction is \
                  zero",
@@ -42,12 +42,10 @@ impl fmt::Display for CameraError {
                 f.write_str("the field of view must be more than 0 and less than π radians")
             }
             Kind::Height => f.write_str("the height that a parallel camera shows must be positive"),
-            Kind::Size { width, height } => write!(
+            Kind::Size { size: [width, height], max_side, max_pixels } => write!(
                 f,
-                "a picture must have 1 to {} pixels each way and at most {} in all, not \
-                 {width}x{height}",
-                super::Camera::MAX_SIDE,
-                super::Camera::MAX_PIXELS
+                "a picture must have 1 to {max_side} pixels each way and at most {max_pixels} in all, not \
+                 {width}x{height}"
             ),
             Kind::TooFar => f.write_str("the eye is too far from the scene: use a parallel camera"),
             Kind::TooNarrow => f.write_str(

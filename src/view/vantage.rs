@@ -1,4 +1,4 @@
-//! Where to look at a scene from, if nobody says.
+//! Chooses cameras for a scene when the caller names none.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::random::SplitMix64;
 
 /// The field of view of cameras that stand around a scene, in radians.
 const AROUND: f64 = 0.7;
-/// The share of the picture that stays free around a scene that is to show whole.
+/// The share of the picture left free around a scene that is shown whole.
 const BORDER: f64 = 0.05;
 /// The field of view of cameras inside: wide, as a room has to be seen from within.
 const INSIDE: f64 = 1.4;
@@ -60,8 +60,8 @@ pub fn views(
         .collect()
 }
 
-/// A camera that looks at the middle of a box `from` a direction; at distance 1 all of the box just
-/// shows.
+/// A camera that looks at the middle of a box from the direction `from`. At distance 1 the box just
+/// fits the picture.
 fn around(
     [min, max]: [DVec3; 2],
     up: DVec3,
@@ -79,7 +79,8 @@ fn around(
     let [width, height] = size.map(f64::from);
     let rise = (AROUND * 0.5).tan() * (1.0 - BORDER);
     let run = rise * width / height;
-    // A corner at c from the centre is at depth d − c·from: it must be within the slopes there.
+    // A corner at c from the centre has depth d − c·from, and must lie within the picture's slopes
+    // there.
     let needs = |corner: usize| {
         let sign = |axis: usize| if corner >> axis & 1 == 0 { 1.0 } else { -1.0 };
         let c = half / largest * DVec3::new(sign(0), sign(1), sign(2));
@@ -90,7 +91,7 @@ fn around(
     Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
 }
 
-/// A camera in the middle four fifths of a box that looks at another point of it.
+/// A camera at a point in the middle four fifths of a box that looks at another point there.
 fn inside(
     [min, max]: [DVec3; 2],
     up: DVec3,
@@ -104,7 +105,7 @@ fn inside(
     let (eye, target) = (point(), point());
     let (side, ahead) = across(up);
     let camera = Camera::perspective(eye, target, up, INSIDE, size);
-    // In a box without extent the two points are one, or one above the other.
+    // In a box without extent the two points coincide, or one is straight above the other.
     camera.or_else(|_| around([min, max], up, ahead + side, 0.1, size))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::{read_with, with_corners};
 use binspace::scene::{Material, Scene};
+use std::path::Path;
 
 #[test]
 fn materials_come_from_the_library() {
@@ -39,6 +40,31 @@ fn several_libraries_may_stand_in_one_line() {
     let (scene, report) = read_with(&text, &[("a.mtl", ""), ("sub/b.mtl", "newmtl red\nKd 1 0 0")]);
     assert_eq!(scene.material(0).color, [1.0, 0.0, 0.0]);
     assert_eq!(report.missing_libraries, ["a.mtl sub\\b.mtl"]);
+}
+
+#[test]
+fn libraries_that_lead_out_of_the_folder_are_never_asked_for() {
+    for (name, asked) in [
+        ("../a.mtl", vec![]),
+        ("sub/../../a.mtl", vec![]),
+        ("/etc/passwd", vec![]),
+        ("..", vec![]),
+        // Where a backslash is no separator, it may stand in a name.
+        ("..\\a.mtl", if cfg!(windows) { vec![] } else { vec!["..\\a.mtl"] }),
+        ("a.mtl ../b.mtl", vec!["a.mtl ../b.mtl", "a.mtl"]),
+    ] {
+        let mut names = Vec::new();
+        let text = with_corners(&format!("mtllib {name}\nusemtl red\nf 1 2 3"));
+        let library = |path: &Path| {
+            names.push(path.to_str().unwrap().to_owned());
+            None
+        };
+        let (_, report) = Scene::from_obj("s", text.as_bytes(), library).expect("a scene");
+        assert_eq!(names, asked, "{name}");
+        assert_eq!(report.outside_libraries, [name]);
+        assert!(report.missing_libraries.is_empty());
+        assert!(report.to_string().contains("outside the file's folder, not read: "), "{report}");
+    }
 }
 
 /// `tobj` panics on a `Kd` of one number and drops the library for any bad line.

@@ -2,8 +2,8 @@
 
 use super::model::Face;
 use super::rational::{self, Point};
-use binspace::geom::Faces;
 use binspace::glam::DVec3;
+use binspace::internals::Faces;
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;

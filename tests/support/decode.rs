@@ -1,4 +1,4 @@
-//! Bytes to scenes: corners that coincide, or nearly do, with what is there already.
+//! Decodes bytes into scenes whose corners coincide, or nearly do, with earlier ones.
 
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
@@ -81,7 +81,7 @@ fn number(bytes: &mut Unstructured<'_>) -> Result<DVec3> {
 
 /// Options with any heuristic; a third each with the default tolerance, none, and some.
 pub(crate) fn options(bytes: &mut Unstructured<'_>) -> Result<BuildOptions> {
-    let options = BuildOptions::DEFAULT.with_heuristic(*bytes.choose(&Heuristic::ALL)?);
+    let options = BuildOptions::DEFAULT.with_heuristic(*bytes.choose(Heuristic::ALL)?);
     Ok(match bytes.int_in_range(0..=2u8)? {
         0 => options,
         1 => options.with_tolerance(0.0),

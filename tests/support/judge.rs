@@ -1,21 +1,22 @@
-//! Whether a tree's fragments are what they should be, in exact rationals.
+//! Checks a tree's fragments in exact rationals.
 //!
-//! A fragment's vertices are taken from the lines that bound it, not from the library's own
-//! definition of them, and every decision is made anew.
+//! A fragment's vertices are computed from the lines that bound it, not from the library's own
+//! definition of them, and every decision is made again.
 
 use super::homogeneous::{self, Homogeneous};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
-use binspace::geom::{Lattice, Line, Side, Symbol};
 use binspace::glam::DVec3;
+use binspace::internals::{Lattice, Line, Side, Symbol};
 use binspace::{BspTree, Fragment};
 use num_traits::{One, Zero};
 
 /// What is wrong, in words.
 pub(crate) type Verdict = Result<(), String>;
 
-/// What a library vertex may be off by, in lattice units, as its documentation says.
-const POSITION_ERROR: f64 = 1.5;
+/// What a library vertex may be off by, in lattice units, as its documentation says: three
+/// roundings of a coordinate a little beyond 2⁵¹.
+const POSITION_ERROR: f64 = 0.77;
 
 /// A fragment in rationals.
 struct Piece {
@@ -77,7 +78,9 @@ impl<'t> Judge<'t> {
     fn outlines(&self) -> Verdict {
         for (fragment, face, piece) in self.with_pieces() {
             let n = piece.points.len();
-            ensure(n >= 3 && n == fragment.len(), || format!("{n} vertices: {fragment:?}"))?;
+            ensure(n >= 3 && n == fragment.vertex_count(), || {
+                format!("{n} vertices: {fragment:?}")
+            })?;
             for (exact, rounded) in piece.points.iter().zip(fragment.lattice_vertices()) {
                 let off = rational::distance_to_rounded(exact, rounded);
                 ensure(off <= POSITION_ERROR, || format!("off by {off}: {fragment:?}"))?;
@@ -136,7 +139,7 @@ impl<'t> Judge<'t> {
     fn sides(&self) -> Verdict {
         let faces = self.tree.faces();
         for partition in self.tree.partitions() {
-            let by = model::plane(faces, partition.plane);
+            let by = model::plane(faces, partition.plane());
             let groups = [
                 (partition.on.clone(), Side::Coplanar),
                 (partition.front.clone(), Side::Front),
@@ -149,7 +152,7 @@ impl<'t> Judge<'t> {
                     let side = |p: &Homogeneous| Rational::from_integer(p.side(&by));
                     let values: Vec<Rational> = piece.flat.iter().map(side).collect();
                     let exact = &self.faces[face as usize];
-                    let allowed = exact.classify((faces, face), (partition.plane, &by), &values);
+                    let allowed = exact.classify((faces, face), (partition.plane(), &by), &values);
                     ensure(allowed.contains(&expected), || {
                         format!("fragment {id} is {allowed:?} at {partition:?}")
                     })?;
@@ -213,7 +216,7 @@ fn along(face: &Face, edge: usize, point: &Point) -> Rational {
 }
 
 /// The vertex where two lines that follow one another around a piece meet.
-fn meeting(before: Line, after: Line, corners: u32) -> Symbol {
+pub(crate) fn meeting(before: Line, after: Line, corners: u32) -> Symbol {
     match (before.as_edge(), before.as_cut(), after.as_cut()) {
         (_, _, Some(plane)) => Symbol::crossing(before, plane),
         (_, Some(plane), None) => Symbol::crossing(after, plane),

@@ -1,4 +1,4 @@
-//! What several test programs share: hard scenes, and an exact model to hold the library against.
+//! Shared by several test programs: hard scenes, and an exact model to compare the library with.
 
 #![allow(dead_code, reason = "every test program uses its own part")]
 
@@ -14,5 +14,6 @@ pub(crate) mod rational;
 pub(crate) mod rays;
 pub(crate) mod shapes;
 pub(crate) mod snapshot;
+pub(crate) mod tally;
 pub(crate) mod targets;
 pub(crate) mod views;

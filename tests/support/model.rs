@@ -3,7 +3,7 @@
 //! Sutherland–Hodgman.
 
 use super::rational::{self, Plane, Point, Rational};
-use binspace::geom::{Faces, Line, PlaneId, PlaneKind, Side, Symbol, SymbolKind};
+use binspace::internals::{Faces, Line, PlaneId, PlaneKind, Side, Symbol, SymbolKind};
 use num_traits::{Signed, ToPrimitive};
 use std::cmp::Ordering;
 
@@ -108,7 +108,7 @@ fn by_vertices(values: &[Rational]) -> Side {
 }
 
 /// The tolerance in the unit of a plane's value: rounded down to an integer, and not.
-fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
+pub(crate) fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
     let square = rational::scalar(&plane.normal, &plane.normal);
     let length = square.to_f64().expect("in range").sqrt() * tolerance;
     let share = 2f64.powi(-49);

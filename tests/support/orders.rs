@@ -1,14 +1,13 @@
-//! Whether all forms of an order are the same.
+//! Checks that all forms of an order are the same.
 
 use super::judge::{Verdict, ensure};
-use binspace::geom::{Kernel, Viewpoint};
-use binspace::{BspTree, Fragment};
+use binspace::{BspTree, Fragment, Viewpoint};
 use std::ops::ControlFlow;
 
 /// Every fragment once; iterator, visitor and index form alike, both ways; and a visitor that
 /// breaks off sees no more.
-pub(crate) fn check<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint) -> Verdict {
-    let id = |fragment: Fragment<'_, K>| fragment.index();
+pub(crate) fn check(tree: &BspTree, viewpoint: Viewpoint) -> Verdict {
+    let id = |fragment: Fragment<'_>| fragment.index();
     let mut far_first = vec![7; 3];
     tree.back_to_front_into(viewpoint, &mut far_first);
     let mut sorted = far_first.clone();

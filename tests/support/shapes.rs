@@ -16,7 +16,7 @@ pub(crate) fn square(turn: DMat3, centre: DVec3) -> Corners {
         .to_vec()
 }
 
-/// Two triangles with a common edge, an angle apart that is next to none.
+/// Two triangles with a common edge and a very small angle between them.
 pub(crate) fn near_coplanar_pair(turn: DMat3, angle: f64, shift: DVec3) -> Vec<Corners> {
     let base = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 0.25, 0.0), DVec3::new(0.0, 1.0, 0.0)];
     let tilt = DMat3::from_rotation_x(angle);
@@ -109,7 +109,7 @@ pub(crate) fn resting_on([a, b, c]: [DVec3; 3], weights: [[i32; 2]; 2], apex: DV
     vec![on(weights[0]), on(weights[1]), apex]
 }
 
-/// The same value, so many representable ones further on.
+/// The representable value a number of steps away from `value`.
 pub(crate) fn ulps_from(value: f64, steps: i32) -> f64 {
     let step = |v: f64| if steps > 0 { v.next_up() } else { v.next_down() };
     (0..steps.abs()).fold(value, |v, _| step(v))

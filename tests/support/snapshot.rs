@@ -1,37 +1,44 @@
-//! Everything a tree says about itself, to be compared bit for bit.
+//! A tree's planes and fragments, for comparing trees bit for bit.
 
-use binspace::geom::{Kernel, Line, Viewpoint};
-use binspace::{BspTree, Partition};
+use binspace::BspTree;
+use binspace::internals::{Line, PlaneId, Viewpoint};
+use std::ops::Range;
 
 /// A fragment: its face, its polygon, its lines, its vertices in lattice units.
 type Piece = (u32, usize, Vec<Line>, Vec<[u64; 3]>);
 
+/// A partition plane by its name, its depth, and the fragments on it, in front and behind.
+type Node = (PlaneId, usize, [Range<u32>; 3]);
+
 /// A tree's planes and fragments.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Snapshot {
-    pub(crate) partitions: Vec<Partition>,
+    pub(crate) partitions: Vec<Node>,
     pub(crate) pieces: Vec<Piece>,
 }
 
 impl Snapshot {
-    pub(crate) fn of<K: Kernel>(tree: &BspTree<K>) -> Self {
+    pub(crate) fn of(tree: &BspTree) -> Self {
         let bits = |p: [f64; 3]| p.map(f64::to_bits);
         let pieces = tree.fragments().map(|fragment| {
             let vertices = fragment.lattice_vertices().map(bits).collect();
             (fragment.face(), fragment.polygon(), fragment.lines().collect(), vertices)
         });
-        Self { partitions: tree.partitions().collect(), pieces: pieces.collect() }
+        let partitions = tree
+            .partitions()
+            .map(|p| (p.plane(), p.depth, [p.on.clone(), p.front.clone(), p.back]));
+        Self { partitions: partitions.collect(), pieces: pieces.collect() }
     }
 }
 
 /// The fragments' numbers, back to front.
-pub(crate) fn order<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint) -> Vec<u32> {
+pub(crate) fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     order
 }
 
 /// The fragments' polygons, back to front.
-pub(crate) fn polygons<K: Kernel>(tree: &BspTree<K>, viewpoint: Viewpoint) -> Vec<usize> {
+pub(crate) fn polygons(tree: &BspTree, viewpoint: Viewpoint) -> Vec<usize> {
     order(tree, viewpoint).into_iter().map(|id| tree.fragment(id).polygon()).collect()
 }

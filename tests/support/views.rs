@@ -1,10 +1,10 @@
-//! Viewpoints that are known exactly, many of them where a plane or a corner is.
+//! Exactly known viewpoints, many of them on a plane or a corner.
 
 use super::dice::Dice;
 use super::rational::{self, Plane, Point, Rational};
 use super::rays::{Rays, Vector, vector};
-use binspace::geom::{Faces, Viewpoint};
 use binspace::glam::DVec3;
+use binspace::internals::{Faces, Viewpoint};
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::cmp::Ordering;
@@ -66,7 +66,8 @@ fn whole_direction(direction: DVec3) -> DVec3 {
 }
 
 /// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond
-/// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a point.
+/// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a
+/// point.
 pub(crate) fn rounded_eye(point: [f64; 3]) -> Option<Point> {
     if point.iter().any(|c| c.is_infinite()) {
         return None;

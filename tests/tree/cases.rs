@@ -28,7 +28,7 @@ fn build(by: Heuristic, polygons: &[Square]) -> BspTree {
 #[test]
 fn three_parallel_squares_come_by_depth() {
     let squares = [5.0, -2.0, 1.0].map(|z| square(2, [0.0, 0.0, z]));
-    for by in Heuristic::ALL {
+    for &by in Heuristic::ALL {
         let tree = build(by, &squares);
         assert_eq!(tree.len(), 3, "{by}");
         let order = |viewpoint| polygons(&tree, viewpoint);
@@ -46,7 +46,7 @@ fn three_parallel_squares_come_by_depth() {
 #[test]
 fn two_crossing_squares_make_three_pieces() {
     let squares = [square(0, [0.0; 3]), square(1, [0.0; 3])];
-    for by in Heuristic::ALL {
+    for &by in Heuristic::ALL {
         let tree = build(by, &squares);
         assert_eq!(tree.len(), 3, "{by}");
         let whole = tree.fragments().filter(|fragment| fragment.is_whole()).count();
@@ -88,7 +88,7 @@ fn coplanar_squares_come_in_input_order_from_both_sides_whichever_way_they_wind(
                 square
             })
             .collect();
-        for by in Heuristic::ALL {
+        for &by in Heuristic::ALL {
             let tree = build(by, &squares);
             for z in [9.0, -9.0, 1.0] {
                 let order = polygons(&tree, Viewpoint::eye([0.5, 0.5, z]));

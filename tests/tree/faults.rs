@@ -6,7 +6,6 @@ use binspace::glam::DVec3;
 
 /// Convexity was tested along one of two axes in which the plane is equally steep, and the corners
 /// moved onto the plane along the other.
-#[cfg(feature = "triangulate")] // off the plane beyond the tolerance
 #[test]
 fn corners_moved_onto_a_plane_leave_the_face_convex() {
     let octagon = [

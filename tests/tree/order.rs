@@ -7,8 +7,8 @@ use crate::support::rational::Plane;
 use crate::support::views::View;
 use crate::support::{model, orders};
 use crate::{build, fail};
-use binspace::geom::Faces;
 use binspace::glam::DVec3;
+use binspace::internals::Faces;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, Heuristic, Partition};
 use proptest::prelude::*;
@@ -26,7 +26,7 @@ struct Sides<'t> {
 impl<'t> Sides<'t> {
     fn new(tree: &'t BspTree) -> Self {
         let plane = |partition: Partition| {
-            let plane = model::plane(tree.faces(), partition.plane);
+            let plane = model::plane(tree.faces(), partition.plane());
             (partition, plane)
         };
         Self { tree, planes: tree.partitions().map(plane).collect(), counts: [0; 3] }
@@ -41,7 +41,8 @@ impl<'t> Sides<'t> {
         order.enumerate().for_each(|(at, fragment)| place[fragment.index() as usize] = at);
         let places = |ids: &Range<u32>| place[ids.start as usize..ids.end as usize].iter();
         let is_before = |a, b| places(a).max().zip(places(b).min()).is_none_or(|(a, b)| a < b);
-        for (Partition { on, front, back, plane: id, .. }, plane) in &self.planes {
+        for (partition, plane) in &self.planes {
+            let (id, Partition { on, front, back, .. }) = (partition.plane(), partition);
             let go = |far, near| is_before(far, near) && is_before(far, on) && is_before(on, near);
             let side = view.side(plane);
             self.counts[(side as i8 + 1) as usize] += 1;
@@ -141,7 +142,7 @@ fn eyes_far_away_and_on_planes_are_on_the_sides_that_rationals_say() {
 fn every_plane_has_something_on_it_or_on_both_sides() {
     let scenes = [scene::sphere(900), scene::random_triangles(300, 8), scene::teapot(4)];
     for scene in scenes {
-        for by in Heuristic::ALL {
+        for &by in Heuristic::ALL {
             let tree = BuildOptions::DEFAULT.with_heuristic(by).build(scene.polygons()).unwrap();
             for Partition { on, front, back, .. } in tree.partitions() {
                 assert!(!on.is_empty() || !front.is_empty() && !back.is_empty(), "{by}");

@@ -10,6 +10,7 @@ use proptest::test_runner::TestCaseError;
 use crate::support::dice::Dice;
 use crate::support::hard::{self, HardScene, Tolerance};
 use crate::support::rays::Rays;
+use crate::support::tally::tally;
 use crate::support::views::some_view;
 
 const SIZE: [u32; 2] = [40, 30];
@@ -49,52 +50,84 @@ fn check(tree: &BspTree, camera: &Camera) -> Result<Option<Verification>, TestCa
     let [holes, spills] = [result.comparison.holes, result.comparison.spills];
     let wrong = (result.comparison.wrong_order, holes, spills);
     prop_assert_eq!(wrong, (0, 0, 0), "wrong order, holes, spills from {:?}", camera);
+    prop_assert_eq!(result.miscounted, 0, "painted more than once or never from {:?}", camera);
+    prop_assert!(result.is_right(), "{:?} from {:?}", result.orders, camera);
     Ok(Some(result))
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+/// What pictures were compared, and how many pixels of them.
+#[derive(Default)]
+struct Compared {
+    pictures: usize,
+    pixels: usize,
+    contested: usize,
+}
 
-    #[test]
-    fn the_painter_shows_what_the_depth_buffer_sees(
-        scene in hard::scene(),
-        by in prop::sample::select(&Heuristic::ALL[..]),
-        seed in any::<u64>(),
-        exactly in any::<bool>(),
-    ) {
+impl Compared {
+    fn add(&mut self, result: Option<&Verification>) {
+        let Some(result) = result else { return };
+        let covered = |verdict: &&Verdict| **verdict != Verdict::Empty;
+        self.pictures += 1;
+        self.pixels += result.comparison.verdicts.iter().filter(covered).count();
+        let contested = |verdict: &&Verdict| **verdict == Verdict::Contested;
+        self.contested += result.comparison.verdicts.iter().filter(contested).count();
+    }
+
+    /// So many pictures, and a tenth of their pixels not empty nor contested.
+    fn assert_floor(&self, pictures: usize) {
+        let clear = self.pixels - self.contested;
+        let least = pictures * (SIZE[0] * SIZE[1]) as usize / 10;
+        let Self { pictures: found, contested, .. } = self;
+        let text = format!("{found} pictures, {clear} pixels, and {contested} contested");
+        assert!(*found >= pictures && clear >= least, "{text}");
+    }
+}
+
+#[test]
+fn the_painter_shows_what_the_depth_buffer_sees() {
+    let by = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), by, any::<u64>(), any::<bool>());
+    let compared: Compared = tally(file!(), 96, cases, |compared: &mut Compared, case| {
+        let (scene, by, seed, exactly) = case;
         let tolerance = if exactly { Tolerance::Share(0.0) } else { Tolerance::Default };
         let scene = scene.with_tolerance(tolerance);
         let tree = build(&scene, by)?;
         for camera in cameras(&scene, 4, seed) {
-            check(&tree, &camera)?;
+            compared.add(check(&tree, &camera)?.as_ref());
         }
-    }
+        Ok(())
+    });
+    compared.assert_floor(250);
+}
 
-    #[test]
-    fn the_painter_is_right_from_eyes_in_planes_and_corners(
-        scene in hard::scene(),
-        by in prop::sample::select(&Heuristic::ALL[..]),
-        seed in any::<u64>(),
-    ) {
+#[test]
+fn the_painter_is_right_from_eyes_in_planes_and_corners() {
+    let by = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), by, any::<u64>());
+    let compared: Compared = tally(file!(), 96, cases, |compared: &mut Compared, case| {
+        let (scene, by, seed) = case;
         let tree = build(&scene.with_tolerance(Tolerance::Share(0.0)), by)?;
         let mut dice = Dice(seed);
         for _ in 0..if tree.is_empty() { 0 } else { 4 } {
             if let Some(camera) = awkward_camera(&tree, &mut dice) {
-                check(&tree, &camera)?;
+                compared.add(check(&tree, &camera)?.as_ref());
             }
         }
-    }
+        Ok(())
+    });
+    compared.assert_floor(150);
+}
 
-    /// Where nothing is tied, the order of the input is no matter.
-    #[test]
-    fn shuffled_polygons_give_the_same_picture(
-        (scene, shuffle) in hard::scene().prop_flat_map(|scene| {
-            let indices: Vec<usize> = (0..scene.polygons.len()).collect();
-            (Just(scene), Just(indices).prop_shuffle())
-        }),
-        by in prop::sample::select(&Heuristic::ALL[..]),
-        seed in any::<u64>(),
-    ) {
+/// Where nothing is tied, the order of the input is no matter.
+#[test]
+fn shuffled_polygons_give_the_same_picture() {
+    let shuffled = hard::scene().prop_flat_map(|scene| {
+        let indices: Vec<usize> = (0..scene.polygons.len()).collect();
+        (Just(scene), Just(indices).prop_shuffle())
+    });
+    let by = prop::sample::select(Heuristic::ALL);
+    let cases = (shuffled, by, any::<u64>());
+    let same = tally(file!(), 96, cases, |same: &mut usize, ((scene, shuffle), by, seed)| {
         let scene = scene.with_tolerance(Tolerance::Share(0.0));
         let mut other = scene.clone();
         other.polygons = shuffle.iter().map(|&i| scene.polygons[i].clone()).collect();
@@ -110,12 +143,15 @@ proptest! {
                 prop_assert!(tied || (p == &Verdict::Empty) == (q == &Verdict::Empty));
                 if p == &Verdict::Right && q == &Verdict::Right {
                     let (f, g) = (trees.0.faces().polygon(f), trees.1.faces().polygon(g));
-                    let same = f as usize == shuffle[g as usize];
-                    prop_assert!(same || is_tie(&scene, f as usize, shuffle[g as usize]));
+                    let is_same = f == shuffle[g];
+                    *same += usize::from(is_same);
+                    prop_assert!(is_same || is_tie(&scene, f, shuffle[g]));
                 }
             }
         }
-    }
+        Ok(())
+    });
+    assert!(same > 10_000, "{same} pixels show the same polygon");
 }
 
 /// Whether two polygons may be equally far in a pixel: they have a point, to rounding, in common.

@@ -122,3 +122,32 @@ fn more_polygons_than_fragments_allowed_are_noticed_before_they_are_all_read() {
     assert!(error.is_over_budget() && error.to_string().contains("1000 polygons"), "{error}");
     assert_eq!(options.build(std::iter::repeat_n(square, 1000)).unwrap().len(), 1000);
 }
+
+/// A callback that waits for other work of the pool may be given a part of the same build to do,
+/// which calls it again on the same stack.
+#[cfg(feature = "parallel")]
+#[test]
+fn a_callback_may_do_other_work_of_the_pool() {
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    let (ended, end) = mpsc::channel();
+    std::thread::spawn(move || {
+        let scene = scene::city(20_000, 1);
+        let (mut jobs, mut last) = (0, 0);
+        let build = || {
+            BuildOptions::DEFAULT.build_with_progress(scene.polygons(), |progress| {
+                let did_other_work = rayon::yield_now() == Some(rayon::Yield::Executed);
+                jobs += usize::from(did_other_work);
+                last = progress.done;
+                ControlFlow::Continue(())
+            })
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let tree = pool.install(build).unwrap();
+        ended.send((jobs, last, tree.faces().len())).unwrap();
+    });
+    let (jobs, last, faces) = end.recv_timeout(Duration::from_secs(100)).expect("it hangs");
+    assert!(jobs > 0, "no part of the build was done within the callback");
+    assert_eq!(last, faces);
+}

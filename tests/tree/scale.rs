@@ -1,7 +1,7 @@
 //! Large and deep: no recursion, no quadratic work, budgets that hold.
 
-use binspace::geom::Viewpoint;
 use binspace::glam::DVec3;
+use binspace::internals::Viewpoint;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Error, Heuristic};
 use std::thread;
@@ -124,7 +124,7 @@ fn assert_input_order(scene: &Scene, heuristic: Heuristic) {
 
 #[test]
 fn coplanar_polygons_share_one_node() {
-    for heuristic in Heuristic::ALL {
+    for &heuristic in Heuristic::ALL {
         assert_input_order(&nested(10_000), heuristic);
     }
     let mosaic = mosaic(200);
@@ -140,7 +140,7 @@ fn a_hundred_thousand_duplicates_share_one_node() {
     for _ in 0..LARGE {
         scene.push([DVec3::ZERO, DVec3::X, DVec3::ONE], 0);
     }
-    for heuristic in Heuristic::ALL {
+    for &heuristic in Heuristic::ALL {
         let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).unwrap();
         assert_eq!((tree.len(), tree.stats().nodes), (LARGE as usize, 1), "{heuristic}");
         let order = tree.back_to_front(Viewpoint::direction([0.0, 0.0, -1.0])).map(|f| f.polygon());
@@ -169,7 +169,7 @@ fn error(scene: &Scene, options: BuildOptions) -> Error {
 #[test]
 fn budgets_end_in_errors_that_say_the_limit() {
     let crowd = scene::random_triangles(3000, 5);
-    for heuristic in Heuristic::ALL {
+    for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         for limit in [0, 1, 2999, 3500] {
             let error = error(&crowd, options.with_max_fragments(limit));
@@ -187,7 +187,7 @@ fn budgets_end_in_errors_that_say_the_limit() {
 #[test]
 fn a_budget_that_just_suffices_is_no_error() {
     let crowd = scene::random_triangles(300, 5);
-    for heuristic in Heuristic::ALL {
+    for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let stats = options.build(crowd.polygons()).unwrap().stats();
         let exact = options.with_max_fragments(stats.fragments).with_max_depth(stats.depth_max);
@@ -199,4 +199,15 @@ fn a_budget_that_just_suffices_is_no_error() {
             assert!(less.build(crowd.polygons()).is_err(), "{heuristic}");
         }
     }
+}
+
+#[test]
+fn a_tree_of_nothing_needs_no_depth() {
+    let options = BuildOptions::DEFAULT.with_max_depth(0);
+    let flat = [DVec3::X, DVec3::X, DVec3::Y];
+    for polygons in [vec![], vec![flat]] {
+        let tree = options.build(polygons).unwrap();
+        assert!(tree.is_empty() && tree.stats().depth_max == 0);
+    }
+    assert!(options.build([[DVec3::X, DVec3::Y, DVec3::Z]]).unwrap_err().is_over_budget());
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use binspace::geom::Viewpoint;
 use binspace::glam::{DQuat, DVec3};
+use binspace::internals::Viewpoint;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions};
 

@@ -1,9 +1,8 @@
 //! `binspace order`: fragments in paint order, as JSON lines.
 
-use std::io::{self, Write};
-
 use binspace::glam::DVec3;
 use binspace::{Fragment, Viewpoint};
+use serde::Serialize;
 
 use super::Outcome;
 use crate::args::OrderArgs;
@@ -28,23 +27,33 @@ pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
         } else {
             tree.back_to_front(viewpoint)
         };
-        fragments
-            .try_for_each(|fragment| write_line(out, &fragment, scene.polygon(fragment.polygon())))
+        fragments.try_for_each(|fragment| {
+            let line = Line::new(&fragment, scene.polygon(fragment.polygon()));
+            serde_json::to_writer(&mut *out, &line)?;
+            out.write_all(b"\n")
+        })
     })?;
     Ok(Outcome::Done)
 }
 
-/// Corners are written as they were given, not as the tree's grid has them. Debug formatting of a
-/// finite number is its shortest round-trip form, and valid JSON.
-fn write_line(out: &mut dyn Write, fragment: &Fragment<'_>, polygon: &[DVec3]) -> io::Result<()> {
-    write!(out, "{{\"polygon\": {}, \"vertices\": [", fragment.polygon())?;
-    for (i, (vertex, weights)) in fragment.vertices().zip(fragment.weights()).enumerate() {
-        let vertex = match weights[..] {
-            [(corner, _)] => polygon[corner as usize],
-            _ => vertex,
-        };
-        let comma = if i == 0 { "" } else { ", " };
-        write!(out, "{comma}[{:?}, {:?}, {:?}]", vertex.x, vertex.y, vertex.z)?;
+/// A line of the output.
+#[derive(Serialize)]
+struct Line {
+    polygon: usize,
+    vertices: Vec<[f64; 3]>,
+}
+
+impl Line {
+    /// Corners are written as they were given, not rounded to the tree's grid.
+    fn new(fragment: &Fragment<'_>, polygon: &[DVec3]) -> Self {
+        let vertices = fragment.vertices().zip(fragment.weights()).map(|(vertex, weights)| {
+            let vertex = match weights[..] {
+                [(corner, _)] => polygon[corner as usize],
+                _ => vertex,
+            };
+            // Adding 0 turns −0 into 0, as not every JSON reader knows −0.
+            (vertex + 0.0).to_array()
+        });
+        Self { polygon: fragment.polygon(), vertices: vertices.collect() }
     }
-    writeln!(out, "]}}")
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use binspace::raster::Comparison;
 use binspace::scene::Scene;
-use binspace::verify;
+use binspace::{Verification, verify};
 
 use super::Outcome;
+use super::verify::unseen_faults;
 use crate::args::RenderArgs;
 use crate::colours::Colours;
 use crate::failure::Failure;
@@ -17,7 +17,7 @@ use crate::terminal::note;
 use crate::units::count;
 use crate::{camera, job, png_file, svg};
 
-/// What kind of file a name asks for.
+/// The format of an output file, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     Png,
@@ -28,7 +28,7 @@ enum Format {
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let (format, kind) = (format(&args.output)?, Kind::asked(&args.kind));
     if format == Format::Svg && kind != Kind::Painter {
-        let problem = format!("--{} makes a picture of pixels: name a .png file", kind.name());
+        let problem = format!("--{} cannot be drawn as SVG: name a .png file", kind.name());
         return Err(Failure::about(args.output.display(), problem));
     }
     let file = NewFile::create(&args.output)?;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
             file.write(|out| png_file::write(out, camera.size(), &pixels))?;
             drop(progress);
             if kind == Kind::Difference {
-                return Ok(judge(&scene, &seen.comparison));
+                return Ok(judge(&scene, &seen));
             }
         }
     }
@@ -51,7 +51,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
 }
 
 /// Says how many pixels of a picture are wrong, and whether it differs.
-fn judge(scene: &Scene, found: &Comparison) -> Outcome {
+fn judge(scene: &Scene, seen: &Verification) -> Outcome {
+    let found = &seen.comparison;
     note(&format!(
         "{}: {} covered, {} contested; {} wrong ({} wrong order, {}, {})",
         scene.name(),
@@ -62,7 +63,8 @@ fn judge(scene: &Scene, found: &Comparison) -> Outcome {
         count(found.holes, "hole"),
         count(found.spills, "spill"),
     ));
-    if found.wrong() == 0 { Outcome::Done } else { Outcome::Differs }
+    unseen_faults(seen).iter().for_each(|fault| note(fault));
+    if seen.is_right() { Outcome::Done } else { Outcome::Differs }
 }
 
 fn format(path: &Path) -> Result<Format, Failure> {
@@ -81,13 +83,20 @@ mod tests {
     #[test]
     fn a_difference_with_wrong_pixels_is_no_success() {
         let scene = binspace::scene::crossing(2);
-        let right = Comparison { covered: 9, contested: 1, ..Comparison::default() };
+        let tree = binspace::BspTree::build(scene.polygons()).unwrap();
+        let view = &camera::around_and_inside(&scene, None, 1, [40, 30], 0).unwrap()[0];
+        let right = verify(&tree, view).unwrap();
         assert_eq!(judge(&scene, &right), Outcome::Done);
-        for wrong in [
-            Comparison { wrong_order: 1, ..right.clone() },
-            Comparison { holes: 1, ..right.clone() },
-            Comparison { spills: 1, ..right.clone() },
-        ] {
+        let faults: [fn(&mut Verification); 5] = [
+            |seen| seen.comparison.wrong_order = 1,
+            |seen| seen.comparison.holes = 1,
+            |seen| seen.comparison.spills = 1,
+            |seen| seen.front_to_back.wrong_order = 1,
+            |seen| seen.miscounted = 1,
+        ];
+        for fault in faults {
+            let mut wrong = right.clone();
+            fault(&mut wrong);
             assert_eq!(judge(&scene, &wrong), Outcome::Differs);
         }
     }

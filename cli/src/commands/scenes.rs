@@ -8,13 +8,13 @@ use crate::terminal::{HEAD, say, styled};
 
 /// Runs the command.
 pub(crate) fn run() -> Result<Outcome, Failure> {
-    for scene in Builtin::ALL {
+    for &scene in Builtin::ALL {
         say(format!("{}{}", styled(HEAD, format!("{scene:10}")), scene.description()))?;
         if let (Some(meaning), Some(size)) = (scene.size_meaning(), scene.default_size()) {
             say(format!("{:10}{scene}:SIZE: {meaning} [default: {size}]", ""))?;
         }
     }
     say("\nSizes go up to about 20 million polygons, if there is memory for them.")?;
-    say("A seed (--seed) chooses among the scenes that are called seeded.")?;
+    say("The option --seed changes the scenes that are marked as seeded.")?;
     Ok(Outcome::Done)
 }

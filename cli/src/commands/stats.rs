@@ -2,6 +2,7 @@
 
 use binspace::scene::Scene;
 use binspace::{Heuristic, Stats};
+use serde::Serialize;
 
 use super::Outcome;
 use crate::args::StatsArgs;
@@ -12,7 +13,7 @@ use crate::terminal::{HEAD, note, say, styled};
 use crate::units::{bytes, count, three_digits, time};
 use crate::{job, scene_arg};
 
-/// How many characters of a heuristic's name the table has room for.
+/// The width of the table's column of heuristics, in characters.
 const NAME: usize = 13;
 
 /// The figures of one tree.
@@ -27,14 +28,14 @@ struct Figures {
 pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     let scene = scene_arg::load(&args.scene)?;
     let table = table();
-    let (mut failed, mut is_first) = (None, true);
+    let (mut over_budget, mut is_first) = (0, true);
     for &heuristic in &args.heuristic.0 {
         let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
             Ok(built) => built,
             // Another heuristic may stay within the budget.
             Err(error) if error.is_over_budget() && args.heuristic.0.len() > 1 => {
                 note(&format!("{heuristic}: {error}"));
-                failed = Some(error);
+                over_budget += 1;
                 continue;
             }
             Err(error) => return Err(job::about(&scene, &error)),
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             order_nanoseconds: order_nanoseconds(&tree, &scene),
         };
         if args.json {
-            say(json(&figures))?;
+            say(json(&figures)?)?;
         } else {
             if is_first {
                 say(title(&scene, &figures.stats))?;
@@ -62,9 +63,9 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         }
         is_first = false;
     }
-    match failed {
-        Some(error) => Err(job::about(&scene, &error)),
-        None => Ok(Outcome::Done),
+    match over_budget {
+        0 => Ok(Outcome::Done),
+        trees => Err(Failure::about(scene.name(), format!("{} over budget", count(trees, "tree")))),
     }
 }
 
@@ -81,7 +82,7 @@ fn title(scene: &Scene, stats: &Stats) -> String {
 }
 
 fn table() -> Table {
-    // 80 columns with the gaps between. Splits are the fragments less the faces.
+    // 80 columns with the gaps between. Splits are omitted: they are fragments minus faces.
     Table::new(&[
         ("heuristic", NAME),
         ("fragments", 0),
@@ -111,7 +112,7 @@ fn row(table: &Table, figures: &Figures) -> String {
     ])
 }
 
-/// What a heuristic is called in the table: `weighted` by its default weights is just that.
+/// The name of a heuristic in the table: `weighted` with its default weights goes without them.
 fn name(heuristic: Heuristic) -> String {
     let name = match heuristic {
         _ if "weighted".parse() == Ok(heuristic) => "weighted".to_owned(),
@@ -123,28 +124,44 @@ fn name(heuristic: Heuristic) -> String {
     name.chars().take(NAME - 1).chain(['…']).collect()
 }
 
-fn json(figures: &Figures) -> String {
+/// The figures of a tree as a JSON object.
+#[derive(Serialize)]
+struct Line {
+    heuristic: String,
+    polygons: usize,
+    faces: usize,
+    fragments: usize,
+    nodes: usize,
+    depth_max: usize,
+    depth_mean: f64,
+    splits: usize,
+    build_seconds: f64,
+    order_ns_per_fragment: f64,
+    bytes: usize,
+    dropped: usize,
+    triangulated: usize,
+    duplicates: usize,
+    crossing: usize,
+}
+
+fn json(figures: &Figures) -> Result<String, Failure> {
     let stats = &figures.stats;
-    format!(
-        "{{\"heuristic\": \"{}\", \"polygons\": {}, \"faces\": {}, \"fragments\": {}, \
-         \"nodes\": {}, \"depth_max\": {}, \"depth_mean\": {:?}, \"splits\": {}, \
-         \"build_seconds\": {:?}, \"order_ns_per_fragment\": {:?}, \"bytes\": {}, \
-         \"dropped\": {}, \"triangulated\": {}, \"duplicates\": {}, \
-         \"crossing\": {}}}",
-        figures.heuristic,
-        stats.polygons,
-        stats.faces,
-        stats.fragments,
-        stats.nodes,
-        stats.depth_max,
-        stats.depth_mean,
-        stats.splits,
-        figures.build_seconds,
-        figures.order_nanoseconds,
-        stats.bytes,
-        stats.dropped,
-        stats.triangulated,
-        stats.duplicates,
-        stats.crossing,
-    )
+    let line = Line {
+        heuristic: figures.heuristic.to_string(),
+        polygons: stats.polygons,
+        faces: stats.faces,
+        fragments: stats.fragments,
+        nodes: stats.nodes,
+        depth_max: stats.depth_max,
+        depth_mean: stats.depth_mean,
+        splits: stats.splits,
+        build_seconds: figures.build_seconds,
+        order_ns_per_fragment: figures.order_nanoseconds,
+        bytes: stats.bytes,
+        dropped: stats.dropped,
+        triangulated: stats.triangulated,
+        duplicates: stats.duplicates,
+        crossing: stats.crossing,
+    };
+    serde_json::to_string(&line).map_err(|error| Failure::of_output(&error.into()))
 }

@@ -1,4 +1,5 @@
-//! `binspace` without a command: built-in scenes, every heuristic, judged and drawn.
+//! `binspace` without a command: draws built-in scenes with every heuristic, and compares their
+//! pictures with a depth buffer's.
 
 use std::path::Path;
 
@@ -30,7 +31,7 @@ const SCENES: [(Builtin, Option<u32>); 4] = [
     (Builtin::Random, Some(200)),
 ];
 
-/// Pixels looked at, and what was found.
+/// Totals over all pixels compared.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     covered: usize,
@@ -56,7 +57,7 @@ pub(crate) fn run(args: &TourArgs) -> Result<Outcome, Failure> {
         total.contested += found.contested;
         total.wrong += found.wrong;
     }
-    say("build: time to build; order: time per fragment to put all in order")?;
+    say("build: time to build the tree; order: time of an order, per fragment")?;
     say(format!("Wrote pictures of each scene into {}:", args.out.display()))?;
     let names = Kind::ALL.map(|kind| format!("…-{}.png", kind.name())).join(", ");
     say(format!("  {names}, ….svg"))?;
@@ -95,7 +96,7 @@ fn show(args: &TourArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure
     let mut total = Sum::default();
     let mut views = Vec::new();
     let mut auto = None;
-    for heuristic in Heuristic::ALL {
+    for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let (tree, seconds) =
             measure::timed_build(scene, &options).map_err(|error| job::about(scene, &error))?;

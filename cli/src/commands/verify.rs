@@ -1,10 +1,10 @@
-//! `binspace verify`: every pixel of a tree's pictures against a depth buffer.
+//! `binspace verify`: compares every pixel of a tree's pictures with a depth buffer.
 
 use binspace::glam::DVec3;
 use binspace::raster::Comparison;
 use binspace::scene::Scene;
-use binspace::verify;
 use binspace::view::{Camera, Projection};
+use binspace::{Verification, verify};
 
 use super::Outcome;
 use crate::args::VerifyArgs;
@@ -31,22 +31,42 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     say(styled(HEAD, table.head()))?;
     let progress = Progress::steps("view", args.views.into());
     let mut total = Comparison::default();
+    let mut all_right = true;
     for (i, camera) in cameras.iter().enumerate() {
         let seen = verify(&tree, camera).map_err(|error| camera::about(&scene, &error))?;
         progress.step();
         let place = if is_inside(camera, &scene) { "inside" } else { "around" };
-        let line = row(&table, [&(i + 1).to_string(), place], &seen.comparison);
+        let line = row(&table, [&(i + 1).to_string(), place], &seen.comparison, seen.is_right());
         progress.suspend(|| say(line))?;
+        for fault in unseen_faults(&seen) {
+            progress.suspend(|| note(&format!("view {} is wrong: {fault}", i + 1)));
+        }
         if seen.comparison.wrong() > 0 {
             progress.suspend(|| {
                 note(&format!("view {} is wrong; see where:\n  {}", i + 1, reproduce(args, camera)))
             });
         }
         add(&mut total, &seen.comparison);
+        all_right &= seen.is_right();
     }
     drop(progress);
-    say(row(&table, ["total", ""], &total))?;
-    Ok(if total.wrong() == 0 { Outcome::Done } else { Outcome::Differs })
+    say(row(&table, ["total", ""], &total, all_right))?;
+    Ok(if all_right { Outcome::Done } else { Outcome::Differs })
+}
+
+/// The faults of a view other than those of the picture painted back to front, as phrases.
+pub(crate) fn unseen_faults(seen: &Verification) -> Vec<String> {
+    let mut faults = Vec::new();
+    let wrong = seen.front_to_back.wrong();
+    if wrong > 0 && seen.front_to_back != seen.comparison {
+        faults.push(format!("{}, painted front to back", count(wrong, "wrong pixel")));
+    }
+    if seen.miscounted > 0 {
+        let pixels = count(seen.miscounted, "pixel");
+        faults.push(format!("a polygon is painted more than once or not at all in {pixels}"));
+    }
+    faults.extend(seen.orders.as_ref().err().map(ToString::to_string));
+    faults
 }
 
 fn table(pixels: usize) -> Table {
@@ -63,15 +83,15 @@ fn table(pixels: usize) -> Table {
     ])
 }
 
-fn row(table: &Table, [view, place]: [&str; 2], found: &Comparison) -> String {
-    let verdict = if found.wrong() == 0 { "right" } else { "wrong" };
+fn row(table: &Table, [view, place]: [&str; 2], found: &Comparison, is_right: bool) -> String {
+    let verdict = if is_right { "right" } else { "wrong" };
     let counts = [found.covered, found.contested, found.wrong_order, found.holes, found.spills];
     let mut cells = vec![view.to_owned(), place.to_owned()];
     cells.extend(counts.map(|number| number.to_string()));
     cells.push(verdict.to_owned());
     let line = table.row(&cells);
     let (figures, verdict) = line.split_at(line.len() - verdict.len());
-    let style = if found.wrong() == 0 { GOOD } else { BAD };
+    let style = if is_right { GOOD } else { BAD };
     format!("{figures}{}", styled(style, verdict))
 }
 
@@ -130,13 +150,30 @@ mod tests {
     #[test]
     fn a_wrong_view_is_called_wrong() {
         let mut found = Comparison { covered: 9, contested: 1, ..Comparison::default() };
-        let row = |found: &Comparison| row(&table(100), ["1", "inside"], found);
-        assert!(row(&found).contains("right"));
+        let row = |right| row(&table(100), ["1", "inside"], &found, right);
+        assert!(row(true).contains("right"));
+        assert!(row(false).contains("wrong"));
         found.spills = 1;
-        assert!(row(&found).contains("wrong"));
         let mut total = found.clone();
         add(&mut total, &found);
         assert_eq!((total.covered, total.contested, total.wrong()), (18, 2, 2));
+    }
+
+    #[test]
+    fn faults_that_the_painted_picture_does_not_show_are_told() {
+        let scene = binspace::scene::crossing(2);
+        let tree = binspace::BspTree::build(scene.polygons()).unwrap();
+        let view = &camera::around_and_inside(&scene, None, 1, [40, 30], 0).unwrap()[0];
+        let mut seen = verify(&tree, view).unwrap();
+        assert_eq!(unseen_faults(&seen), [""; 0]);
+        seen.front_to_back.holes = 2;
+        seen.miscounted = 1;
+        let told = [
+            "2 wrong pixels, painted front to back",
+            "a polygon is painted more than once or not at all in 1 pixel",
+        ];
+        assert_eq!(unseen_faults(&seen), told);
+        assert!(!seen.is_right());
     }
 
     #[test]

@@ -57,7 +57,10 @@ fn usage_errors_say_what_is_wrong() {
         ("order s.obj --direction=0,0,0", "must not be zero"),
         ("order s.obj --eye=1,2,3 --direction=1,2,3", "cannot be used with"),
         ("order s.obj --eye=1,2,3 --heuristic best", "fewest-splits"),
-        ("order s.obj --eye=1,2,3 --heuristic sampled(0)", "`sampled(0)` do not fit: a whole"),
+        (
+            "order s.obj --eye=1,2,3 --heuristic sampled(0)",
+            "invalid parameter in `sampled(0)`: expected a whole",
+        ),
         ("order s.obj --eye=1,2,3 --tolerance -1", "0 or more"),
         ("order s.obj --eye=1,2,3 --tolerance=inf", "not a finite number"),
         ("order s.obj --eye=1,2,3 --max-fragments=-1", "invalid value"),
@@ -68,9 +71,9 @@ fn usage_errors_say_what_is_wrong() {
         ("verify s.obj --size 99999x99999", "at most"),
         ("verify s.obj --up 0,0,0", "must not be zero"),
         ("verify s.obj --up w", "an axis"),
-        ("stats s.obj --heuristic everything", "or all"),
+        ("stats s.obj --heuristic everything", "or use `all`"),
         ("render s.obj -o p.png --fov 180", "degrees"),
-        ("stats teapto", "nor is there a file"),
+        ("stats teapto", "there is no file"),
         ("stats teapot:1", "from 2 to 790"),
         ("stats newell:5", "one size"),
         ("draw s.obj", "unrecognized subcommand"),
@@ -127,19 +130,95 @@ fn a_scene_too_large_for_a_camera_is_said_to_be_that() {
     }
 }
 
+/// Runs the program with so much memory, in kB.
+#[cfg(target_os = "linux")]
+fn run_within(kilobytes: u32, folder: &Folder, arguments: &str) -> (Option<i32>, String) {
+    let program = env!("CARGO_BIN_EXE_binspace");
+    let line = format!("ulimit -v {kilobytes}; exec {program} {arguments}");
+    let mut command = std::process::Command::new("sh");
+    // Threads take room of their own, as many as there are processors.
+    command.env("RAYON_NUM_THREADS", "2").args(["-c", &line]);
+    let output = command.current_dir(folder.path("")).output().unwrap();
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_scene_that_memory_does_not_hold_is_refused_not_aborted() {
     let folder = Folder::new("bad_memory");
     for scene in ["random:20000000", "teapot:790", "chain:5000000"] {
-        let line =
-            format!("ulimit -v 2000000; exec {} stats {scene}", env!("CARGO_BIN_EXE_binspace"));
-        let mut command = std::process::Command::new("sh");
-        let output = command.args(["-c", &line]).current_dir(folder.path("")).output().unwrap();
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{message}");
-        assert!(message.contains(&format!("error: {scene}: no memory for ")), "{message}");
+        let (status, message) = run_within(2_000_000, &folder, &format!("stats {scene}"));
+        assert_eq!(status, Some(2), "{message}");
+        assert!(message.contains(&format!("error: {scene}: too little memory for ")), "{message}");
     }
     let huge = folder.run("stats random:99999999999").refused();
     assert!(huge.contains("from 1 to 20000000"), "{huge}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_memory_does_not_hold_is_refused_not_aborted() {
+    let folder = Folder::new("bad_memory_file");
+    let vertices: String = (0..200_000).map(|i| format!("v {i}.25 -0.123456 {i}e-3\n")).collect();
+    folder.write("vertices.obj", format!("{vertices}f 1 2 3\n"));
+    // Many corners in few bytes.
+    folder.write(
+        "corners.obj",
+        format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}", "f 1 2 3\n".repeat(400_000)),
+    );
+    for name in ["vertices.obj", "corners.obj"] {
+        for kilobytes in [20_000, 30_000, 40_000] {
+            let command = format!("order {name} --eye=1,2,3 -o a.jsonl");
+            let (status, message) = run_within(kilobytes, &folder, &command);
+            assert_eq!(status, Some(2), "{name} {kilobytes}: {message}");
+            assert!(message.contains("memory"), "{name} {kilobytes}: {message}");
+        }
+    }
+    assert_eq!(folder.files(), ["corners.obj", "vertices.obj"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_tree_that_memory_does_not_hold_ends_the_program_as_an_error_does() {
+    let folder = Folder::new("bad_memory_tree");
+    for command in [
+        "order random:6000 --eye=1,2,3 -o a.jsonl",
+        "render random:6000 -o a.svg",
+        "render random:6000 -o a.png",
+        "stats random:6000",
+        "verify random:6000",
+    ] {
+        let (status, message) = run_within(40_000, &folder, command);
+        assert_eq!(status, Some(2), "{command}: {message}");
+        assert!(message.contains("memory"), "{command}: {message}");
+    }
+    assert!(folder.files().is_empty(), "{:?}", folder.files());
+}
+
+#[test]
+fn libraries_outside_the_folder_are_not_read() {
+    let folder = Folder::new("bad_library");
+    folder.write("red.mtl", "newmtl red\nKd 1 0 0\n");
+    fs::create_dir_all(folder.path("scene/below")).unwrap();
+    folder.write("scene/below/red.mtl", "newmtl red\nKd 1 0 0\n");
+    let absolute = folder.path("red.mtl").display().to_string();
+    for (library, is_read) in [
+        ("../red.mtl", false),
+        ("below/../../red.mtl", false),
+        ("..\\red.mtl", false),
+        (&absolute[..], false),
+        ("gone.mtl ../red.mtl", false),
+        ("below/red.mtl", true),
+        ("./below/red.mtl", true),
+        ("below\\red.mtl", true),
+    ] {
+        let text = format!("mtllib {library}\nusemtl red\n{CROSSING}");
+        folder.write("scene/s.obj", text);
+        let run = folder.run("stats scene/s.obj");
+        let note = format!("material libraries outside the file's folder, not read: {library}");
+        assert_eq!(run.err.contains(&note), !is_read, "{library}: {run:?}");
+        assert_eq!(run.err.contains("materials not defined: red"), !is_read, "{library}: {run:?}");
+        assert!(!run.err.contains("not found"), "{library}: {run:?}");
+        run.good();
+    }
 }

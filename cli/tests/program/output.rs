@@ -66,27 +66,131 @@ fn a_name_as_long_as_names_can_be_is_written() {
     assert_eq!(folder.files(), [name]);
 }
 
-#[cfg(unix)]
-#[test]
-fn a_program_that_is_interrupted_leaves_no_file_behind() {
-    use std::os::unix::process::ExitStatusExt;
+/// Starts a long run that writes `a.jsonl`, and waits until it has opened a file for that.
+#[cfg(target_os = "linux")]
+fn start_writing(folder: &Folder, prefix: &str) -> std::process::Child {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
+    folder.write("a.jsonl", "old");
+    let program = env!("CARGO_BIN_EXE_binspace");
+    let line = format!("{prefix} exec {program} order random:20000 --eye=3,2,6 -o a.jsonl");
+    let mut command = Command::new("sh");
+    command.args(["-c", &line]).current_dir(folder.path("")).stderr(Stdio::null());
+    let child = command.spawn().unwrap();
+    let opened = format!("/proc/{}/fd", child.id());
+    let is_of_folder = |file: fs::DirEntry| {
+        fs::read_link(file.path()).is_ok_and(|path| path.starts_with(folder.path("")))
+    };
+    let start = Instant::now();
+    while !fs::read_dir(&opened).unwrap().any(|file| file.is_ok_and(is_of_folder)) {
+        assert!(start.elapsed() < Duration::from_secs(60), "it opens no file");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+#[cfg(target_os = "linux")]
+fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).unwrap();
+    u64::from_str_radix(mask.trim(), 16).unwrap() >> (signal - 1) & 1 == 1
+}
+
+#[cfg(target_os = "linux")]
+fn send(signal: &str, child: &std::process::Child) {
+    let id = child.id().to_string();
+    assert!(std::process::Command::new("kill").args([signal, &id]).status().unwrap().success());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_program_that_is_ended_by_a_signal_leaves_no_file_behind() {
+    use std::os::unix::process::ExitStatusExt;
+
     let folder = Folder::new("output_signal");
-    for (signal, number) in [("-INT", 2), ("-TERM", 15)] {
-        folder.write("a.jsonl", "old");
-        let mut command = folder.command("order random:20000 --eye=3,2,6 -o a.jsonl");
-        let mut child = command.stderr(Stdio::null()).spawn().unwrap();
-        let start = Instant::now();
-        while !folder.files().iter().any(|name| name.ends_with(".part")) {
-            assert!(start.elapsed() < Duration::from_secs(60), "it writes no file");
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        let id = child.id().to_string();
-        assert!(Command::new("kill").args([signal, &id]).status().unwrap().success());
+    // What the tests were started with as ignored, as by `nohup`, stays so.
+    let signals = [("-HUP", 1), ("-INT", 2), ("-TERM", 15), ("-KILL", 9)];
+    for (signal, number) in signals.into_iter().filter(|&(_, number)| !is_ignored(number)) {
+        let mut child = start_writing(&folder, "");
+        send(signal, &child);
         assert_eq!(child.wait().unwrap().signal(), Some(number));
-        assert_eq!(folder.files(), ["a.jsonl"]);
+        assert_eq!(folder.files(), ["a.jsonl"], "{signal}");
         assert_eq!(fs::read_to_string(folder.path("a.jsonl")).unwrap(), "old");
+    }
+}
+
+/// As `nohup` does with SIGHUP, and shells with SIGINT for what runs in the background.
+#[cfg(target_os = "linux")]
+#[test]
+fn signals_that_are_ignored_stay_ignored() {
+    use std::os::unix::process::ExitStatusExt;
+
+    let folder = Folder::new("output_ignored");
+    let mut child = start_writing(&folder, "trap '' HUP INT;");
+    send("-HUP", &child);
+    send("-INT", &child);
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    assert!(child.try_wait().unwrap().is_none(), "it has ended");
+    send("-TERM", &child);
+    assert_eq!(child.wait().unwrap().signal(), Some(15));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_has_the_permissions_of_the_one_it_replaces_or_the_usual_ones() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = Folder::new("output_permissions");
+    let mode = |name: &str| {
+        let data = fs::metadata(folder.path(name)).unwrap();
+        format!("{:o}", data.permissions().mode() & 0o777)
+    };
+    folder.write("usual", "");
+    folder.run("order newell --eye=3,2,6 -o new.jsonl").good();
+    assert_eq!(mode("new.jsonl"), mode("usual"));
+    for bits in [0o600, 0o640, 0o666] {
+        let kept = fs::Permissions::from_mode(bits);
+        fs::set_permissions(folder.path("new.jsonl"), kept).unwrap();
+        folder.run("order newell --eye=3,2,6 -o new.jsonl").good();
+        assert_eq!(mode("new.jsonl"), format!("{bits:o}"));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_an_error_in_every_command() {
+    let folder = Folder::new("output_full");
+    folder.write("s.obj", CROSSING);
+    std::os::unix::fs::symlink("/dev/full", folder.path("full.png")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", folder.path("full.svg")).unwrap();
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    for command in [
+        "--help",
+        "-h",
+        "--version",
+        "help",
+        "help order",
+        "order --help",
+        "scenes",
+        "order s.obj --eye=3,2,6",
+        "stats s.obj",
+        "stats s.obj --json",
+        "verify s.obj --size 8x6 --views 1",
+        "report --quick --family gap --size 8x6",
+        "--size 8x6 --views 1",
+    ] {
+        let output = folder.command(command).stdout(full()).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{command}: {message}");
+        assert!(message.contains("error: standard output: No space left"), "{command}: {message}");
+    }
+    for command in [
+        "order s.obj --eye=3,2,6 -o /dev/full",
+        "render s.obj --size 8x6 -o full.png",
+        "render s.obj --size 8x6 -o full.svg",
+    ] {
+        let message = folder.run(command).refused();
+        assert!(message.contains("cannot be written: No space left"), "{command}: {message}");
     }
 }

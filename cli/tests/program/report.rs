@@ -3,17 +3,10 @@ use std::fs;
 
 use crate::run::{CROSSING, Folder};
 
-/// The rows of a CSV file as maps from column to cell. None of its cells holds a comma here.
+/// The rows of a CSV file as maps from column to cell.
 fn rows(folder: &Folder, name: &str) -> Vec<HashMap<String, String>> {
-    let text = fs::read_to_string(folder.path(name)).unwrap();
-    let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let row = |line: &str| {
-        let cells: Vec<&str> = line.split(',').collect();
-        assert_eq!(cells.len(), head.len(), "{line}");
-        head.iter().zip(cells).map(|(k, v)| ((*k).to_owned(), v.to_owned())).collect()
-    };
-    lines.map(row).collect()
+    let mut reader = csv::Reader::from_path(folder.path(name)).unwrap();
+    reader.deserialize().map(Result::unwrap).collect()
 }
 
 #[test]
@@ -76,7 +69,7 @@ fn what_cannot_be_reported_is_refused_before_anything_is_measured() {
     folder.write("file", "");
     assert!(folder.run("report --family angel").refused().contains("angle, gap"));
     assert!(folder.run("report nothing.obj -o out").refused().contains("nothing.obj"));
-    assert!(folder.run("report --family gap -o file/x").refused().contains("cannot be made"));
+    assert!(folder.run("report --family gap -o file/x").refused().contains("cannot be created"));
     assert_eq!(folder.files(), ["file"]);
     // A folder of earlier files, one of which cannot be replaced.
     fs::create_dir_all(folder.path("out/speed.svg")).unwrap();

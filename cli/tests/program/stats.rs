@@ -63,5 +63,8 @@ fn a_heuristic_over_budget_does_not_stop_the_others() {
     let run = figures(&format!("--heuristic all --max-fragments {least}"));
     assert_eq!(run.status, Some(2));
     assert!(run.out.lines().count() >= 1 && run.out.lines().count() < 8, "{run:?}");
-    assert!(run.err.contains(&format!("more than {least} fragments")), "{run:?}");
+    let over = 8 - run.out.lines().count();
+    let notes = run.err.matches(&format!("more than {least} fragments")).count();
+    assert_eq!(notes, over, "{run:?}");
+    assert!(run.err.contains(&format!("error: random:100: {over} tree")), "{run:?}");
 }

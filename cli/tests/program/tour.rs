@@ -32,7 +32,7 @@ fn without_a_command_scenes_are_judged_and_drawn() {
 fn a_folder_that_cannot_be_made_is_said() {
     let folder = Folder::new("tour_folder");
     folder.write("file", "");
-    assert!(folder.run("--out file/x").refused().contains("cannot be made"));
+    assert!(folder.run("--out file/x").refused().contains("cannot be created"));
     assert!(folder.run("--views 0").refused().contains("--views"));
     assert_eq!(folder.files(), ["file"]);
 }

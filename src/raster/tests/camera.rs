@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, ray};
-use crate::geom::Faces;
+use crate::exact::Faces;
 use crate::raster::Rays;
 use crate::view::Camera;
 

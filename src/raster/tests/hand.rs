@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::faces;
-use crate::geom::{Faces, Line, PlaneId};
+use crate::exact::{Faces, Line, PlaneId};
 use crate::raster::{
     Comparison, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare, depth_map,
     difference, paint, picture, zbuffer,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces};
-use crate::geom::Faces;
+use crate::exact::Faces;
 use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays};
 use crate::view::Camera;

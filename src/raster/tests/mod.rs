@@ -3,7 +3,7 @@
 mod camera;
 mod hand;
 mod mesh;
-mod oracle;
+pub(crate) mod oracle;
 mod signs;
 mod tiling;
 
@@ -11,7 +11,7 @@ use glam::DVec3;
 use num_bigint::BigInt;
 
 use super::rays::{Pencil, Rays};
-use crate::geom::Faces;
+use crate::exact::Faces;
 use crate::random::SplitMix64;
 use crate::view::Camera;
 

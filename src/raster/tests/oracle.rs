@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, Zero};
 
 use super::ray;
-use crate::geom::{Faces, Line, PlaneKind};
+use crate::exact::{Faces, Line, PlaneId, PlaneKind};
 use crate::raster::rays::{Pencil, Rays};
 
 type Vector = [BigInt; 3];
@@ -111,7 +111,7 @@ fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<boo
 }
 
 /// Whether the ray of a pixel meets a face, and after which multiple of its direction.
-pub(super) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<BigRational> {
+pub(crate) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<BigRational> {
     let (point, [numerator, denominator]) = hit(rays, faces, face, &ray_of(rays, x, y, false))?;
     let inside = within(faces, face, &point).unwrap_or_else(|| {
         let (point, _) = hit(rays, faces, face, &ray_of(rays, x, y, true)).unwrap();
@@ -121,7 +121,7 @@ pub(super) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Op
 }
 
 /// Whether the ray of a pixel meets a piece of a face.
-pub(super) fn meets_piece(
+pub(crate) fn meets_piece(
     rays: &Rays,
     faces: &Faces,
     face: u32,
@@ -137,17 +137,43 @@ pub(super) fn meets_piece(
     };
     let cuts = lines.iter().filter_map(|line| Some((line.as_cut()?, line.is_behind())));
     cuts.into_iter().all(|(cut, behind)| {
-        let side = match cut.kind() {
-            PlaneKind::Axis(axis, corner) => {
-                &point[axis] - &integer(faces.corner(corner))[axis] * &divisor
-            }
-            PlaneKind::Face(face) => {
-                let (n, p) = plane(faces, face);
-                dot(&n, &minus(&point, &times(&p, &divisor)))
-            }
-        };
-        side.is_negative() == behind
+        let (n, p) = named(faces, cut);
+        dot(&n, &minus(&point, &times(&p, &divisor))).is_negative() == behind
     })
+}
+
+/// The normal of any plane and a point on it.
+fn named(faces: &Faces, plane_id: PlaneId) -> (Vector, Vector) {
+    match plane_id.kind() {
+        PlaneKind::Face(face) => plane(faces, face),
+        PlaneKind::Axis(axis, corner) => {
+            let mut normal = [0; 3].map(BigInt::from);
+            normal[axis] = 1.into();
+            (normal, integer(faces.corner(corner)))
+        }
+    }
+}
+
+/// Whether the ray of a pixel meets the plane of a face within some lattice units of another plane;
+/// or, without a face, starts there.
+pub(crate) fn is_near(
+    rays: &Rays,
+    faces: &Faces,
+    (face, [x, y]): (Option<u32>, [u32; 2]),
+    plane: PlaneId,
+    reach: f64,
+) -> bool {
+    let ray = ray_of(rays, x, y, false);
+    let at = match face {
+        Some(face) => hit(rays, faces, face, &ray).map(|(point, _)| point),
+        None => rays.is_perspective().then_some(ray.0),
+    };
+    let Some(Point(point, divisor)) = at else { return false };
+    let (n, p) = named(faces, plane);
+    let value = dot(&n, &minus(&point, &times(&p, &divisor)));
+    let distance_squared = BigRational::new(&value * &value, dot(&n, &n) * &divisor * &divisor);
+    let reach = BigRational::from_float(reach).unwrap();
+    distance_squared <= &reach * &reach
 }
 
 /// The nearest face on the ray of a pixel, the later of two at the same distance.

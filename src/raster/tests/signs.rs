@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, oracle};
-use crate::geom::{Faces, Line, PlaneId};
+use crate::exact::{Faces, Line, PlaneId};
 use crate::raster::coverage::Coverage;
+use crate::raster::exact::Plane;
 use crate::raster::line::Seen;
-use crate::raster::plane::kappa;
 use crate::raster::{Outline, Rays, zbuffer};
 use crate::view::Camera;
 
@@ -98,7 +98,7 @@ fn the_filter_never_contradicts_the_integers() {
             let lines =
                 [Line::cut(plane, false), Line::cut(PlaneId::axis(1, 2), true), Line::edge(1)];
             let whole = Outline::Lines { lines: &lines, vertices: faces.corners(face) };
-            let side = kappa(rays, &faces.plane(PlaneId::face(face))).sign();
+            let side = Plane::of(faces, face).kappa(rays).sign();
             let seen = Seen::new(rays, faces, face);
             assert!(seen.is_none_or(|seen| seen.positive == side.is_gt()), "{face} of {case}");
             assert!(seen.is_none() || side.is_ne(), "{face} of {case}");

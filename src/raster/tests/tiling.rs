@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, oracle};
-use crate::geom::{Exact, ExactVertex, Faces, Kernel, Line, PlaneId, Vertex, split};
+use crate::exact::{Exact, ExactVertex, Faces, Kernel, Line, PlaneId, Vertex, split};
 use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays};
 

@@ -1,6 +1,6 @@
 use std::fmt;
 
-/// Why an OBJ file is no scene. Its text names the file, the line and the face
+/// Why an OBJ file cannot be read. The message names the file, the line and the face
 /// where they are known, and says what to do.
 #[derive(Debug)]
 pub struct ObjError {
@@ -20,7 +20,6 @@ pub(super) enum Kind {
     FewCoordinates(usize),
     Coordinate(String),
     NotFinite(String),
-    TooLarge(String),
     Index(String),
     ZeroIndex,
     OutOfRange { index: String, vertices: usize },
@@ -73,7 +72,7 @@ impl fmt::Display for Kind {
             }
             Self::ZeroByte => write!(
                 f,
-                "wrong encoding: a zero byte, so this is UTF-16, UTF-32 or no text at all; save it as \
+                "wrong encoding: a zero byte, so this is UTF-16, UTF-32 or not text; save it as \
                  UTF-8"
             ),
             Self::NoFace => write!(f, "no faces: there must be at least one `f` line"),
@@ -85,13 +84,11 @@ impl fmt::Display for Kind {
             Self::NotFinite(token) => {
                 write!(f, "the coordinate {token:?} is not finite; remove the vertex or correct it")
             }
-            Self::TooLarge(token) => write!(
-                f,
-                "the coordinate {token:?} is too large for 32 bits; build with tobj's `use_f64`, \
-                 or scale the scene down"
-            ),
             Self::Index(token) => {
-                write!(f, "{token:?} names no vertex; write whole numbers such as 3, 3/1 or -1")
+                write!(
+                    f,
+                    "{token:?} does not name a vertex; write whole numbers such as 3, 3/1 or -1"
+                )
             }
             Self::ZeroIndex => write!(f, "vertex 0 does not exist; the first is 1"),
             Self::OutOfRange { index, vertices } => {

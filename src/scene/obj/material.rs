@@ -2,13 +2,21 @@ use super::report::ObjReport;
 use super::text::{decode, lines};
 use crate::scene::Material;
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// What a material library says about a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
     pub(super) color: [f32; 3],
     pub(super) opacity: f32,
+}
+
+/// The result of looking for a material library.
+enum Library {
+    Content(Vec<u8>),
+    Missing,
+    /// The name leads out of the folder of the file that names it.
+    Outside,
 }
 
 /// Reads all libraries. Where several define a material, the last one counts.
@@ -18,46 +26,69 @@ pub(super) fn load(
     report: &mut ObjReport,
 ) -> HashMap<String, Look> {
     let mut looks = HashMap::new();
+    let mut find = |name: &str| {
+        let name = Path::new(name);
+        if !is_inside(name) {
+            return Library::Outside;
+        }
+        read(name).map_or(Library::Missing, Library::Content)
+    };
     for library in libraries {
-        // A name may hold spaces, or be several names; or have been written on
-        // Windows.
-        let slashed = library.replace('\\', "/");
-        let whole = read(Path::new(library)).or_else(|| read(Path::new(&slashed)));
-        let contents: Vec<Option<Vec<u8>>> = match whole {
-            None if library.contains(char::is_whitespace) => {
-                library.split_whitespace().map(|name| read(Path::new(name))).collect()
-            }
-            whole => vec![whole],
-        };
-        let mut missing = false;
-        for content in contents {
-            match content.as_deref().map(|bytes| parse(bytes, report)) {
-                Some(Some(found)) => looks.extend(found),
-                _ => missing = true,
+        let (mut missing, mut outside) = (false, false);
+        for found in find_all(library, &mut find) {
+            match found {
+                Library::Content(bytes) => match parse(&bytes, report) {
+                    Some(found) => looks.extend(found),
+                    None => missing = true,
+                },
+                Library::Missing => missing = true,
+                Library::Outside => outside = true,
             }
         }
-        if missing {
+        if outside {
+            report.outside_libraries.push(library.clone());
+        } else if missing {
             report.missing_libraries.push(library.clone());
         }
     }
     looks
 }
 
-/// The materials of one library; `None` if it is no text.
+/// The libraries that one `mtllib` line names: the name may hold spaces, or be
+/// several names; or have been written on Windows.
+fn find_all(name: &str, find: &mut impl FnMut(&str) -> Library) -> Vec<Library> {
+    let whole = match find(name) {
+        Library::Missing if name.contains('\\') => find(&name.replace('\\', "/")),
+        found => found,
+    };
+    match whole {
+        Library::Content(_) => vec![whole],
+        _ if name.contains(char::is_whitespace) => name.split_whitespace().map(find).collect(),
+        _ => vec![whole],
+    }
+}
+
+/// Whether a path stays within its folder and those below it, judged by its text
+/// alone.
+fn is_inside(path: &Path) -> bool {
+    path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
+}
+
+/// The materials of one library; `None` if it is not text.
 fn parse(bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> {
     let text = decode(bytes).ok()?;
     let (cleaned, names) = clean(&text, report);
     let (materials, _) = tobj::load_mtl_buf(&mut cleaned.as_bytes()).ok()?;
     let look = |material: &tobj::Material| Look {
-        color: material.diffuse.map_or(Material::DEFAULT.color, |rgb| rgb.map(narrow)),
-        opacity: material.dissolve.map_or(1.0, narrow),
+        color: material.diffuse.map_or(Material::DEFAULT.color, |rgb| rgb.map(|c| c as f32)),
+        opacity: material.dissolve.map_or(1.0, |opacity| opacity as f32),
     };
     Some(names.into_iter().zip(materials.iter().map(look)).collect())
 }
 
-/// Keeps `newmtl`, `Kd` and opacity where they are well-formed: `tobj` gives the
-/// whole library up for one bad line, and panics on a `Kd` of one number. Names
-/// come apart: `tobj` gets their numbers, as it has its own idea of what a space is.
+/// Keeps the well-formed `newmtl`, `Kd` and opacity lines. The others must go, because
+/// `tobj` rejects a whole library for one bad line, and panics on a `Kd` of one number.
+/// Names are replaced by numbers, because `tobj` treats other characters as spaces.
 fn clean(text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
     let (mut cleaned, mut names) = (String::new(), Vec::new());
     let mut named = false;
@@ -107,9 +138,4 @@ fn color<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f32; 3]> {
 fn number(word: Option<&str>) -> Option<f32> {
     let number: f32 = word?.parse().ok()?;
     number.is_finite().then(|| number.clamp(0.0, 1.0))
-}
-
-/// Generic because tobj's number type is `f32` or `f64` by its features.
-fn narrow<T: Into<f64>>(number: T) -> f32 {
-    number.into() as f32
 }

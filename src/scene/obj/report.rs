@@ -20,16 +20,18 @@ pub struct ObjReport {
     pub skipped_statements: u32,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
-    /// Materials that are used but defined nowhere.
+    /// Material libraries that were not read, because their names lead out of the file's
+    /// folder: they are absolute or contain `..`.
+    pub outside_libraries: Vec<String>,
+    /// Materials that are used but not defined.
     pub missing_materials: Vec<String>,
-    /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that make no
-    /// sense or are of a kind that is not read, such as spectral curves.
+    /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
+    /// unsupported kind, such as spectral curves.
     pub skipped_material_lines: u32,
 }
 
 impl ObjReport {
-    /// Whether all of the file went into the scene, so that there is nothing to
-    /// say.
+    /// Whether nothing was left out.
     pub fn is_clean(&self) -> bool {
         *self == Self { faces: self.faces, ..Self::default() }
     }
@@ -46,6 +48,7 @@ impl fmt::Display for ObjReport {
         ];
         let lists = [
             (&self.missing_libraries, "material libraries not found"),
+            (&self.outside_libraries, "material libraries outside the file's folder, not read"),
             (&self.missing_materials, "materials not defined"),
         ];
         let counted = counts

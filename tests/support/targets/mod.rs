@@ -1,6 +1,8 @@
-//! What the fuzz targets do with their bytes. Each panics if what it finds is not what its oracle
-//! says.
+//! The bodies of the fuzz targets. Each panics if the library's result contradicts its oracle.
 
+mod cover;
+pub(crate) mod faces;
+pub(crate) mod large;
 #[cfg(feature = "obj")]
 pub(crate) mod obj;
 pub(crate) mod split;

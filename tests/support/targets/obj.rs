@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// What a file that was written here must be read as.
 struct Known {
     text: String,
-    corners: Vec<[f32; 3]>,
+    corners: Vec<DVec3>,
     faces: Vec<Vec<usize>>,
     /// The first line that is to be refused.
     refused: Option<usize>,
@@ -75,21 +75,30 @@ fn read_known(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
+/// A small number, or any that is finite.
+fn coordinate(bytes: &mut Unstructured<'_>) -> Result<f64> {
+    if bytes.ratio(1, 4u8)? {
+        return Ok(f64::from(bytes.arbitrary::<i8>()?) / 4.0);
+    }
+    Ok(Some(bytes.arbitrary::<f64>()?).filter(|number| number.is_finite()).unwrap_or(0.1))
+}
+
 impl Known {
     /// A `v` line; whether it is a good one.
     fn vertex(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
-        let mut corner = [0.0; 3];
-        for coordinate in &mut corner {
-            *coordinate = f32::from(bytes.arbitrary::<i8>()?) / 4.0;
-        }
+        let corner = DVec3::new(coordinate(bytes)?, coordinate(bytes)?, coordinate(bytes)?);
         let bad = bytes.ratio(1, 40u8)?;
         self.text.push('v');
-        for (axis, coordinate) in corner.iter().enumerate() {
+        for (axis, coordinate) in corner.to_array().into_iter().enumerate() {
             if bad && axis == 1 {
                 let word = ["nan", "inf", "-Infinity", "1e999", "x", "1,5", ""];
                 let _ = write!(self.text, " {}", bytes.choose(&word)?);
             } else {
-                let _ = write!(self.text, " {coordinate}");
+                // The shortest text that reads back as the same number, in one way or another.
+                let _ = match bytes.arbitrary()? {
+                    true => write!(self.text, " {coordinate:e}"),
+                    false => write!(self.text, " {coordinate}"),
+                };
             }
         }
         if !bad {
@@ -145,7 +154,7 @@ impl Known {
             Ok((scene, _)) => {
                 let good = self.refused.is_none() && !ahead && !self.faces.is_empty();
                 assert!(good, "read, though it is bad: {:?}", self.text);
-                let corner = |&k: &usize| DVec3::from(self.corners[k].map(f64::from));
+                let corner = |&k: &usize| self.corners[k];
                 let faces = self.faces.iter().map(|f| f.iter().map(corner).collect::<Vec<_>>());
                 assert!(scene.polygons().eq(faces), "{:?}", self.text);
             }

@@ -1,18 +1,18 @@
-//! What is measured of a method on a scene.
+//! The figures that are measured of a method on a scene.
 
 use std::fmt;
 use std::ops::Add;
 
-use binspace::Accuracy;
-use binspace::measure::{AreaError, PictureError};
-use binspace::scene::Family;
+use binspace_evidence::Accuracy;
+use binspace_evidence::Family;
+use binspace_evidence::measure::{AreaError, PictureError};
 
 /// The name of the method whose errors must all be 0.
 pub(super) const EXACT: &str = "bsp exact";
 /// The method whose pictures all others are compared with.
 pub(super) const JUDGE: &str = "z f64";
 
-/// What a section of the report is about.
+/// The subject of a section of the report.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Subject {
     Family(Family),
@@ -38,7 +38,7 @@ pub(super) struct Section {
 /// One method on one scene.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// Where in the sweep; none for a scene that is no step of any.
+    /// The difficulty in the sweep; `None` for a scene that does not belong to a family.
     pub(super) difficulty: Option<f64>,
     pub(super) faces: usize,
     pub(super) views: usize,

@@ -2,9 +2,10 @@
 
 use std::time::Instant;
 
-use binspace::geom::{Exact, Float, Kernel};
+use binspace::internals::{Exact, Faces, Kernel};
 use binspace::scene::Builtin;
 use binspace::{BuildOptions, Viewpoint};
+use binspace_evidence::{Float, KernelTree};
 
 use super::figures::EXACT;
 use crate::args::ReportArgs;
@@ -72,7 +73,8 @@ fn measure<K: Kernel>(kernel: K, scene: &binspace::scene::Scene) -> Result<Size,
     let options = BuildOptions::DEFAULT.with_max_fragments(MAX_FRAGMENTS);
     let build = || {
         let start = Instant::now();
-        let tree = options.build_with(kernel, scene.polygons());
+        let faces = Faces::new(scene.polygons(), None).map(|(faces, _)| faces);
+        let tree = faces.and_then(|faces| KernelTree::build(kernel, &options, faces));
         tree.map(|tree| (tree, start.elapsed().as_secs_f64())).map_err(|error| error.to_string())
     };
     let (mut tree, mut seconds) = build()?;
@@ -81,7 +83,6 @@ fn measure<K: Kernel>(kernel: K, scene: &binspace::scene::Scene) -> Result<Size,
         seconds = seconds.min(again.1);
         tree = again.0;
     }
-    let stats = tree.stats();
     let mut order = Vec::new();
     let mut time = || {
         let start = Instant::now();
@@ -91,6 +92,7 @@ fn measure<K: Kernel>(kernel: K, scene: &binspace::scene::Scene) -> Result<Size,
     };
     let times: Vec<f64> = (0..5).map(|_| time()).collect();
     let order = times.into_iter().fold(f64::INFINITY, f64::min);
-    let (fragments, depth, bytes) = (stats.fragments, stats.depth_max, stats.bytes);
+    let (fragments, depth) = (tree.len(), tree.depth());
+    let bytes = tree.bytes() + tree.faces().bytes();
     Ok(Size { fragments, depth, bytes, build: seconds, order })
 }

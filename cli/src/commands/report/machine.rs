@@ -1,4 +1,4 @@
-//! What the figures were taken on.
+//! The machine and the commit that the figures were measured on.
 
 use std::fs;
 use std::thread;

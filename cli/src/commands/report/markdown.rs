@@ -1,6 +1,6 @@
 //! The report itself.
 
-use binspace::scene::Family;
+use binspace_evidence::Family;
 
 use super::figures::{Section, Subject};
 use super::growth::Growth;
@@ -20,8 +20,8 @@ pub(super) fn report(report: &Report<'_>) -> String {
     );
     if let Some(table) = summary::in_common(&report.sections) {
         text += &format!(
-            "\nA method that gave up is compared above over easier trials than the others. All of \
-             them over the trials that every method ended:\n\n{}",
+            "\nA method that gave up is compared above over easier trials than the others. This table \
+             compares all methods over the trials that every method ended:\n\n{}",
             table.markdown()
         );
     }
@@ -29,7 +29,8 @@ pub(super) fn report(report: &Report<'_>) -> String {
     text += "\n### All methods, all families\n\n";
     text += &summary::everything(&report.sections).markdown();
     text += "\n## The families, one by one\n\n\
-             `f64` and `f32` trees are those with an epsilon; the judge is no depth buffer here.\n";
+             `f64` and `f32` trees are those with an epsilon; the exact depth buffer, which judges \
+             all methods, is not counted among depth buffers here.\n";
     for section in &report.sections {
         match section.subject {
             Subject::Family(family) => text += &of_family(section, family),
@@ -46,7 +47,7 @@ fn head(report: &Report<'_>) -> String {
     let [width, height] = report.size;
     let mut state = String::new();
     if !report.complete {
-        state += "\n**Not complete: more was asked for.**\n";
+        state += "\n**Not complete: some results are missing.**\n";
     }
     for name in &report.failed {
         state += &format!("\n**{name} could not be measured.**\n");
@@ -65,11 +66,11 @@ fn head(report: &Report<'_>) -> String {
 }
 
 const LEGEND: &str = "
-*Wrong pixels* is the share of all covered pixels, of all steps of all families, in which another
-polygon is painted than the nearest, or none, or one where there is none. *Families wrong* counts
+*Wrong pixels* is the share of covered pixels, over all steps of all families, that show another
+polygon than the nearest, or none, or a polygon where there is none. *Families wrong* counts
 families with any such pixel. *Deepest error* and *largest drift* are shares of the extent.
-*Vertices misplaced* are, by their exact definition, on another side of a partition plane than
-their piece was put. *Build* and *picture* (order and drawing) are geometric means.
+*Vertices misplaced* are those that, by their exact definition, lie on another side of a partition
+plane than their piece. *Build* and *picture* (order and drawing) are geometric means.
 *Ended* counts the trials that did not run out of a budget; a method's other figures are of these
 alone, though those that it gave up are the hardest. – means that a method has no such figure.
 ";
@@ -169,7 +170,7 @@ const MEASURES: &str = "
 
 - **Truth** is a depth buffer that decides every pixel in exact arithmetic. A pixel is *contested*,
   and not wrong, where the painted and the nearest polygon are equally far along its ray, exactly,
-  or no further apart than the tolerance allows for.
+  or the tolerance allows for either in front.
 - **Wrong order**: a polygon shows that another one hides; **hole**: nothing shows where there is a
   polygon; **spill**: a polygon shows where there is none. The *deepest error* is the largest
   difference between the depths of the painted and the nearest polygon in a wrong pixel.

@@ -17,9 +17,10 @@ use std::time::{Duration, Instant};
 use std::{fs, io};
 
 use binspace::BuildOptions;
-use binspace::geom::Faces;
-use binspace::method::{Method, Newell, Options, all};
-use binspace::scene::{Family, Scene};
+use binspace::internals::Faces;
+use binspace::scene::Scene;
+use binspace_evidence::Family;
+use binspace_evidence::method::{Method, Newell, Options, all};
 
 use self::figures::{Row, Section, Subject};
 use self::growth::Growth;
@@ -34,16 +35,16 @@ use crate::scene_arg;
 use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use crate::units::count;
 
-/// The most fragments of a tree, and pieces of Newell's algorithm. More, and a single step of a
-/// sweep takes minutes; less, and methods are given up that come to an end.
+/// The budget of fragments of a tree, and of pieces of Newell's algorithm. Larger: a single step of
+/// a sweep takes minutes; smaller: methods are stopped that would have finished.
 const MAX_PIECES: usize = 1 << 19;
 /// A scene that is a file may have so many for each of its corners.
 const PIECES_PER_CORNER: usize = 8;
 /// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if it has to
 /// be quick.
 const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
-/// How long what has been measured may go unwritten. Shorter: time for writing; longer: more is lost
-/// where it is interrupted.
+/// The time between two writes of the results. Smaller: time for writing; larger: an interruption
+/// loses more.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Build times, fragments and the figures of both.
 const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
@@ -60,7 +61,7 @@ pub(super) struct Report<'a> {
     growth: Vec<Growth>,
     /// Scenes that could not be measured.
     failed: Vec<String>,
-    /// Whether all that was asked for is in it.
+    /// Whether it contains everything that was asked for.
     complete: bool,
 }
 
@@ -204,10 +205,10 @@ impl Report<'_> {
             let [build, fragments, table] = GROWTH_FILES;
             write(folder, build, &plots::growth_build(&self.growth)?)?;
             write(folder, fragments, &plots::growth_fragments(&self.growth)?)?;
-            write(folder, table, &csv::growth(&self.growth))?;
+            write(folder, table, &csv::growth(&self.growth)?)?;
         }
-        write(folder, "errors.csv", &csv::errors(&self.sections))?;
-        write(folder, "times.csv", &csv::times(&self.sections))?;
+        write(folder, "errors.csv", &csv::errors(&self.sections)?)?;
+        write(folder, "times.csv", &csv::times(&self.sections)?)?;
         write(folder, "report.md", &markdown::report(self))
     }
 
@@ -215,8 +216,8 @@ impl Report<'_> {
         let table = summary::headline(&self.sections);
         let head = match self.args.family[..] {
             [] => "All families together",
-            [_] => "The family that was named",
-            _ => "The families that were named, together",
+            [_] => "The named family",
+            _ => "All named families together",
         };
         say(format!("\n{}\n{}", styled(HEAD, head), table.plain()))?;
         let exact = self.exactness();

@@ -3,7 +3,8 @@
 mod chart;
 mod scale;
 
-use binspace::scene::{Builtin, Family};
+use binspace::scene::Builtin;
+use binspace_evidence::Family;
 
 use self::chart::{Chart, Marker, Series, Style};
 use super::figures::{EXACT, Section};

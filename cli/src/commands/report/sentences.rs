@@ -1,4 +1,4 @@
-//! What the figures of a family say, in words.
+//! Summarises the figures of a family in a sentence.
 
 use super::figures::{EXACT, JUDGE, Row, Section};
 use super::tables::{difficulty, exponent, grouped, share};
@@ -79,7 +79,7 @@ const KINDS: [(&[&str], &str); 3] = [
     (&["bsp f32"], "`f32` trees"),
     (&["z ", "w "], "depth buffers"),
 ];
-/// So many methods are named; more are counted, kind by kind.
+/// At most this many methods are named one by one; more are counted by kind.
 const NAMED: usize = 4;
 
 /// Methods of all that there are, with few names.
@@ -163,7 +163,7 @@ fn worst(section: &Section, others: &[&str]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use binspace::measure::PictureError;
+    use binspace_evidence::measure::PictureError;
 
     use super::{names, sentence};
     use crate::commands::report::figures::{Figures, Row, Section, Subject};

@@ -1,6 +1,7 @@
 //! Tables, as Markdown and as plain text.
 
 use super::figures::{Figures, Row, Section};
+use crate::table;
 use crate::units::{bytes, time};
 
 /// A table of text.
@@ -29,8 +30,10 @@ impl Table {
 
     /// In columns, for a terminal: titles above each other if they are of several words.
     pub(super) fn plain(&self) -> String {
-        let words: Vec<Vec<&str>> =
-            self.columns.iter().map(|title| title.split(' ').collect()).collect();
+        // A stroke stays with the word before it.
+        let titles: Vec<String> =
+            self.columns.iter().map(|title| title.replace(" / ", "/ ")).collect();
+        let words: Vec<Vec<&str>> = titles.iter().map(|title| title.split(' ').collect()).collect();
         let height = words.iter().map(Vec::len).max().unwrap_or(0);
         let mut lines: Vec<Vec<String>> = (0..height)
             .map(|i| {
@@ -42,14 +45,9 @@ impl Table {
             .collect();
         lines.extend(self.rows.iter().cloned());
         let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
-        let text = |line: &Vec<String>| {
-            let cells = line.iter().zip(&widths).enumerate().map(|(k, (cell, &width))| match k {
-                0 => format!("{cell:width$}"),
-                _ => format!("{cell:>width$}"),
-            });
-            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
-        };
+        let columns: Vec<_> = (0..self.columns.len()).map(|k| ("", width(k))).collect();
+        let table = table::Table::new(&columns);
+        let text = |line: &Vec<String>| table.row(line).trim_end().to_owned();
         lines.iter().map(text).collect::<Vec<_>>().join("\n")
     }
 }
@@ -185,9 +183,12 @@ mod tests {
 
     #[test]
     fn a_table_is_written_in_two_ways() {
-        let mut table = Table::new(&["method", "wrong pixels"]);
-        table.push(vec!["bsp".into(), "0".into()]);
-        assert_eq!(table.markdown(), "| method | wrong pixels |\n|---|---:|\n| bsp | 0 |\n");
-        assert_eq!(table.plain(), "         wrong\nmethod  pixels\nbsp          0");
+        let mut table = Table::new(&["method", "wrong pixels", "pieces / polygon"]);
+        table.push(vec!["bsp".into(), "0".into(), "1".into()]);
+        let markdown =
+            "| method | wrong pixels | pieces / polygon |\n|---|---:|---:|\n| bsp | 0 | 1 |\n";
+        assert_eq!(table.markdown(), markdown);
+        let plain = "         wrong  pieces/\nmethod  pixels  polygon\nbsp          0        1";
+        assert_eq!(table.plain(), plain);
     }
 }

@@ -2,13 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use binspace::geom::Faces;
 use binspace::glam::DVec3;
-use binspace::measure::{PictureError, area_error, extent};
-use binspace::method::{Method, MethodError, Prepared};
+use binspace::internals::Faces;
 use binspace::raster::{Image, Rays, zbuffer};
-use binspace::scene::{Family, Scene};
+use binspace::scene::Scene;
 use binspace::view::{Camera, CameraError};
+use binspace_evidence::Family;
+use binspace_evidence::measure::{PictureError, area_error, extent};
+use binspace_evidence::method::{Method, MethodError, Prepared};
 
 use super::figures::{Figures, Row};
 use crate::camera;
@@ -121,7 +122,7 @@ impl Trial {
 fn paint(
     prepared: &mut dyn Prepared,
     view: &View,
-) -> Result<binspace::method::Painted, MethodError> {
+) -> Result<binspace_evidence::method::Painted, MethodError> {
     let (painted, _) = repeat(|| {
         let painted = prepared.paint(&view.camera, &view.rays)?;
         let time = painted.order + painted.draw;

@@ -1,0 +1,152 @@
+//! Each number that choosing is tuned by, off, halved and doubled: what that does to the fragments
+//! and to the time to build, over all scenes. Prints the table of ABLATION.md.
+//!
+//! ```sh
+//! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench ablation
+//! ```
+
+#![allow(missing_docs, reason = "a program")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+
+use binspace::glam::{DQuat, DVec3, EulerRot};
+use binspace::internals::{Faces, Tuning, tree_tuned};
+use binspace::scene::Scene;
+use std::time::{Duration, Instant};
+use support::{Table, check, print_head, random_quads, scene, small_triangles};
+
+const BUILTIN: [&str; 12] = [
+    "crossing:100",
+    "layers:100",
+    "teapot:8",
+    "teapot:16",
+    "terrain:5000",
+    "sphere:3000",
+    "city:5000",
+    "random:150",
+    "random:260",
+    "random:500",
+    "random:1000",
+    "chain:2000",
+];
+const TURNED: [&str; 5] = ["teapot:8", "terrain:2000", "sphere:1000", "city:2000", "layers:200"];
+const FILES: [&str; 11] = [
+    "cornell_box.obj",
+    "spider_1k.obj",
+    "forklift_1k.obj",
+    "doom_e1m1.obj",
+    "suzanne_2k.obj",
+    "teapot_quads_2k.obj",
+    "bunny_4k.obj",
+    "doom_map12_big.obj",
+    "bed_21k.obj",
+    "pool_table_29k.obj",
+    "chessboard_63k.obj",
+];
+
+/// The builds of a scene with one tuning take at least so long together, if there are not
+/// [`MOST_BUILDS`] before.
+const ENOUGH: Duration = Duration::from_millis(12);
+const MOST_BUILDS: usize = 9;
+
+/// A change to the tuning, with the name of what it changes and how.
+type Change = (&'static str, &'static str, fn(&mut Tuning));
+
+/// For each field, what its change is named and what value it takes.
+macro_rules! changes {
+    ($($field:ident: $($how:literal => $value:expr),+;)*) => {
+        [$($((stringify!($field), $how, |t: &mut Tuning| t.$field = $value),)+)*]
+    };
+}
+
+const MOST: usize = usize::MAX;
+
+const CHANGES: [Change; 34] = changes! {
+    clean_below: "0" => 0, "½" => 32, "×2" => 128;
+    small: "0" => 0, "½" => 128, "×2" => 512;
+    own_planes: "¼" => 24, "½" => 48, "×2" => 192;
+    few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
+    at_rim: "never" => MOST, "½" => 6, "×4/3" => 16;
+    uneven: "½" => 2, "×2" => 8;
+    looks: "½" => 8, "×2" => 32, "all" => MOST / 2;
+    rate: "½" => 2, "×2" => 8;
+    reward: "0" => 0.0, "½" => 0.175, "×2" => 0.7;
+    rim_share: "off" => MOST, "½" => 4, "×2" => 16;
+    per_bin: "½" => 1, "×2" => 4;
+    most_bins: "½" => 512, "×2" => 2048;
+    leaf: "½" => 32, "×2" => 128;
+};
+
+fn main() {
+    print_head("Ablation of choosing", "cargo bench -p binspace-benches --bench ablation");
+    let scenes = scenes();
+    let faces: usize = scenes.iter().map(Scene::len).sum();
+    println!("- scenes: {}, of {faces} polygons together", scenes.len());
+    println!("- figures: geometric means over the scenes, relative to the default tuning");
+    println!("- times: the shortest of up to {MOST_BUILDS} builds, in turn with the default's");
+    println!(
+        "- fragments are exact; times are off by some 5 % on a machine at rest, by more on others"
+    );
+    let columns = ["field", "is", "fragments", "time", "most", "on            "];
+    let table = Table::new("Each field changed", &columns);
+    for &(field, how, change) in &CHANGES {
+        let mut tuning = Tuning::DEFAULT;
+        change(&mut tuning);
+        let rows: Vec<_> = scenes.iter().map(|scene| compare(scene, &tuning)).collect();
+        let mean = |of: fn(&[f64; 2]) -> f64| {
+            (rows.iter().map(|row| of(row).ln()).sum::<f64>() / rows.len() as f64).exp()
+        };
+        let worst = (0..rows.len()).max_by(|&a, &b| rows[a][0].total_cmp(&rows[b][0]));
+        let worst = worst.expect("a scene");
+        let name = scenes[worst].name();
+        table.row(&[
+            field.to_owned(),
+            how.to_owned(),
+            format!("{:.3}", mean(|row| row[0])),
+            format!("{:.2}", mean(|row| row[1])),
+            format!("{:.3}", rows[worst][0]),
+            name.rsplit('/').next().unwrap_or(name).to_owned(),
+        ]);
+    }
+}
+
+/// The fragments and the time with another tuning, each divided by that with the default.
+fn compare(scene: &Scene, tuning: &Tuning) -> [f64; 2] {
+    let mut shortest = [Duration::MAX; 2];
+    let mut fragments = [0; 2];
+    let (mut spent, mut builds) = (Duration::ZERO, 0);
+    while builds == 0 || builds < MOST_BUILDS && spent < ENOUGH {
+        for (i, tuning) in [&Tuning::DEFAULT, tuning].into_iter().enumerate() {
+            let start = Instant::now();
+            let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");
+            let tree = tree_tuned(tuning, faces, preparation).expect("a tree");
+            let time = start.elapsed();
+            shortest[i] = shortest[i].min(time);
+            fragments[i] = tree.stats().fragments;
+            spent += time;
+            if builds == 0 && scene.len() < 500 {
+                check(&tree, scene);
+            }
+        }
+        builds += 1;
+    }
+    let [default, other] = shortest.map(|time| time.as_secs_f64());
+    [fragments[1] as f64 / fragments[0] as f64, other / default]
+}
+
+fn scenes() -> Vec<Scene> {
+    let mut scenes: Vec<Scene> = BUILTIN.into_iter().filter_map(scene).collect();
+    scenes.extend(TURNED.into_iter().filter_map(scene).map(|scene| turned(&scene)));
+    scenes.extend([random_quads(200), random_quads(300), small_triangles(5000)]);
+    scenes.extend(FILES.into_iter().filter_map(scene));
+    scenes
+}
+
+/// A copy of a scene in which nothing is perpendicular to an axis.
+fn turned(scene: &Scene) -> Scene {
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+    let mut turned = Scene::new(format!("{}, turned", scene.name()), scene.up());
+    for corners in scene.polygons() {
+        turned.push(corners.iter().map(|&corner: &DVec3| turn * corner), 0);
+    }
+    turned
+}

@@ -1,0 +1,53 @@
+//! Area that is lost when polygons are cut.
+
+use glam::DVec3;
+
+use binspace::internals::Faces;
+
+/// How the areas of pieces differ from those of the faces that they are of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct AreaError {
+    /// Pieces.
+    pub pieces: usize,
+    /// The largest difference of a face's area and that of its pieces, as a share of the former.
+    pub worst: f64,
+    /// The sum of these differences over all faces, as a share of all area.
+    pub total: f64,
+}
+
+/// Compares the areas of pieces, given by their face and their vertices in lattice units, with
+/// those of the faces. `for_each` is to show every piece; `None` if it shows none.
+///
+/// Areas are computed in `f64` from the rounded vertices, so a sum of many good pieces is off by
+/// some 1e-16 of it.
+pub fn area_error(
+    faces: &Faces,
+    for_each: impl FnOnce(&mut dyn FnMut(u32, &[[f64; 3]])),
+) -> Option<AreaError> {
+    let mut areas = vec![0.0; faces.len()];
+    let mut pieces = 0;
+    for_each(&mut |face, vertices| {
+        pieces += 1;
+        areas[face as usize] += area(vertices);
+    });
+    if pieces == 0 {
+        return None;
+    }
+    let (mut worst, mut lost, mut all) = (0.0f64, 0.0, 0.0);
+    for (face, &found) in (0..).zip(&areas) {
+        let whole = area(faces.corners(face));
+        let difference = (found - whole).abs();
+        worst = worst.max(difference / whole);
+        lost += difference;
+        all += whole;
+    }
+    Some(AreaError { pieces, worst, total: lost / all })
+}
+
+fn area(vertices: &[[f64; 3]]) -> f64 {
+    let Some((&first, rest)) = vertices.split_first() else { return 0.0 };
+    let arm = |vertex: [f64; 3]| DVec3::from_array(vertex) - DVec3::from_array(first);
+    let sum: DVec3 = rest.windows(2).map(|pair| arm(pair[0]).cross(arm(pair[1]))).sum();
+    0.5 * sum.length()
+}

@@ -1,0 +1,144 @@
+//! The depth buffer of hardware and textbooks, with limited precision.
+
+mod format;
+mod frame;
+mod gradient;
+mod pass;
+mod range;
+mod scanline;
+
+use std::time::{Duration, Instant};
+
+use self::format::Scale;
+use self::frame::Frame;
+use self::pass::Pass;
+use super::space::CameraSpace;
+use super::{Method, MethodError, Painted, Prepared};
+use crate::Precision;
+use binspace::internals::Faces;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+
+pub use self::format::{DepthFormat, Interpolation};
+
+/// The depth buffer (Catmull 1974) with depths of limited precision.
+///
+/// A pixel shows the face of the least stored depth. Of equal stored depths the *earlier* face's
+/// counts (the test `LESS` of graphics libraries); a pixel without a face is beyond any depth.
+///
+/// # What is rounded
+///
+/// Corners are placed in the camera's coordinates and clipped to the picture and to the range of
+/// depths in `f64`. From there on, with R the rounding of each single operation, which is to `f32`
+/// for the floating-point formats and to `f64` for the integer ones:
+///
+/// 1. the place, to x, y and the depth w: one R each;
+/// 2. the position on the picture: x / (w · pixel) + half the width, y likewise;
+/// 3. what is interpolated. Perspective: (a · w + b) / w with a and b from near and far as graphics
+///    libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
+/// 4. the slopes −A/C and −B/C of the plane Ax + By + Cz + D = 0 through three of these points: of
+///    a face of more corners, the first and two neighbours that span the most;
+/// 5. the value in a pixel, by the way of [`Interpolation`];
+/// 6. what is stored: see [`DepthFormat`].
+///
+/// So an integer format errs by its steps alone, as with interpolators that are wide enough, while
+/// the floating-point formats err as a pipeline of `f32` does. (Such a pipeline errs more in 1, as
+/// it multiplies matrices in `f32` as well, and has positions of fewer bits in 2.)
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthBuffer {
+    /// What is stored.
+    pub format: DepthFormat,
+    /// How depths are interpolated from the corners to the pixels.
+    pub interpolation: Interpolation,
+    /// The least depth that is shown, in world units along the direction of view, from the eye, or
+    /// from the centre of a parallel camera's picture. Default: `None`, the least that the picture
+    /// shows, though no less than 2⁻⁴⁴ of the furthest.
+    pub near: Option<f64>,
+    /// The largest depth that is shown. Default: `None`, the largest that the picture shows.
+    pub far: Option<f64>,
+}
+
+impl DepthBuffer {
+    /// A buffer of this format with edge functions and the scene's own range.
+    pub const fn new(format: DepthFormat) -> Self {
+        Self { format, interpolation: Interpolation::EdgeFunctions, near: None, far: None }
+    }
+
+    /// With another way to interpolate.
+    #[must_use]
+    pub const fn with_interpolation(self, interpolation: Interpolation) -> Self {
+        Self { interpolation, ..self }
+    }
+
+    /// With given near and far planes, in world units.
+    #[must_use]
+    pub const fn with_range(self, near: f64, far: f64) -> Self {
+        Self { near: Some(near), far: Some(far), ..self }
+    }
+}
+
+impl Method for DepthBuffer {
+    fn name(&self) -> String {
+        let mut name = self.format.to_string();
+        if self.interpolation == Interpolation::Incremental {
+            name += " incremental";
+        }
+        for (label, value) in [("near", self.near), ("far", self.far)] {
+            if let Some(value) = value {
+                name += &format!(" {label} {value:e}");
+            }
+        }
+        name
+    }
+
+    fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
+        Ok(Box::new(Ready { method: self, faces, keys: Vec::new() }))
+    }
+}
+
+struct Ready<'a> {
+    method: &'a DepthBuffer,
+    faces: &'a Faces,
+    /// The stored depths; the next picture reuses their memory.
+    keys: Vec<u32>,
+}
+
+impl Prepared for Ready<'_> {
+    fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
+        if self.method.format.is_float() {
+            self.paint_in::<f32>(camera, rays)
+        } else {
+            self.paint_in::<f64>(camera, rays)
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        // A depth and a face.
+        self.keys.len() * 2 * size_of::<u32>()
+    }
+}
+
+impl Ready<'_> {
+    fn paint_in<P: Precision>(
+        &mut self,
+        camera: &Camera,
+        rays: &Rays,
+    ) -> Result<Painted, MethodError> {
+        let begin = Instant::now();
+        let space = CameraSpace::new(camera, self.faces.lattice());
+        let mut frame = Frame::new(space.size, std::mem::take(&mut self.keys));
+        let mut pieces = 0;
+        if let Some(range) = range::of([self.method.near, self.method.far], &space, self.faces)? {
+            let scale = Scale::<P>::new(self.method.format, range, space.perspective);
+            let mut pass = Pass { space, range, scale, faces: self.faces, rays, frame };
+            pieces = match self.method.interpolation {
+                Interpolation::EdgeFunctions => pass.by_edge_functions(),
+                Interpolation::Incremental => scanline::draw(&mut pass),
+            };
+            frame = pass.frame;
+        }
+        let (image, keys) = frame.finish();
+        self.keys = keys;
+        Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces })
+    }
+}

@@ -1,0 +1,154 @@
+//! The formats of stored depths, and the values that are interpolated for them.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use glam::DVec3;
+
+use super::super::clip::Range;
+use super::super::space::CameraSpace;
+use super::gradient::Sample;
+use crate::Precision;
+
+/// What a depth buffer stores.
+///
+/// With n and f the near and the far plane's depths, z is the depth after the perspective divide,
+/// as graphics libraries have it: f (w − n) / (w (f − n)), 0 at the near plane and 1 at the far
+/// one. Half of its values go to depths below 2 n. For parallel cameras it is (w − n) / (f − n).
+///
+/// Lapidous & Jiao, "Optimal depth buffer for low-cost graphics hardware" (1999), compare these and
+/// more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthFormat {
+    /// z in steps of 1 / (2^bits − 1), rounded to the nearest; 1 to 32 bits.
+    Integer(u8),
+    /// z as an `f32`: most of its values are near 0, as are those of z after the divide, so that
+    /// far depths are told apart worst.
+    Float,
+    /// 1 − z as an `f32`, interpolated as n (f − w) / (w (f − n)), the larger being nearer: the
+    /// two unevennesses all but cancel.
+    FloatReversed,
+    /// The depth w itself, linear between near and far, in steps of 1 / (2^bits − 1): 1 / w is
+    /// interpolated and inverted in each pixel.
+    LinearInteger(u8),
+    /// The depth w itself as an `f32`: 1 / w is interpolated and inverted in each pixel.
+    LinearFloat,
+}
+
+impl DepthFormat {
+    /// Whether all steps are rounded to `f32`.
+    pub(super) fn is_float(self) -> bool {
+        matches!(self, Self::Float | Self::FloatReversed | Self::LinearFloat)
+    }
+}
+
+impl fmt::Display for DepthFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Integer(bits) => write!(f, "z {bits}"),
+            Self::Float => f.write_str("z f32"),
+            Self::FloatReversed => f.write_str("z f32 reversed"),
+            Self::LinearInteger(bits) => write!(f, "w {bits}"),
+            Self::LinearFloat => f.write_str("w f32"),
+        }
+    }
+}
+
+/// How depths come from the corners of a face to the pixels within it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the
+    /// left. What a face covers is decided exactly, so that it shows nowhere else: there are no
+    /// spills. A face that is within the range of depths has no holes either. One that reaches out
+    /// of it, as all do that reach behind the eye, ends there by its depths in `f64`; the rest of
+    /// it is missing, which may be all that there is to see of a face that the eye touches.
+    EdgeFunctions,
+    /// Scanline by scanline, as in Catmull's thesis (1974) and, without a buffer, in Wylie, Romney,
+    /// Evans & Erdahl (1967) and Bouknight (1970): x and z grow by a constant along the edges from
+    /// one scanline to the next, and z by −A/C from one pixel to the next. What a face covers comes
+    /// out of the same sums, so pixels at its edges may be missing, or too many.
+    Incremental,
+}
+
+/// From depths to what is interpolated, and from there to what is stored.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale<P> {
+    format: DepthFormat,
+    range: Range,
+    perspective: bool,
+    /// What is interpolated is (a · w + b), over w for a perspective.
+    a: f64,
+    b: f64,
+    /// The largest step of an integer format.
+    steps: f64,
+    precision: PhantomData<P>,
+}
+
+impl<P: Precision> Scale<P> {
+    pub(super) fn new(format: DepthFormat, range: Range, perspective: bool) -> Self {
+        let Range { near, far } = range;
+        let (a, b) = match (format, perspective) {
+            (DepthFormat::FloatReversed, true) => (-near / (far - near), near * far / (far - near)),
+            (DepthFormat::LinearInteger(_) | DepthFormat::LinearFloat, true) => (0.0, 1.0),
+            (_, true) => (far / (far - near), -near * far / (far - near)),
+            (DepthFormat::FloatReversed, false) => (-1.0 / (far - near), far / (far - near)),
+            (_, false) => (1.0 / (far - near), -near / (far - near)),
+        };
+        let steps = match format {
+            DepthFormat::Integer(bits) | DepthFormat::LinearInteger(bits) => {
+                2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0
+            }
+            _ => 1.0,
+        };
+        let (a, b) = (P::round(a), P::round(b));
+        Self { format, range, perspective, a, b, steps, precision: PhantomData }
+    }
+
+    /// A vertex on the picture with what is interpolated.
+    pub(super) fn sample(&self, space: &CameraSpace, at: DVec3) -> Sample {
+        let [x, y, w] = at.to_array().map(P::round);
+        let pixel = P::round(space.pixel);
+        let unit = if self.perspective { P::round(w * pixel) } else { pixel };
+        let [width, height] = space.size.map(f64::from);
+        let position = |c: f64, side: f64| P::round(P::round(c / unit) + 0.5 * side);
+        let value = P::round(P::round(self.a * w) + self.b);
+        let value = if self.perspective { P::round(value / w) } else { value };
+        Sample { x: position(x, width), y: position(y, height), value }
+    }
+
+    /// What is stored of an interpolated value: the smaller, the nearer.
+    #[inline]
+    pub(super) fn key(&self, value: f64) -> u32 {
+        match self.format {
+            DepthFormat::Integer(_) => self.step(value),
+            DepthFormat::Float => bits(value.clamp(0.0, 1.0)),
+            DepthFormat::FloatReversed => !bits(value.clamp(0.0, 1.0)),
+            DepthFormat::LinearInteger(_) => {
+                let Range { near, far } = self.range;
+                self.step(if self.perspective {
+                    (1.0 / value - near) / (far - near)
+                } else {
+                    value
+                })
+            }
+            DepthFormat::LinearFloat if self.perspective => {
+                let Range { near, far } = self.range;
+                bits(P::round(1.0 / value).clamp(near, far))
+            }
+            DepthFormat::LinearFloat => bits(value.clamp(0.0, 1.0)),
+        }
+    }
+
+    /// The nearest step; beyond the ends, the end's.
+    #[inline]
+    fn step(&self, value: f64) -> u32 {
+        // Nothing but a conversion, which ends at 0: `round` is a call on some machines.
+        ((value * self.steps + 0.5) as u32).min(self.steps as u32)
+    }
+}
+
+/// A number that is not negative as an `f32`, as an integer of the same order.
+#[inline]
+fn bits(value: f64) -> u32 {
+    (value as f32 + 0.0).to_bits()
+}

@@ -1,0 +1,72 @@
+//! The field of competitors.
+
+use super::{Bsp, Centroid, DepthBuffer, DepthFormat, ExactDepth, Interpolation, Method, Newell};
+use binspace::BuildOptions;
+
+/// Options of the methods that [`all`] makes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// How trees are built. The tolerance is that of the faces, whatever is said here.
+    pub build: BuildOptions,
+    /// Newell's algorithm, its budgets and its epsilon.
+    pub newell: Newell,
+    /// The near plane of depth buffers; see [`DepthBuffer::near`].
+    pub near: Option<f64>,
+    /// The far plane of depth buffers; see [`DepthBuffer::far`].
+    pub far: Option<f64>,
+}
+
+impl Options {
+    /// The defaults.
+    pub const DEFAULT: Self =
+        Self { build: BuildOptions::DEFAULT, newell: Newell::DEFAULT, near: None, far: None };
+
+    /// With other options for trees.
+    #[must_use]
+    pub const fn with_build(self, build: BuildOptions) -> Self {
+        Self { build, ..self }
+    }
+
+    /// With another budget or epsilon for Newell's algorithm.
+    #[must_use]
+    pub const fn with_newell(self, newell: Newell) -> Self {
+        Self { newell, ..self }
+    }
+
+    /// With given near and far planes, in world units, for depth buffers.
+    #[must_use]
+    pub const fn with_range(self, near: f64, far: f64) -> Self {
+        Self { near: Some(near), far: Some(far), ..self }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// The standard field of competitors, the exact tree first and the judge last.
+pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
+    let build = options.build;
+    let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build))];
+    for epsilon in [1e-12, 1e-9, 1e-6, 1e-3] {
+        methods.push(Box::new(Bsp::double(build, epsilon)));
+    }
+    for epsilon in [1e-6, 1e-5, 1e-4, 1e-3] {
+        methods.push(Box::new(Bsp::single(build, epsilon)));
+    }
+    methods.push(Box::new(Centroid));
+    methods.push(Box::new(options.newell));
+    let buffer =
+        |format| DepthBuffer { near: options.near, far: options.far, ..DepthBuffer::new(format) };
+    use DepthFormat::{Float, FloatReversed, Integer, LinearFloat, LinearInteger};
+    for format in [Integer(16), Integer(24), Float, FloatReversed, LinearInteger(16), LinearFloat] {
+        methods.push(Box::new(buffer(format)));
+    }
+    let incremental = buffer(Integer(24)).with_interpolation(Interpolation::Incremental);
+    methods.push(Box::new(incremental));
+    methods.push(Box::new(ExactDepth));
+    methods
+}

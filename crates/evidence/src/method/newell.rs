@@ -1,0 +1,77 @@
+//! The algorithm of Newell, Newell & Sancha.
+
+mod compare;
+mod options;
+mod pieces;
+mod sort;
+mod split;
+
+use std::time::Instant;
+
+use self::pieces::Pieces;
+use self::sort::Sorter;
+use super::clip::{Clipper, Range};
+use super::space::CameraSpace;
+use super::{Method, MethodError, Painted, Prepared};
+use binspace::internals::Faces;
+use binspace::raster::{Order, Outline, Painter, Piece, Rays};
+use binspace::view::Camera;
+
+pub use self::options::Newell;
+
+impl Method for Newell {
+    fn name(&self) -> String {
+        if self.epsilon == Self::DEFAULT.epsilon {
+            "newell".into()
+        } else {
+            format!("newell {:e}", self.epsilon)
+        }
+    }
+
+    fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
+        Ok(Box::new(Ready { method: self, faces, pieces: Pieces::default() }))
+    }
+}
+
+struct Ready<'a> {
+    method: &'a Newell,
+    faces: &'a Faces,
+    /// Those of the last picture, for their memory.
+    pieces: Pieces,
+}
+
+impl Prepared for Ready<'_> {
+    fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
+        let begin = Instant::now();
+        let space = CameraSpace::new(camera, self.faces.lattice());
+        self.pieces.clear();
+        if let Some(range) = Range::ahead(&space, self.faces) {
+            let mut clipper = Clipper::new(&space, range);
+            for face in 0..self.faces.len() as u32 {
+                let outline = clipper.clip_face(&space, self.faces, face);
+                self.pieces.add_face(&space, self.faces, face, outline);
+            }
+        }
+        let sorted = Sorter::new(self.method, &space, &mut self.pieces)?.sort()?;
+        let order = begin.elapsed();
+        let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
+        let mut vertices = Vec::new();
+        for &piece in &sorted {
+            let (face, whole) = self.pieces.source(piece);
+            let outline = if whole {
+                Outline::Whole
+            } else {
+                vertices.clear();
+                vertices.extend(self.pieces.vertices(piece).iter().map(|v| v.lattice.to_array()));
+                Outline::Vertices(&vertices)
+            };
+            painter.draw(Piece { face, outline });
+        }
+        let (image, pieces) = (painter.finish(), sorted.len());
+        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces })
+    }
+
+    fn bytes(&self) -> usize {
+        self.pieces.bytes()
+    }
+}

@@ -1,0 +1,265 @@
+//! Newell's algorithm against brute force, and its cycles.
+
+use glam::{DQuat, DVec3};
+
+use super::oracle::nearest;
+use super::{Polygons, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show};
+use crate::method::{Method, Newell};
+use binspace::internals::SplitMix64;
+use binspace::raster::{NONE, Rays};
+use binspace::scene;
+use binspace::view::Camera;
+
+/// Asserts that every pixel that brute force is sure of shows what it says; and gives back the
+/// pieces of all views together.
+fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
+    let faces = faces(polygons, Some(0.0));
+    let (mut certain, mut all, mut pieces) = (0, 0, 0);
+    for camera in cameras {
+        let painted = show(&Newell::DEFAULT, &faces, camera);
+        let [width, _] = camera.size();
+        for (pixel, &face) in (0u32..).zip(painted.image.faces()) {
+            let (x, y) = (pixel % width, pixel / width);
+            all += 1;
+            let Some(expected) = nearest(polygons, camera, x, y) else { continue };
+            certain += 1;
+            let shown = (face != NONE).then(|| faces.polygon(face) as u32);
+            assert_eq!(shown, expected, "{name}: {camera:?} at ({x}, {y})");
+        }
+        pieces += painted.pieces;
+    }
+    assert!(certain * 100 > all * 97, "{name}: {certain} of {all} pixels are certain");
+    pieces
+}
+
+#[test]
+fn disjoint_triangles_come_out_as_brute_force_has_them() {
+    for seed in 0..3 {
+        let polygons = disjoint(5, seed);
+        assert_right("disjoint", &polygons, &cameras(&polygons, [48, 36], seed));
+    }
+}
+
+#[test]
+fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
+    let scenes = [scene::newell_bars(), scene::crossing(6), scene::random_triangles(60, 5)];
+    for scene in scenes {
+        let polygons = polygons_of(&scene);
+        let views = cameras(&polygons, [48, 36], 7);
+        let pieces = assert_right(scene.name(), &polygons, &views);
+        assert!(pieces > 0, "{}", scene.name());
+    }
+}
+
+#[test]
+fn thin_layers_come_out_as_brute_force_has_them() {
+    // Tilted by more than they are apart, now one way, now the other, in no order of depth.
+    let layer = |i: u32| {
+        let height = 1e-3 * f64::from(i * 7 % 20);
+        let (tilt, reach) = (2e-4 * f64::from(i % 3) - 2e-4, 0.3 + 0.03 * f64::from(i * 3 % 20));
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let corner = |(x, y): (f64, f64)| {
+            let (x, y) = (x * reach, y * reach + 0.1 * f64::from(i % 4));
+            DVec3::new(x, y, height + tilt * (x + y) + 0.3 * x)
+        };
+        corners.map(corner).to_vec()
+    };
+    let polygons: Polygons = (0..20).map(layer).collect();
+    let views = cameras(&polygons, [48, 36], 11);
+    assert_right("thin layers", &polygons, &views);
+    assert_right("thin layers", &polygons, &from_above(2.5, [40, 40]));
+}
+
+#[test]
+fn what_lies_just_behind_the_nearest_corner_is_not_forgotten() {
+    // A slope that reaches far down, and a small square just below its upper end.
+    let slope = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let slope = slope.map(|(x, y)| DVec3::new(x, y, x)).to_vec();
+    let square = [(0.994, -0.01), (1.005, -0.01), (1.005, 0.01), (0.994, 0.01)];
+    let square = square.map(|(x, y)| DVec3::new(x, y, 0.994)).to_vec();
+    let (down, centre) = (DVec3::NEG_Z, DVec3::new(1.0, 0.0, 0.0));
+    let camera = Camera::parallel(down, DVec3::Y, centre, 0.04, [40, 40]).unwrap();
+    assert_right("a slope", &vec![slope, square], &[camera]);
+}
+
+/// From above, and from an eye above.
+fn from_above(height: f64, size: [u32; 2]) -> [Camera; 2] {
+    let eye = DVec3::new(0.03, 0.02, 4.0);
+    let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.6, size).unwrap();
+    let down = DVec3::new(0.01, 0.02, -1.0);
+    [perspective, Camera::parallel(down, DVec3::Y, DVec3::ZERO, height, size).unwrap()]
+}
+
+/// The cycle of three bars, each of which is over the next at one end.
+fn three_bars() -> Polygons {
+    let bar = |number: i32| {
+        let corner = |x: f64, y: f64, z: f64| {
+            let (sin, cos) = (f64::from(number) * std::f64::consts::TAU / 3.0).sin_cos();
+            DVec3::new(x * cos - y * sin, x * sin + y * cos, z)
+        };
+        let (low, high) = (-0.2, 0.2);
+        vec![
+            corner(-1.0, -0.5, low),
+            corner(1.0, -0.5, high),
+            corner(1.0, -0.3, high),
+            corner(-1.0, -0.3, low),
+        ]
+    };
+    (0..3).map(bar).collect()
+}
+
+#[test]
+fn a_cycle_of_three_is_cut() {
+    for camera in from_above(2.5, [60, 60]) {
+        let pieces = assert_right("three bars", &three_bars(), &[camera]);
+        // One cut would do, but each plane cuts both other bars, which counts as penetration.
+        assert!((4..=7).contains(&pieces), "{pieces}");
+    }
+}
+
+/// Spikes along the sides of a polygon around the z axis, each over the next where they meet, and
+/// the last over the first. (Triangles, which are planar however they are turned.)
+fn random_ring(random: &mut SplitMix64) -> Polygons {
+    let count = 3 + random.next() % 6;
+    let angle = |i: u64| std::f64::consts::TAU * (i % count) as f64 / count as f64;
+    let mut between =
+        |low: f64, high: f64| low + (high - low) * 0.5 * (random.range(-1.0, 1.0) + 1.0);
+    let corners: Vec<DVec3> = (0..count)
+        .map(|i| between(0.8, 1.0) * DVec3::new(angle(i).cos(), angle(i).sin(), 0.0))
+        .collect();
+    let heights: Vec<f64> = corners.iter().map(|_| between(0.02, 0.2)).collect();
+    let mut spike = |i: usize| {
+        let next = (i + 1) % corners.len();
+        let from = corners[i] - DVec3::Z * heights[i];
+        let along = corners[next] + DVec3::Z * heights[next] - from;
+        let (start, end) = (from - 0.2 * along, from + 1.2 * along);
+        let side = 0.5 * between(0.05, 0.1) * along.cross(DVec3::Z).normalize();
+        vec![start - side, start + side, end]
+    };
+    (0..count as usize).map(&mut spike).collect()
+}
+
+#[test]
+fn random_cycles_come_out_as_brute_force_has_them() {
+    let mut random = SplitMix64::new(17);
+    for number in 0..24 {
+        let ring = random_ring(&mut random);
+        let turn = DQuat::from_axis_angle(
+            random.point(-1.0, 1.0).normalize(),
+            3.0 * random.range(-1.0, 1.0),
+        );
+        let (scale, shift) = (10f64.powf(random.range(-1.0, 1.0)), 4.0 * random.point(-1.0, 1.0));
+        let place = |point: DVec3| turn * point * scale + shift;
+        let polygons: Polygons =
+            ring.iter().map(|spike| spike.iter().map(|&corner| place(corner)).collect()).collect();
+        // From above, all of it is seen, and no order is right.
+        let eye =
+            place(DVec3::new(0.3 * random.range(-1.0, 1.0), 0.3 * random.range(-1.0, 1.0), 4.0));
+        let [target, up] = [place(DVec3::ZERO), turn * DVec3::Y];
+        let above = Camera::perspective(eye, target, up, 0.8, [60, 60]).unwrap();
+        let name = format!("ring {number} of {}", ring.len());
+        let pieces = assert_right(&name, &polygons, &[above]);
+        assert!(pieces > ring.len(), "{name}: {pieces}");
+        assert_right(&name, &polygons, &cameras(&polygons, [48, 36], number));
+    }
+}
+
+#[test]
+fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
+    let mut random = SplitMix64::new(23);
+    for number in 0..8 {
+        let mut polygons = Polygons::new();
+        for _ in 0..3 {
+            let turn = DQuat::from_axis_angle(
+                random.point(-1.0, 1.0).normalize(),
+                3.0 * random.range(-1.0, 1.0),
+            );
+            let shift = 0.3 * random.point(-1.0, 1.0);
+            let place = |spike: Vec<DVec3>| spike.iter().map(|&c| turn * c + shift).collect();
+            polygons.extend(random_ring(&mut random).into_iter().map(place));
+        }
+        let views = cameras(&polygons, [48, 36], number);
+        assert_right(&format!("rings {number}"), &polygons, &views);
+    }
+}
+
+#[test]
+fn two_that_cross_are_three_pieces() {
+    let square = |tilt: f64| {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        corners.map(|(x, y)| DVec3::new(x, y, tilt * x)).to_vec()
+    };
+    for camera in from_above(2.5, [40, 40]) {
+        assert_eq!(assert_right("a cross", &vec![square(0.5), square(-0.4)], &[camera]), 3);
+    }
+}
+
+#[test]
+fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
+    for camera in from_above(2.5, [60, 60]) {
+        let pieces = assert_right("blades", &cycle_that_no_plane_cuts(), &[camera]);
+        assert!((6..=15).contains(&pieces), "{pieces}");
+    }
+}
+
+/// The upper one reaches further down the slope, so that its depth alone would have it painted first.
+#[test]
+fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
+    let square = |half: f64, lift: f64| {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        corners.map(|(x, y)| DVec3::new(half * x, half * y, half * x + lift)).to_vec()
+    };
+    let polygons = vec![square(1.0, 1e-8), square(0.5, 0.0)];
+    let faces = faces(&polygons, Some(0.0));
+    for camera in from_above(2.5, [40, 40]) {
+        let painted = show(&Newell::DEFAULT, &faces, &camera);
+        let shown = painted.image.faces().iter().filter(|&&face| face != NONE);
+        assert!(shown.map(|&face| faces.polygon(face)).all(|polygon| polygon == 0));
+    }
+}
+
+#[test]
+fn what_has_an_order_is_not_cut() {
+    let polygons = polygons_of(&scene::layers(40, 0.01));
+    let faces = faces(&polygons, Some(0.0));
+    for camera in cameras(&polygons, [32, 24], 2) {
+        assert!(show(&Newell::DEFAULT, &faces, &camera).pieces <= faces.len());
+    }
+}
+
+#[test]
+fn budgets_run_out_with_a_figure() {
+    let polygons = polygons_of(&scene::random_triangles(60, 5));
+    let faces = faces(&polygons, None);
+    let camera = cameras(&polygons, [32, 24], 2)[0];
+    let rays = Rays::new(&camera, &faces).unwrap();
+    let fails = |method: Newell, figure: &str| {
+        let error = method.prepare(&faces).unwrap().paint(&camera, &rays).unwrap_err();
+        assert!(error.is_over_budget());
+        assert!(error.to_string().contains(figure), "{error}");
+    };
+    fails(Newell { max_pieces: 61, ..Newell::DEFAULT }, "more than 61 pieces");
+    fails(Newell { max_comparisons: 99, ..Newell::DEFAULT }, "more than 99 pairs");
+}
+
+#[test]
+fn a_long_chain_of_swaps_needs_no_stack() {
+    // Parallel and tilted: the higher a plank, the deeper it reaches, so that of all that are left
+    // the highest is always the furthest, and all others take its place, one after the other.
+    let count = 4000;
+    let plank = |i: i32| {
+        let (height, reach) = (1e-4 * f64::from(i), -1.0 - 1e-3 * f64::from(i));
+        let corners = [(reach, -1.0), (1.0, -1.0), (1.0, 1.0), (reach, 1.0)];
+        corners.map(|(x, y)| DVec3::new(x, y, height + x)).to_vec()
+    };
+    let polygons: Polygons = (0..count).map(plank).collect();
+    let faces = faces(&polygons, Some(0.0));
+    let (down, size) = (DVec3::NEG_Z, [12, 12]);
+    let camera = Camera::parallel(down, DVec3::Y, DVec3::ZERO, 12.0, size).unwrap();
+    let paint = move || {
+        let painted = show(&Newell::DEFAULT, &faces, &camera);
+        assert_eq!(painted.pieces, 4000);
+        assert_eq!(painted.image.faces()[6 * 12 + 6], 3999);
+    };
+    std::thread::Builder::new().stack_size(1 << 17).spawn(paint).unwrap().join().unwrap();
+}

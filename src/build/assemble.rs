@@ -1,0 +1,106 @@
+//! Joins the outputs of all jobs into one tree in depth-first order.
+
+use crate::Error;
+use crate::memory::reserve;
+use crate::tree::parts::{Parts, RawNode, Record};
+
+/// The nodes and fragments that one job built.
+#[derive(Debug)]
+pub(super) struct Output<S> {
+    pub(super) parts: Parts<S>,
+    /// Where the outputs of other jobs are to be inserted.
+    gaps: Vec<Gap>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    nodes: usize,
+    records: usize,
+    vertices: usize,
+    job: usize,
+}
+
+impl<S> Default for Output<S> {
+    fn default() -> Self {
+        Self { parts: Parts::default(), gaps: vec![] }
+    }
+}
+
+impl<S: Copy> Output<S> {
+    /// Appends a fragment.
+    pub(super) fn push(
+        &mut self,
+        face: u32,
+        vertices: impl ExactSizeIterator<Item = S>,
+    ) -> Result<(), Error> {
+        reserve(&mut self.parts.records, 1)?;
+        self.parts.records.push(Record { face, vertices: self.parts.vertices.len() as u32 });
+        reserve(&mut self.parts.vertices, vertices.len())?;
+        self.parts.vertices.extend(vertices);
+        Ok(())
+    }
+
+    /// Appends a node.
+    pub(super) fn push_node(&mut self, node: RawNode) -> Result<(), Error> {
+        reserve(&mut self.parts.nodes, 1)?;
+        self.parts.nodes.push(node);
+        Ok(())
+    }
+
+    /// Records that the output of another job belongs here.
+    pub(super) fn continue_in(&mut self, job: usize) {
+        let (nodes, records) = (self.parts.nodes.len(), self.parts.records.len());
+        self.gaps.push(Gap { nodes, records, vertices: self.parts.vertices.len(), job });
+    }
+
+    /// Appends what another output has between two of its gaps.
+    fn append(&mut self, other: &Self, from: Gap, to: Gap) {
+        let shift = self.parts.vertices.len() as u32 - from.vertices as u32;
+        self.parts.nodes.extend_from_slice(&other.parts.nodes[from.nodes..to.nodes]);
+        self.parts.records.extend(
+            other.parts.records[from.records..to.records]
+                .iter()
+                .map(|record| Record { vertices: record.vertices + shift, ..*record }),
+        );
+        self.parts.vertices.extend_from_slice(&other.parts.vertices[from.vertices..to.vertices]);
+    }
+}
+
+/// Joins the outputs of all jobs. The first is that of the root.
+pub(super) fn assemble<S: Copy>(mut outputs: Vec<Output<S>>) -> Result<Parts<S>, Error> {
+    if outputs.len() == 1 {
+        return Ok(outputs.pop().unwrap_or_default().parts);
+    }
+    let sum = |len: fn(&Output<S>) -> usize| outputs.iter().map(len).sum();
+    let mut whole = Output::default();
+    whole.parts.cuts = sum(|output| output.parts.cuts);
+    reserve(&mut whole.parts.nodes, sum(|output| output.parts.nodes.len()))?;
+    reserve(&mut whole.parts.records, sum(|output| output.parts.records.len()))?;
+    reserve(&mut whole.parts.vertices, sum(|output| output.parts.vertices.len()))?;
+    let start = |job| (Gap { nodes: 0, records: 0, vertices: 0, job }, 0);
+    // The outputs that are copied in part: from where to go on, and which gap comes next. A stack
+    // rather than recursion, because jobs can be nested deeply.
+    let mut stack = vec![start(0)];
+    while let Some((from, next)) = stack.pop() {
+        let output = &outputs[from.job];
+        let end = Gap {
+            nodes: output.parts.nodes.len(),
+            records: output.parts.records.len(),
+            vertices: output.parts.vertices.len(),
+            job: from.job,
+        };
+        match output.gaps.get(next) {
+            Some(&gap) => {
+                whole.append(output, from, gap);
+                stack.push((Gap { job: from.job, ..gap }, next + 1));
+                stack.push(start(gap.job));
+            }
+            None => {
+                whole.append(output, from, end);
+                // Freed at once, so that the copies do not double the memory.
+                outputs[from.job] = Output::default();
+            }
+        }
+    }
+    Ok(whole.parts)
+}

@@ -1,0 +1,44 @@
+//! The arena of cut pieces' vertices: compacts it, and moves a set out of it.
+
+use std::mem::take;
+
+use super::{Builder, COMPACT, Job};
+use crate::Error;
+use crate::exact::Kernel;
+
+impl<K: Kernel> Builder<'_, K> {
+    /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
+    /// size that the sets still to be split need, however often one piece is cut.
+    pub(super) fn compact(&mut self) -> Result<(), Error> {
+        let mut arena = Vec::new();
+        for pending in &mut self.pending {
+            if pending.job.is_none() {
+                for live in &mut self.pieces[pending.start..pending.end] {
+                    let start = arena.len();
+                    arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+                    *live = live.moved_to(start);
+                }
+            }
+            pending.arena = arena.len();
+        }
+        self.arena = arena;
+        self.compact_at = COMPACT.max(2 * self.arena.len());
+        // Pieces index their vertices with 32 bits.
+        let limit = self.shared.options.max_fragments;
+        if self.arena.len() > 1 << 31 { Err(Error::fragments(limit)) } else { Ok(()) }
+    }
+
+    /// Removes the set on top of the stack and gives it an arena of its own.
+    pub(super) fn take(&mut self, start: usize, depth: usize) -> Job<K::Vertex> {
+        let mut arena = Vec::new();
+        let mut pieces =
+            if start == 0 { take(&mut self.pieces) } else { self.pieces.split_off(start) };
+        for live in &mut pieces {
+            let start = arena.len();
+            arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+            *live = live.moved_to(start);
+        }
+        pieces.shrink_to_fit();
+        Job { pieces, arena, depth }
+    }
+}

@@ -1,0 +1,114 @@
+//! Divides a set of pieces by a plane, and cuts the pieces that span it.
+
+use super::{Builder, Live};
+use crate::Error;
+use crate::exact::{Kernel, PlaneId, Side, split};
+use crate::memory::reserve;
+
+/// How many pieces are classified before cancellation is checked. Smaller: time for checking; larger:
+/// cancelling takes longer.
+const AT_ONCE: usize = 4096;
+/// Cutting a piece counts as the work of classifying this many.
+const CUT: usize = 64;
+
+impl<K: Kernel> Builder<'_, K> {
+    /// Finds the side of each piece of the set on top of the stack, into `scratch.sides`.
+    pub(super) fn classify(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
+        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
+        let splitter = kernel.splitter(faces, plane);
+        let arena = &self.arena;
+        let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
+        self.scratch.sides.clear();
+        for pieces in self.pieces[start..].chunks(AT_ONCE) {
+            self.shared.watch.work(pieces.len())?;
+            self.scratch.sides.extend(pieces.iter().map(side));
+        }
+        Ok(())
+    }
+
+    /// Whether both sides of the plane have fewer pieces than the set, of `count`.
+    pub(super) fn makes_progress(&self, count: usize) -> bool {
+        let sides = &self.scratch.sides;
+        let reach = |other: Side| {
+            sides.iter().filter(|&&side| side == other || side == Side::Spanning).count()
+        };
+        reach(Side::Front) < count && reach(Side::Back) < count
+    }
+
+    /// Classifies the set on top of the stack, and divides it.
+    pub(super) fn partition(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
+        self.classify(start, plane)?;
+        self.divide(start, plane)
+    }
+
+    /// Divides the set on top of the stack by `scratch.sides`: pieces behind stay on the stack, pieces
+    /// in front go to `scratch.front`, and pieces on the plane to `scratch.own`.
+    pub(super) fn divide(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
+        let scratch = &mut self.scratch;
+        scratch.own.clear();
+        scratch.front.clear();
+        scratch.spanning.clear();
+        let in_front = |side: &&Side| matches!(side, Side::Front | Side::Spanning);
+        reserve(&mut scratch.front, scratch.sides.iter().filter(in_front).count())?;
+        let mut back = start;
+        for (i, &side) in scratch.sides.iter().enumerate() {
+            let piece = self.pieces[start + i];
+            match side {
+                // Moved down in place: `back` never overtakes `start + i`, so nothing unread is lost.
+                Side::Back => {
+                    self.pieces[back] = piece;
+                    back += 1;
+                }
+                Side::Front => scratch.front.push(piece),
+                Side::Coplanar => scratch.own.push(piece),
+                Side::Spanning => scratch.spanning.push(piece),
+            }
+        }
+        self.pieces.truncate(back);
+        // The budget is checked before the cuts, so that a set that explodes is stopped in time.
+        self.shared.budget.count(self.scratch.spanning.len())?;
+        self.cut_spanning(plane)
+    }
+
+    /// Cuts the pieces in `scratch.spanning`, and adds their parts to both sides.
+    fn cut_spanning(&mut self, plane: PlaneId) -> Result<(), Error> {
+        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
+        let splitter = kernel.splitter(faces, plane);
+        let scratch = &mut self.scratch;
+        for live in &scratch.spanning {
+            self.shared.watch.work(CUT)?;
+            // Copied, because the parts are appended to the arena that the piece's vertices are in.
+            scratch.outline.clear();
+            match live.piece(&self.arena).cut {
+                Some(vertices) => scratch.outline.extend_from_slice(vertices),
+                None => {
+                    let corners = 0..faces.corners(live.face).len() as u32;
+                    scratch.outline.extend(corners.map(|k| kernel.corner(faces, live.face, k)));
+                }
+            }
+            scratch.front_part.clear();
+            scratch.back_part.clear();
+            split(
+                &kernel,
+                faces,
+                (plane, &splitter),
+                live.face,
+                &scratch.outline,
+                &mut scratch.front_part,
+                &mut scratch.back_part,
+            );
+            self.output.parts.cuts += 1;
+            for (part, list) in
+                [(&scratch.back_part, &mut self.pieces), (&scratch.front_part, &mut scratch.front)]
+            {
+                // The piece's own vertices stay behind as garbage until the arena is compacted.
+                let start = self.arena.len();
+                reserve(&mut self.arena, part.len())?;
+                self.arena.extend_from_slice(part);
+                reserve(list, 1)?;
+                list.push(Live::cut::<K>(live, &self.arena, start));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,131 @@
+//! Writes finished nodes and leaves, and puts the sets on their sides on the stack.
+
+use super::{Builder, JOB, Job, Live, Pending, is_leaf};
+use crate::Error;
+use crate::build::choose::Peeled;
+use crate::exact::{Kernel, PlaneId, Side};
+use crate::memory::reserve;
+use crate::tree::parts::{Child, RawNode};
+
+impl<K: Kernel> Builder<'_, K> {
+    /// Writes the node of a set that has been divided, and puts its two sides on the stack.
+    pub(super) fn emit(
+        &mut self,
+        plane: PlaneId,
+        start: usize,
+        depth: usize,
+        hand_over: &mut impl FnMut(Job<K::Vertex>) -> usize,
+    ) -> Result<(), Error> {
+        // Coplanar polygons are painted in input order.
+        self.scratch.own.sort_by_key(|piece| piece.face);
+        let own = self.scratch.own.len();
+        (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
+        let (back, front) = (self.pieces.len() - start, self.scratch.front.len());
+        let back_is_leaf = is_leaf(&self.pieces[start..]);
+        let front_is_leaf = is_leaf(&self.scratch.front);
+        // Leaves are stored here, right behind the node's own fragments and front before back: orders
+        // rely on these numbers.
+        if front_is_leaf {
+            (0..front).try_for_each(|i| self.store(self.scratch.front[i]))?;
+        }
+        if back_is_leaf {
+            (start..start + back).try_for_each(|i| self.store(self.pieces[i]))?;
+            self.pieces.truncate(start);
+        }
+        let child =
+            |is_leaf, len: usize| if is_leaf { Child::Leaf(len as u32) } else { Child::Node };
+        let (back_child, front_child) = (child(back_is_leaf, back), child(front_is_leaf, front));
+        let node = RawNode { plane, own: own as u32, front: front_child, back: back_child };
+        self.output.push_node(node)?;
+        let arena = self.arena.len();
+        // The back goes below the front, so that the front is built first, as nodes stand depth first.
+        if !back_is_leaf {
+            let both_large = back >= JOB && front >= JOB && !front_is_leaf;
+            // Only where both sides are large is there work for another thread. The back is handed
+            // over because it is on top of the stack just now; this thread goes on with the front.
+            let job = both_large.then(|| hand_over(self.take(start, depth)));
+            let end = self.pieces.len();
+            self.pending.push(Pending { start, end, arena, depth, is_peeled: false, job });
+        }
+        if !front_is_leaf {
+            let start = self.pieces.len();
+            // An empty stack takes the list as it is, so that a large set is not in memory twice.
+            if start == 0 {
+                std::mem::swap(&mut self.pieces, &mut self.scratch.front);
+            } else {
+                reserve(&mut self.pieces, front)?;
+                self.pieces.extend_from_slice(&self.scratch.front);
+            }
+            let end = self.pieces.len();
+            self.pending.push(Pending { start, end, arena, depth, is_peeled: false, job: None });
+        }
+        Ok(())
+    }
+
+    /// Writes one node for each layer of pieces that is peeled off a set, and puts the rest of the set
+    /// on the stack. Each layer's node is the only child of the one before.
+    pub(super) fn emit_peeled(
+        &mut self,
+        start: usize,
+        depth: usize,
+        peeled: &Peeled,
+    ) -> Result<(), Error> {
+        let depth = depth + peeled.len();
+        self.shared.budget.check_depth(depth)?;
+        let mut left = vec![true; self.pieces.len() - start];
+        for taken in peeled.layers() {
+            let own = &mut self.scratch.own;
+            own.clear();
+            // Pieces are marked and not removed yet: all layers name them by their places in the set.
+            for &piece in taken.pieces {
+                left[piece as usize] = false;
+                own.push(self.pieces[start + piece as usize]);
+            }
+            own.sort_by_key(|piece| piece.face);
+            let own = own.len();
+            (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
+            let child = |side| if taken.rest == side { Child::Node } else { Child::Leaf(0) };
+            let (front, back) = (child(Side::Front), child(Side::Back));
+            let node = RawNode { plane: taken.plane, own: own as u32, front, back };
+            self.output.push_node(node)?;
+        }
+        let mut left = left.iter();
+        let mut next = start;
+        for i in start..self.pieces.len() {
+            if left.next() == Some(&true) {
+                self.pieces[next] = self.pieces[i];
+                next += 1;
+            }
+        }
+        self.pieces.truncate(next);
+        if is_leaf(&self.pieces[start..]) {
+            (start..next).try_for_each(|i| self.store(self.pieces[i]))?;
+            // The last layer's node was written with a child node that now turns out to be a leaf.
+            if let Some(node) = self.output.parts.nodes.last_mut() {
+                let child = Child::Leaf((next - start) as u32);
+                let side = if node.front == Child::Node { &mut node.front } else { &mut node.back };
+                *side = child;
+            }
+        } else {
+            let arena = self.arena.len();
+            self.pending.push(Pending {
+                start,
+                end: next,
+                arena,
+                depth,
+                is_peeled: true,
+                job: None,
+            });
+        }
+        Ok(())
+    }
+
+    /// Appends a piece to the output as a fragment.
+    fn store(&mut self, live: Live) -> Result<(), Error> {
+        let kernel = self.shared.kernel;
+        let vertices = live.piece(&self.arena).cut.unwrap_or_default();
+        self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)))?;
+        self.shared.watch.finish(live.cuts);
+        Ok(())
+    }
+}

@@ -1,0 +1,358 @@
+//! The best free plane of a set of pieces: perpendicular to an axis, through a corner.
+
+#[cfg(test)]
+mod tests;
+
+use std::cmp::Ordering;
+
+use super::cost::{Cost, work};
+use super::set::Set;
+use super::tuning::Tuning;
+use crate::build::live::Live;
+use crate::build::progress::Watch;
+use crate::exact::{Kernel, PlaneId};
+
+/// To search along an axis is as much work as to look at each piece so often.
+const PASSES: usize = 10;
+
+/// A free plane with what it promises.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FreePlane {
+    pub(super) cost: Cost,
+    axis: usize,
+    coordinate: f64,
+}
+
+/// Searches for free planes; its lists are kept to be used again.
+///
+/// A plane at c leaves a piece in front of it *ended* if the piece does not reach in front of the
+/// plane by more than the tolerance, and *begun* if it reaches behind it by more than that. The
+/// work in front is that of all pieces not ended, the work behind that of all begun. A piece
+/// thinner than twice the tolerance is *flat*, and can be ended without being begun: it lies on
+/// the plane; others are begun before they are ended, and cut while they are begun and not ended.
+///
+/// Where pieces begin and end is counted by bins, not sorted. The counts at a bin's borders bound
+/// the cost of every plane inside it, so that only the bins that may hold the best plane are
+/// looked into. O(n) where coordinates spread, O(n log n) at worst.
+#[derive(Debug, Default)]
+pub(super) struct Sweep {
+    /// For each piece, the bins in which it begins and ends.
+    bins: Vec<[u16; 2]>,
+    /// For each bin, how much of each kind there is; behind the last bin, and once summed, how much
+    /// there is before each.
+    counts: Vec<[u32; 4]>,
+    bounds: Vec<Cost>,
+    chosen: Vec<bool>,
+    /// What is in the bins that are looked into.
+    events: [Vec<f64>; 4],
+    candidates: Vec<(u16, f64)>,
+    /// Where the pieces of a small set begin and end, and which they are.
+    spans: Vec<(f64, f64, u32)>,
+}
+
+/// The kinds of values, for pieces that are not flat and, `FLAT` later, for those that are.
+const BEGUN: usize = 0;
+const ENDED: usize = 1;
+const FLAT: usize = 2;
+
+/// Where a piece begins and ends along an axis: it is begun beyond its beginning, and ended at its
+/// end.
+struct Span {
+    begin: f64,
+    end: f64,
+    /// Zero, or [`FLAT`].
+    kind: usize,
+}
+
+impl Span {
+    #[inline]
+    fn of(piece: &Live, axis: usize, tolerance: f64) -> Self {
+        let (min, max) = (piece.min[axis], piece.max[axis]);
+        let kind = if max - min <= 2.0 * tolerance { FLAT } else { 0 };
+        Self { begin: min + tolerance, end: max - tolerance, kind }
+    }
+}
+
+/// How many pieces are begun and ended at a plane.
+struct Passed {
+    begun: usize,
+    ended: usize,
+    splits: usize,
+}
+
+impl Passed {
+    #[inline]
+    fn new(begun: [usize; 2], ended: [usize; 2]) -> Self {
+        Self {
+            begun: begun[0] + begun[1],
+            ended: ended[0] + ended[1],
+            // Where rounding makes a piece end before it begins, it counts as uncut.
+            splits: begun[0].saturating_sub(ended[0]),
+        }
+    }
+
+    /// What the plane costs, if it leaves fewer pieces on each side than there are.
+    #[inline]
+    fn cost(&self, pieces: usize) -> (Cost, bool) {
+        let amount = work(pieces - self.ended) + work(self.begun);
+        let divides = self.begun < pieces && self.ended > 0;
+        (Cost { cuts: self.splits > 0, amount }, divides)
+    }
+}
+
+impl Sweep {
+    /// The free plane of least cost, if one has fewer pieces on each side than there are. (Where the
+    /// tolerance is not 0, pieces that begin or end within it of a bin's border may be counted on
+    /// the wrong side.)
+    pub(super) fn best<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        tuning: &Tuning,
+        watch: &Watch<'_>,
+    ) -> Option<FreePlane> {
+        let mut best: Option<FreePlane> = None;
+        let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
+        for (axis, [low, high]) in axes(set) {
+            if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven))
+                || watch.work(n * PASSES).is_err()
+            {
+                break;
+            }
+            self.fill(pieces, axis, tolerance, &Bins::new(low, high, n, tuning));
+            let limit = best.map_or(Cost::MOST, |best| best.cost);
+            if self.bound(n, limit) {
+                self.gather(pieces, axis, tolerance);
+                self.walk(n, axis, &mut best);
+            }
+        }
+        best
+    }
+
+    /// The free plane of least cost among those that cut nothing, for sets so small that they are
+    /// sorted in less time than to count takes.
+    pub(super) fn clean<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        tuning: &Tuning,
+    ) -> Option<FreePlane> {
+        let mut best: Option<FreePlane> = None;
+        let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
+        for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis)) {
+            if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven)) {
+                break;
+            }
+            let spans = pieces.iter().zip(0..).map(|(p, i)| (p.min[axis], p.max[axis], i));
+            self.spans.clear();
+            self.spans.extend(spans);
+            self.spans.sort_unstable_by(|a, b| compare(&a.0, &b.0).then(compare(&a.1, &b.1)));
+            // Of the pieces so far, the one that reaches furthest, and how far.
+            let mut furthest = (f64::NEG_INFINITY, 0);
+            for (behind, &(min, max, i)) in self.spans.iter().enumerate() {
+                if behind > 0 && min + tolerance >= furthest.0 {
+                    let cost = Cost { cuts: false, amount: work(n - behind) + work(behind) };
+                    let coordinate = if pieces[i as usize].min_is_corner(axis) {
+                        Some(min)
+                    } else {
+                        pieces[furthest.1 as usize].max_is_corner(axis).then_some(furthest.0)
+                    };
+                    if let Some(coordinate) = coordinate
+                        && best.is_none_or(|best| cost.is_less(&best.cost))
+                    {
+                        best = Some(FreePlane { cost, axis, coordinate });
+                    }
+                }
+                if max > furthest.0 {
+                    furthest = (max, i);
+                }
+            }
+        }
+        best
+    }
+
+    /// Counts what begins and ends in each bin.
+    fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
+        self.counts.clear();
+        self.counts.resize(bins.count + 1, [0; 4]);
+        self.bins.clear();
+        let counts = &mut self.counts;
+        self.bins.extend(pieces.iter().map(|piece| {
+            let span = Span::of(piece, axis, tolerance);
+            let [begin, end] = [span.begin, span.end].map(|value| bins.of(value));
+            counts[begin][span.kind + BEGUN] += 1;
+            counts[end][span.kind + ENDED] += 1;
+            [begin as u16, end as u16]
+        }));
+        let mut total = [0; 4];
+        for count in counts {
+            let here = *count;
+            *count = total;
+            total = std::array::from_fn(|kind| total[kind] + here[kind]);
+        }
+    }
+
+    /// Chooses the bins that may hold a plane of less cost than the limit, and than is certain of
+    /// another bin; tells whether there are any.
+    fn bound(&mut self, pieces: usize, mut limit: Cost) -> bool {
+        let passed = |begun: &[u32; 4], ended: &[u32; 4]| {
+            let of =
+                |counts: &[u32; 4], kind| [kind, kind + FLAT].map(|kind| counts[kind] as usize);
+            Passed::new(of(begun, BEGUN), of(ended, ENDED)).cost(pieces)
+        };
+        self.bounds.clear();
+        for ends in self.counts.windows(2) {
+            let [before, after] = [&ends[0], &ends[1]];
+            if before == after {
+                self.bounds.push(Cost::MOST);
+                continue;
+            }
+            self.bounds.push(passed(before, after).0);
+            let (most, divides) = passed(after, before);
+            if divides && most.is_less(&limit) {
+                limit = Cost { amount: most.amount.next_up(), ..most };
+            }
+        }
+        self.chosen.clear();
+        self.chosen.extend(self.bounds.iter().map(|bound| bound.is_less(&limit)));
+        self.chosen.contains(&true)
+    }
+
+    /// Gathers what is in the chosen bins.
+    fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) {
+        let chosen = &self.chosen[..];
+        self.events.iter_mut().for_each(Vec::clear);
+        self.candidates.clear();
+        for (&[begin, end], piece) in self.bins.iter().zip(pieces) {
+            let is_chosen = |bin: u16| chosen[usize::from(bin)];
+            if !is_chosen(begin) && !is_chosen(end) {
+                continue;
+            }
+            let span = Span::of(piece, axis, tolerance);
+            if is_chosen(begin) {
+                self.events[span.kind + BEGUN].push(span.begin);
+                if piece.min_is_corner(axis) {
+                    self.candidates.push((begin, piece.min[axis]));
+                }
+            }
+            if is_chosen(end) {
+                self.events[span.kind + ENDED].push(span.end);
+                if piece.max_is_corner(axis) {
+                    self.candidates.push((end, piece.max[axis]));
+                }
+            }
+        }
+    }
+
+    /// Tries the candidates in the chosen bins, each upwards, with a finger in the list of each kind.
+    fn walk(&mut self, pieces: usize, axis: usize, best: &mut Option<FreePlane>) {
+        for values in &mut self.events {
+            values.sort_unstable_by(compare);
+        }
+        self.candidates.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(compare(&a.1, &b.1)));
+        let mut lists = self.events.each_ref().map(|values| &values[..]);
+        let mut candidates = self.candidates.chunk_by(|a, b| a.0 == b.0).peekable();
+        for bin in (0..self.chosen.len()).filter(|&bin| self.chosen[bin]) {
+            let mut passed = self.counts[bin].map(|count| count as usize);
+            let mut events: [&[f64]; 4] = std::array::from_fn(|kind| {
+                let count = self.counts[bin + 1][kind] - self.counts[bin][kind];
+                let (here, rest) = lists[kind].split_at(count as usize);
+                lists[kind] = rest;
+                here
+            });
+            let here = candidates.next_if(|candidates| usize::from(candidates[0].0) == bin);
+            let mut last = f64::NAN;
+            for &(_, coordinate) in here.unwrap_or_default() {
+                if coordinate == last {
+                    continue;
+                }
+                last = coordinate;
+                for kind in [BEGUN, BEGUN + FLAT] {
+                    passed[kind] += pass(&mut events[kind], |v| v < coordinate);
+                }
+                for kind in [ENDED, ENDED + FLAT] {
+                    passed[kind] += pass(&mut events[kind], |v| v <= coordinate);
+                }
+                let [begun, ended, flat_begun, flat_ended] = passed;
+                let passed = Passed::new([begun, flat_begun], [ended, flat_ended]);
+                let (cost, divides) = passed.cost(pieces);
+                if divides && best.is_none_or(|best| cost.is_less(&best.cost)) {
+                    *best = Some(FreePlane { cost, axis, coordinate });
+                }
+            }
+        }
+    }
+}
+
+/// The order of numbers, none of them NaN: less work than a total one.
+#[inline]
+fn compare(a: &f64, b: &f64) -> Ordering {
+    if a < b {
+        Ordering::Less
+    } else if a > b {
+        Ordering::Greater
+    } else {
+        Ordering::Equal
+    }
+}
+
+/// Drops the values that pass from the front of a list; gives how many.
+#[inline]
+fn pass(list: &mut &[f64], passes: impl Fn(f64) -> bool) -> usize {
+    let count = list.iter().take_while(|&&value| passes(value)).count();
+    *list = &list[count..];
+    count
+}
+
+/// The axes along which a set has an extent, with its ends: those first along which it may part,
+/// and the longest of them.
+fn axes<K: Kernel>(set: &Set<'_, K>) -> impl Iterator<Item = (usize, [f64; 2])> + use<K> {
+    let mut axes = [0, 1, 2].map(|axis| (axis, [set.min[axis], set.max[axis]]));
+    let extent = |&(_, [low, high]): &(usize, [f64; 2])| high - low;
+    axes.sort_by(|a, b| {
+        set.may_part(b.0).cmp(&set.may_part(a.0)).then(extent(b).total_cmp(&extent(a)))
+    });
+    axes.into_iter().filter(move |ends| extent(ends) > 0.0)
+}
+
+impl FreePlane {
+    /// The plane by the name of a corner on it.
+    pub(super) fn id<K: Kernel>(&self, set: &Set<'_, K>) -> Option<PlaneId> {
+        let (axis, c) = (self.axis, self.coordinate);
+        let touches = |piece: &&Live| {
+            piece.min[axis] == c && piece.min_is_corner(axis)
+                || piece.max[axis] == c && piece.max_is_corner(axis)
+        };
+        let corner = set.pieces.iter().find(touches)?.corner_at(set.faces, axis, c)?;
+        Some(PlaneId::axis(axis, corner))
+    }
+}
+
+/// Equal bins over the extent of a set along an axis.
+#[derive(Debug)]
+struct Bins {
+    start: f64,
+    per_unit: f64,
+    /// The number of the last bin.
+    last: f64,
+    count: usize,
+}
+
+/// Added to a number from 0 to 2³², it leaves the nearest integer in the last bits of the sum: faster
+/// than a conversion, which would saturate.
+const TO_INTEGER: f64 = (1_u64 << 52) as f64;
+
+impl Bins {
+    fn new(start: f64, end: f64, pieces: usize, tuning: &Tuning) -> Self {
+        let count = (pieces / tuning.per_bin).clamp(1, tuning.most_bins);
+        let last = (count - 1) as f64;
+        Self { start, per_unit: last / (end - start), last, count }
+    }
+
+    /// The bin of a value; a larger value is never in an earlier bin.
+    #[inline]
+    fn of(&self, value: f64) -> usize {
+        let place = (value - self.start) * self.per_unit;
+        let place = if place > 0.0 { place } else { 0.0 };
+        let place = if place < self.last { place } else { self.last };
+        (place + TO_INTEGER).to_bits() as u32 as usize
+    }
+}

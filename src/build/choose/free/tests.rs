@@ -1,0 +1,102 @@
+//! The search for free planes against brute force.
+
+use glam::DVec3;
+
+use super::super::cost::{Cost, work};
+use super::super::set::{Normals, Set};
+use super::super::tuning::Tuning;
+use super::{FreePlane, Sweep};
+use crate::build::live::Live;
+use crate::build::progress::Watch;
+use crate::exact::{Exact, Faces};
+use crate::random::SplitMix64;
+
+/// The least cost of all planes perpendicular to an axis through a corner, by looking at every
+/// piece for each.
+fn least(pieces: &[Live], axis: usize, tolerance: f64) -> Cost {
+    let coordinates = pieces.iter().flat_map(|piece| [piece.min[axis], piece.max[axis]]);
+    coordinates.map(|c| at(pieces, axis, c, tolerance)).min_by(Cost::cmp).unwrap_or(Cost::MOST)
+}
+
+/// What a plane costs; infinite if it leaves all pieces on one side.
+fn at(pieces: &[Live], axis: usize, c: f64, tolerance: f64) -> Cost {
+    let (mut in_front, mut behind, mut splits) = (0, 0, 0);
+    for piece in pieces {
+        let begun = piece.min[axis] + tolerance < c;
+        let ended = piece.max[axis] - tolerance <= c;
+        let flat = piece.max[axis] - piece.min[axis] <= 2.0 * tolerance;
+        in_front += usize::from(!ended);
+        behind += usize::from(begun);
+        splits += usize::from(begun && !ended && !flat);
+    }
+    let divides = in_front < pieces.len() && behind < pieces.len();
+    let cost = Cost { cuts: splits > 0, amount: work(in_front) + work(behind) };
+    if divides { cost } else { Cost::MOST }
+}
+
+/// Asserts that the plane found is the best of the axes that have to be searched.
+fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
+    let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
+    let pieces: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
+    let (normals, watch) = (Normals::new(&faces), Watch::default());
+    let set = Set::new(&Exact, &faces, &normals, (&pieces, &[]));
+    let found = Sweep::default().best(&set, &Tuning::DEFAULT, &watch);
+    let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
+    let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
+    let clean = Sweep::default().clean(&set, &Tuning::DEFAULT);
+    assert_eq!(clean.is_some(), !best.cuts, "{name}: {clean:?}, {best:?}");
+    let cost_of = |plane: &FreePlane| at(&pieces, plane.axis, plane.coordinate, faces.tolerance());
+    assert!(clean.is_none_or(|clean| !cost_of(&clean).cuts), "{name}: {clean:?} cuts");
+    assert!(found.is_none_or(|found| cost_of(&found) == found.cost), "{name}: {found:?}");
+    let found = found.map_or(Cost::MOST, |plane| plane.cost);
+    let good_enough =
+        found.divides_evenly(pieces.len(), Tuning::DEFAULT.uneven) && costs.contains(&found);
+    assert!(found == best || good_enough, "{name}: {found:?}, not one of {costs:?}");
+}
+
+fn triangles(random: &mut SplitMix64, count: usize, size: f64, within: f64) -> Vec<[DVec3; 3]> {
+    let mut triangle = || {
+        let at = random.point(-within, within);
+        [(); 3].map(|()| at + random.point(-size, size))
+    };
+    (0..count).map(|_| triangle()).collect()
+}
+
+#[test]
+fn the_best_plane_is_found_whatever_the_size() {
+    let mut random = SplitMix64::new(1);
+    for count in [1, 2, 3, 5, 8, 13, 40, 100, 300] {
+        for size in [0.003, 0.05, 1.0] {
+            let polygons = triangles(&mut random, count, size, 1.0);
+            assert_best(&format!("{count} of {size}"), &polygons, 0.0);
+            assert_best(&format!("{count} of {size}, within 1e-6"), &polygons, 1e-6);
+        }
+    }
+}
+
+#[test]
+fn on_a_lattice_planes_touch_many() {
+    let mut random = SplitMix64::new(2);
+    for count in [10, 60, 250] {
+        let polygons = triangles(&mut random, count, 2.0, 6.0);
+        let rounded: Vec<_> = polygons.iter().map(|corners| corners.map(DVec3::round)).collect();
+        assert_best(&format!("{count}"), &rounded, 0.0);
+    }
+}
+
+/// Most of it is in two small parts of the whole, so that few bins hold nearly all.
+#[test]
+fn crowds_are_searched_like_others() {
+    const CROWD: usize = 2000;
+    let mut random = SplitMix64::new(3);
+    let mut polygons = triangles(&mut random, CROWD, 1e-6, 1e-3);
+    let apart = DVec3::new(0.4, 0.3, 0.7);
+    polygons.extend(
+        triangles(&mut random, CROWD, 2e-4, 3e-4).iter().map(|corners| corners.map(|p| p + apart)),
+    );
+    polygons.extend(triangles(&mut random, 20, 0.5, 1.0));
+    assert_best("crowds", &polygons, 0.0);
+    polygons.truncate(CROWD);
+    polygons.push([DVec3::NEG_ONE, DVec3::X, DVec3::ONE]);
+    assert_best("a crowd", &polygons, 0.0);
+}

@@ -1,0 +1,228 @@
+//! The best of the pieces' own planes, by successive halving.
+
+#[cfg(test)]
+mod tests;
+
+use super::cost::{Cost, Counts, work};
+use super::set::Set;
+use super::sketch::{LANES, Sketch, SketchPlane};
+use super::tuning::Tuning;
+use crate::build::live::Live;
+use crate::exact::Kernel;
+
+/// How many of the largest polygons are tried, wherever they stand in the set. More: time.
+const LARGEST: usize = 2;
+
+/// A candidate for the plane that divides a set.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    /// The piece, by its number in the set.
+    pub(super) piece: usize,
+    /// What its plane costs, as far as is known.
+    pub(super) cost: Cost,
+    /// How much of the set's bounding box the piece fills, 0 to 1.
+    share: f64,
+    plane: SketchPlane,
+    /// Of the pieces that it was held against.
+    counts: Counts,
+}
+
+/// What decides between candidates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Terms {
+    /// What a polygon that fills the box is worth.
+    reward: f64,
+    /// How many pieces there are.
+    pieces: f64,
+    /// In a large set, a plane that cuts nothing is passed over if it has fewer pieces than that on
+    /// either side, and takes fewer off.
+    rim: Option<f64>,
+}
+
+impl Terms {
+    /// Of a small set: what cuts nothing is preferred.
+    pub(super) fn small<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+        let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
+        let pieces = set.len() as f64;
+        let mean = cuts as f64 / pieces;
+        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, rim: None }
+    }
+
+    /// Of a large set.
+    pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+        let rim = Some((set.len() / tuning.rim_share) as f64);
+        Self { rim, ..Self::small(set, tuning) }
+    }
+
+    /// For counts of so many of the pieces, a sample. (Work is a power: that of a part of the
+    /// pieces is a part of the work, so that costs of samples can be compared.)
+    fn of_sample(&self, looked: usize, all: usize) -> Self {
+        let ratio = looked as f64 / all as f64;
+        Self {
+            reward: self.reward * work(looked) / work(all),
+            pieces: looked as f64,
+            rim: self.rim.map(|rim| rim * ratio),
+        }
+    }
+
+    #[inline]
+    fn cost(&self, counts: &Counts, share: f64) -> Cost {
+        let amount = counts.work() - self.reward * share;
+        let Some(rim) = self.rim else { return Cost { cuts: counts.splits > 0, amount } };
+        let [front, back] = [counts.front, counts.back].map(f64::from);
+        let on = self.pieces - front - back;
+        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < rim;
+        Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
+    }
+}
+
+/// How much of its set's bounding box a piece fills along its two longer sides, 0 to 1.
+#[derive(Clone, Copy, Debug)]
+struct Shares {
+    /// 1 by the size of the box; none where the box has no extent.
+    per_unit: [Option<f64>; 3],
+}
+
+impl Shares {
+    fn of<K: Kernel>(set: &Set<'_, K>) -> Self {
+        Self { per_unit: set.size().map(|size| (size > 0.0).then(|| 1.0 / size)) }
+    }
+
+    #[inline]
+    fn get(&self, piece: &Live) -> f64 {
+        let [x, y, z] = std::array::from_fn(|axis| {
+            let size = piece.max[axis] - piece.min[axis];
+            self.per_unit[axis].map_or(1.0, |per_unit| size * per_unit)
+        });
+        // The largest product of two of the three.
+        (x * y).max(y * z).max(z * x)
+    }
+
+    /// The pieces that fill most of the box.
+    fn largest(&self, pieces: &[Live]) -> impl Iterator<Item = usize> + use<> {
+        let mut top: [(f64, Option<usize>); LARGEST] = [(0.0, None); LARGEST];
+        for (i, piece) in pieces.iter().enumerate() {
+            let share = self.get(piece);
+            if share > top[LARGEST - 1].0 {
+                top[LARGEST - 1] = (share, Some(i));
+                top.sort_by(|a, b| b.0.total_cmp(&a.0));
+            }
+        }
+        top.into_iter().filter_map(|(_, piece)| piece)
+    }
+}
+
+/// Holds candidates against more and more pieces, and keeps those that promise most (successive
+/// halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+#[derive(Debug, Default)]
+pub(super) struct Contest {
+    field: Vec<Candidate>,
+    /// How many groups of the sketch they were held against.
+    seen: usize,
+    /// The costs of the field, by their places in it.
+    ranks: Vec<(Cost, u32)>,
+    /// Which of the field had all pieces of the first sample on one side of their planes.
+    rim: Vec<u32>,
+}
+
+impl Contest {
+    /// Takes the first pieces of the sketch as candidates, so many, and the largest of the set, in
+    /// place of those before.
+    pub(super) fn enter<K: Kernel>(&mut self, set: &Set<'_, K>, sketch: &Sketch, count: usize) {
+        self.seen = 0;
+        self.field.clear();
+        self.rim.clear();
+        let shares = Shares::of(set);
+        let largest = (set.len() > count).then(|| shares.largest(set.pieces)).into_iter();
+        let first = (0..count.min(sketch.len())).map(|place| sketch.number(place));
+        self.field.extend(first.chain(largest.flatten()).map(|piece| Candidate {
+            piece,
+            share: shares.get(&set.pieces[piece]),
+            plane: sketch.plane(set, piece),
+            counts: Counts::default(),
+            cost: Cost::MOST,
+        }));
+    }
+
+    /// Holds all candidates against the first sample.
+    pub(super) fn begin<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sketch: &mut Sketch,
+        order: &mut impl Iterator<Item = usize>,
+        terms: &Terms,
+        tuning: &Tuning,
+    ) {
+        self.look(set, sketch, order, tuning.looks, terms);
+        let at_rim = |c: &Candidate| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
+        let rim = self.field.iter().zip(0..).filter(|(candidate, _)| at_rim(candidate));
+        self.rim.extend(rim.map(|(_, place)| place));
+    }
+
+    /// Which candidates had all pieces of the first sample on one side of their planes: those from
+    /// the sketch by their places in it.
+    pub(super) fn rim(&self) -> &[u32] {
+        &self.rim
+    }
+
+    /// The best candidate after the first sample; the earliest of equals. What the sketch lacks of
+    /// the set is added to it in an order of which every beginning is a sample of the set.
+    pub(super) fn best<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sketch: &mut Sketch,
+        order: &mut impl Iterator<Item = usize>,
+        terms: &Terms,
+        tuning: &Tuning,
+    ) -> Option<Candidate> {
+        let mut looks = tuning.looks;
+        while looks < set.len() {
+            self.halve(tuning.rate);
+            looks *= tuning.rate;
+            self.look(set, sketch, order, looks, terms);
+        }
+        self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost)).copied()
+    }
+
+    /// Keeps one in so many of the candidates, the best, in the order that they stand in.
+    fn halve(&mut self, rate: usize) {
+        let left = self.field.len().div_ceil(rate);
+        if left == self.field.len() {
+            return;
+        }
+        self.ranks.clear();
+        self.ranks.extend(self.field.iter().zip(0..).map(|(candidate, i)| (candidate.cost, i)));
+        let by_cost = |a: &(Cost, u32), b: &(Cost, u32)| a.0.cmp(&b.0).then(a.1.cmp(&b.1));
+        self.ranks.select_nth_unstable_by(left, by_cost);
+        self.ranks.truncate(left);
+        self.ranks.sort_unstable_by_key(|&(_, i)| i);
+        for (next, &(_, i)) in self.ranks.iter().enumerate() {
+            self.field[next] = self.field[i as usize];
+        }
+        self.field.truncate(left);
+    }
+
+    /// Holds all candidates against so many pieces.
+    fn look<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sketch: &mut Sketch,
+        order: &mut impl Iterator<Item = usize>,
+        looks: usize,
+        terms: &Terms,
+    ) {
+        let looks = looks.min(set.len());
+        let missing = looks.saturating_sub(sketch.len());
+        if missing > 0 {
+            sketch.extend(set, order.take(missing));
+        }
+        let groups = self.seen..looks.div_ceil(LANES);
+        self.seen = groups.end;
+        let looked = sketch.len().min(groups.end * LANES);
+        let terms = if looked == set.len() { *terms } else { terms.of_sample(looked, set.len()) };
+        for candidate in &mut self.field {
+            candidate.counts += sketch.count(&candidate.plane, groups.clone());
+            candidate.cost = terms.cost(&candidate.counts, candidate.share);
+        }
+    }
+}

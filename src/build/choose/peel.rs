@@ -1,0 +1,348 @@
+//! Pieces that can be taken off a set without a cut.
+
+#[cfg(test)]
+mod tests;
+
+use std::ops::Range;
+
+use super::set::Set;
+use super::sketch::{LANES, Reach, Sketch, SketchBox, SketchPlane};
+use super::tuning::Tuning;
+use crate::build::progress::Watch;
+use crate::exact::{Kernel, PlaneId, Side};
+
+/// Pieces that are taken off a set one after the other, and cut nothing of what is left.
+#[derive(Debug, Default)]
+pub(crate) struct Peeled {
+    steps: Vec<Step>,
+    /// The pieces of all steps, by their numbers in the set.
+    pieces: Vec<u32>,
+}
+
+#[derive(Debug)]
+struct Step {
+    plane: PlaneId,
+    rest: Side,
+    /// Where its pieces end; they begin where those of the step before end.
+    end: usize,
+}
+
+/// What is taken off a set in one step.
+#[derive(Debug)]
+pub(crate) struct Layer<'a> {
+    pub(crate) plane: PlaneId,
+    /// Where all others are that are not yet taken.
+    pub(crate) rest: Side,
+    /// The pieces on the plane.
+    pub(crate) pieces: &'a [u32],
+}
+
+impl Peeled {
+    /// How many steps there are.
+    pub(crate) fn len(&self) -> usize {
+        self.steps.len()
+    }
+
+    pub(crate) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
+        self.steps.iter().enumerate().map(|(i, &Step { plane, rest, end })| {
+            let start = if i == 0 { 0 } else { self.steps[i - 1].end };
+            Layer { plane, rest, pieces: &self.pieces[start..end] }
+        })
+    }
+
+    fn push(&mut self, plane: PlaneId, rest: Side, pieces: &[u32]) {
+        self.pieces.extend_from_slice(pieces);
+        self.steps.push(Step { plane, rest, end: self.pieces.len() });
+    }
+}
+
+/// Finds, in a set of pieces, those whose planes have all the rest on one side, once those found
+/// before are gone; its lists are kept to be used again.
+///
+/// To take such a piece first never costs a fragment: a tree of the whole set, with the piece and
+/// its plane left out, is one of the rest, with no more fragments. A set in convex position comes
+/// apart entirely.
+///
+/// Exact: only what the sketch calls certain is believed, and the kernel decides on what is near a
+/// plane. A tree of boxes around the pieces tells for all but the neighbours of a piece on which
+/// side of its plane they are, so that a set in convex position takes O(n log n) where boxes can
+/// tell at all; where many pieces have a vertex in common, as the sides of a cone, it takes O(n²).
+#[derive(Debug, Default)]
+pub(super) struct Peeler {
+    boxes: Boxes,
+    /// For each group of the sketch, which of its pieces are left: a bit each.
+    left: Vec<u8>,
+    /// What keeps the piece at hand from being taken: a piece in front of its plane and one behind,
+    /// or twice one across.
+    witnesses: [u32; 2],
+    /// Groups that held a witness lately: those at the rim of the set, which are asked first.
+    rim: [usize; RIM],
+    /// Pieces that are not certainly on one side of the plane at hand.
+    near: Vec<u32>,
+    /// Boxes still to be looked at.
+    stack: Vec<Node>,
+    /// Pieces that are taken together.
+    own: Vec<u32>,
+}
+
+/// The places of the two witnesses.
+const FRONT: usize = 0;
+const BACK: usize = 1;
+
+/// How many groups are remembered.
+const RIM: usize = 4;
+
+const NOBODY: u32 = u32::MAX;
+
+impl Peeler {
+    /// Searches a set of which the sketch holds all pieces, in groups that are near one another
+    /// (see [`arrange`]), for those at some places; gives what was found, if anything.
+    pub(super) fn search<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sketch: &Sketch,
+        places: impl Iterator<Item = usize>,
+        tuning: &Tuning,
+        watch: &Watch<'_>,
+    ) -> Option<Peeled> {
+        let groups = sketch.groups();
+        self.boxes.fill(sketch, tuning.leaf);
+        self.left.clear();
+        self.left.extend((0..groups).map(|group| sketch.lanes(group)));
+        self.rim = std::array::from_fn(|i| i.min(groups - 1));
+        let (peeled, left) = (Peeled::default(), sketch.len());
+        let mut search = Search { lists: self, set, sketch, watch, peeled, left };
+        search.pass(places);
+        let peeled = search.peeled;
+        (peeled.len() > 0).then_some(peeled)
+    }
+}
+
+/// A search in one set.
+struct Search<'a, 'w, K: Kernel> {
+    lists: &'a mut Peeler,
+    set: &'a Set<'a, K>,
+    sketch: &'a Sketch,
+    watch: &'a Watch<'w>,
+    peeled: Peeled,
+    /// How many pieces are left.
+    left: usize,
+}
+
+impl<K: Kernel> Search<'_, '_, K> {
+    /// Takes off what it can, going once over the pieces at some places.
+    fn pass(&mut self, places: impl Iterator<Item = usize>) {
+        for p in places {
+            if self.left <= 1 {
+                break;
+            }
+            if !self.is_left(p) {
+                continue;
+            }
+            let number = self.sketch.number(p);
+            let plane = self.sketch.plane(self.set, number);
+            let (looks, may_be_free) = self.look(p, &plane);
+            if self.watch.work(looks).is_err() {
+                break;
+            }
+            if may_be_free {
+                self.left -= self.take(p, self.set.own_plane(number));
+            }
+        }
+    }
+
+    /// Whether something keeps the piece at hand from being taken.
+    fn is_held(&self) -> bool {
+        !self.lists.witnesses.contains(&NOBODY)
+    }
+
+    fn is_left(&self, p: usize) -> bool {
+        self.lists.left[p / LANES] >> (p % LANES) & 1 == 1
+    }
+
+    /// Holds the others against a piece's plane until there are some on both sides. Says how many
+    /// looks that took, and whether there may be none on one side.
+    fn look(&mut self, p: usize, plane: &SketchPlane) -> (usize, bool) {
+        self.lists.witnesses = [NOBODY; 2];
+        let mut looks = 0;
+        for i in 0..RIM {
+            looks += LANES;
+            self.see(p, plane, self.lists.rim[i]);
+            if self.is_held() {
+                self.lists.rim.swap(0, i);
+                return (looks, false);
+            }
+        }
+        // What is near is gathered below, where every group is looked at once.
+        self.lists.near.clear();
+        self.lists.stack.clear();
+        self.lists.stack.push(Node { index: 0, groups: 0..self.sketch.groups() });
+        while let Some(node) = self.lists.stack.pop() {
+            looks += LANES;
+            if let Some(around) = self.lists.boxes.around.get(node.index)
+                && let Some(side) = self.sketch.side_of_box(plane, around)
+            {
+                let seen = &mut self.lists.witnesses[side];
+                if *seen == NOBODY
+                    && let Some(group) =
+                        node.groups.clone().find(|&group| self.lists.left[group] > 0)
+                {
+                    *seen = (group * LANES) as u32 + self.lists.left[group].trailing_zeros();
+                }
+            } else if let Some(children) = self.lists.boxes.children(&node) {
+                self.lists.stack.extend(children);
+                continue;
+            } else {
+                for group in node.groups {
+                    if self.lists.left[group] == 0 {
+                        continue;
+                    }
+                    looks += LANES;
+                    self.see(p, plane, group);
+                    if self.is_held() {
+                        self.lists.rim.rotate_right(1);
+                        self.lists.rim[0] = group;
+                        return (looks, false);
+                    }
+                }
+            }
+            if self.is_held() {
+                return (looks, false);
+            }
+        }
+        (looks, true)
+    }
+
+    /// Notes which pieces of a group, among those left, are witnesses against taking piece `p`, and
+    /// which are near its plane.
+    #[inline]
+    fn see(&mut self, p: usize, plane: &SketchPlane, group: usize) {
+        let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
+        let left = self.lists.left[group] & others;
+        let Reach { front, back, near } = self.sketch.reach(plane, group);
+        let first = (group * LANES) as u32;
+        if front & left != 0 {
+            self.lists.witnesses[FRONT] = first + (front & left).trailing_zeros();
+        }
+        if back & left != 0 {
+            self.lists.witnesses[BACK] = first + (back & left).trailing_zeros();
+        }
+        let mut near = near & left;
+        while near != 0 {
+            self.lists.near.push(first + near.trailing_zeros());
+            near &= near - 1;
+        }
+    }
+
+    /// Takes a piece off, with those on its plane, if all others that are left are on one side of
+    /// it; says how many.
+    fn take(&mut self, p: usize, plane: PlaneId) -> usize {
+        let splitter = self.set.splitter(plane);
+        let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
+        own.clear();
+        own.push(p as u32);
+        let held = witnesses;
+        for &q in &*near {
+            let side = self.set.classify(&splitter, self.sketch.number(q as usize));
+            if side == Side::Coplanar {
+                own.push(q);
+            }
+            if matches!(side, Side::Front | Side::Spanning) {
+                held[FRONT] = q;
+            }
+            if matches!(side, Side::Back | Side::Spanning) {
+                held[BACK] = q;
+            }
+            if !held.contains(&NOBODY) {
+                return 0;
+            }
+        }
+        let rest = match *held {
+            [NOBODY, _] => Side::Back,
+            [_, NOBODY] => Side::Front,
+            _ => return 0,
+        };
+        for q in &mut *own {
+            left[*q as usize / LANES] &= !(1 << (*q as usize % LANES));
+            *q = self.sketch.number(*q as usize) as u32;
+        }
+        self.peeled.push(plane, rest, own);
+        own.len()
+    }
+}
+
+/// The pieces of a large set in an order in which groups, and ranges of groups, are near one
+/// another: by halving the longest side of their box again and again.
+pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, leaf: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..set.len()).collect();
+    let middle = |piece: usize, axis: usize| {
+        let live = &set.pieces[piece];
+        live.min[axis] + live.max[axis]
+    };
+    let all = 0..set.len().div_ceil(LANES);
+    let mut stack = vec![all];
+    while let Some(groups) = stack.pop() {
+        let Some([low, high]) = halves(&groups, leaf) else { continue };
+        let part = &mut order[groups.start * LANES..set.len().min(groups.end * LANES)];
+        let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for &piece in part.iter() {
+            for axis in 0..3 {
+                min[axis] = min[axis].min(middle(piece, axis));
+                max[axis] = max[axis].max(middle(piece, axis));
+            }
+        }
+        let longest = |&a: &usize, &b: &usize| (max[a] - min[a]).total_cmp(&(max[b] - min[b]));
+        let axis = (0..3).max_by(longest).unwrap_or(0);
+        part.select_nth_unstable_by(low.len() * LANES, |&a, &b| {
+            middle(a, axis).total_cmp(&middle(b, axis)).then(a.cmp(&b))
+        });
+        stack.extend([low, high]);
+    }
+    order
+}
+
+/// A balanced tree of boxes around the groups of a sketch: the children of node i are 2i + 1 and
+/// 2i + 2. If the root is a leaf, there are no boxes.
+#[derive(Debug, Default)]
+struct Boxes {
+    around: Vec<SketchBox>,
+    /// The most groups in a leaf.
+    leaf: usize,
+}
+
+/// A node of the tree.
+#[derive(Debug)]
+struct Node {
+    index: usize,
+    groups: Range<usize>,
+}
+
+impl Boxes {
+    fn fill(&mut self, sketch: &Sketch, leaf: usize) {
+        self.leaf = leaf;
+        self.around.clear();
+        if sketch.groups() <= leaf {
+            return;
+        }
+        let mut stack = vec![Node { index: 0, groups: 0..sketch.groups() }];
+        while let Some(node) = stack.pop() {
+            if self.around.len() <= node.index {
+                self.around.resize(node.index + 1, SketchBox::default());
+            }
+            self.around[node.index] = sketch.bounds(node.groups.clone());
+            stack.extend(self.children(&node).into_iter().flatten());
+        }
+    }
+
+    fn children(&self, node: &Node) -> Option<[Node; 2]> {
+        let [low, high] = halves(&node.groups, self.leaf)?;
+        let index = 2 * node.index;
+        Some([Node { index: index + 1, groups: low }, Node { index: index + 2, groups: high }])
+    }
+}
+
+/// The ranges of a node's children, if it has any.
+fn halves(groups: &Range<usize>, leaf: usize) -> Option<[Range<usize>; 2]> {
+    let middle = groups.start + groups.len() / 2;
+    (groups.len() > leaf).then_some([groups.start..middle, middle..groups.end])
+}

@@ -1,0 +1,173 @@
+//! Peeling against brute force with the exact kernel.
+
+use glam::{DQuat, DVec3, EulerRot};
+
+use super::super::set::Set;
+use super::super::sketch::Sketch;
+use super::super::tests::{Fixture, grid, triangles};
+use super::super::tuning::Tuning;
+use super::{Peeled, Peeler, arrange};
+use crate::build::progress::Watch;
+use crate::exact::{Exact, Side};
+use crate::random::SplitMix64;
+
+fn peel(set: &Set<'_, Exact>, tuning: &Tuning) -> Option<Peeled> {
+    let mut sketch = Sketch::default();
+    sketch.reset(set);
+    sketch.extend(set, arrange(set, tuning.leaf).into_iter());
+    Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
+}
+
+/// Asserts that each layer has all the rest on the side that it says, and that its own pieces are
+/// all those on its plane; gives which pieces are left.
+fn assert_layers(name: &str, set: &Set<'_, Exact>, peeled: Option<&Peeled>) -> Vec<bool> {
+    let mut left = vec![true; set.len()];
+    for (i, layer) in peeled.into_iter().flat_map(Peeled::layers).enumerate() {
+        assert!(!layer.pieces.is_empty(), "{name}: nothing in layer {i}");
+        let splitter = set.splitter(layer.plane);
+        for &piece in layer.pieces {
+            assert!(left[piece as usize], "{name}: {piece} is taken twice");
+            assert_eq!(set.classify(&splitter, piece as usize), Side::Coplanar, "{name}: {i}");
+            left[piece as usize] = false;
+        }
+        for other in (0..set.len()).filter(|&other| left[other]) {
+            assert_eq!(set.classify(&splitter, other), layer.rest, "{name}: {other} at {i}");
+        }
+    }
+    left
+}
+
+/// Which pieces are left once each has been tried in turn.
+fn brute_force(set: &Set<'_, Exact>, order: &[usize]) -> Vec<bool> {
+    let mut left = vec![true; set.len()];
+    for &piece in order {
+        if !left[piece] || left.iter().filter(|&&is_left| is_left).count() < 2 {
+            continue;
+        }
+        let splitter = set.splitter(set.own_plane(piece));
+        let sides: Vec<_> = (0..set.len()).map(|other| set.classify(&splitter, other)).collect();
+        let reaches = |side| {
+            (0..set.len()).any(|i| left[i] && (sides[i] == side || sides[i] == Side::Spanning))
+        };
+        if !reaches(Side::Front) || !reaches(Side::Back) {
+            (0..set.len()).for_each(|i| left[i] &= sides[i] != Side::Coplanar);
+        }
+    }
+    left
+}
+
+fn assert_like_brute_force(name: &str, fixture: &Fixture) -> usize {
+    let set = fixture.set();
+    let mut taken = 0;
+    for leaf in [1, 2, 64] {
+        let expected = brute_force(&set, &arrange(&set, leaf));
+        let name = format!("{name}, leaves of {leaf}");
+        let peeled = peel(&set, &Tuning { leaf, ..Tuning::DEFAULT });
+        let left = assert_layers(&name, &set, peeled.as_ref());
+        assert_eq!(left, expected, "{name}");
+        taken = left.iter().filter(|&&is_left| !is_left).count();
+    }
+    taken
+}
+
+/// Triangles on a sphere, with corners in common.
+fn sphere(rings: u32) -> Vec<[DVec3; 3]> {
+    let point = |i: u32, j: u32| {
+        let (a, b) = (f64::from(i % (2 * rings)), f64::from(j));
+        let (a, b) = [a, b].map(|c| c * std::f64::consts::PI / f64::from(rings)).into();
+        DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos())
+    };
+    let mut triangles = vec![];
+    for i in 0..2 * rings {
+        for j in 0..rings {
+            let [a, b, c, d] = [point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)];
+            triangles.extend((j + 1 < rings).then_some([a, b, c]));
+            triangles.extend((j > 0).then_some([a, c, d]));
+        }
+    }
+    triangles
+}
+
+/// A turned cube, each side a grid.
+fn cube(side: u32) -> Vec<[DVec3; 3]> {
+    let one = grid(side, |_| 0.0);
+    let back = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+    let turns =
+        [0.0, 1.0, 2.0, 3.0].map(|k| DQuat::from_rotation_x(k * 0.5 * std::f64::consts::PI));
+    let others = [0.5, 1.5].map(|k| DQuat::from_rotation_y(k * std::f64::consts::PI));
+    let middle = DVec3::new(0.5, 0.5, 0.5);
+    let turned = turns.into_iter().chain(others).flat_map(|turn| {
+        let place = move |p: DVec3| back * (turn * (back.inverse() * p - middle));
+        one.iter().map(move |corners| corners.map(place))
+    });
+    turned.collect()
+}
+
+#[test]
+fn random_sets_are_peeled_as_by_brute_force() {
+    let mut random = SplitMix64::new(1);
+    let mut taken = 0;
+    for n in [2, 3, 4, 5, 9, 17, 40] {
+        for size in [0.1, 0.5, 2.0] {
+            for tolerance in [0.0, 1e-3] {
+                let fixture = Fixture::new(&triangles(&mut random, n, size), tolerance);
+                let name = format!("{n} of {size} within {tolerance}");
+                taken += assert_like_brute_force(&name, &fixture);
+            }
+        }
+    }
+    assert!(taken > 30, "{taken}");
+}
+
+/// Heights that single precision does not see decide what can be taken.
+#[test]
+fn what_is_near_is_decided_exactly() {
+    let mut taken = 0;
+    for seed in 0..10 {
+        for height in [1e-13, 1e-10, 1e-8] {
+            let mut random = SplitMix64::new(seed);
+            let rough = grid(4, |_| height * random.point(-1.0, 1.0).x);
+            taken += assert_like_brute_force("rough", &Fixture::new(&rough, 0.0));
+        }
+    }
+    assert!(taken > 0);
+    let bowl = grid(5, |at| 1e-8 * (at - DVec3::new(0.5, 0.5, 0.0)).length_squared());
+    assert_like_brute_force("a bowl", &Fixture::new(&bowl, 0.0));
+}
+
+#[test]
+fn pieces_in_one_plane_are_taken_together() {
+    let fixture = Fixture::new(&cube(3), 1e-9);
+    let set = fixture.set();
+    let peeled = peel(&set, &Tuning::DEFAULT).unwrap();
+    let left = assert_layers("a cube", &set, Some(&peeled));
+    assert!(peeled.len() <= 6 && !left.contains(&true), "{} steps", peeled.len());
+    for layer in peeled.layers() {
+        assert_eq!(layer.pieces.len(), 2 * 3 * 3);
+    }
+}
+
+#[test]
+fn convex_sets_come_apart_whatever_their_size() {
+    for rings in [3, 6, 20] {
+        let fixture = Fixture::new(&sphere(rings), 1e-9);
+        let set = fixture.set();
+        for tuning in [Tuning::DEFAULT, Tuning { leaf: 2, ..Tuning::DEFAULT }] {
+            let peeled = peel(&set, &tuning);
+            let left = assert_layers(&format!("{rings} rings"), &set, peeled.as_ref());
+            assert!(left.iter().filter(|&&is_left| is_left).count() <= 1, "{rings} rings");
+        }
+    }
+}
+
+/// More than a leaf of boxes, with and without what can be taken.
+#[test]
+fn large_sets_are_peeled_as_by_brute_force() {
+    let mut random = SplitMix64::new(2);
+    let mut polygons = sphere(9);
+    polygons.extend(triangles(&mut random, 60, 0.1).iter().map(|p| p.map(|c| c * 0.4)));
+    let fixture = Fixture::new(&polygons, 1e-9);
+    assert!(fixture.pieces.len() > 4 * Tuning::DEFAULT.leaf);
+    let taken = assert_like_brute_force("a sphere around a heap", &fixture);
+    assert!(taken >= sphere(9).len(), "{taken}");
+}

@@ -1,0 +1,181 @@
+//! The sketch against the exact kernel.
+
+use glam::DVec3;
+
+use super::super::set::Set;
+use super::super::tests::{Fixture, grid, triangles};
+use super::{LANES, Sketch};
+use crate::exact::{Exact, PlaneId, Side};
+use crate::random::SplitMix64;
+
+fn sketched(set: &Set<'_, Exact>) -> Sketch {
+    let mut sketch = Sketch::default();
+    sketch.reset(set);
+    sketch.extend(set, 0..set.len());
+    sketch
+}
+
+/// Asserts that what the sketch calls certain is so; says how much it calls so.
+fn assert_certain(name: &str, fixture: &Fixture) -> usize {
+    let set = fixture.set();
+    let sketch = sketched(&set);
+    let mut certain = 0;
+    for own in 0..set.len() {
+        let plane = sketch.plane(&set, own);
+        let splitter = set.splitter(set.own_plane(own));
+        for piece in 0..set.len() {
+            let reach = sketch.reach(&plane, piece / LANES);
+            let [front, back, near] =
+                [reach.front, reach.back, reach.near].map(|bits| bits >> (piece % LANES) & 1 == 1);
+            let is_certain = match set.classify(&splitter, piece) {
+                Side::Front => !back,
+                Side::Back => !front,
+                Side::Coplanar => !front && !back && near,
+                Side::Spanning => near,
+            };
+            assert!(is_certain, "{name}: piece {piece} at the plane of {own}: {reach:?}");
+            assert!(front || back || near, "{name}: {piece} is nowhere");
+            let may_be_on = sketch.may_be_on(&set, own, piece);
+            assert!(may_be_on || set.classify(&splitter, piece) != Side::Coplanar, "{name}");
+            certain += usize::from(!near);
+        }
+    }
+    certain
+}
+
+/// All but one are exactly in one plane, at a corner of the box, so that coordinates and distances
+/// are as large as can be, and rounded as much.
+#[test]
+fn rounding_makes_nothing_certain() {
+    let mut random = SplitMix64::new(1);
+    let mut most = 0_f32;
+    for round in 0..400 {
+        let mut vector = |x: f64, y: f64, z: f64| {
+            let exact = DVec3::new(x, y, z) + random.point(-0.02, 0.02);
+            (exact * f64::from(1 << 30) * 1e4).round()
+        };
+        let (u, w) = (vector(0.1, -0.1, 0.0), vector(0.0, 0.1, -0.1));
+        // √3 times that is a little more than a power of two.
+        let corner = vector(37.3, 37.3, 37.3);
+        let mut at = || {
+            let [i, j] = [(); 2].map(|()| (random.next() % 9) as f64 - 4.0);
+            corner + u * i + w * j
+        };
+        let mut polygons: Vec<_> = (0..60)
+            .map(|_| [(); 3].map(|()| at()))
+            .filter(|[a, b, c]| (b - a).cross(c - a) != DVec3::ZERO)
+            .collect();
+        polygons.push([u, w, DVec3::ZERO].map(|p| p - corner));
+        let fixture = Fixture::new(&polygons, 0.0);
+        assert_certain(&format!("plane {round}"), &fixture);
+        most = most.max(error(&fixture.set()));
+    }
+    // The test comes near what the slack allows for.
+    assert!((0.15..1.0).contains(&most), "{most} of the slack");
+}
+
+/// The largest rounded distance of a piece but the last from the plane of another, by the slack.
+fn error(set: &Set<'_, Exact>) -> f32 {
+    let sketch = sketched(set);
+    let others = || 0..set.len() - 1;
+    let mut most = 0_f32;
+    for own in others() {
+        let plane = sketch.plane(set, own);
+        for piece in others() {
+            for row in &sketch.rows[sketch.rows_of(piece / LANES..piece / LANES + 1)] {
+                let [x, y, z] = row.map(|column| column[piece % LANES]);
+                let [a, b, c] = plane.normal;
+                most = most.max((x * a + y * b + z * c - plane.offset).abs());
+            }
+        }
+    }
+    most / sketch.slack
+}
+
+#[test]
+fn what_is_certain_is_so() {
+    let mut random = SplitMix64::new(2);
+    let mut certain = 0;
+    for size in [1.0, 0.1, 1e-3] {
+        for tolerance in [0.0, 1e-9, 1e-5] {
+            for apart in [0.0, 1e6] {
+                let mut polygons = triangles(&mut random, 60, size);
+                // Slivers, and neighbours with a corner in common.
+                for i in 0..20 {
+                    let [a, b, c] = polygons[i];
+                    polygons.push([a, b, a + (b - a) * 0.4 + (c - a) * 1e-7]);
+                    polygons.push([c, b, a + DVec3::ONE * size]);
+                }
+                let moved: Vec<_> =
+                    polygons.iter().map(|p| p.map(|c| c + DVec3::splat(apart))).collect();
+                let name = format!("{size}, within {tolerance}, at {apart}");
+                certain += assert_certain(&name, &Fixture::new(&moved, tolerance));
+            }
+        }
+    }
+    assert!(certain > 20_000, "{certain}");
+    // Noise far below the slack, and around it.
+    for height in [0.0, 1e-14, 1e-10, 1e-7, 3e-7, 1e-6, 1e-5] {
+        let mut random = SplitMix64::new(3);
+        let polygons = grid(5, |_| height * random.point(-1.0, 1.0).x);
+        for tolerance in [0.0, 1e-10, 1e-7, 1e-5] {
+            let name = format!("a plane with {height} of noise, within {tolerance}");
+            assert_certain(&name, &Fixture::new(&polygons, tolerance));
+        }
+    }
+}
+
+/// Of large faces, small pieces: their planes are as certain as those of small faces.
+#[test]
+fn small_pieces_of_large_faces_are_as_certain() {
+    let mut random = SplitMix64::new(4);
+    let mut certain = 0;
+    for round in 0..100 {
+        let size = [1e-2, 1e-4, 1e-6][round % 3];
+        let mut near = || random.point(-size, size);
+        let mut polygons: Vec<_> = (0..10)
+            .map(|_| {
+                [near() - DVec3::new(1.0, 0.1, 0.3), near() - DVec3::new(0.2, 1.0, 0.7), near()]
+            })
+            .collect();
+        // In the planes of those: nothing is certain of them.
+        for i in 0..10 {
+            let [a, b, c] = polygons[i];
+            polygons.push([c, c + (a - c) * 1e-3, c + (b - c) * 1e-3]);
+        }
+        polygons.push([DVec3::NEG_ONE * size, DVec3::X * size, DVec3::Y * size]);
+        let mut fixture = Fixture::new(&polygons, 0.0);
+        let around = fixture.faces.corner_range(20).start as u32;
+        for axis in 0..3 {
+            fixture.keep(PlaneId::axis(axis, around), Side::Front);
+        }
+        certain += assert_certain(&format!("round {round}"), &fixture);
+    }
+    assert!(certain > 1000, "{certain}");
+}
+
+#[test]
+fn counts_are_those_of_a_plain_loop() {
+    let mut random = SplitMix64::new(5);
+    for n in (1..14).chain([100]) {
+        let mut polygons = triangles(&mut random, n, 0.7);
+        polygons.truncate(n);
+        let fixture = Fixture::new(&polygons, 0.0);
+        let set = fixture.set();
+        let sketch = sketched(&set);
+        for own in 0..n {
+            let plane = sketch.plane(&set, own);
+            let splitter = set.splitter(set.own_plane(own));
+            for first in 0..sketch.groups() {
+                let counts = sketch.count(&plane, first..sketch.groups());
+                let sides = (first * LANES..n).map(|piece| set.classify(&splitter, piece));
+                let sides: Vec<_> = sides.collect();
+                let count = |side| sides.iter().filter(|&&other| other == side).count() as u32;
+                let expected = [Side::Front, Side::Back, Side::Spanning].map(count);
+                assert_eq!([counts.front, counts.back, counts.splits], expected, "{n}: {own}");
+            }
+        }
+        let last = sketch.lanes(sketch.groups() - 1);
+        assert_eq!(last.count_ones() as usize, (n - 1) % LANES + 1, "{n}");
+    }
+}

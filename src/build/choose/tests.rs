@@ -1,0 +1,98 @@
+//! What the tests of choosing share, and of what it gives as a whole.
+
+use glam::{DQuat, DVec3, EulerRot};
+
+use super::set::{Normals, Set};
+use crate::BspTree;
+use crate::build::live::Live;
+use crate::exact::{Exact, Faces, Kernel, PlaneId, Side, split};
+use crate::random::SplitMix64;
+
+/// A set of pieces with all that it refers to.
+pub(super) struct Fixture {
+    pub(super) faces: Faces,
+    normals: Normals,
+    pub(super) pieces: Vec<Live>,
+    arena: Vec<<Exact as Kernel>::Vertex>,
+}
+
+impl Fixture {
+    pub(super) fn new<const N: usize>(polygons: &[[DVec3; N]], tolerance: f64) -> Self {
+        let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
+        let pieces = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
+        Self { normals: Normals::new(&faces), faces, pieces, arena: vec![] }
+    }
+
+    pub(super) fn set(&self) -> Set<'_, Exact> {
+        Set::new(&Exact, &self.faces, &self.normals, (&self.pieces, &self.arena))
+    }
+
+    /// Keeps what is on one side of a plane.
+    pub(super) fn keep(&mut self, plane: PlaneId, kept: Side) {
+        let splitter = Exact.splitter(&self.faces, plane);
+        for live in std::mem::take(&mut self.pieces) {
+            let piece = live.piece(&self.arena);
+            let side = Exact.classify(&self.faces, &splitter, piece);
+            if side == kept {
+                self.pieces.push(live);
+            } else if side == Side::Spanning {
+                let corners = 0..self.faces.corners(live.face).len() as u32;
+                let outline = piece.cut.map_or_else(
+                    || corners.map(|k| Exact.corner(&self.faces, live.face, k)).collect(),
+                    <[_]>::to_vec,
+                );
+                let (mut front, mut back) = (vec![], vec![]);
+                let plane = (plane, &splitter);
+                split(&Exact, &self.faces, plane, live.face, &outline, &mut front, &mut back);
+                let start = self.arena.len();
+                self.arena.extend(if kept == Side::Front { front } else { back });
+                self.pieces.push(Live::cut::<Exact>(&live, &self.arena, start));
+            }
+        }
+    }
+}
+
+pub(super) fn triangles(random: &mut SplitMix64, count: usize, size: f64) -> Vec<[DVec3; 3]> {
+    let mut triangle = || {
+        let at = random.point(-1.0, 1.0);
+        [(); 3].map(|()| at + random.point(-size, size))
+    };
+    (0..count).map(|_| triangle()).collect()
+}
+
+/// Squares of a grid, turned; `height` says how far each of their corners is from the plane.
+pub(super) fn grid(side: u32, mut height: impl FnMut(DVec3) -> f64) -> Vec<[DVec3; 3]> {
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+    let mut triangles = vec![];
+    for i in 0..side {
+        for j in 0..side {
+            let mut corner = |x: u32, y: u32| {
+                let at = DVec3::new(f64::from(i + x), f64::from(j + y), 0.0) / f64::from(side);
+                turn * (at + DVec3::Z * height(at))
+            };
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    triangles
+}
+
+#[test]
+fn fragments_grow_with_the_scene_without_a_jump() {
+    let all = triangles(&mut SplitMix64::new(7), 600, 0.3);
+    let per_face = |n: usize| BspTree::build(&all[..n]).unwrap().len() as f64 / n as f64;
+    let sizes = || (150..=600).step_by(25);
+    for (n, pair) in sizes().zip(sizes().map(per_face).collect::<Vec<_>>().windows(2)) {
+        let growth = pair[1] / pair[0];
+        assert!((0.9..1.25).contains(&growth), "{n}: {pair:?}");
+    }
+}
+
+#[test]
+fn what_lies_in_one_plane_is_one_node() {
+    for side in [5, 12, 40] {
+        let polygons = grid(side, |_| 0.0);
+        let tree = BspTree::build(&polygons).unwrap();
+        assert_eq!((tree.len(), tree.stats().nodes), (polygons.len(), 1), "{side}");
+    }
+}

@@ -1,0 +1,165 @@
+//! From polygons to a tree, step by step: preparation, jobs, assembly, the finished tree.
+
+use std::ops::ControlFlow;
+
+use super::assemble::assemble;
+use super::builder::{Job, Shared};
+use super::choose::Tuning;
+use super::jobs;
+use super::live::Live;
+use super::options::BuildOptions;
+use super::progress::{Progress, Watch, one_at_a_time};
+use crate::error::Error;
+use crate::exact::{Exact, Faces, Kernel};
+use crate::faces::{Listener, Preparation};
+use crate::input::Polygon;
+use crate::memory::reserve;
+use crate::tree::BspTree;
+use crate::tree::parts::Parts;
+
+impl BspTree {
+    /// Builds a tree with the default options.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate is infinite or NaN; if one polygon has more than
+    /// [`MAX_CORNERS`](crate::MAX_CORNERS) corners, all polygons together have 2²⁸ or more, or the
+    /// tree would have more than 2²⁵ fragments; or if memory runs out. The error names the polygon
+    /// where one is to blame.
+    pub fn build<P: Polygon>(polygons: impl IntoIterator<Item = P>) -> Result<Self, Error> {
+        BuildOptions::DEFAULT.build(polygons)
+    }
+}
+
+impl BuildOptions {
+    /// Builds a tree of polygons; see [`BspTree::build`].
+    ///
+    /// # Errors
+    ///
+    /// If a polygon cannot be read or a budget runs out; see [`Error`].
+    pub fn build<P: Polygon>(
+        &self,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<BspTree, Error> {
+        tree(self, polygons, &Watch::default())
+    }
+
+    /// Builds the same tree as [`build`](Self::build), and reports its progress to a callback.
+    ///
+    /// The callback is called at the start, about once per millisecond of work, and at the end. Any
+    /// thread may call it, but never two at once: a thread that finds it busy continues with its
+    /// work. So the callback may be slow, and may use the same thread pool.
+    ///
+    /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops
+    /// after its current pass over a set of pieces. That takes milliseconds, or tenths of a second
+    /// in sets of some 100 000 pieces. When all sets are divided, the tree is laid out in memory,
+    /// which takes about as long and cannot be cancelled.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    ///
+    /// use binspace::{BuildOptions, scene};
+    ///
+    /// let (scene, mut percent) = (scene::random_triangles(2000, 1), 0);
+    /// let tree = BuildOptions::DEFAULT.build_with_progress(scene.polygons(), |progress| {
+    ///     percent = 100 * progress.done / progress.total.max(1);
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert_eq!(percent, 100);
+    ///
+    /// let never = BuildOptions::DEFAULT
+    ///     .build_with_progress(scene.polygons(), |_| ControlFlow::Break(()));
+    /// assert!(never.is_err_and(|error| error.is_cancelled()));
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As for [`build`](Self::build), and if the build is cancelled.
+    pub fn build_with_progress<P: Polygon>(
+        &self,
+        polygons: impl IntoIterator<Item = P>,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<BspTree, Error> {
+        let progress = one_at_a_time(progress);
+        tree(self, polygons, &Watch::new(&progress))
+    }
+}
+
+fn tree<P: Polygon>(
+    options: &BuildOptions,
+    polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
+) -> Result<BspTree, Error> {
+    let (faces, preparation) =
+        Faces::prepare(polygons, options.tolerance, options.max_fragments, watch)?;
+    watch.expect(faces.len())?;
+    let parts = parts_of(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
+    watch.end()?;
+    Ok(BspTree::new(faces, preparation, parts))
+}
+
+/// Builds a tree of prepared faces. Their tolerance counts, not that of the options.
+///
+/// # Errors
+///
+/// If a budget or memory runs out.
+pub fn tree_of_faces(options: &BuildOptions, faces: Faces) -> Result<BspTree, Error> {
+    let parts = parts(Exact, options, &faces)?;
+    Ok(BspTree::new(faces, Preparation::default(), parts))
+}
+
+/// Builds the parts of a tree whose decisions a kernel makes.
+///
+/// # Errors
+///
+/// If a budget or memory runs out.
+pub fn parts<K: Kernel>(
+    kernel: K,
+    options: &BuildOptions,
+    faces: &Faces,
+) -> Result<Parts<K::Stored>, Error> {
+    parts_of(kernel, options, &Tuning::DEFAULT, faces, &Watch::default())
+}
+
+/// Builds a tree with other tuning constants, to measure what they do.
+///
+/// # Errors
+///
+/// If a budget or memory runs out.
+pub fn tree_tuned(
+    tuning: &Tuning,
+    faces: Faces,
+    preparation: Preparation,
+) -> Result<BspTree, Error> {
+    let options = &BuildOptions::DEFAULT;
+    let parts = parts_of(Exact, options, tuning, &faces, &Watch::default())?;
+    Ok(BspTree::new(faces, preparation, parts))
+}
+
+/// A step of the preparation takes about as long as examining this many pieces.
+const STEP: usize = 8;
+
+impl Listener for Watch<'_> {
+    fn read(&self, polygons: usize) -> Result<(), Error> {
+        self.expect(polygons)
+    }
+
+    fn work(&self, steps: usize) -> Result<(), Error> {
+        Watch::work(self, steps * STEP)
+    }
+}
+
+fn parts_of<K: Kernel>(
+    kernel: K,
+    options: &BuildOptions,
+    tuning: &Tuning,
+    faces: &Faces,
+    watch: &Watch<'_>,
+) -> Result<Parts<K::Stored>, Error> {
+    let mut live: Vec<Live> = Vec::new();
+    reserve(&mut live, faces.len())?;
+    live.extend((0..faces.len() as u32).map(|face| Live::whole(faces, face)));
+    let shared = Shared::new(kernel, faces, options, tuning, watch)?;
+    assemble(jobs::run(&shared, Job { pieces: live, arena: Vec::new(), depth: 0 })?)
+}

@@ -1,0 +1,95 @@
+//! Pieces of faces while the tree is built.
+
+use crate::exact::{Faces, Kernel, Piece, SymbolKind, Vertex};
+
+/// A piece of a face on its way down the tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Live {
+    /// The bounding box in lattice units, from rounded vertices.
+    pub(super) min: [f64; 3],
+    pub(super) max: [f64; 3],
+    pub(super) face: u32,
+    /// The index of its first vertex in the arena, and their number; 0 for a whole face.
+    start: u32,
+    len: u32,
+    /// How many times it was cut; stays at 255.
+    pub(super) cuts: u8,
+    /// On which sides of the box there is a corner of the face: bits 0–2 for the minima along x, y and
+    /// z, bits 3–5 for the maxima.
+    on_corner: u8,
+}
+
+impl Live {
+    /// A whole face.
+    pub(super) fn whole(faces: &Faces, face: u32) -> Self {
+        let mut live = Self::empty(face, 0, 0);
+        for &corner in faces.corners(face) {
+            live.include(corner);
+        }
+        live.on_corner = 0b11_1111;
+        live
+    }
+
+    /// A part of a piece that was cut; its vertices are those of the arena from `start` on.
+    pub(super) fn cut<K: Kernel>(whole: &Self, arena: &[K::Vertex], start: usize) -> Self {
+        let vertices = &arena[start..];
+        let mut live = Self::empty(whole.face, start as u32, vertices.len() as u32);
+        live.cuts = whole.cuts.saturating_add(1);
+        for vertex in vertices {
+            live.include(vertex.position());
+        }
+        for vertex in vertices {
+            if let SymbolKind::Corner(_) = vertex.symbol().kind() {
+                let p = vertex.position();
+                for (axis, &c) in p.iter().enumerate() {
+                    live.on_corner |= u8::from(c == live.min[axis]) << axis;
+                    live.on_corner |= u8::from(c == live.max[axis]) << (axis + 3);
+                }
+            }
+        }
+        live
+    }
+
+    fn empty(face: u32, start: u32, len: u32) -> Self {
+        let (min, max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        Self { min, max, face, start, len, cuts: 0, on_corner: 0 }
+    }
+
+    fn include(&mut self, p: [f64; 3]) {
+        for (axis, &c) in p.iter().enumerate() {
+            self.min[axis] = self.min[axis].min(c);
+            self.max[axis] = self.max[axis].max(c);
+        }
+    }
+
+    /// The piece with its vertices in the arena.
+    #[inline]
+    pub(super) fn piece<'a, V>(&self, arena: &'a [V]) -> Piece<'a, V> {
+        let start = self.start as usize;
+        let cut = (self.len > 0).then(|| &arena[start..start + self.len as usize]);
+        Piece { face: self.face, cut }
+    }
+
+    /// The same piece, with its vertices elsewhere in an arena.
+    pub(super) fn moved_to(self, start: usize) -> Self {
+        Self { start: start as u32, ..self }
+    }
+
+    /// Whether a corner of the face lies on the box's lower side along an axis.
+    #[inline]
+    pub(super) fn min_is_corner(&self, axis: usize) -> bool {
+        self.on_corner >> axis & 1 != 0
+    }
+
+    /// Whether a corner of the face lies on the box's upper side along an axis.
+    #[inline]
+    pub(super) fn max_is_corner(&self, axis: usize) -> bool {
+        self.on_corner >> (axis + 3) & 1 != 0
+    }
+
+    /// A corner of the face that has the given coordinate along an axis, numbered over all faces.
+    pub(super) fn corner_at(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
+        let mut range = faces.corner_range(self.face);
+        range.find(|&corner| faces.corner(corner as u32)[axis] == coordinate).map(|c| c as u32)
+    }
+}

@@ -1,0 +1,16 @@
+//! Building a tree: options, progress, the driver, the jobs of its threads, the choice of planes.
+
+mod assemble;
+mod budget;
+mod builder;
+pub(crate) mod choose;
+pub(crate) mod driver;
+mod heuristic;
+mod jobs;
+pub(crate) mod live;
+mod options;
+pub(crate) mod progress;
+
+pub use heuristic::{Heuristic, ParseHeuristicError};
+pub use options::BuildOptions;
+pub use progress::Progress;

@@ -1,0 +1,81 @@
+//! The options of a build.
+
+use super::heuristic::Heuristic;
+
+/// The options of a build; [`BspTree::build`](crate::BspTree::build) takes the defaults.
+///
+/// ```
+/// use binspace::{BuildOptions, Heuristic};
+///
+/// let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let options = BuildOptions::DEFAULT
+///     .with_heuristic(Heuristic::FewestSplits)
+///     .with_tolerance(1e-6)
+///     .with_max_fragments(1000);
+/// assert_eq!(options.build([square])?.len(), 1);
+/// # Ok::<(), binspace::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BuildOptions {
+    /// How partition planes are chosen. Default: [`Heuristic::Auto`].
+    pub heuristic: Heuristic,
+    /// The coplanar tolerance, a length in the polygons' unit: polygons that reach no further than
+    /// this from a plane count as lying on it. `None` stands for
+    /// [`DEFAULT_TOLERANCE`](crate::DEFAULT_TOLERANCE) (10⁻⁹) of the longest side of the scene's
+    /// bounding box, which one stray vertex makes larger. Default: `None`.
+    ///
+    /// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an
+    /// error. A tolerance that is too large, infinity included, is reduced to a fixed share of the
+    /// extent between 1/256 and 1/128. [`BspTree`](crate::BspTree#which-tolerance) says which to
+    /// take.
+    pub tolerance: Option<f64>,
+    /// The most fragments that a tree may have, and the most polygons it may be built from.
+    /// Exceeding it is an error; too many input polygons are rejected before the build starts, and
+    /// before any is read if their iterator's size hint tells. Default: 2²⁵ (33 554 432 fragments,
+    /// about 5 GB). More than 2²⁹ − 1 counts as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
+    pub max_fragments: usize,
+    /// The most nodes on a path from the root. Exceeding it is an error. Default: unlimited; no code
+    /// recurses over the tree, so a deep tree cannot overflow the stack.
+    pub max_depth: usize,
+}
+
+impl BuildOptions {
+    /// The defaults.
+    pub const DEFAULT: Self = Self {
+        heuristic: Heuristic::Auto,
+        tolerance: None,
+        max_fragments: 1 << 25,
+        max_depth: usize::MAX,
+    };
+
+    /// Sets how partition planes are chosen.
+    #[must_use]
+    pub const fn with_heuristic(self, heuristic: Heuristic) -> Self {
+        Self { heuristic, ..self }
+    }
+
+    /// Sets the coplanar tolerance, a length of 0 or more.
+    #[must_use]
+    pub const fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance: Some(tolerance), ..self }
+    }
+
+    /// Sets the most fragments.
+    #[must_use]
+    pub const fn with_max_fragments(self, max_fragments: usize) -> Self {
+        Self { max_fragments, ..self }
+    }
+
+    /// Sets the most nodes on a path from the root.
+    #[must_use]
+    pub const fn with_max_depth(self, max_depth: usize) -> Self {
+        Self { max_depth, ..self }
+    }
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}

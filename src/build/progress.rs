@@ -1,0 +1,133 @@
+//! The progress of a build, and its cancellation.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, TryLockError};
+
+use crate::Error;
+
+/// The callback is called each time about this many more pieces have been examined, which takes a
+/// millisecond. Smaller: time spent on calls; larger: cancelling takes longer.
+const PULSE: usize = 1 << 16;
+
+/// What a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so
+/// that all pieces of a face add up to one face.
+const FACE: u64 = 1 << 32;
+
+/// How far a build has come.
+///
+/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so
+/// far. From then on `total` is the number of faces and does not change, and `done` never decreases.
+/// At the end both are equal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// How many faces are in the tree; a face in part counts as that part.
+    pub done: usize,
+    /// How many faces there are, or polygons while they are read.
+    pub total: usize,
+}
+
+/// Serialises calls to the callback, so that the progress it sees never decreases.
+///
+/// A thread that finds the callback busy continues without calling it. If it waited it could wait
+/// forever: the callback may run further down this thread's own stack, waiting for the thread pool.
+pub(super) fn one_at_a_time(
+    progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+) -> impl Fn(&Watch<'_>) -> ControlFlow<()> + Sync {
+    let progress = Mutex::new(progress);
+    move |watch| {
+        let mut progress = match progress.try_lock() {
+            Ok(progress) => progress,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => return ControlFlow::Continue(()),
+        };
+        if watch.is_cancelled() {
+            return ControlFlow::Break(());
+        }
+        let flow = progress(watch.progress());
+        if flow.is_break() {
+            watch.cancelled.store(true, Ordering::Relaxed);
+        }
+        flow
+    }
+}
+
+type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
+
+/// Shared by the jobs of a build: counts their work, calls the callback, and tells them to stop.
+#[derive(Default)]
+pub(super) struct Watch<'a> {
+    callback: Option<Callback<'a>>,
+    total: AtomicUsize,
+    /// In units of 1/`FACE`.
+    done: AtomicU64,
+    /// How many pieces have been examined.
+    work: AtomicUsize,
+    cancelled: AtomicBool,
+}
+
+impl<'a> Watch<'a> {
+    pub(super) fn new(callback: Callback<'a>) -> Self {
+        Self { callback: Some(callback), ..Self::default() }
+    }
+
+    /// Sets the number of polygons or faces, and calls the callback.
+    pub(super) fn expect(&self, total: usize) -> Result<(), Error> {
+        self.total.store(total, Ordering::Relaxed);
+        self.call()
+    }
+
+    /// Counts pieces that are about to be examined; an error if the build was cancelled.
+    #[inline]
+    pub(super) fn work(&self, pieces: usize) -> Result<(), Error> {
+        if self.callback.is_none() {
+            return Ok(());
+        }
+        if self.is_cancelled() {
+            return Err(Error::cancelled());
+        }
+        let before = self.work.fetch_add(pieces, Ordering::Relaxed);
+        if before / PULSE == before.wrapping_add(pieces) / PULSE { Ok(()) } else { self.call() }
+    }
+
+    /// Counts a piece that has been stored in the tree, and was cut so many times.
+    #[inline]
+    pub(super) fn finish(&self, cuts: u8) {
+        if self.callback.is_some() {
+            let share = FACE.checked_shr(cuts.into()).unwrap_or(0);
+            self.done.fetch_add(share, Ordering::Relaxed);
+        }
+    }
+
+    /// Reports that all is done.
+    pub(super) fn end(&self) -> Result<(), Error> {
+        // Shares of pieces cut more than 32 times were rounded to nothing, so the sum may fall short.
+        let total = self.total.load(Ordering::Relaxed) as u64;
+        self.done.store(total * FACE, Ordering::Relaxed);
+        self.call()
+    }
+
+    fn call(&self) -> Result<(), Error> {
+        match self.callback.map(|callback| callback(self)) {
+            Some(ControlFlow::Break(())) => Err(Error::cancelled()),
+            _ => Ok(()),
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+
+    fn progress(&self) -> Progress {
+        let done = (self.done.load(Ordering::Relaxed) / FACE) as usize;
+        Progress { done, total: self.total.load(Ordering::Relaxed) }
+    }
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch").field("total", &self.total).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,130 @@
+//! A viewpoint on the lattice, and on which side of a plane it lies.
+
+use std::cmp::Ordering;
+
+use super::{Lattice, Plane};
+use crate::viewpoint::Viewpoint;
+
+/// A viewpoint in lattice units, rounded once: the point integer · 2^shift, or, without a shift,
+/// the direction in which the eye is infinitely far away.
+///
+/// Within about 500 extents of the scene the rounding is that of the lattice itself, 2⁻⁵² of the
+/// extent; beyond, it is one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵²
+/// of their largest component. Eyes beyond 2³⁶⁰ lattice units are treated as directions. If the
+/// direction runs along a plane, the eye is on the side on which the lattice's origin lies. A NaN
+/// coordinate counts as 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eye {
+    integer: [i64; 3],
+    shift: Option<u32>,
+    float: [f64; 3],
+}
+
+/// The largest magnitude of an eye's integers: eyes this near need no shift.
+const NEAR: f64 = (1u64 << 61) as f64;
+/// The largest shift. For eyes further away the planes' offsets no longer matter: only the
+/// direction does.
+const FAR: u32 = 360;
+
+impl Eye {
+    /// A viewpoint on a scene's lattice.
+    pub fn new(viewpoint: Viewpoint, lattice: &Lattice) -> Self {
+        match viewpoint {
+            Viewpoint::Eye(point) => Self::at(lattice.to_lattice(point).map(number)),
+            Viewpoint::Direction(direction) => {
+                Self::towards(direction.to_array().map(|c| -number(c)))
+            }
+        }
+    }
+
+    /// The eye at a point in lattice units.
+    pub(crate) fn at(point: [f64; 3]) -> Self {
+        let size = largest(point);
+        let mut shift = 0;
+        let mut unit = 1.0;
+        while size * unit > NEAR {
+            shift += 1;
+            unit *= 0.5;
+            if shift > FAR {
+                return Self::towards(point);
+            }
+        }
+        let integer = point.map(|c| (c * unit).round() as i64);
+        Self { integer, shift: Some(shift), float: integer.map(|c| c as f64 / unit) }
+    }
+
+    /// An eye infinitely far away in a direction.
+    fn towards(direction: [f64; 3]) -> Self {
+        // An infinite component outweighs all finite ones.
+        let finite = if largest(direction).is_infinite() {
+            direction.map(|c| if c.is_infinite() { c.signum() } else { 0.0 })
+        } else {
+            direction
+        };
+        let size = largest(finite);
+        let unit = if size > 0.0 { finite.map(|c| c / size) } else { [0.0, 0.0, 1.0] };
+        let integer = unit.map(|c| (c * (1i64 << 52) as f64).round() as i64);
+        Self { integer, shift: None, float: unit }
+    }
+
+    /// The integer part: lattice units over 2^shift, or a direction.
+    pub(crate) fn integer(&self) -> [i64; 3] {
+        self.integer
+    }
+
+    /// The exponent of the power of two to multiply the integer part by; `None` for an eye at
+    /// infinity.
+    pub(crate) fn shift(&self) -> Option<u32> {
+        self.shift
+    }
+
+    /// The eye in homogeneous coordinates: the point in lattice units and 1, or the direction
+    /// towards it and 0.
+    pub fn homogeneous(&self) -> ([f64; 3], f64) {
+        (self.float, if self.shift.is_some() { 1.0 } else { 0.0 })
+    }
+}
+
+impl Plane {
+    /// On which side an eye lies of the plane that is perpendicular to an axis and goes through a
+    /// lattice point: the same as [`at_eye`](Self::at_eye), without products.
+    pub fn axis_at_eye(axis: usize, point: [f64; 3], eye: &Eye) -> Ordering {
+        let (e, p) = (i128::from(eye.integer()[axis]), i128::from(point[axis] as i64));
+        match eye.shift() {
+            // With a larger shift, every integer except 0 is further out than any lattice point:
+            // the last arm decides by its sign.
+            Some(shift) if e == 0 || shift <= 52 => (e << shift.min(52)).cmp(&p),
+            None if e == 0 => 0.cmp(&p),
+            _ => e.cmp(&0),
+        }
+    }
+
+    /// On which side of the plane an eye lies: `Greater` is in front.
+    pub fn at_eye(&self, eye: &Eye) -> Ordering {
+        let p = self.point();
+        match eye.shift() {
+            // Near: both products fit three limbs.
+            Some(0) => {
+                let e = eye.integer();
+                let side = self.along(e) - self.along(p);
+                side.sign()
+            }
+            Some(shift) => {
+                let far = self.along(eye.integer()).shifted::<9>(shift);
+                (far - self.along(p).resize()).sign()
+            }
+            None => {
+                let side = self.along(eye.integer()).sign();
+                if side.is_ne() { side } else { self.along(p).sign().reverse() }
+            }
+        }
+    }
+}
+
+fn largest(v: [f64; 3]) -> f64 {
+    v.into_iter().fold(0.0, |max, c| max.max(c.abs()))
+}
+
+fn number(c: f64) -> f64 {
+    if c.is_nan() { 0.0 } else { c }
+}

@@ -1,0 +1,179 @@
+//! The faces of a scene: convex, planar, on the lattice.
+
+use super::Lattice;
+
+/// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
+/// polygon.
+///
+/// A polygon that is convex, has at most 32 768 corners, and lies within the tolerance of one plane
+/// becomes one face; any other becomes triangles. A corner that does not lie exactly on the plane
+/// of its face's reference triangle is *defined* to lie on it, moved along the axis in which the
+/// plane is least steep. Stored is the lattice point nearest to the moved corner.
+#[derive(Clone, Debug)]
+pub struct Faces {
+    pub(crate) lattice: Lattice,
+    pub(crate) tolerance: f64,
+    pub(crate) corners: Vec<[f64; 3]>,
+    /// For the faces in `numbered`: the number of each corner within its polygon, with [`INNER`]
+    /// set if the edge to the next corner is not an edge of the polygon. The corners of all other
+    /// faces are numbered 0, 1, 2, ….
+    pub(crate) numbers: Vec<u32>,
+    /// Faces with explicit corner numbers, and where these begin in `numbers`.
+    pub(crate) numbered: Vec<(u32, u32)>,
+    pub(crate) faces: Vec<Face>,
+}
+
+/// Marks a corner if the edge from it to the next is not an edge of the polygon.
+pub(crate) const INNER: u32 = 1 << 31;
+
+/// Where a face's corners begin, what it came from, and which of its corners span its plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Face {
+    pub(crate) start: u32,
+    pub(crate) polygon: u32,
+    pub(crate) frame: Frame,
+}
+
+/// The reference triangle of a face (its corners 0, `second` and `third`), and the axis along which
+/// its other corners are moved onto its plane, if any of them is off it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Frame(u32);
+
+impl Frame {
+    /// The largest number of corners of a face.
+    pub(crate) const MAX_CORNERS: usize = 1 << 15;
+    /// The frame of a triangle.
+    pub(crate) const TRIANGLE: Self = Self::new(1, 2, None);
+
+    pub(crate) const fn new(second: usize, third: usize, drop: Option<usize>) -> Self {
+        let axis = match drop {
+            Some(axis) => axis as u32,
+            None => 3,
+        };
+        Self(axis << 30 | (second as u32) << 15 | third as u32)
+    }
+
+    pub(crate) const fn triangle(self) -> [u32; 3] {
+        [0, self.0 >> 15 & 0x7fff, self.0 & 0x7fff]
+    }
+
+    pub(crate) const fn drop_axis(self) -> Option<usize> {
+        if self.0 >> 30 == 3 { None } else { Some((self.0 >> 30) as usize) }
+    }
+}
+
+impl Faces {
+    /// How many faces there are.
+    pub fn len(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// Whether there is no face.
+    pub fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// The grid that the corners lie on.
+    #[doc(hidden)]
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The coplanar tolerance in lattice units.
+    #[doc(hidden)]
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The index of the polygon that a face belongs to.
+    #[inline]
+    pub fn polygon(&self, face: u32) -> usize {
+        self.faces[face as usize].polygon as usize
+    }
+
+    /// The lattice points of a face's corners, counter-clockwise seen from its front.
+    #[doc(hidden)]
+    #[inline]
+    pub fn corners(&self, face: u32) -> &[[f64; 3]] {
+        &self.corners[self.corner_range(face)]
+    }
+
+    /// The range of a face's corners in the list of all corners.
+    #[doc(hidden)]
+    #[inline]
+    pub fn corner_range(&self, face: u32) -> std::ops::Range<usize> {
+        let face = face as usize;
+        let end = self.faces.get(face + 1).map_or(self.corners.len(), |next| next.start as usize);
+        self.faces[face].start as usize..end
+    }
+
+    /// The lattice point of a corner, counted over all faces.
+    #[doc(hidden)]
+    #[inline]
+    pub fn corner(&self, corner: u32) -> [f64; 3] {
+        self.corners[corner as usize]
+    }
+
+    /// The three corners, counted over all faces, that define a face's plane.
+    #[doc(hidden)]
+    #[inline]
+    pub fn reference_triangle(&self, face: u32) -> [u32; 3] {
+        let face = &self.faces[face as usize];
+        face.frame.triangle().map(|k| face.start + k)
+    }
+
+    /// The numbers of the polygons that have no face; `polygons` is how many were prepared.
+    #[doc(hidden)]
+    pub fn dropped(&self, polygons: usize) -> impl Iterator<Item = usize> + Clone {
+        let mut faces = (0..self.len() as u32).map(|face| self.polygon(face)).peekable();
+        (0..polygons).filter(move |&polygon| {
+            let is_dropped = faces.next_if_eq(&polygon).is_none();
+            while faces.next_if_eq(&polygon).is_some() {}
+            is_dropped
+        })
+    }
+
+    /// How many corners all faces have together.
+    #[doc(hidden)]
+    pub fn corner_count(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// The axis along which the corners of a face are moved onto its plane, or `None` if all of
+    /// them lie exactly on it. An edge of a face with moved corners lies in the plane through its
+    /// two lattice points and along that axis.
+    #[inline]
+    pub(crate) fn upright_axis(&self, face: u32) -> Option<usize> {
+        self.faces[face as usize].frame.drop_axis()
+    }
+
+    /// The number within its polygon of a face's corner `k`.
+    #[doc(hidden)]
+    pub fn corner_number(&self, face: u32, k: u32) -> u32 {
+        self.number(face, k) & !INNER
+    }
+
+    /// The number of the polygon's edge that a face's edge `k` lies on: the number of the corner
+    /// where it begins. `None` for an edge made by triangulation. If a polygon touches itself or
+    /// runs along an edge twice, those edges may be `None` as well.
+    #[doc(hidden)]
+    pub fn outline_edge(&self, face: u32, k: u32) -> Option<u32> {
+        let number = self.number(face, k);
+        (number & INNER == 0).then_some(number)
+    }
+
+    fn number(&self, face: u32, k: u32) -> u32 {
+        match self.numbered.binary_search_by_key(&face, |&(face, _)| face) {
+            Ok(at) => self.numbers[self.numbered[at].1 as usize + k as usize],
+            Err(_) => k,
+        }
+    }
+
+    /// The resident size in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.corners)
+            + size_of_val(&*self.numbers)
+            + size_of_val(&*self.numbered)
+            + size_of_val(&*self.faces)
+    }
+}

@@ -1,0 +1,166 @@
+//! The filter: signs of rounded distances where they are certain, and integers where they are not.
+
+use std::cmp::Ordering;
+
+use super::kernel::Vertex;
+use super::label::{Line, PlaneId, PlaneKind, Symbol};
+use super::lattice::LIMIT;
+use super::plane::Plane;
+use super::{Faces, Int};
+
+/// A plane prepared for the filter, and for integers where the filter is not certain.
+#[derive(Clone, Copy, Debug)]
+pub struct ExactSplitter {
+    pub(super) plane: PlaneId,
+    exact: Plane,
+    normal: [f64; 3],
+    offset: f64,
+    /// A rounded distance has the right sign if it is larger than this.
+    pub(super) bound: f64,
+    /// The tolerance times the length of the normal, rounded down to an integer.
+    pub(super) band: f64,
+}
+
+impl ExactSplitter {
+    /// Prepares a plane.
+    pub(super) fn new(faces: &Faces, plane: PlaneId) -> Self {
+        let exact = faces.plane(plane);
+        match plane.kind() {
+            PlaneKind::Axis(axis, corner) => {
+                let mut normal = [0.0; 3];
+                normal[axis] = 1.0;
+                let offset = faces.corner(corner)[axis];
+                let band = faces.tolerance().floor();
+                ExactSplitter { plane, exact, normal, offset, bound: AXIS_ERROR, band }
+            }
+            PlaneKind::Face(face) => {
+                let [p, q, r] = faces.reference_triangle(face).map(|c| faces.corner(c));
+                let (mut normal, mut size) = ([0.0; 3], 0.0);
+                for (i, component) in normal.iter_mut().enumerate() {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    let a = (q[j] - p[j]) * (r[k] - p[k]);
+                    let b = (q[k] - p[k]) * (r[j] - p[j]);
+                    *component = a - b;
+                    size += a.abs() + b.abs();
+                }
+                let [x, y, z] = normal;
+                let offset = x * p[0] + y * p[1] + z * p[2];
+                let band = (faces.tolerance() * (x * x + y * y + z * z).sqrt()).floor();
+                ExactSplitter { plane, exact, normal, offset, bound: FACE_ERROR * size, band }
+            }
+        }
+    }
+
+    /// The rounded distance of a position, times the length of the normal.
+    #[inline]
+    pub(super) fn distance(&self, p: [f64; 3]) -> f64 {
+        let n = self.normal;
+        n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
+    }
+}
+
+/// A vertex with its rounded position.
+#[derive(Clone, Copy, Debug)]
+pub struct ExactVertex {
+    pub(super) position: [f64; 3],
+    pub(super) symbol: Symbol,
+    pub(super) line: Line,
+}
+
+impl Vertex for ExactVertex {
+    #[inline]
+    fn position(&self) -> [f64; 3] {
+        self.position
+    }
+    fn symbol(&self) -> Symbol {
+        self.symbol
+    }
+    #[inline]
+    fn line(&self) -> Line {
+        self.line
+    }
+    #[inline]
+    fn with_line(self, line: Line) -> Self {
+        Self { line, ..self }
+    }
+}
+
+/// The largest error of a face's plane at a rounded vertex, among those where the sign is wrong,
+/// per unit of π = Σ over components of |u_j w_k| + |u_k w_j|.
+///
+/// Let ε = 2⁻⁵³, m the largest coordinate, u and w the exact edges of the triangle, n their
+/// product with components at most πᵢ, v the vertex, p the point on the plane, d = v − p, and
+/// P = n₀p₀ + n₁p₁, V = n₀v₀ + n₁v₁, N = n·p. The sign can only be wrong if n·v and N differ by no
+/// more than a few επm, so n·v counts as N here. The parts, each a multiple of ε:
+///
+/// - the rounded normal: Σ (πᵢ + |nᵢ|)|dᵢ|;
+/// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
+/// - the vertex, three roundings of each coordinate (see [`Faces::position`]), of which that of
+///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|.
+///
+/// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
+/// the excess of π over |n₀| + |n₁| + |n₂| counts twice, and in units in which |n₀| + |n₁| + |n₂|
+/// and m are 1, the rest is 2 Σ |nᵢ||dᵢ| + 3|N| + |P| + |V|. As |dᵢ| + |pᵢ + vᵢ| ≤ 2,
+/// Σ |nᵢ||dᵢ| ≤ 2 − 2|N|.
+///
+/// - Where P and V have the same sign, Σ |nᵢ||dᵢ| + |P| + |V| ≤ 2 as well: 4 + |N|.
+/// - Otherwise let x be |n₂|. One of P and V has the sign of N: b is its magnitude, a that of the
+///   other. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at most 2(1 − x) − |b − a|, and
+///   |N| ≤ x − a, so the sum is at most
+///   4 − x − 2|b − a| + 3b, with a and b at most 1 − x. That is at most 4 + 2x and 7 − 4x.
+///
+/// Together they make 9 επm. A corner moved onto its face's plane has another error instead of the
+/// vertex's: half a step along one axis, which is 2ε of m. A tolerance of m/128 adds at most 1/32,
+/// and moves vertices out to 1.014 m. Smaller: wrong decisions pass. Larger: integers decide what
+/// floats could have decided.
+const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
+
+/// The largest error of an axis-aligned plane at a rounded vertex, among those where the sign is
+/// wrong. It is that of the vertex: three roundings of a coordinate of at most 1.014 m. The
+/// difference of two numbers this close is exact.
+const AXIS_ERROR: f64 = 3.05 * (f64::EPSILON / 2.0) * LIMIT;
+
+/// How a vertex's distance from a plane compares with a threshold: by the filter where it is
+/// certain, otherwise by integers.
+#[inline]
+pub(super) fn compare(
+    faces: &Faces,
+    splitter: &ExactSplitter,
+    face: u32,
+    vertex: Symbol,
+    position: [f64; 3],
+    threshold: f64,
+) -> Ordering {
+    let excess = splitter.distance(position) - threshold;
+    // The threshold is an integer, hence exact. The subtraction loses at most one ulp of the larger
+    // number, and the bound has room for it.
+    if excess > splitter.bound {
+        Ordering::Greater
+    } else if excess < -splitter.bound {
+        Ordering::Less
+    } else {
+        compare_exactly(faces, splitter, face, vertex, threshold)
+    }
+}
+
+/// As [`compare`], by integers alone.
+#[cold]
+fn compare_exactly(
+    faces: &Faces,
+    splitter: &ExactSplitter,
+    face: u32,
+    vertex: Symbol,
+    threshold: f64,
+) -> Ordering {
+    // A vertex on an edge was made between the edge's ends. Where both are on one side of the
+    // plane, so is the vertex, and its weights need not be computed.
+    if let Some([a, b]) = faces.edge_ends(face, vertex) {
+        let side = |end: [f64; 3]| (splitter.exact.at(&end) - Int::<3>::from_f64(threshold)).sign();
+        match (side(a), side(b)) {
+            (a, b) if a == b || b.is_eq() => return a,
+            (Ordering::Equal, b) => return b,
+            _ => {}
+        }
+    }
+    faces.compare((splitter.plane, &splitter.exact), face, vertex, threshold)
+}

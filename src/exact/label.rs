@@ -1,0 +1,176 @@
+//! Names for planes, edges and vertices that stay exact however often a polygon is cut.
+
+use std::fmt;
+
+const TAG_SHIFT: u32 = 28;
+const PAYLOAD: u32 = (1 << TAG_SHIFT) - 1;
+const EDGE: u32 = 0;
+const FACE: u32 = 1;
+const AXIS: u32 = 2;
+const BEHIND: u32 = 1 << 31;
+
+/// Labels can name this many faces, and this many corners of all faces together.
+pub const MAX_LABELS: usize = 1 << TAG_SHIFT;
+
+/// A partition plane, defined by input geometry alone.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PlaneId(u32);
+
+/// The plane that a [`PlaneId`] names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaneKind {
+    /// The plane of a face; its front is the side from which the face's corners run
+    /// counter-clockwise.
+    Face(u32),
+    /// The plane perpendicular to an axis (0, 1, 2 for x, y, z) through a corner, counted over all
+    /// faces; its front is the side of larger coordinates.
+    Axis(usize, u32),
+}
+
+impl PlaneId {
+    /// The plane of a face.
+    pub const fn face(face: u32) -> Self {
+        Self(FACE << TAG_SHIFT | face)
+    }
+
+    /// The plane perpendicular to `axis` (0, 1, 2) through a corner.
+    pub const fn axis(axis: usize, corner: u32) -> Self {
+        Self((AXIS + axis as u32) << TAG_SHIFT | corner)
+    }
+
+    /// Whether the plane is that of a face or perpendicular to an axis, and which.
+    #[inline]
+    pub const fn kind(self) -> PlaneKind {
+        let payload = self.0 & PAYLOAD;
+        match self.0 >> TAG_SHIFT {
+            FACE => PlaneKind::Face(payload),
+            tag => PlaneKind::Axis((tag - AXIS) as usize, payload),
+        }
+    }
+}
+
+impl fmt::Debug for PlaneId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.kind().fmt(f)
+    }
+}
+
+/// The line that bounds a piece of a face along one of its edges: an edge of the face, or the cut
+/// by a plane, together with the side of that plane on which the piece lies.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Line(u32);
+
+impl Line {
+    /// The face's edge from its corner `k` to the next.
+    pub const fn edge(k: u32) -> Self {
+        Self(EDGE << TAG_SHIFT | k)
+    }
+
+    /// The line in which `plane` cuts the face, for a piece in front of that plane or behind it.
+    pub const fn cut(plane: PlaneId, behind: bool) -> Self {
+        Self(plane.0 | if behind { BEHIND } else { 0 })
+    }
+
+    /// The number of the face's edge, if it is one.
+    #[inline]
+    pub const fn as_edge(self) -> Option<u32> {
+        if self.0 >> TAG_SHIFT == EDGE { Some(self.0) } else { None }
+    }
+
+    /// The plane that cut the face here, if one did.
+    #[inline]
+    pub const fn as_cut(self) -> Option<PlaneId> {
+        if self.0 >> TAG_SHIFT == EDGE { None } else { Some(PlaneId(self.0 & !BEHIND)) }
+    }
+
+    /// Whether the piece lies behind the plane that cut it here.
+    #[inline]
+    pub const fn is_behind(self) -> bool {
+        self.0 & BEHIND != 0
+    }
+}
+
+impl fmt::Debug for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.as_cut() {
+            Some(plane) if self.is_behind() => write!(f, "Behind({plane:?})"),
+            Some(plane) => write!(f, "InFrontOf({plane:?})"),
+            None => write!(f, "Edge({})", self.0),
+        }
+    }
+}
+
+/// A vertex of a piece of a face: where two lines of that face meet.
+///
+/// Only input points enter its definition, so it is as exact after a thousand cuts as after one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Symbol {
+    a: Line,
+    b: Line,
+}
+
+/// The three kinds of vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SymbolKind {
+    /// A corner of the face.
+    Corner(u32),
+    /// Where a plane cuts an edge of the face.
+    OnEdge(u32, PlaneId),
+    /// Where two planes cut the face's plane.
+    Inside(PlaneId, PlaneId),
+}
+
+impl Symbol {
+    /// Corner `k` of the face.
+    pub const fn corner(k: u32) -> Self {
+        Self { a: Line::edge(k), b: Line::edge(k) }
+    }
+
+    /// The vertex where `plane` crosses `line`. Two planes give the same value in either order.
+    #[inline]
+    pub fn crossing(line: Line, plane: PlaneId) -> Self {
+        let cut = Line::cut(plane, false);
+        let line = Line(line.0 & !BEHIND);
+        // Stored in one order, edges before cuts, so that equal vertices are equal values.
+        if line.0 <= cut.0 { Self { a: line, b: cut } } else { Self { a: cut, b: line } }
+    }
+
+    /// Whether a plane is one of those that define the vertex; if so, the vertex lies on it.
+    #[inline]
+    pub fn is_on(self, plane: PlaneId) -> bool {
+        self.a.as_cut() == Some(plane) || self.b.as_cut() == Some(plane)
+    }
+
+    /// Which kind of vertex it is.
+    #[inline]
+    pub const fn kind(self) -> SymbolKind {
+        match (self.a.as_edge(), self.b.as_cut()) {
+            (Some(edge), Some(plane)) => SymbolKind::OnEdge(edge, plane),
+            (Some(edge), None) => SymbolKind::Corner(edge),
+            (None, _) => SymbolKind::Inside(PlaneId(self.a.0), PlaneId(self.b.0)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_come_back_as_they_went_in() {
+        let plane = PlaneId::axis(2, MAX_LABELS as u32 - 1);
+        assert_eq!(plane.kind(), PlaneKind::Axis(2, MAX_LABELS as u32 - 1));
+        assert_eq!(PlaneId::face(7).kind(), PlaneKind::Face(7));
+        assert_eq!(Line::cut(plane, true).as_cut(), Some(plane));
+        assert_eq!(Line::edge(3).as_edge(), Some(3));
+        assert_eq!(Line::edge(3).as_cut(), None);
+        let (g, h) = (PlaneId::face(1), PlaneId::axis(0, 2));
+        assert_eq!(Symbol::corner(4).kind(), SymbolKind::Corner(4));
+        assert_eq!(Symbol::crossing(Line::edge(4), g).kind(), SymbolKind::OnEdge(4, g));
+        assert_eq!(
+            Symbol::crossing(Line::cut(g, true), h),
+            Symbol::crossing(Line::cut(h, false), g)
+        );
+        assert_eq!(Symbol::crossing(Line::cut(h, false), g).kind(), SymbolKind::Inside(g, h));
+    }
+}

@@ -1,0 +1,208 @@
+//! The scene lattice: corners are rounded to it once, and everything after that is exact.
+
+use glam::DVec3;
+
+/// The largest magnitude of a lattice coordinate.
+pub const LIMIT: f64 = (1u64 << 51) as f64;
+
+/// This many steps from the world's origin, two neighbouring `f64` are further apart than the scene
+/// is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Larger: coordinates that no longer fit integers are treated as if
+/// they did; smaller: a scene far out loses coordinates that differ.
+const FAR: f64 = (1u128 << 110) as f64;
+
+/// A cubic grid laid over a scene, fine enough that rounding its corners to it moves none by more
+/// than 2⁻⁵² of the scene's extent.
+///
+/// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an
+/// `f64`, and so is the difference of two. The grid's spacing is a power of two, so scenes given in
+/// `f32`, on integers, or far from the origin are usually not moved at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Lattice coordinate = world coordinate · steps − origin.
+    steps: PowerOfTwo,
+    /// In steps; integers.
+    origin: [f64; 3],
+    /// Per axis: if the scene lies so far out along it, for its size, that all corners must have
+    /// the same coordinate, that coordinate; otherwise 0.
+    far: [f64; 3],
+}
+
+impl Lattice {
+    /// The lattice of a scene with the given bounding box, whose corners must be finite.
+    pub fn new(min: DVec3, max: DVec3) -> Self {
+        // Halved before they are combined, so that nothing overflows.
+        let centre = min * 0.5 + max * 0.5;
+        // Not half the extent: in a box a few ulps wide the centre is rounded to one of the sides.
+        let radius = (max - centre).max(centre - min).max_element();
+        // In steps the radius is less than 2^51, by at least a quarter of a step. The centre and a
+        // corner are rounded by half a step each, so that coordinates reach 2^51 at most.
+        let exponent = if radius > 0.0 {
+            50 - exponent_of(radius)
+        } else if centre != DVec3::ZERO {
+            52 - exponent_of(centre.abs().max_element())
+        } else {
+            0
+        };
+        let steps = PowerOfTwo::new(exponent);
+        let far = centre.to_array().map(|c| if steps.times(c).abs() > FAR { c } else { 0.0 });
+        let origin = std::array::from_fn(|axis| match far[axis] {
+            0.0 => steps.times(centre[axis]).round(),
+            _ => 0.0,
+        });
+        Self { steps, origin, far }
+    }
+
+    /// The lattice point nearest to a point of the scene's bounding box.
+    pub fn snap(&self, point: DVec3) -> [f64; 3] {
+        let world = point.to_array();
+        // The difference of two integers is exact if an f64 can hold it. Adding 0 turns −0 into 0.
+        std::array::from_fn(|axis| {
+            self.steps.times(world[axis] - self.far[axis]).round() - self.origin[axis] + 0.0
+        })
+    }
+
+    /// Any point in lattice units, rounded to `f64` once. It may be far out, even infinite.
+    pub fn to_lattice(&self, point: DVec3) -> [f64; 3] {
+        let world = point.to_array();
+        std::array::from_fn(|axis| {
+            self.steps.times(world[axis] - self.far[axis]) - self.origin[axis]
+        })
+    }
+
+    /// The world position of a point given in lattice units, rounded to `f64`; may be far out.
+    pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|axis| {
+            let whole = lattice[axis].floor();
+            let steps = if whole.abs() < 1e30 {
+                (whole as i128 + self.origin[axis] as i128) as f64 + (lattice[axis] - whole)
+            } else {
+                lattice[axis] + self.origin[axis]
+            };
+            // Clamped, so that rounding does not make a corner at the end of f64's range infinite.
+            let world = self.steps.divides(steps) + self.far[axis];
+            world.clamp(f64::MIN, f64::MAX)
+        }))
+    }
+
+    /// A world length in lattice units.
+    pub fn length_to_lattice(&self, length: f64) -> f64 {
+        self.steps.times(length)
+    }
+
+    /// A length in lattice units as a world length.
+    pub fn length_to_world(&self, length: f64) -> f64 {
+        self.steps.divides(length)
+    }
+}
+
+/// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.
+fn exponent_of(value: f64) -> i32 {
+    let bits = (value.to_bits() >> 52) as i32;
+    if bits > 0 { bits - 1023 } else { exponent_of(value * 2f64.powi(64)) - 64 }
+}
+
+/// A power of two that may be beyond the range of `f64`, as two factors within it, and the inverses
+/// of these.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PowerOfTwo {
+    factors: [f64; 2],
+    inverses: [f64; 2],
+}
+
+impl PowerOfTwo {
+    fn new(exponent: i32) -> Self {
+        let halves = [exponent / 2, exponent - exponent / 2];
+        Self { factors: halves.map(|e| 2f64.powi(e)), inverses: halves.map(|e| 2f64.powi(-e)) }
+    }
+
+    fn times(&self, value: f64) -> f64 {
+        value * self.factors[0] * self.factors[1]
+    }
+
+    fn divides(&self, value: f64) -> f64 {
+        value * self.inverses[0] * self.inverses[1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LIMIT, Lattice};
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    #[test]
+    fn coordinates_on_a_power_of_two_grid_do_not_move() {
+        let (min, max) = (DVec3::new(-4136.0, -1736.0, -96.0), DVec3::new(3544.0, 2816.5, 288.25));
+        let lattice = Lattice::new(min, max);
+        for point in [min, max, DVec3::ZERO, DVec3::new(0.1f32.into(), 3.3f32.into(), 1.0)] {
+            assert_eq!(lattice.to_world(lattice.snap(point)), point);
+        }
+    }
+
+    #[test]
+    fn zero_has_one_form() {
+        let lattice = Lattice::new(DVec3::NEG_ONE, DVec3::ONE);
+        let snapped = lattice.snap(DVec3::new(-0.0, -1e-30, 0.0));
+        assert_eq!(snapped.map(f64::to_bits), [0; 3]);
+    }
+
+    #[test]
+    fn a_point_beyond_128_bits_of_lattice_steps_comes_back() {
+        let lattice = Lattice::new(DVec3::splat(1.0), DVec3::new(2.0, 3.0, 4.0));
+        for size in [1e29, 1e31, 1.6e38, 1e40, 1e200] {
+            let point = DVec3::new(size, -size, size * 0.5);
+            assert_eq!(lattice.to_world(lattice.to_lattice(point)), point, "{size:e}");
+        }
+        let end = lattice.to_world([f64::INFINITY, f64::NEG_INFINITY, 0.0]);
+        assert_eq!([end.x, end.y], [f64::MAX, f64::MIN]);
+    }
+
+    #[test]
+    fn extremes_of_the_range_stay_finite() {
+        for size in [f64::MIN_POSITIVE * 1e-10, 1e-300, 1e-30, 1.0, 1e30, f64::MAX] {
+            let corner = DVec3::splat(size);
+            let lattice = Lattice::new(-corner, corner);
+            let snapped = lattice.snap(corner);
+            assert!(snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0), "{snapped:?}");
+            let error = (lattice.to_world(snapped) - corner).abs().max_element();
+            assert!(error <= size * 2f64.powi(-51), "size {size:e}, error {error:e}");
+        }
+    }
+
+    #[test]
+    fn a_flat_scene_far_out_for_its_size_keeps_its_height() {
+        for (height, size) in [(1.0, 1e-30), (1e24, 1.0), (-1e30, 1.0), (1e300, 1e-300)] {
+            let corners = [DVec3::new(0.0, 0.0, height), DVec3::new(size, size, height)];
+            let lattice = Lattice::new(corners[0], corners[1]);
+            for corner in corners {
+                let error = lattice.to_world(lattice.snap(corner)) - corner;
+                assert!(error.z == 0.0 && error.abs().max_element() <= size * 2f64.powi(-51));
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn rounding_stays_below_the_promise(
+            a in prop::array::uniform3(-1.0..1.0f64),
+            b in prop::array::uniform3(-1.0..1.0f64),
+            offset in prop_oneof![Just(0.0), Just(1e8), Just(-1e15)],
+            scale in prop_oneof![Just(1e-30), Just(1.0), Just(1e30)],
+            t in prop::array::uniform3(0.0..1.0f64),
+        ) {
+            let place = |p: [f64; 3]| (DVec3::from(p) + offset) * scale;
+            let (a, b) = (place(a), place(b));
+            let (min, max) = (a.min(b), a.max(b));
+            let point = (min + (max - min) * DVec3::from(t)).clamp(min, max);
+            let lattice = Lattice::new(min, max);
+            for corner in [min, max, point] {
+                let snapped = lattice.snap(corner);
+                prop_assert!(snapped.iter().all(|c| c.abs() <= LIMIT && c.fract() == 0.0));
+                let back = lattice.to_world(snapped);
+                let extent = (max - min).max_element();
+                let ulp = corner.abs().max_element() * f64::EPSILON;
+                prop_assert!((back - corner).abs().max_element() <= extent * 2f64.powi(-50) + ulp);
+            }
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Exact arithmetic: the scene lattice, faces on it, planes, vertices, predicates, and the split.
+//!
+//! | file | decides |
+//! |---|---|
+//! | `lattice` | how corners are rounded to the grid |
+//! | `vertex` | on which side of a plane a vertex lies, in integers, and where it is, rounded |
+//! | `filter` | the same side by rounded distances, where they are certain |
+//! | `tolerance` | where a piece lies against a plane |
+//! | `split` | how a piece is cut |
+//! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
+
+mod drift;
+pub(crate) mod exact_kernel;
+mod eye;
+pub(crate) mod faces;
+mod filter;
+mod int;
+mod kernel;
+pub(crate) mod label;
+mod lattice;
+mod plane;
+mod split;
+mod tolerance;
+pub(crate) mod vertex;
+
+pub use exact_kernel::{Exact, ExactStored};
+pub use eye::Eye;
+pub use faces::Faces;
+pub use filter::{ExactSplitter, ExactVertex};
+pub use int::Int;
+pub use kernel::{Kernel, Piece, Side, Vertex};
+pub use label::{Line, MAX_LABELS, PlaneId, PlaneKind, Symbol, SymbolKind};
+pub use lattice::LIMIT as LATTICE_LIMIT;
+pub use lattice::Lattice;
+pub use plane::Plane;
+pub(crate) use plane::cross;
+pub use split::split;
+pub use vertex::Weights;

@@ -1,0 +1,94 @@
+//! Planes in integers.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+
+use super::Int;
+
+/// The integer vector product (q − p) × (r − p) of three lattice points.
+pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
+    let u: [i128; 3] = std::array::from_fn(|i| i128::from((q[i] - p[i]) as i64));
+    let w: [i128; 3] = std::array::from_fn(|i| i128::from((r[i] - p[i]) as i64));
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        u[j] * w[k] - u[k] * w[j]
+    })
+}
+
+/// A plane in integers: a normal and a lattice point on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    normal: [i128; 3],
+    point: [i64; 3],
+}
+
+impl Plane {
+    /// The plane through three lattice points; its front is the side from which they run
+    /// counter-clockwise.
+    pub fn through([p, q, r]: [[f64; 3]; 3]) -> Self {
+        Self { normal: cross(p, q, r), point: p.map(|c| c as i64) }
+    }
+
+    /// The plane through two lattice points and along an axis.
+    pub fn upright(p: [f64; 3], q: [f64; 3], axis: usize) -> Self {
+        let mut normal = [0; 3];
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        normal[j] = i128::from((q[k] - p[k]) as i64);
+        normal[k] = -i128::from((q[j] - p[j]) as i64);
+        Self { normal, point: p.map(|c| c as i64) }
+    }
+
+    pub(super) fn axis(axis: usize, point: [f64; 3]) -> Self {
+        let mut normal = [0; 3];
+        normal[axis] = 1;
+        Self { normal, point: point.map(|c| c as i64) }
+    }
+
+    /// The normal, each component rounded.
+    pub fn normal_f64(&self) -> DVec3 {
+        DVec3::from_array(self.normal.map(|c| c as f64))
+    }
+
+    /// The scalar product of the normal and a point of the plane, rounded.
+    pub fn offset_f64(&self) -> f64 {
+        self.along(self.point).to_f64()
+    }
+
+    /// A lattice point of the plane.
+    pub(super) fn point(&self) -> [i64; 3] {
+        self.point
+    }
+
+    /// The normal.
+    pub fn normal(&self) -> [i128; 3] {
+        self.normal
+    }
+
+    /// The axis along which the normal is longest, the first of several: the one in which the
+    /// plane is least steep.
+    pub fn main_axis(&self) -> usize {
+        let size = |axis: usize| self.normal[axis].unsigned_abs();
+        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    }
+
+    /// The signed distance of a lattice point times the length of the normal.
+    #[inline]
+    pub fn at(&self, x: &[f64; 3]) -> Int<3> {
+        self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
+    }
+
+    /// The scalar product of the normal and a direction of components below 2⁶³.
+    #[inline]
+    pub fn along(&self, direction: [i64; 3]) -> Int<3> {
+        let term =
+            |i: usize| Int::<2>::from(self.normal[i]).times::<1, 3>(&Int::<1>::from(direction[i]));
+        term(0) + term(1) + term(2)
+    }
+}
+
+/// The sign of a quotient, from the signs of its numerator and its denominator.
+#[inline]
+pub(crate) fn relative_to(numerator: Ordering, denominator: Ordering) -> Ordering {
+    if denominator.is_lt() { numerator.reverse() } else { numerator }
+}

@@ -1,0 +1,234 @@
+//! Vertices of pieces: on which side of a plane each lies, decided in integers, and its position,
+//! rounded.
+//!
+//! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
+//! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
+//! with the sign). A vertex is a combination of one, two or three lattice points of its face:
+//!
+//! | vertex | combination of | with weights | plane at the vertex, times the sum of weights |
+//! |---|---|---|---|
+//! | a corner | itself | 1 | 160 bits |
+//! | edge `ab` cut by h | a, b | −h(b), h(a): 160 bits | h(a)·g(b) − h(b)·g(a): 320 bits |
+//! | h₁ and h₂ in the face's plane | its reference triangle | h₁ × h₂ over A, B, C: 320 bits | 482 bits |
+//!
+//! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the
+//! axis `e` in which the plane is least steep. Its edges then lie in the planes through their two
+//! lattice points and along `e`, which stand for h above; its own weights over A, B, C are the
+//! areas of triangles seen along `e`.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::Int;
+use super::faces::Faces;
+use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
+use super::plane::{Plane, cross, relative_to};
+
+/// A vertex as a combination of lattice points. The sum of the weights is not zero; it and the
+/// weights may have either sign.
+pub enum Weights {
+    /// A corner.
+    Corner([f64; 3]),
+    /// A point between two corners.
+    Edge([[f64; 3]; 2], [Int<3>; 2]),
+    /// A point of the plane of three corners.
+    Inside([[f64; 3]; 3], [Int<5>; 3]),
+}
+
+impl Faces {
+    /// Moves the corners of the last face along `axis` to the lattice points nearest to its plane.
+    pub(crate) fn flatten_last(&mut self, axis: usize) {
+        let face = self.faces.len() as u32 - 1;
+        for (k, corner) in self.corner_range(face).enumerate() {
+            let symbol = Symbol::corner(k as u32);
+            if let Weights::Inside(points, weights) = self.weights(face, symbol) {
+                let mut nearest = self.corners[corner];
+                nearest[axis] = ratio(&points, &weights)[axis].round();
+                // `ratio` and `round` both round, so this may be the next but one: correct it.
+                if let Some(off) = self.drift(face, symbol, nearest) {
+                    nearest[axis] -= off[axis].round();
+                }
+                self.corners[corner] = nearest;
+            }
+        }
+    }
+
+    /// A partition plane in integers.
+    pub fn plane(&self, plane: PlaneId) -> Plane {
+        match plane.kind() {
+            PlaneKind::Face(face) => {
+                Plane::through(self.reference_triangle(face).map(|c| self.corner(c)))
+            }
+            PlaneKind::Axis(axis, corner) => Plane::axis(axis, self.corner(corner)),
+        }
+    }
+
+    /// How the distance of a vertex from a plane, times the length of the plane's normal, compares
+    /// with `threshold`: exact. `threshold` is an integer of at most 2⁵¹ times that length.
+    pub fn compare(
+        &self,
+        (id, plane): (PlaneId, &Plane),
+        face: u32,
+        vertex: Symbol,
+        threshold: f64,
+    ) -> Ordering {
+        if threshold == 0.0 && vertex.is_on(id) {
+            return Ordering::Equal;
+        }
+        let threshold: Int<3> = if threshold == 0.0 { Int::ZERO } else { Int::from_f64(threshold) };
+        let value = |x: &[f64; 3]| plane.at(x) - threshold;
+        // The plane at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
+        // of the quotient is needed, and the numerator and the denominator are exact.
+        match self.weights(face, vertex) {
+            Weights::Corner(point) => value(&point).sign(),
+            Weights::Edge([a, b], [wa, wb]) => {
+                let sum = wa.times::<3, 6>(&value(&a)) + wb.times::<3, 6>(&value(&b));
+                relative_to(sum.sign(), (wa + wb).sign())
+            }
+            Weights::Inside(points, weights) => {
+                let term = |i: usize| weights[i].times::<3, 8>(&value(&points[i]));
+                let total = weights[0] + weights[1] + weights[2];
+                relative_to((term(0) + term(1) + term(2)).sign(), total.sign())
+            }
+        }
+    }
+
+    /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
+    pub(super) fn edge_ends(&self, face: u32, vertex: Symbol) -> Option<[[f64; 3]; 2]> {
+        let SymbolKind::OnEdge(k, _) = vertex.kind() else { return None };
+        if self.upright_axis(face).is_some() {
+            return None;
+        }
+        let corners = self.corners(face);
+        Some([corners[k as usize], corners[(k as usize + 1) % corners.len()]])
+    }
+
+    /// The rounded position of a vertex in lattice units. Each coordinate is within three roundings
+    /// of the exact one, and exact along an axis if a plane perpendicular to that axis defines the
+    /// vertex. All pieces, of any face, that define the vertex by the same points and planes get
+    /// the same bits.
+    pub(crate) fn position(&self, face: u32, vertex: Symbol) -> [f64; 3] {
+        if let SymbolKind::Corner(k) = vertex.kind() {
+            return self.corners(face)[k as usize];
+        }
+        let mut position = match self.weights(face, vertex) {
+            Weights::Corner(point) => point,
+            Weights::Edge(points, weights) => ratio(&points, &weights.map(|w| w.resize())),
+            Weights::Inside(points, weights) => ratio(&points, &weights),
+        };
+        let mut pin = |plane: PlaneId| {
+            if let PlaneKind::Axis(axis, corner) = plane.kind() {
+                position[axis] = self.corner(corner)[axis];
+            }
+        };
+        match vertex.kind() {
+            SymbolKind::Corner(_) => {}
+            SymbolKind::OnEdge(_, plane) => pin(plane),
+            SymbolKind::Inside(g, h) => {
+                pin(g);
+                pin(h);
+            }
+        }
+        position
+    }
+
+    /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
+    /// and its weight. The weights sum to 1.
+    pub(crate) fn barycentric(&self, face: u32, vertex: Symbol) -> SmallVec<[(u32, f64); 3]> {
+        let len = self.corners(face).len() as u32;
+        let edge = |k: u32| [k, (k + 1) % len];
+        match (vertex.kind(), self.weights(face, vertex)) {
+            (SymbolKind::Corner(k), _) => SmallVec::from_slice(&[(k, 1.0)]),
+            (SymbolKind::OnEdge(k, _), Weights::Edge(_, weights)) => shares(edge(k), weights),
+            (SymbolKind::OnEdge(k, _), _) => {
+                // The edge of a face that is planar only by definition: the exact weights are over
+                // the reference triangle, so take the rounded position's share of the edge.
+                let [a, b] = edge(k).map(|k| DVec3::from(self.corners(face)[k as usize]));
+                let arm = b - a;
+                let point = DVec3::from(self.position(face, vertex));
+                let t = ((point - a).dot(arm) / arm.length_squared()).clamp(0.0, 1.0);
+                let [a, b] = edge(k);
+                SmallVec::from_slice(&[(a, 1.0 - t), (b, t)])
+            }
+            (SymbolKind::Inside(..), weights) => {
+                let triangle = self.faces[face as usize].frame.triangle();
+                match weights {
+                    Weights::Inside(_, weights) => shares(triangle, weights),
+                    _ => SmallVec::new(),
+                }
+            }
+        }
+    }
+
+    /// A vertex as a combination of corners of its face.
+    pub fn weights(&self, face: u32, vertex: Symbol) -> Weights {
+        let record = &self.faces[face as usize];
+        let corners = self.corners(face);
+        let triangle = record.frame.triangle().map(|k| corners[k as usize]);
+        let edge = |k: u32| {
+            let k = k as usize;
+            [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]]
+        };
+        // A corner that lies on the plane is not moved. An edge between two such corners must be
+        // treated as an edge, not as a cut by an upright plane: the neighbour across it may have
+        // moved no corner, and both must get the same bits.
+        let stays = |k: u32| {
+            let corner = &corners[if k as usize == corners.len() { 0 } else { k as usize }];
+            triangle.contains(corner) || Plane::through(triangle).at(corner).sign().is_eq()
+        };
+        match (vertex.kind(), record.frame.drop_axis()) {
+            (SymbolKind::Corner(k), Some(axis)) if !stays(k) => {
+                let point = corners[k as usize];
+                let area = |p, q| Int::from(cross(point, p, q)[axis]);
+                let [a, b, c] = triangle;
+                Weights::Inside(triangle, [area(b, c), area(c, a), area(a, b)])
+            }
+            (SymbolKind::Corner(k), _) => Weights::Corner(corners[k as usize]),
+            (SymbolKind::OnEdge(k, plane), Some(axis)) if !(stays(k) && stays(k + 1)) => {
+                let [a, b] = edge(k);
+                meeting(triangle, &Plane::upright(a, b, axis), &self.plane(plane))
+            }
+            (SymbolKind::OnEdge(k, plane), _) => {
+                let plane = self.plane(plane);
+                let [a, b] = edge(k);
+                Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)])
+            }
+            (SymbolKind::Inside(g, h), _) => meeting(triangle, &self.plane(g), &self.plane(h)),
+        }
+    }
+}
+
+/// The point where the plane of a triangle and two other planes meet.
+fn meeting(triangle: [[f64; 3]; 3], g: &Plane, h: &Plane) -> Weights {
+    let (g, h) = (triangle.map(|x| g.at(&x)), triangle.map(|x| h.at(&x)));
+    // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
+    // their vector product.
+    let weights = std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        g[j].times::<3, 5>(&h[k]) - g[k].times::<3, 5>(&h[j])
+    });
+    Weights::Inside(triangle, weights)
+}
+
+/// The weighted mean of lattice points, rounded.
+fn ratio<const K: usize>(points: &[[f64; 3]; K], weights: &[Int<5>; K]) -> [f64; 3] {
+    let total = weights.iter().fold(Int::<5>::ZERO, |sum, &w| sum + w).to_f64();
+    std::array::from_fn(|axis| {
+        let terms = points.iter().zip(weights);
+        let sum = terms.fold(Int::<6>::ZERO, |sum, (point, weight)| {
+            sum + weight.times::<1, 6>(&Int::from(point[axis] as i64))
+        });
+        sum.to_f64() / total
+    })
+}
+
+/// Each corner's share of the sum of weights.
+fn shares<const K: usize, const N: usize>(
+    corners: [u32; K],
+    weights: [Int<N>; K],
+) -> SmallVec<[(u32, f64); 3]> {
+    let total = weights.iter().fold(Int::<N>::ZERO, |sum, &w| sum + w).to_f64();
+    corners.into_iter().zip(weights).map(|(k, weight)| (k, weight.to_f64() / total)).collect()
+}

@@ -1,0 +1,128 @@
+//! Counts polygons that are given more than once.
+
+use std::collections::HashSet;
+
+use crate::Error;
+use crate::memory::reserve;
+
+/// The polygons seen, each with a hash of its corners that does not depend on their order.
+#[derive(Debug, Default)]
+pub(super) struct Outlines {
+    seen: Vec<(u64, u32)>,
+}
+
+impl Outlines {
+    /// Adds a polygon by its corners on the lattice.
+    pub(super) fn add(&mut self, polygon: usize, corners: impl Iterator<Item = [f64; 3]>) {
+        let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(integers(corner))));
+        self.seen.push((sum, polygon as u32));
+    }
+
+    /// Adds the polygons of another list.
+    pub(super) fn append(&mut self, other: Self) -> Result<(), Error> {
+        reserve(&mut self.seen, other.seen.len())?;
+        self.seen.extend(other.seen);
+        Ok(())
+    }
+
+    /// Counts the polygons that have the same corners as an earlier one, in the same cyclic order
+    /// or its reverse. Exact, in O(n log n); `corners` must return the corners of a polygon again.
+    pub(super) fn duplicates(
+        mut self,
+        mut corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
+    ) -> Result<usize, Error> {
+        self.seen.sort_unstable();
+        let alike = self.seen.chunk_by(|a, b| a.0 == b.0).filter(|polygons| polygons.len() > 1);
+        let mut duplicates = 0;
+        for polygons in alike {
+            let mut outlines = HashSet::new();
+            for &(_, polygon) in polygons {
+                let corners = corners(polygon as usize)?;
+                outlines.insert(canonical(corners.into_iter().map(integers).collect()));
+            }
+            duplicates += polygons.len() - outlines.len();
+        }
+        Ok(duplicates)
+    }
+}
+
+type Corner = [i64; 3];
+
+/// Lattice coordinates as integers, so that 0 and −0 are the same.
+fn integers(corner: [f64; 3]) -> Corner {
+    corner.map(|c| c as i64)
+}
+
+fn mix(corner: Corner) -> u64 {
+    corner.iter().fold(1, |hash: u64, &c| {
+        let product = (hash ^ c as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        product ^ (product >> 29)
+    })
+}
+
+/// The canonical form of an outline: the same list wherever the outline starts and in whichever
+/// direction it runs.
+fn canonical(mut corners: Vec<Corner>) -> Vec<Corner> {
+    let start = least_rotation(&corners);
+    corners.rotate_left(start);
+    let mut reverse: Vec<Corner> = corners.iter().rev().copied().collect();
+    let start = least_rotation(&reverse);
+    reverse.rotate_left(start);
+    corners.min(reverse)
+}
+
+/// The start of the lexicographically least rotation, in linear time (Shiloach, “Fast canonization
+/// of circular strings”, 1981).
+fn least_rotation(corners: &[Corner]) -> usize {
+    let n = corners.len();
+    let (mut i, mut j, mut same) = (0, 1, 0);
+    while i < n && j < n && same < n {
+        let [a, b] = [i, j].map(|start| corners[(start + same) % n]);
+        match a.cmp(&b) {
+            std::cmp::Ordering::Equal => {
+                same += 1;
+                continue;
+            }
+            std::cmp::Ordering::Less => j += same + 1,
+            std::cmp::Ordering::Greater => i += same + 1,
+        }
+        j += usize::from(i == j);
+        same = 0;
+    }
+    i.min(j)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Corner, canonical, least_rotation};
+
+    /// All sequences of a length over three corners.
+    fn sequences(len: u32) -> impl Iterator<Item = Vec<Corner>> {
+        (0..3i64.pow(len)).map(move |code| (0..len).map(|k| [code / 3i64.pow(k) % 3; 3]).collect())
+    }
+
+    #[test]
+    fn the_least_rotation_is_the_least_of_all() {
+        for corners in (1..7).flat_map(sequences) {
+            let rotated = |start: usize| {
+                let mut corners = corners.clone();
+                corners.rotate_left(start);
+                corners
+            };
+            let least = (0..corners.len()).map(rotated).min();
+            assert_eq!(Some(rotated(least_rotation(&corners))), least);
+        }
+    }
+
+    #[test]
+    fn every_start_and_direction_has_one_form() {
+        for corners in (1..7).flat_map(sequences) {
+            let form = canonical(corners.clone());
+            let mut other: Vec<Corner> = corners.iter().rev().copied().collect();
+            for _ in 0..corners.len() {
+                other.rotate_left(1);
+                assert_eq!(canonical(other.clone()), form);
+            }
+        }
+    }
+}

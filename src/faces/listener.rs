@@ -1,0 +1,25 @@
+//! Who follows a preparation.
+
+use crate::Error;
+
+/// Who hears of a preparation, from any thread, and may stop it by an error.
+pub(crate) trait Listener: Sync {
+    /// So many polygons have been read so far.
+    fn read(&self, polygons: usize) -> Result<(), Error>;
+
+    /// So many more steps of work have been taken.
+    fn work(&self, steps: usize) -> Result<(), Error>;
+}
+
+/// Nobody.
+pub(super) struct Unheard;
+
+impl Listener for Unheard {
+    fn read(&self, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn work(&self, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}

@@ -1,0 +1,9 @@
+//! Preparation: from input polygons to convex planar faces on the lattice.
+
+mod duplicates;
+mod listener;
+mod prepare;
+mod triangulate;
+
+pub(crate) use listener::Listener;
+pub use prepare::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};

@@ -1,0 +1,117 @@
+//! Reading the corners of all polygons.
+
+use glam::DVec3;
+
+use crate::Error;
+use crate::exact::MAX_LABELS;
+use crate::faces::listener::Listener;
+use crate::input::Polygon;
+use crate::memory::reserve;
+
+/// The most corners of one polygon, about 4 million. Larger: an endless polygon takes more memory
+/// before it is noticed; smaller: coast lines have to be divided.
+pub const MAX_CORNERS: usize = 1 << 22;
+
+/// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
+/// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
+const TRUSTED: usize = 1 << 16;
+
+/// Polygons that are read between two checks for a cancel. Smaller: time for checks; larger: a
+/// cancel takes longer.
+const POLYGONS_AT_ONCE: usize = 1 << 10;
+
+/// Corners of one polygon that are read between two checks for a cancel. Smaller: time for checks;
+/// larger: a cancel takes longer.
+const CORNERS_AT_ONCE: usize = 1 << 12;
+
+/// All corners, and where those of each polygon end.
+pub(super) struct Collected {
+    points: Vec<DVec3>,
+    ends: Vec<u32>,
+}
+
+impl Collected {
+    /// The number of polygons.
+    pub(super) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    pub(super) fn corner_count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The corners of a polygon.
+    pub(super) fn polygon(&self, polygon: usize) -> &[DVec3] {
+        let start = polygon.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.points[start as usize..self.ends[polygon] as usize]
+    }
+
+    /// The corners of the bounding box; zero if there is no corner.
+    pub(super) fn bounds(&self) -> [DVec3; 2] {
+        let Some(&first) = self.points.first() else { return [DVec3::ZERO; 2] };
+        self.points.iter().fold([first; 2], |[min, max], &p| [min.min(p), max.max(p)])
+    }
+}
+
+/// Reads all polygons; more than `limit` is an error.
+pub(super) fn collect<P: Polygon>(
+    polygons: impl IntoIterator<Item = P>,
+    limit: usize,
+    listener: &dyn Listener,
+) -> Result<Collected, Error> {
+    let polygons = polygons.into_iter();
+    let too_many = || {
+        if limit <= MAX_LABELS {
+            Error::polygons(limit)
+        } else {
+            Error::too_many_polygons(MAX_LABELS)
+        }
+    };
+    let limit = limit.min(MAX_LABELS);
+    let expected = polygons.size_hint().0;
+    if expected > limit {
+        return Err(too_many());
+    }
+    let mut all = Collected { points: vec![], ends: vec![] };
+    reserve(&mut all.points, 3 * expected.min(TRUSTED))?;
+    reserve(&mut all.ends, expected.min(TRUSTED))?;
+    for (index, polygon) in polygons.enumerate() {
+        if index == limit {
+            return Err(too_many());
+        }
+        if index % POLYGONS_AT_ONCE == 0 {
+            listener.read(index)?;
+        }
+        all.add(index, &polygon, listener)?;
+    }
+    Ok(all)
+}
+
+impl Collected {
+    fn add<P: Polygon>(
+        &mut self,
+        index: usize,
+        polygon: &P,
+        listener: &dyn Listener,
+    ) -> Result<(), Error> {
+        for (corner, point) in polygon.corners().enumerate() {
+            if corner == MAX_CORNERS {
+                return Err(Error::polygon_corners(index, MAX_CORNERS));
+            }
+            if corner % CORNERS_AT_ONCE == CORNERS_AT_ONCE - 1 {
+                listener.read(index)?;
+            }
+            if !point.is_finite() {
+                return Err(Error::non_finite(index));
+            }
+            if self.points.len() >= MAX_LABELS {
+                return Err(Error::too_many_corners(MAX_LABELS));
+            }
+            reserve(&mut self.points, 1)?;
+            self.points.push(point);
+        }
+        reserve(&mut self.ends, 1)?;
+        self.ends.push(self.points.len() as u32);
+        Ok(())
+    }
+}

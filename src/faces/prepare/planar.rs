@@ -1,0 +1,101 @@
+//! Tests of the current polygon's outline: is it planar, is it convex, where does it run straight?
+//! All are decided exactly, on the lattice, except the comparison of distances with the tolerance.
+
+use glam::DVec3;
+
+use super::Builder;
+use crate::Error;
+use crate::exact::faces::Frame;
+use crate::exact::{Plane, cross};
+use crate::memory::reserve;
+
+impl Builder {
+    /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
+    pub(super) fn widest_triangle(&self) -> Option<[usize; 2]> {
+        let point = |k: usize| DVec3::from(self.kept[k].0);
+        let (origin, n) = (self.kept.first().map(|_| point(0))?, self.kept.len());
+        let distance = |&k: &usize| point(k).distance_squared(origin);
+        let far = (1..n).max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let arm = point(far) - origin;
+        let area = |&k: &usize| arm.cross(point(k) - origin).length_squared();
+        let exact = |k: usize| cross(self.kept[0].0, self.kept[far].0, self.kept[k].0) != [0; 3];
+        let best = (1..n).filter(|&k| k != far).max_by(|a, b| area(a).total_cmp(&area(b)))?;
+        // In a nearly straight polygon the rounded areas may choose a corner exactly on the line.
+        let third = if exact(best) { best } else { (1..n).find(|&k| exact(k))? };
+        Some([far.min(third), far.max(third)])
+    }
+
+    /// The frame of the polygon, if it is planar within the tolerance.
+    pub(super) fn planar_frame(&self, second: usize, third: usize) -> Option<Frame> {
+        let triangle = [0, second, third].map(|k| self.kept[k].0);
+        let plane = Plane::through(triangle);
+        let limit = self.faces.tolerance * plane.normal_f64().length();
+        let mut exact = true;
+        for (point, _) in &self.kept {
+            let value = plane.at(point);
+            if value.sign().is_ne() {
+                exact = false;
+                if value.to_f64().abs() > limit {
+                    return None;
+                }
+            }
+        }
+        Some(Frame::new(second, third, if exact { None } else { Some(plane.main_axis()) }))
+    }
+
+    /// Whether the polygon is convex and winds once, seen along the axis in which its plane is
+    /// least steep. Exact.
+    pub(super) fn is_convex(&self, second: usize, third: usize) -> bool {
+        let at = |k: usize| self.kept[k % self.kept.len()].0;
+        let drop = Plane::through([at(0), at(second), at(third)]).main_axis();
+        let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
+        let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
+        let mut rises = 0;
+        let mut turn = 0i8;
+        let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
+        for k in 0..self.kept.len() {
+            let (a, b) = (step(k), step(k + 1));
+            // The projection puts two corners in a row on one point: no direction to turn from.
+            if a == [0.0; 2] || b == [0.0; 2] {
+                return false;
+            }
+            let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
+            let area = product(a[0], b[1]) - product(a[1], b[0]);
+            let backwards = area == 0 && product(a[0], b[0]) + product(a[1], b[1]) < 0;
+            let sign = area.signum() as i8;
+            if backwards || sign * turn < 0 {
+                return false;
+            }
+            turn |= sign;
+            rises += u32::from(!ascending(a) && ascending(b));
+        }
+        // It turns one way only. Each time round it changes once from descending to ascending.
+        rises == 1
+    }
+
+    /// Whether the straight line from one kept corner to another is part of the outline: the second
+    /// is the next corner, or all corners in between are on the line.
+    pub(super) fn is_outline(&self, from: usize, to: usize) -> bool {
+        let n = self.kept.len();
+        let next = if from + 1 == n { 0 } else { from + 1 };
+        let ahead = if to > from { to - from } else { to + n - from };
+        let run = self.runs.get(from).map_or(1, |&run| run as usize);
+        self.kept[next].0 == self.kept[to].0 || ahead <= run
+    }
+
+    /// Finds how far the outline runs straight from each corner, in linear time.
+    pub(super) fn find_runs(&mut self) -> Result<(), Error> {
+        let n = self.kept.len();
+        self.runs.clear();
+        reserve(&mut self.runs, n)?;
+        self.runs.resize(n, 1);
+        // Twice round, backwards: the run of the last corner depends on that of the first.
+        for k in (0..2 * n).rev() {
+            let [a, b, c] = [k, k + 1, k + 2].map(|k| self.kept[k % n].0);
+            let is_straight = cross(a, b, c) == [0; 3];
+            // This ends, because a polygon with area has corners that are not on one line.
+            self.runs[k % n] = if is_straight { self.runs[(k + 1) % n] + 1 } else { 1 };
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,111 @@
+//! Triangulates a monotone polygon while a sweep passes over it.
+//!
+//! Garey, Johnson, Preparata and Tarjan, “Triangulating a simple polygon”, 1978.
+
+use std::cmp::Ordering;
+
+use super::edge::{Point, turn};
+use crate::Error;
+use crate::memory::reserve;
+
+/// A point of the sweep, and the corner of the polygon that lies there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vertex {
+    pub(super) point: Point,
+    pub(super) corner: u32,
+}
+
+/// One of the two boundaries of a monotone polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Lower,
+    Upper,
+}
+
+/// The part of a monotone polygon that the sweep has passed and no triangle covers yet: a chain of
+/// points on one side that turn inwards. The first of them lies on the other side as well.
+#[derive(Debug)]
+pub(super) struct Chain {
+    stack: Vec<Vertex>,
+    side: Side,
+}
+
+/// A list of triangles, each counter-clockwise.
+pub(super) type Triangles = Vec<[u32; 3]>;
+
+impl Chain {
+    pub(super) fn new(first: Vertex) -> Self {
+        Self { stack: vec![first], side: Side::Lower }
+    }
+
+    /// The point that the sweep met last, and its side.
+    pub(super) fn last(&self) -> (Vertex, Side) {
+        (self.stack[self.stack.len() - 1], self.side)
+    }
+
+    /// Adds the next point of one side.
+    pub(super) fn add(
+        &mut self,
+        vertex: Vertex,
+        side: Side,
+        triangles: &mut Triangles,
+    ) -> Result<(), Error> {
+        if self.stack.len() > 1 && side == self.side {
+            self.cut_corners(vertex, triangles)?;
+        } else {
+            self.fan(vertex, triangles)?;
+            let last = self.stack.len() - 1;
+            self.stack.swap(0, last);
+            self.stack.truncate(1);
+            self.side = side;
+        }
+        reserve(&mut self.stack, 1)?;
+        self.stack.push(vertex);
+        Ok(())
+    }
+
+    /// Adds the last point, in which both sides end.
+    pub(super) fn close(self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
+        self.fan(vertex, triangles)
+    }
+
+    /// Cuts triangles off between a new point and the points of the same side that it sees.
+    fn cut_corners(&mut self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
+        let outwards = match self.side {
+            Side::Lower => Ordering::Greater,
+            Side::Upper => Ordering::Less,
+        };
+        while let [.., a, b] = self.stack[..]
+            && turn(a.point, b.point, vertex.point) == outwards
+        {
+            self.triangle(a, b, vertex, triangles)?;
+            self.stack.pop();
+        }
+        Ok(())
+    }
+
+    /// Cuts triangles off between the whole chain and a point of the other side, which sees all of
+    /// it.
+    fn fan(&self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
+        for pair in self.stack.windows(2) {
+            self.triangle(pair[0], pair[1], vertex, triangles)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the triangle of an edge of the chain, from left to right, and a point further right.
+    fn triangle(
+        &self,
+        a: Vertex,
+        b: Vertex,
+        c: Vertex,
+        triangles: &mut Triangles,
+    ) -> Result<(), Error> {
+        reserve(triangles, 1)?;
+        triangles.push(match self.side {
+            Side::Lower => [a.corner, b.corner, c.corner],
+            Side::Upper => [a.corner, c.corner, b.corner],
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,33 @@
+//! Growing lists with little spare room, and with an error where there is no memory.
+
+use crate::Error;
+
+/// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles, which would leave
+/// the largest lists half empty.)
+///
+/// # Errors
+///
+/// If there is not enough memory.
+pub(crate) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
+    if list.capacity() - list.len() >= more {
+        return Ok(());
+    }
+    let spare = (list.len() / 8).max(64);
+    list.try_reserve_exact(more.saturating_add(spare)).map_err(|_| Error::out_of_memory())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reserve;
+
+    #[test]
+    fn memory_that_is_not_there_is_an_error() {
+        let mut list = vec![0u64; 3];
+        for more in [usize::MAX, usize::MAX / 8, 1 << 58] {
+            assert!(reserve(&mut list, more).is_err_and(|error| error.is_out_of_memory()));
+        }
+        reserve(&mut list, 1000).expect("8 kB");
+        assert!((1003..2000).contains(&list.capacity()));
+        assert_eq!(list, [0; 3]);
+    }
+}

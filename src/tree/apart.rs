@@ -1,0 +1,24 @@
+//! Taking a tree apart.
+
+use super::BspTree;
+use super::node::Node;
+use super::parts::{Child, Parts, RawNode};
+use super::walk::Walk;
+use crate::exact::ExactStored;
+
+/// The parts that a tree was made of.
+pub fn parts_of_tree(tree: &BspTree) -> Parts<ExactStored> {
+    let mut nodes = Vec::with_capacity(tree.nodes.len());
+    let mut walk = Walk::new(tree);
+    while let Some(visit) = walk.next(tree) {
+        let Node { plane, front_len, front_nodes, .. } = tree.nodes[visit.node];
+        let child = |is_node, len| if is_node { Child::Node } else { Child::Leaf(len) };
+        nodes.push(RawNode {
+            plane,
+            own: tree.nodes[visit.node].own(),
+            front: child(front_nodes > 0, front_len),
+            back: child(tree.nodes[visit.node].back_is_node(), visit.back_len),
+        });
+    }
+    Parts { nodes, records: tree.records.clone(), vertices: tree.vertices.clone(), cuts: tree.cuts }
+}

@@ -1,0 +1,194 @@
+//! A fragment: what a tree's orders are made of.
+
+use std::iter::FusedIterator;
+use std::ops::Range;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::BspTree;
+use crate::exact::{Exact, ExactStored, Kernel, Line, Symbol, Vertex};
+
+/// A convex piece of a polygon, or the whole polygon.
+#[derive(Clone, Copy, Debug)]
+pub struct Fragment<'t> {
+    tree: &'t BspTree,
+    index: u32,
+    face: u32,
+    stored: &'t [ExactStored],
+}
+
+impl BspTree {
+    /// A fragment by its number, below [`len`](Self::len).
+    ///
+    /// # Panics
+    ///
+    /// If there is no such fragment.
+    pub fn fragment(&self, index: u32) -> Fragment<'_> {
+        Fragment::new(self, index)
+    }
+}
+
+impl<'t> Fragment<'t> {
+    pub(super) fn new(tree: &'t BspTree, index: u32) -> Self {
+        let record = tree.records[index as usize];
+        let next = tree.records.get(index as usize + 1);
+        let end = next.map_or(tree.vertices.len(), |next| next.vertices as usize);
+        Self {
+            tree,
+            index,
+            face: record.face,
+            stored: &tree.vertices[record.vertices as usize..end],
+        }
+    }
+
+    /// The vertices as the tree stores them; none for a whole face.
+    pub(super) fn stored(&self) -> &'t [ExactStored] {
+        self.stored
+    }
+
+    /// Its number in the tree, as in [`back_to_front_into`](BspTree::back_to_front_into).
+    pub fn index(&self) -> u32 {
+        self.index
+    }
+
+    /// The index, in the input, of the polygon it is a piece of.
+    pub fn polygon(&self) -> usize {
+        self.tree.faces.polygon(self.face)
+    }
+
+    /// The face it is a piece of, one of [`BspTree::faces`]: the polygon, or a triangle of it.
+    #[doc(hidden)]
+    pub fn face(&self) -> u32 {
+        self.face
+    }
+
+    /// Whether it was never cut: it is a whole polygon, or a whole triangle of a polygon that was
+    /// triangulated.
+    pub fn is_whole(&self) -> bool {
+        self.stored.is_empty()
+    }
+
+    /// How many vertices it has, three or more.
+    pub fn vertex_count(&self) -> usize {
+        if self.is_whole() { self.tree.faces.corners(self.face).len() } else { self.stored.len() }
+    }
+
+    /// The vertices in the polygon's own orientation: counter-clockwise seen from its front.
+    ///
+    /// The polygon's corners are as given, except that they are rounded to the grid, and moved onto
+    /// the polygon's plane if they were off it by less than the tolerance. Other vertices are
+    /// rounded: each coordinate is within 2⁻⁵¹ of the scene's extent plus one step of `f64` of its
+    /// exact value. Pieces of one polygon that share a vertex get the same bits for it.
+    ///
+    /// Each call computes them from their exact definition, about 0.1 µs a vertex.
+    pub fn vertices(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'t> {
+        let lattice = *self.tree.faces.lattice();
+        self.lattice_vertices().map(move |position| lattice.to_world(position))
+    }
+
+    /// The vertices in lattice units, rounded.
+    #[doc(hidden)]
+    pub fn lattice_vertices(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = [f64; 3]> + ExactSizeIterator + Clone + use<'t> {
+        let Self { tree, face, stored, .. } = *self;
+        (0..self.vertex_count()).map(move |i| match stored.get(i) {
+            Some(stored) => Exact.restore(&tree.faces, face, stored).position(),
+            None => tree.faces.corners(face)[i],
+        })
+    }
+
+    /// For each edge, from a vertex to the next: which of the polygon's edges it lies on, or `None`
+    /// if a cut or triangulation made it.
+    ///
+    /// An edge of the polygon has the number of the corner at which it begins. Of repeated corners
+    /// that is the last; of several edges in one line that triangulation joined, the first.
+    pub fn edges(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
+        let (faces, face) = (&self.tree.faces, self.face);
+        self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
+    }
+
+    /// For each edge, from a vertex to the next: what bounds the fragment there.
+    #[doc(hidden)]
+    pub fn lines(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = Line> + ExactSizeIterator + Clone + use<'t> {
+        let stored = self.stored;
+        (0..self.vertex_count()).map(move |i| match stored.get(i) {
+            Some(stored) => Exact::line(stored),
+            None => Line::edge(i as u32),
+        })
+    }
+
+    /// For each vertex, its exact definition on its face.
+    #[doc(hidden)]
+    pub fn symbols(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = Symbol> + ExactSizeIterator + Clone + use<'t> {
+        let stored = self.stored;
+        (0..self.vertex_count())
+            .map(move |i| stored.get(i).map_or(Symbol::corner(i as u32), Exact::symbol))
+    }
+
+    /// For each vertex, weights over the polygon's corners: pairs of a corner's number and its
+    /// weight. The weights of a vertex sum to 1, up to rounding.
+    ///
+    /// A corner has one pair, a vertex on an edge of the polygon (or of a triangle of it) two, a
+    /// vertex inside three. To interpolate an attribute of the corners, such as a texture
+    /// coordinate, sum weight · attribute.
+    pub fn weights(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = SmallVec<[(u32, f64); 3]>> + ExactSizeIterator + Clone + use<'t>
+    {
+        let (faces, face) = (&self.tree.faces, self.face);
+        self.symbols().map(move |symbol| {
+            let mut weights = faces.barycentric(face, symbol);
+            weights.iter_mut().for_each(|(k, _)| *k = faces.corner_number(face, *k));
+            weights
+        })
+    }
+}
+
+/// All fragments of a tree in the order of their numbers: [`BspTree::fragments`].
+#[derive(Clone, Debug)]
+pub struct Fragments<'t> {
+    tree: &'t BspTree,
+    range: Range<u32>,
+}
+
+impl<'t> Iterator for Fragments<'t> {
+    type Item = Fragment<'t>;
+
+    fn next(&mut self) -> Option<Fragment<'t>> {
+        self.range.next().map(|index| self.tree.fragment(index))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.range.size_hint()
+    }
+
+    fn nth(&mut self, n: usize) -> Option<Fragment<'t>> {
+        self.range.nth(n).map(|index| self.tree.fragment(index))
+    }
+}
+
+impl DoubleEndedIterator for Fragments<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        self.range.next_back().map(|index| self.tree.fragment(index))
+    }
+}
+
+impl ExactSizeIterator for Fragments<'_> {}
+impl FusedIterator for Fragments<'_> {}
+
+impl BspTree {
+    /// All fragments, in the order of their numbers.
+    pub fn fragments(&self) -> Fragments<'_> {
+        Fragments { tree: self, range: 0..self.len() as u32 }
+    }
+}

@@ -1,0 +1,19 @@
+//! The finished tree, one file an operation.
+
+pub(crate) mod apart;
+pub(crate) mod bsp_tree;
+mod fragment;
+pub(crate) mod node;
+pub(crate) mod order;
+mod partitions;
+pub(crate) mod parts;
+mod stats;
+mod validate;
+pub(crate) mod walk;
+
+pub use bsp_tree::BspTree;
+pub use fragment::{Fragment, Fragments};
+pub use order::Ordered;
+pub use partitions::{Partition, Partitions};
+pub use stats::Stats;
+pub use validate::Invalid;

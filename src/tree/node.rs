@@ -1,0 +1,63 @@
+//! A node of the finished tree.
+
+use super::parts::{Child, RawNode};
+use crate::exact::PlaneId;
+
+const BACK_IS_NODE: u32 = 1 << 31;
+
+/// The most fragments of a tree. While a [`Schedule`](super::order::layout::Schedule) is laid out, its
+/// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
+pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
+
+/// A node.
+///
+/// Nodes are stored depth first: the root, its front subtree, its back subtree. Fragments are numbered
+/// in this order: those on the node's plane, those of a front leaf, those of a back leaf, those of the
+/// front subtree, those of the back subtree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Node {
+    pub(super) plane: PlaneId,
+    own: u32,
+    /// How many fragments are in front.
+    pub(super) front_len: u32,
+    /// How many nodes are in front; if none, the front is a leaf.
+    pub(super) front_nodes: u32,
+}
+
+impl Node {
+    /// How many fragments lie on the plane.
+    #[inline]
+    pub(super) fn own(&self) -> u32 {
+        self.own & !BACK_IS_NODE
+    }
+
+    /// Whether the back is a node rather than a leaf.
+    #[inline]
+    pub(super) fn back_is_node(&self) -> bool {
+        self.own & BACK_IS_NODE != 0
+    }
+}
+
+/// Computes the sizes of all subtrees.
+pub(super) fn finish(raw: &[RawNode]) -> Vec<Node> {
+    // The fragments and nodes of the subtree at each node. Children come after their parents, so
+    // their sizes are known if nodes are read from the last to the first.
+    let mut sizes = vec![(0u32, 0u32); raw.len()];
+    let mut nodes = Vec::with_capacity(raw.len());
+    for (i, node) in raw.iter().enumerate().rev() {
+        let (front_len, front_nodes) = match node.front {
+            Child::Leaf(len) => (len, 0),
+            Child::Node => sizes[i + 1],
+        };
+        let (back_len, back_nodes) = match node.back {
+            Child::Leaf(len) => (len, 0),
+            Child::Node => sizes[i + 1 + front_nodes as usize],
+        };
+        sizes[i] = (node.own + front_len + back_len, 1 + front_nodes + back_nodes);
+        let back_is_node = if node.back == Child::Node { BACK_IS_NODE } else { 0 };
+        let own = node.own | back_is_node;
+        nodes.push(Node { plane: node.plane, own, front_len, front_nodes });
+    }
+    nodes.reverse();
+    nodes
+}

@@ -1,0 +1,173 @@
+//! Orders one fragment at a time.
+
+use std::collections::VecDeque;
+use std::iter::FusedIterator;
+use std::ops::{ControlFlow, Range};
+
+use super::sides::View;
+use crate::tree::{BspTree, Fragment};
+use crate::viewpoint::Viewpoint;
+
+/// A part of a tree: fragments in the order of their numbers, or a subtree.
+#[derive(Clone, Debug)]
+enum Part {
+    Run(Range<u32>),
+    Subtree { node: u32, fragments: Range<u32> },
+}
+
+/// The fragments of a tree in the order of a viewpoint: [`BspTree::back_to_front`] and
+/// [`BspTree::front_to_back`].
+///
+/// It can be read from both ends. To read all n fragments takes O(n) time, from either end or from
+/// both, and O(depth) memory.
+#[derive(Clone, Debug)]
+pub struct Ordered<'t> {
+    tree: &'t BspTree,
+    view: View,
+    /// Whether `next` takes the nearest fragment rather than the furthest.
+    front_to_back: bool,
+    /// The furthest fragments, behind all of `parts`.
+    far: Range<u32>,
+    /// What neither end has come to, back to front. Each end opens subtrees only as far as it must.
+    parts: VecDeque<Part>,
+    /// The nearest fragments, in front of all of `parts`.
+    near: Range<u32>,
+    left: usize,
+}
+
+impl<'t> Ordered<'t> {
+    fn new(tree: &'t BspTree, viewpoint: Viewpoint, front_to_back: bool) -> Self {
+        let left = tree.records.len();
+        let all = 0..left as u32;
+        let root = if tree.nodes.is_empty() {
+            Part::Run(all)
+        } else {
+            Part::Subtree { node: 0, fragments: all }
+        };
+        let view = View::new(tree, viewpoint);
+        let parts = [root].into();
+        Self { tree, view, front_to_back, far: 0..0, parts, near: 0..0, left }
+    }
+
+    /// The parts of a subtree, back to front.
+    fn open(&self, index: u32, fragments: Range<u32>) -> [Part; 3] {
+        let node = &self.tree.nodes[index as usize];
+        let mut next = fragments.start;
+        let mut take = |len| {
+            next += len;
+            Part::Run(next - len..next)
+        };
+        let own = take(node.own());
+        let back_len = fragments.len() as u32 - node.own() - node.front_len;
+        // Fragments of leaves are numbered before those of subtrees, so they are taken first.
+        let front_leaf = (node.front_nodes == 0).then(|| take(node.front_len));
+        let back_leaf = (!node.back_is_node()).then(|| take(back_len));
+        let mut subtree = |len, node| {
+            next += len;
+            Part::Subtree { node, fragments: next - len..next }
+        };
+        let front = front_leaf.unwrap_or_else(|| subtree(node.front_len, index + 1));
+        let back = back_leaf.unwrap_or_else(|| subtree(back_len, index + 1 + node.front_nodes));
+        if self.view.is_in_front(self.tree, index as usize) {
+            [back, own, front]
+        } else {
+            [front, own, back]
+        }
+    }
+
+    fn take_furthest(&mut self) -> Option<Fragment<'t>> {
+        while self.far.is_empty() {
+            match self.parts.pop_front() {
+                Some(Part::Run(run)) => self.far = run,
+                Some(Part::Subtree { node, fragments }) => {
+                    let parts = self.open(node, fragments);
+                    parts.into_iter().rev().for_each(|part| self.parts.push_front(part));
+                }
+                // Only the run that the other end is reading is left: this end reads on in it.
+                None => {
+                    let index = self.near.next()?;
+                    return Some(self.take(index));
+                }
+            }
+        }
+        let index = self.far.next()?;
+        Some(self.take(index))
+    }
+
+    fn take_nearest(&mut self) -> Option<Fragment<'t>> {
+        while self.near.is_empty() {
+            match self.parts.pop_back() {
+                Some(Part::Run(run)) => self.near = run,
+                Some(Part::Subtree { node, fragments }) => {
+                    let parts = self.open(node, fragments);
+                    self.parts.extend(parts);
+                }
+                None => {
+                    let index = self.far.next_back()?;
+                    return Some(self.take(index));
+                }
+            }
+        }
+        let index = self.near.next_back()?;
+        Some(self.take(index))
+    }
+
+    fn take(&mut self, index: u32) -> Fragment<'t> {
+        self.left -= 1;
+        self.tree.fragment(index)
+    }
+}
+
+impl<'t> Iterator for Ordered<'t> {
+    type Item = Fragment<'t>;
+
+    fn next(&mut self) -> Option<Fragment<'t>> {
+        if self.front_to_back { self.take_nearest() } else { self.take_furthest() }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl DoubleEndedIterator for Ordered<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        if self.front_to_back { self.take_furthest() } else { self.take_nearest() }
+    }
+}
+
+impl ExactSizeIterator for Ordered<'_> {}
+impl FusedIterator for Ordered<'_> {}
+
+impl BspTree {
+    /// The fragments, back to front: none hides one that comes later.
+    pub fn back_to_front(&self, viewpoint: Viewpoint) -> Ordered<'_> {
+        Ordered::new(self, viewpoint, false)
+    }
+
+    /// The fragments, front to back: none is hidden by one that comes later. The reverse of
+    /// [`back_to_front`](Self::back_to_front).
+    pub fn front_to_back(&self, viewpoint: Viewpoint) -> Ordered<'_> {
+        Ordered::new(self, viewpoint, true)
+    }
+
+    /// Calls `visit` with each fragment, back to front, until it returns [`ControlFlow::Break`],
+    /// and returns what it returned last.
+    pub fn visit_back_to_front<B>(
+        &self,
+        viewpoint: Viewpoint,
+        visit: impl FnMut(Fragment<'_>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.back_to_front(viewpoint).try_for_each(visit)
+    }
+
+    /// Calls `visit` with each fragment, front to back, until it returns [`ControlFlow::Break`]
+    /// (say, because every pixel is covered), and returns what it returned last.
+    pub fn visit_front_to_back<B>(
+        &self,
+        viewpoint: Viewpoint,
+        visit: impl FnMut(Fragment<'_>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.front_to_back(viewpoint).try_for_each(visit)
+    }
+}

@@ -1,0 +1,274 @@
+//! Orders of trees of every shape, against a walk that knows nothing of parts.
+
+use super::{ROOT, Schedule, write_order};
+use crate::exact::PlaneId;
+use crate::random::SplitMix64;
+use crate::tree::node::{Node, finish};
+use crate::tree::parts::{Child, RawNode};
+
+/// A node: how many fragments are on its plane, and what is in front and behind.
+#[derive(Clone, Debug)]
+struct Tree {
+    own: u32,
+    sides: [Side; 2],
+}
+
+#[derive(Clone, Debug)]
+enum Side {
+    Leaf(u32),
+    Below(Box<Tree>),
+}
+
+use Side::{Below, Leaf};
+
+impl Tree {
+    fn new(own: u32, front: Side, back: Side) -> Self {
+        Self { own, sides: [front, back] }
+    }
+
+    /// One fragment on the plane, and all others on one side.
+    fn link(rest: Self, rest_is_front: bool) -> Self {
+        let (rest, nothing) = (Below(Box::new(rest)), Leaf(0));
+        if rest_is_front { Self::new(1, rest, nothing) } else { Self::new(1, nothing, rest) }
+    }
+
+    fn fragments(&self) -> u32 {
+        self.own + self.sides.iter().map(Side::fragments).sum::<u32>()
+    }
+
+    /// Appends its nodes, depth first, the front before the back.
+    fn lay(&self, nodes: &mut Vec<RawNode>) {
+        let [front, back] = self.sides.each_ref().map(|side| match side {
+            Leaf(fragments) => Child::Leaf(*fragments),
+            Below(_) => Child::Node,
+        });
+        nodes.push(RawNode { plane: PlaneId::face(0), own: self.own, front, back });
+        for side in &self.sides {
+            if let Below(tree) = side {
+                tree.lay(nodes);
+            }
+        }
+    }
+
+    fn nodes(&self) -> Vec<Node> {
+        let mut nodes = Vec::new();
+        self.lay(&mut nodes);
+        finish(&nodes)
+    }
+
+    /// The order, from the first node and fragment that are not yet counted on: what is on the far
+    /// side, on the plane, on the near side. Leaves are numbered before subtrees.
+    fn order(&self, signs: &[u32], node: &mut usize, next: &mut u32) -> Vec<u32> {
+        let is_in_front = signs[*node / 32] >> (*node % 32) & 1 == 1;
+        *node += 1;
+        let mut take = |fragments: u32| -> Vec<u32> {
+            *next += fragments;
+            (*next - fragments..*next).collect()
+        };
+        let own = take(self.own);
+        let leaves = self.sides.each_ref().map(|side| match side {
+            Leaf(fragments) => take(*fragments),
+            Below(_) => Vec::new(),
+        });
+        let mut parts = self.sides.iter().zip(leaves).map(|(side, leaf)| match side {
+            Leaf(_) => leaf,
+            Below(tree) => tree.order(signs, node, next),
+        });
+        let (front, back) = (parts.next().unwrap(), parts.next().unwrap());
+        if is_in_front { [back, own, front].concat() } else { [front, own, back].concat() }
+    }
+}
+
+impl Side {
+    fn fragments(&self) -> u32 {
+        match self {
+            Leaf(fragments) => *fragments,
+            Below(tree) => tree.fragments(),
+        }
+    }
+}
+
+/// Holds the order by some signs against the walk, in buffers that hold nothing or too much.
+struct Checker<'a> {
+    tree: &'a Tree,
+    nodes: usize,
+    fragments: u32,
+    schedule: Schedule,
+    buffer: Vec<u32>,
+}
+
+impl<'a> Checker<'a> {
+    fn new(tree: &'a Tree) -> Self {
+        let (nodes, fragments) = (tree.nodes(), tree.fragments());
+        let schedule = Schedule::new(&nodes, fragments);
+        let parts = schedule.parts() - ROOT as usize;
+        assert!(parts < 2 * fragments as usize, "{parts} parts of {tree:?}");
+        Self { tree, nodes: nodes.len(), fragments, schedule, buffer: vec![] }
+    }
+
+    fn words(&self) -> usize {
+        self.nodes.div_ceil(32) + 1
+    }
+
+    fn check(&mut self, signs: &[u32]) {
+        let expected = self.tree.order(signs, &mut 0, &mut 0);
+        let (words, fragments) = (self.words(), self.fragments as usize);
+        for junk in [0, 4 * fragments + 40] {
+            self.buffer.clear();
+            self.buffer.resize(junk, u32::MAX);
+            let write = |words: &mut [u32]| words.copy_from_slice(signs);
+            write_order(&self.schedule, fragments, words, &mut self.buffer, write);
+            assert_eq!(self.buffer, expected, "{:?} by {signs:?}", self.tree);
+        }
+    }
+
+    fn check_some(&mut self, random: &mut SplitMix64, count: usize) {
+        let words = self.words();
+        self.check(&vec![0; words]);
+        self.check(&vec![u32::MAX; words]);
+        for _ in 0..count {
+            self.check(&(0..words).map(|_| random.next() as u32).collect::<Vec<_>>());
+        }
+    }
+}
+
+/// All trees of so many fragments, at least one: on every plane some, or some on both sides.
+fn trees(fragments: u32) -> Vec<Tree> {
+    let mut all = Vec::new();
+    for own in 0..=fragments {
+        for front in 0..=fragments - own {
+            let back = fragments - own - front;
+            if own == 0 && (front == 0 || back == 0) {
+                continue;
+            }
+            let backs = sides(back);
+            for front in sides(front) {
+                all.extend(backs.iter().map(|back| Tree::new(own, front.clone(), back.clone())));
+            }
+        }
+    }
+    all
+}
+
+fn sides(fragments: u32) -> Vec<Side> {
+    let below = if fragments > 0 { trees(fragments) } else { vec![] };
+    let below = below.into_iter().map(|tree| Below(Box::new(tree)));
+    std::iter::once(Leaf(fragments)).chain(below).collect()
+}
+
+#[test]
+fn without_a_node_there_is_nothing_to_order() {
+    let mut order = vec![u32::MAX; 50];
+    write_order(&Schedule::new(&[], 0), 0, 1, &mut order, |_| ());
+    assert!(order.is_empty());
+}
+
+#[test]
+fn trees_of_up_to_five_fragments_come_by_every_sign() {
+    let mut counts = Vec::new();
+    for fragments in 1..=5 {
+        let trees = trees(fragments);
+        for tree in &trees {
+            let mut checker = Checker::new(tree);
+            (0..1 << checker.nodes).for_each(|signs| checker.check(&[signs, 0]));
+        }
+        counts.push(trees.len());
+    }
+    assert_eq!(counts, [1, 9, 69, 589, 5529]);
+}
+
+/// What a list may leave: runs on a plane, beside it, and on both sides, and twigs of every size.
+fn rests() -> Vec<Tree> {
+    let run = Tree::new(7, Leaf(0), Leaf(0));
+    let mut rests = vec![
+        run.clone(),
+        Tree::new(1, Leaf(6), Leaf(0)),
+        Tree::new(0, Leaf(5), Leaf(9)),
+        Tree::new(2, Below(Box::new(run.clone())), Leaf(3)),
+        Tree::new(1, Below(Box::new(run.clone())), Below(Box::new(run))),
+    ];
+    rests.extend((2..=3).flat_map(trees));
+    rests.extend(trees(4).into_iter().step_by(17));
+    rests
+}
+
+fn list(rest: Tree, nodes: usize, rest_is_front: bool) -> Tree {
+    (0..nodes).fold(rest, |rest, _| Tree::link(rest, rest_is_front))
+}
+
+#[test]
+fn lists_of_any_length_are_followed_by_twigs_and_runs() {
+    let mut random = SplitMix64::new(1);
+    for rest in rests() {
+        for nodes in [1, 2, 6, 7, 8, 9, 15, 31, 32, 33, 70] {
+            for is_front in [false, true] {
+                Checker::new(&list(rest.clone(), nodes, is_front)).check_some(&mut random, 3);
+            }
+        }
+    }
+}
+
+#[test]
+fn lists_follow_lists_and_stand_on_both_sides_of_a_branch() {
+    let mut random = SplitMix64::new(2);
+    let rests = rests();
+    for (i, rest) in rests.iter().enumerate() {
+        let other = &rests[(i + 7) % rests.len()];
+        for (a, b) in [(8, 8), (9, 3), (3, 20), (12, 33)] {
+            for sides in 0..4 {
+                let [first, second] = [0, 1].map(|bit| sides >> bit & 1 == 1);
+                let two = list(list(rest.clone(), a, first), b, second);
+                let beside = list(other.clone(), a, second);
+                for own in 0..7 {
+                    let [front, back] = [&two, &beside].map(|tree| Below(Box::new(tree.clone())));
+                    Checker::new(&Tree::new(own, front, back)).check_some(&mut random, 1);
+                }
+                Checker::new(&two).check_some(&mut random, 3);
+            }
+        }
+    }
+}
+
+/// A tree of so many fragments, divided by chance.
+fn some_tree(fragments: u32, random: &mut SplitMix64) -> Tree {
+    let mut below = |limit: u32| (random.next() % u64::from(limit + 1)) as u32;
+    let own = match below(5) {
+        0 if fragments > 1 => 0,
+        1 => 1 + below(fragments.min(12) - 1),
+        _ => 1,
+    };
+    let rest = fragments - own;
+    let front = match below(4) {
+        _ if own == 0 => 1 + below(rest - 2),
+        0 => 0,
+        1 => rest,
+        _ => below(rest),
+    };
+    let mut side = |fragments: u32| match fragments {
+        0 | 1 => Leaf(fragments),
+        2..12 if random.next().is_multiple_of(8) => Leaf(fragments),
+        _ => Below(Box::new(some_tree(fragments, random))),
+    };
+    Tree::new(own, side(front), side(rest - front))
+}
+
+#[test]
+fn trees_by_chance_come_by_any_signs() {
+    let mut random = SplitMix64::new(3);
+    for round in 0..3000 {
+        let tree = some_tree(1 + round % 150, &mut random);
+        Checker::new(&tree).check_some(&mut random, 2);
+    }
+}
+
+/// Each plane has nothing on it and one fragment on a side: a branch and a twig for each.
+#[test]
+fn the_most_parts_are_nearly_two_to_a_fragment() {
+    let mut tree = Tree::new(0, Leaf(1), Leaf(1));
+    for _ in 0..98 {
+        tree = Tree::new(0, Leaf(1), Below(Box::new(tree)));
+    }
+    let parts = Schedule::new(&tree.nodes(), 100).parts() - ROOT as usize;
+    assert_eq!(parts, 2 * 100 - 7);
+    Checker::new(&tree).check_some(&mut SplitMix64::new(4), 20);
+}

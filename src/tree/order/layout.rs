@@ -1,0 +1,319 @@
+//! The memory layout from which orders are written: branches, and twigs that a table puts in order.
+
+use std::collections::HashMap;
+
+use super::twig::{FRAGMENTS, NODES, Permutations, Shape};
+use crate::tree::node::Node;
+
+/// Part number for "none".
+pub(in crate::tree) const NOBODY: u32 = 0;
+/// Part number for "the branch that follows in memory".
+pub(in crate::tree) const NEXT: u32 = 1;
+/// Part number of the whole tree.
+pub(in crate::tree) const ROOT: u32 = 2;
+
+/// A tree's fragments, divided into *parts*. The fragments of a part are contiguous in every order.
+///
+/// - A *branch* is a node with everything on its sides.
+/// - A *twig* is a subtree or leaf of at most [`FRAGMENTS`] fragments and [`NODES`] nodes.
+/// - A *run* is a longer sequence of fragments that always come in the order of their numbers, such
+///   as many on one plane.
+///
+/// Parts are numbered from [`ROOT`]: branches first, then twigs, then runs, each depth first.
+///
+/// There are fewer than two parts per fragment. Proof: call *ends* the twigs, the runs, and the
+/// fragments that are alone on the plane of a branch. Each end has a fragment of its own, so there
+/// are at most as many ends as fragments. A node has fragments on its plane or on both sides, so a
+/// branch contains at least two ends or branches, and there are fewer branches than ends. The
+/// exception is a branch with nothing beside its plane; it contains one run, which has more than
+/// [`FRAGMENTS`] fragments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::tree) struct Schedule {
+    pub(in crate::tree) branches: Vec<Branch>,
+    pub(in crate::tree) twigs: Vec<Twig>,
+    pub(in crate::tree) runs: Vec<Run>,
+    /// For each shape of twig: how the signs of its nodes permute its fragments.
+    pub(in crate::tree) permutations: Vec<Permutations>,
+}
+
+/// A node whose subtree is too large for a twig, or several such nodes in a row; see [`List`].
+///
+/// The value of `own` decides what `own` and `own_first` mean:
+///
+/// | `own` | meaning | `own_first` |
+/// |---|---|---|
+/// | 0 | no fragment on the plane | unused |
+/// | 1 | one fragment on the plane | its number |
+/// | 2 or more, below [`LIST`] | that many fragments on the plane | their part number |
+/// | [`LIST`] + n | a list of n nodes | the number of the first node's fragment |
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Branch {
+    /// The node, or the first of a list.
+    pub(in crate::tree) node: u32,
+    pub(in crate::tree) own: u32,
+    /// How many fragments are in front and behind, at all levels below; for a list, those of its last
+    /// node.
+    pub(in crate::tree) front: u32,
+    pub(in crate::tree) back: u32,
+    /// Their part numbers. For a list, one is [`NOBODY`].
+    pub(in crate::tree) front_part: u32,
+    pub(in crate::tree) back_part: u32,
+    pub(in crate::tree) own_first: u32,
+}
+
+/// Marks a [`Branch`] that is a list.
+const LIST: u32 = 1 << 31;
+
+/// Shorter lists are stored as ordinary branches: to branch on a list costs more than a short one
+/// saves.
+const SHORTEST_LIST: usize = 8;
+
+/// Nodes in a row, each with one fragment on its plane and all others below a single child, always
+/// on the same side. The order is written from both ends inwards; the rest comes in between.
+pub(in crate::tree) struct List {
+    pub(in crate::tree) first_node: u32,
+    pub(in crate::tree) nodes: u32,
+    /// The fragment of the first node; the others follow.
+    pub(in crate::tree) first: u32,
+    /// How many fragments are below the last node.
+    pub(in crate::tree) rest: u32,
+    pub(in crate::tree) rest_is_front: bool,
+}
+
+impl Branch {
+    /// The list, if it is one.
+    #[inline]
+    pub(in crate::tree) fn list(&self) -> Option<List> {
+        (self.own & LIST != 0).then(|| List {
+            first_node: self.node,
+            nodes: self.own & !LIST,
+            first: self.own_first,
+            rest: self.front + self.back,
+            rest_is_front: self.front > 0,
+        })
+    }
+}
+
+/// A subtree or a leaf of few fragments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Twig {
+    /// Its first node; any, if it is a leaf.
+    pub(in crate::tree) node: u32,
+    /// Its first fragment.
+    pub(in crate::tree) first: u32,
+    /// Its row of [`Schedule::permutations`].
+    pub(in crate::tree) row: u32,
+}
+
+/// Fragments in the order of their numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Run {
+    pub(in crate::tree) first: u32,
+    pub(in crate::tree) len: u32,
+}
+
+impl Schedule {
+    /// Lays out a tree. O(nodes).
+    pub(in crate::tree) fn new(nodes: &[Node], fragments: u32) -> Self {
+        let mut layout = Layout { nodes, schedule: Self::default(), rows: HashMap::new(), next: 0 };
+        layout.fill(fragments);
+        let mut schedule = layout.schedule;
+        schedule.number();
+        schedule.branches.shrink_to_fit();
+        schedule.twigs.shrink_to_fit();
+        schedule.runs.shrink_to_fit();
+        schedule
+    }
+
+    /// How many parts there are, [`NOBODY`] and [`NEXT`] included.
+    pub(in crate::tree) fn parts(&self) -> usize {
+        ROOT as usize + self.branches.len() + self.twigs.len() + self.runs.len()
+    }
+
+    /// The resident size in bytes, apart from its own.
+    pub(in crate::tree) fn bytes(&self) -> usize {
+        size_of_val(&*self.branches)
+            + size_of_val(&*self.twigs)
+            + size_of_val(&*self.runs)
+            + size_of_val(&*self.permutations)
+    }
+
+    /// Replaces numbers within a kind by part numbers, once the size of each kind is known.
+    fn number(&mut self) {
+        let twigs = ROOT + self.branches.len() as u32;
+        let runs = twigs + self.twigs.len() as u32;
+        for branch in &mut self.branches {
+            let parts = [&mut branch.front_part, &mut branch.back_part];
+            let own = (branch.own > 1 && branch.own & LIST == 0).then_some(&mut branch.own_first);
+            for part in parts.into_iter().chain(own) {
+                *part = match *part & KIND {
+                    TWIG => twigs + (*part & !KIND),
+                    RUN => runs + (*part & !KIND),
+                    _ => *part,
+                };
+            }
+        }
+    }
+}
+
+/// The bits that tell the kind of a part while parts are numbered within their kind. They are free
+/// because a tree has fewer than 2²⁹ fragments.
+const KIND: u32 = TWIG | RUN;
+const TWIG: u32 = 1 << 31;
+const RUN: u32 = 1 << 30;
+
+/// A side of a branch.
+enum Side {
+    Front,
+    Back,
+}
+
+struct Layout<'a> {
+    nodes: &'a [Node],
+    schedule: Schedule,
+    rows: HashMap<Shape, u32>,
+    /// The first fragment that is not yet in a part.
+    next: u32,
+}
+
+/// A subtree still to be laid out.
+struct Subtree {
+    node: usize,
+    nodes: usize,
+    fragments: u32,
+    /// The branch above it, and on which side of that it is.
+    parent: Option<(usize, Side)>,
+}
+
+impl Layout<'_> {
+    fn fill(&mut self, fragments: u32) {
+        let all = Subtree { node: 0, nodes: self.nodes.len(), fragments, parent: None };
+        let mut stack = if self.nodes.is_empty() { vec![] } else { vec![all] };
+        while let Some(subtree) = stack.pop() {
+            let is_twig = subtree.nodes <= NODES && subtree.fragments as usize <= FRAGMENTS;
+            let part = if is_twig {
+                let nodes = &self.nodes[subtree.node..][..subtree.nodes];
+                self.twig(subtree.node, Shape::of(nodes, subtree.fragments), subtree.fragments)
+            } else {
+                self.branch(&subtree, &mut stack)
+            };
+            if let Some((branch, side)) = subtree.parent {
+                // Parents are laid out before their children, so the parent learns the number here.
+                // A child right behind its parent gets `NEXT`, which the writing loop can recognise
+                // without reading memory.
+                let part = if part == ROOT + branch as u32 + 1 { NEXT } else { part };
+                let branch = &mut self.schedule.branches[branch];
+                match side {
+                    Side::Front => branch.front_part = part,
+                    Side::Back => branch.back_part = part,
+                }
+            }
+        }
+    }
+
+    fn branch(&mut self, subtree: &Subtree, stack: &mut Vec<Subtree>) -> u32 {
+        let index = self.schedule.branches.len();
+        let mut links = self.links(subtree);
+        let first = self.next;
+        if links >= SHORTEST_LIST {
+            // A list looks like its last node to everything below. The other nodes each have one
+            // fragment, and these follow each other, so it is enough to count them.
+            self.next += links as u32 - 1;
+        } else {
+            links = 1;
+        }
+        let node_index = subtree.node + links - 1;
+        let node = &self.nodes[node_index];
+        let (own, front) = (node.own(), node.front_len);
+        let back = subtree.fragments - (links as u32 - 1) - own - front;
+        let own_first = if own <= 1 { self.take(own) } else { self.leaf(own) };
+        let front_nodes = node.front_nodes as usize;
+        let front_part = if front_nodes == 0 { self.leaf(front) } else { NOBODY };
+        let back_part = if node.back_is_node() { NOBODY } else { self.leaf(back) };
+        // The back goes on the stack first, so that the front comes off first: branches, twigs and
+        // fragments must be numbered depth first, as they stand in memory.
+        if node.back_is_node() {
+            stack.push(Subtree {
+                node: node_index + 1 + front_nodes,
+                nodes: subtree.nodes - links - front_nodes,
+                fragments: back,
+                parent: Some((index, Side::Back)),
+            });
+        }
+        if front_nodes > 0 {
+            stack.push(Subtree {
+                node: node_index + 1,
+                nodes: front_nodes,
+                fragments: front,
+                parent: Some((index, Side::Front)),
+            });
+        }
+        let (own, own_first) =
+            if links > 1 { (LIST | links as u32, first) } else { (own, own_first) };
+        let node = subtree.node as u32;
+        self.schedule.branches.push(Branch {
+            node,
+            own,
+            front,
+            back,
+            front_part,
+            back_part,
+            own_first,
+        });
+        ROOT + index as u32
+    }
+
+    /// How many nodes at the top of a subtree form a list.
+    fn links(&self, subtree: &Subtree) -> usize {
+        let mut fragments = subtree.fragments;
+        let side = |node: &Node, fragments: u32| {
+            let rest_is_front = node.front_len + 1 == fragments;
+            let rest_is_node =
+                if rest_is_front { node.front_nodes > 0 } else { node.back_is_node() };
+            let is_link = node.own() == 1 && rest_is_node && (rest_is_front || node.front_len == 0);
+            is_link.then_some(rest_is_front)
+        };
+        let first = side(&self.nodes[subtree.node], fragments);
+        self.nodes[subtree.node..]
+            .iter()
+            .take_while(|node| {
+                // Stops where the side changes: the rest would no longer lie between the two ends.
+                let same = first.is_some() && side(node, fragments) == first;
+                fragments -= u32::from(same);
+                same
+            })
+            .count()
+    }
+
+    /// Makes a part of fragments that no node separates.
+    fn leaf(&mut self, fragments: u32) -> u32 {
+        match fragments {
+            0 => NOBODY,
+            _ if fragments as usize <= FRAGMENTS => self.twig(0, Shape::leaf(fragments), fragments),
+            _ => {
+                let first = self.take(fragments);
+                self.schedule.runs.push(Run { first, len: fragments });
+                RUN | (self.schedule.runs.len() as u32 - 1)
+            }
+        }
+    }
+
+    /// Makes a twig; twigs of one shape share a row of the table.
+    fn twig(&mut self, node: usize, shape: Shape, fragments: u32) -> u32 {
+        let permutations = &mut self.schedule.permutations;
+        let row = *self.rows.entry(shape).or_insert_with(|| {
+            permutations.push(shape.permutations());
+            permutations.len() as u32 - 1
+        });
+        let first = self.take(fragments);
+        self.schedule.twigs.push(Twig { node: node as u32, first, row });
+        TWIG | (self.schedule.twigs.len() as u32 - 1)
+    }
+
+    /// Assigns the next fragments to a part, and returns the number of the first.
+    fn take(&mut self, fragments: u32) -> u32 {
+        let first = self.next;
+        self.next += fragments;
+        first
+    }
+}

@@ -1,0 +1,51 @@
+//! The planes of a tree, rounded and laid out to be held against an eye.
+
+use glam::Vec4;
+
+use crate::exact::{Faces, LATTICE_LIMIT};
+use crate::parallel;
+use crate::tree::node::Node;
+
+/// So many planes stand together, and so many signs in a word.
+pub(super) const GROUP: usize = 4;
+pub(super) const WORD: usize = 32;
+
+/// So many groups are made by one thread at a time.
+const PART: usize = 1024;
+
+/// The rounded planes of a tree's nodes, in the order of the nodes and by fours: the three
+/// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
+/// units. The last group is filled up with zeros.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::tree) struct Planes(pub(super) Vec<[Vec4; 4]>);
+
+impl Planes {
+    pub(in crate::tree) fn new(faces: &Faces, nodes: &[Node]) -> Self {
+        let group = |nodes: &[Node]| {
+            let mut group = [Vec4::ZERO; 4];
+            for (i, node) in nodes.iter().enumerate() {
+                let plane = faces.plane(node.plane);
+                let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
+                let all = normal.extend(offset / LATTICE_LIMIT) / normal.length();
+                for (part, value) in group.iter_mut().zip(all.as_vec4().to_array()) {
+                    part[i] = value;
+                }
+            }
+            group
+        };
+        let parts = parallel::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
+            nodes.chunks(GROUP).map(group).collect::<Vec<_>>()
+        });
+        Self(parts.concat())
+    }
+
+    /// How many words the signs of all planes take, and one more to read past the end.
+    pub(in crate::tree) fn words(&self) -> usize {
+        self.0.len().div_ceil(WORD / GROUP) + 1
+    }
+
+    /// The resident size in bytes, apart from its own.
+    pub(in crate::tree) fn bytes(&self) -> usize {
+        size_of_val(&*self.0)
+    }
+}

@@ -1,0 +1,108 @@
+//! Decides on which side of each partition plane the eye is.
+
+#[cfg(test)]
+mod tests;
+
+use std::cmp::Ordering;
+
+use glam::{DVec4, Vec4};
+
+use super::planes::{GROUP, WORD};
+use crate::exact::{Exact, Eye, Kernel, LATTICE_LIMIT};
+use crate::tree::BspTree;
+use crate::viewpoint::Viewpoint;
+
+/// Error bound: a rounded distance of the wrong sign is at most `ERROR` · (|p| + 2w). Here p and w
+/// are the eye's homogeneous coordinates, scaled so that the largest of the four is 1, and |p| is the
+/// sum of the magnitudes of the first three.
+///
+/// Let u = 2⁻²⁴, n the unit normal, o ≤ √3 the offset, T = Σ |nᵢpᵢ|, and N = n·p, which for a wrong
+/// sign is ow but for rounding. Normal, eye and their products are off by 3uT, offset, w and their
+/// product by 3u|N|, the sums by u|n₀p₀ + n₁p₁| ≤ uT and u|N|, and their difference by next to
+/// nothing; less 2u of the product with the coordinate that is 1, which neither it nor the product
+/// adds to.
+///
+/// - If w is 1: 4T + 2|N| ≤ 6T ≤ 6 √|p| ≤ 3(|p| + 1).
+/// - If pₖ is 1: with T' the rest of T, at most √(1 − nₖ²) times the rest of |p|, and N ≤ √3 w, it is
+///   2|nₖ| + 4T' + 4|N| ≤ 2 + 3(|p| − 1) + 6.93 w.
+///
+/// So the error is at most 3u(|p| + 2w). A smaller bound lets wrong signs pass; a larger one sends
+/// eyes to the integers that floats could decide.
+const ERROR: f32 = 1.5 * f32::EPSILON;
+
+/// A viewpoint, prepared to be compared with a tree's planes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::tree) struct View {
+    eye: Eye,
+    /// Homogeneous, in units of 2⁵¹ lattice steps, scaled so that the largest coordinate is 1.
+    point: Vec4,
+    /// The largest error of a rounded distance.
+    bound: f32,
+}
+
+impl View {
+    pub(in crate::tree) fn new(tree: &BspTree, viewpoint: Viewpoint) -> Self {
+        let eye = Eye::new(viewpoint, tree.faces.lattice());
+        let (e, w) = eye.homogeneous();
+        let point = DVec4::new(e[0], e[1], e[2], w * LATTICE_LIMIT);
+        let point = (point / point.abs().max_element()).as_vec4();
+        let size = point.x.abs() + point.y.abs() + point.z.abs() + 2.0 * point.w;
+        Self { eye, point, bound: ERROR * size }
+    }
+
+    /// The rounded distances of the eye from four planes.
+    #[inline]
+    fn distances(&self, [x, y, z, offset]: &[Vec4; 4]) -> Vec4 {
+        let p = self.point;
+        *x * p.x + *y * p.y + *z * p.z - *offset * p.w
+    }
+
+    /// Whether the eye is in front of a node's plane: by floats where the bound allows, else exactly.
+    pub(in crate::tree) fn is_in_front(&self, tree: &BspTree, node: usize) -> bool {
+        let distance = self.distances(&tree.planes.0[node / GROUP])[node % GROUP];
+        if distance.abs() > self.bound { distance > 0.0 } else { self.decide(tree, node) }
+    }
+
+    /// As [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.
+    pub(in crate::tree) fn write_signs(&self, tree: &BspTree, words: &mut [u32]) {
+        for (w, (word, groups)) in
+            words.iter_mut().zip(tree.planes.0.chunks(WORD / GROUP)).enumerate()
+        {
+            let (mut front, mut sure) = (0, 0);
+            for (g, group) in groups.iter().enumerate() {
+                let distances = self.distances(group);
+                let bound = Vec4::splat(self.bound);
+                // No early exit for doubtful planes: they are rare, and a word at a time can be decided
+                // without a branch.
+                front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
+                sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
+            }
+            *word = front;
+            let nodes = WORD * w..tree.nodes.len().min(WORD * (w + 1));
+            // The padding of the last group has distance 0 and is never sure, so it is masked out.
+            let all = u32::MAX >> (WORD - nodes.len());
+            if sure & all != all {
+                *word |= self.decide_rest(tree, nodes.start, !sure & all);
+            }
+        }
+    }
+
+    /// Decides the nodes exactly that have a bit in `unsure`; bit 0 stands for node `first`.
+    #[cold]
+    fn decide_rest(&self, tree: &BspTree, first: usize, mut unsure: u32) -> u32 {
+        let mut front = 0;
+        while unsure != 0 {
+            let bit = unsure.trailing_zeros();
+            // Clears the lowest bit that is set.
+            unsure &= unsure - 1;
+            front |= u32::from(self.decide(tree, first + bit as usize)) << bit;
+        }
+        front
+    }
+
+    #[cold]
+    fn decide(&self, tree: &BspTree, node: usize) -> bool {
+        let plane = tree.nodes[node].plane;
+        Exact.eye_side(&tree.faces, plane, &self.eye) == Ordering::Greater
+    }
+}

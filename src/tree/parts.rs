@@ -1,0 +1,55 @@
+//! The output of a builder, from which a tree is made.
+
+use crate::exact::PlaneId;
+
+/// A node as the builder writes it.
+#[derive(Clone, Copy, Debug)]
+pub struct RawNode {
+    /// The partition plane.
+    pub plane: PlaneId,
+    /// How many fragments lie on the plane.
+    pub own: u32,
+    /// The front side.
+    pub front: Child,
+    /// The back side.
+    pub back: Child,
+}
+
+/// What is on one side of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Child {
+    /// A leaf of so many fragments, stored right behind the node's own.
+    Leaf(u32),
+    /// Another node.
+    Node,
+}
+
+/// A stored fragment. Its vertices end where those of the next fragment begin; a whole face has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// The face that it is a piece of.
+    pub face: u32,
+    /// The index of its first vertex.
+    pub vertices: u32,
+}
+
+/// Nodes and fragments, both depth first and the front before the back. The fragments of a node come
+/// in this order: those on its plane, those of a front leaf, those of a back leaf, those of the
+/// nodes below.
+#[derive(Debug)]
+pub struct Parts<S> {
+    /// The nodes.
+    pub nodes: Vec<RawNode>,
+    /// The fragments.
+    pub records: Vec<Record>,
+    /// The vertices of all fragments that are not whole faces.
+    pub vertices: Vec<S>,
+    /// How many times a piece was cut in two.
+    pub cuts: usize,
+}
+
+impl<S> Default for Parts<S> {
+    fn default() -> Self {
+        Self { nodes: vec![], records: vec![], vertices: vec![], cuts: 0 }
+    }
+}

@@ -1,0 +1,156 @@
+//! Whether the fragments of each face cover it once: the cuts undone, from the leaves up.
+//!
+//! Each set of the builder has at most one piece of a face: the face at the root, and of every
+//! piece that a plane cuts one part on each side. So the parts of a face on the two sides of a node
+//! must be those of one piece: their outlines share the cut, run along it in opposite directions
+//! between the same two vertices, and are closed by lines that name the plane and the side. What
+//! they are parts of is read off: the two outlines without the cut, and without the vertices that
+//! the plane made on a line that goes on behind it. At the root, each face must be there as it was
+//! given.
+//!
+//! That is complete. If a convex piece is what it should be, and two outlines with vertices on
+//! their sides of a plane glue to it, they are its two parts: every vertex is one of the piece's or
+//! where its line crosses the plane, and vertices kept by both parts lie on the plane, being on
+//! neither side of it. From the root down, all fragments are then the pieces that the planes make
+//! of the faces: convex, in the face's orientation, each once and none missing.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use super::Invalid;
+use super::fault::{Culprit, Fault};
+use crate::exact::{Exact, ExactVertex, Kernel, Line, PlaneId, Symbol, Vertex};
+use crate::tree::BspTree;
+use crate::tree::walk::Visit;
+
+/// The pieces of a node's set, by face: their outlines, empty for a whole face.
+type Set<V> = BTreeMap<u32, Vec<V>>;
+
+impl BspTree {
+    /// Glues the fragments together, and compares the result with the faces, and the number of
+    /// cuts that were undone with what the builder counted.
+    pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), Invalid> {
+        // The sets of subtrees whose parent is still to come, the front's above the back's.
+        let mut sets: Vec<Set<ExactVertex>> = Vec::new();
+        let mut splits = 0;
+        for visit in visits.iter().rev() {
+            let fault = |what| Invalid { node: visit.node, what };
+            let leaf = |fragment| (self.records[fragment as usize].face, self.restored(fragment));
+            let node = &self.nodes[visit.node];
+            let mut front = visit.front.clone().map(leaf).collect();
+            let mut back = visit.back.clone().map(leaf).collect();
+            if node.front_nodes > 0 {
+                front = sets.pop().unwrap_or_default();
+            }
+            if node.back_is_node() {
+                back = sets.pop().unwrap_or_default();
+            }
+            let mut set = self.glue_sets(node.plane, front, back, &mut splits).map_err(fault)?;
+            for (face, piece) in visit.own.clone().map(leaf) {
+                if set.insert(face, piece).is_some() {
+                    return Err(fault(Fault::Overlap(self.culprit(face))));
+                }
+            }
+            sets.push(set);
+        }
+        let fault = |what| Invalid { node: 0, what };
+        self.check_faces(&sets.pop().unwrap_or_default()).map_err(fault)?;
+        let (counted, found) = (self.cuts, splits);
+        if counted == found { Ok(()) } else { Err(fault(Fault::Splits { counted, found })) }
+    }
+
+    /// The pieces of a set from those on the two sides of a plane. The smaller set goes into the
+    /// larger, so that no piece is moved more than log n times.
+    fn glue_sets(
+        &self,
+        plane: PlaneId,
+        front: Set<ExactVertex>,
+        back: Set<ExactVertex>,
+        splits: &mut usize,
+    ) -> Result<Set<ExactVertex>, Fault> {
+        let front_is_large = front.len() > back.len();
+        let (mut large, small) = if front_is_large { (front, back) } else { (back, front) };
+        let splitter = Exact.splitter(&self.faces, plane);
+        for (face, piece) in small {
+            let Some(other) = large.get_mut(&face) else {
+                large.insert(face, piece);
+                continue;
+            };
+            let parts =
+                if front_is_large { [&other[..], &piece[..]] } else { [&piece[..], &other[..]] };
+            let side = |vertex: &_| Exact.side(&self.faces, &splitter, face, vertex);
+            *other = glue(plane, parts, side).ok_or_else(|| Fault::Cut(self.culprit(face)))?;
+            *splits += 1;
+        }
+        Ok(large)
+    }
+
+    /// Compares the set of the root with the faces.
+    fn check_faces(&self, set: &Set<ExactVertex>) -> Result<(), Fault> {
+        for face in 0..self.faces.len() as u32 {
+            let corners = self.faces.corners(face).len();
+            let is_face = |outline: &Vec<ExactVertex>| {
+                let first = outline.iter().position(|v| v.symbol() == Symbol::corner(0));
+                let is_corner = |k: usize| {
+                    let vertex = outline[(first.unwrap_or(0) + k) % corners];
+                    let k = k as u32;
+                    vertex.symbol() == Symbol::corner(k) && vertex.line() == Line::edge(k)
+                };
+                outline.is_empty() || outline.len() == corners && (0..corners).all(is_corner)
+            };
+            if !set.get(&face).is_some_and(is_face) {
+                return Err(Fault::Incomplete(self.culprit(face)));
+            }
+        }
+        Ok(())
+    }
+
+    fn culprit(&self, face: u32) -> Culprit {
+        Culprit { face, polygon: self.faces.polygon(face) }
+    }
+}
+
+/// What two pieces in front of a plane and behind it were before it cut them apart; `None` if they
+/// were not one convex piece that it crossed, as of two of which one is the whole face.
+fn glue<V: Vertex>(
+    plane: PlaneId,
+    [front, back]: [&[V]; 2],
+    side: impl Fn(&V) -> Ordering,
+) -> Option<Vec<V>> {
+    // From the cut's first vertex on: the cut is then the edge from vertex 0 to vertex 1.
+    let front = from_cut(front, Line::cut(plane, false))?;
+    let back = from_cut(back, Line::cut(plane, true))?;
+    let mut outline = Vec::with_capacity(front.len() + back.len());
+    for (here, there, expected) in
+        [(&front, &back, Ordering::Greater), (&back, &front, Ordering::Less)]
+    {
+        // Where this side begins, and the other one ends.
+        let (begin, last) = (here[1], there[there.len() - 1]);
+        let end = there[0];
+        if begin.symbol() != end.symbol() || begin.position() != end.position() {
+            return None;
+        }
+        // A line that goes on across the plane has no vertex there but for the cut.
+        let is_made = begin.line() == last.line();
+        if is_made {
+            let is_crossing = begin.symbol() == Symbol::crossing(begin.line(), plane);
+            let next = here[2];
+            if !is_crossing || side(&next) != expected || side(&last) != expected.reverse() {
+                return None;
+            }
+        }
+        outline.extend_from_slice(&here[if is_made { 2 } else { 1 }..]);
+    }
+    Some(outline)
+}
+
+/// An outline turned so that it begins with an edge on a line. There is but one: another would be
+/// left over, and found at the root.
+fn from_cut<V: Vertex>(outline: &[V], cut: Line) -> Option<Vec<V>> {
+    // Fragments have three vertices, but what is glued wrongly may have fewer.
+    if outline.len() < 3 {
+        return None;
+    }
+    let first = outline.iter().position(|vertex| vertex.line() == cut)?;
+    Some([&outline[first..], &outline[..first]].concat())
+}

@@ -1,0 +1,57 @@
+//! Whether fragments lie where their places in the tree say.
+
+use super::Invalid;
+use super::fault::Fault;
+use crate::exact::{Exact, ExactSplitter, ExactVertex, Kernel, Piece, Side};
+use crate::tree::BspTree;
+use crate::tree::walk::Visit;
+
+impl BspTree {
+    /// Holds each fragment against every plane above it, and those on a plane against the order of
+    /// the input.
+    pub(super) fn check_sides(&self, visits: &[Visit]) -> Result<(), Invalid> {
+        let mut path: Vec<(ExactSplitter, Side)> = Vec::new();
+        for visit in visits {
+            let fault = |what| Invalid { node: visit.node, what };
+            let plane = self.nodes[visit.node].plane;
+            path.truncate(visit.depth - 1);
+            if let Some(parent) = path.last_mut() {
+                parent.1 = if visit.is_front { Side::Front } else { Side::Back };
+            }
+            path.push((Exact.splitter(&self.faces, plane), Side::Coplanar));
+            for (range, side) in visit.groups() {
+                if let Some(last) = path.last_mut() {
+                    last.1 = side;
+                }
+                for fragment in range {
+                    self.check_sides_of(fragment, &path).map_err(fault)?;
+                }
+            }
+            let face = |fragment: u32| self.records[fragment as usize].face;
+            if let Some(late) = visit.own.clone().skip(1).find(|&id| face(id) < face(id - 1)) {
+                return Err(fault(Fault::OwnOrder { fragment: late - 1 }));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_sides_of(&self, id: u32, path: &[(ExactSplitter, Side)]) -> Result<(), Fault> {
+        let vertices = self.restored(id);
+        let cut = (!vertices.is_empty()).then_some(&vertices[..]);
+        let piece = Piece { face: self.records[id as usize].face, cut };
+        for &(ref splitter, expected) in path {
+            let found = Exact.classify(&self.faces, splitter, piece);
+            if found != expected {
+                return Err(Fault::Side { fragment: id, expected, found });
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertices of a fragment as the builder had them; none of a whole face.
+    pub(super) fn restored(&self, id: u32) -> Vec<ExactVertex> {
+        let fragment = self.fragment(id);
+        let restore = |stored| Exact.restore(&self.faces, fragment.face(), stored);
+        fragment.stored().iter().map(restore).collect()
+    }
+}

@@ -1,0 +1,159 @@
+//! Trees broken by hand, in every way that validation names and some that it does not.
+
+mod cover;
+mod layout;
+mod names;
+mod oracle;
+mod sides;
+mod sizes;
+
+use glam::{DQuat, DVec3};
+
+use crate::build::{BuildOptions, Heuristic};
+use crate::exact::{Exact, Kernel};
+use crate::scene::{self, Scene};
+use crate::tree::BspTree;
+use crate::tree::parts::{self, Child, RawNode, Record};
+use crate::tree::walk::Walk;
+
+type Stored = <Exact as Kernel>::Stored;
+
+/// A tree taken apart: what its builder put out.
+#[derive(Clone)]
+struct Parts {
+    nodes: Vec<RawNode>,
+    /// The face of each fragment, and its vertices; none if it is all of its face.
+    pieces: Vec<(u32, Vec<Stored>)>,
+    cuts: usize,
+}
+
+impl Parts {
+    fn of(tree: &BspTree) -> Self {
+        let mut walk = Walk::new(tree);
+        let mut nodes = Vec::new();
+        while let Some(visit) = walk.next(tree) {
+            let node = &tree.nodes[visit.node];
+            let child = |is_node, len| if is_node { Child::Node } else { Child::Leaf(len as u32) };
+            nodes.push(RawNode {
+                plane: node.plane,
+                own: node.own(),
+                front: child(node.front_nodes > 0, visit.front.len()),
+                back: child(node.back_is_node(), visit.back.len()),
+            });
+        }
+        let pieces = tree.fragments().map(|f| (f.face(), f.stored().to_vec())).collect();
+        Self { nodes, pieces, cuts: tree.cuts }
+    }
+
+    /// A tree whose sizes, layout and rounded planes agree with these parts, whatever they are.
+    fn tree(&self, like: &BspTree) -> BspTree {
+        let (nodes, cuts) = (self.nodes.clone(), self.cuts);
+        let mut parts = parts::Parts { nodes, cuts, ..Default::default() };
+        for (face, vertices) in &self.pieces {
+            parts.records.push(Record { face: *face, vertices: parts.vertices.len() as u32 });
+            parts.vertices.extend_from_slice(vertices);
+        }
+        BspTree::new(like.faces.clone(), like.preparation, parts)
+    }
+}
+
+/// What validation says of a tree, in words; empty if all is well.
+fn verdict(tree: &BspTree) -> String {
+    tree.validate().err().map(|invalid| invalid.to_string()).unwrap_or_default()
+}
+
+/// Fails unless validation says so, of the tree that an edit makes of another's parts.
+#[track_caller]
+fn assert_fault(tree: &BspTree, edit: impl FnOnce(&mut Parts), fault: &str) {
+    assert_eq!(verdict(tree), "");
+    let mut parts = Parts::of(tree);
+    edit(&mut parts);
+    let said = verdict(&parts.tree(tree));
+    assert!(said.contains(fault), "{said:?}, not {fault:?}");
+}
+
+fn build(scene: &Scene, heuristic: Heuristic) -> BspTree {
+    BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).expect("finite")
+}
+
+/// Squares that all cross in one line, the first one whole and the others cut in halves.
+fn crossing(count: u32) -> BspTree {
+    build(&scene::crossing(count), Heuristic::First)
+}
+
+fn square(half: f64, z: f64) -> [DVec3; 4] {
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, y)| DVec3::new(x * half, y * half, z))
+}
+
+/// Nested squares in two planes, some facing up and some down, and an upright one that cuts all.
+fn decals() -> Scene {
+    let mut scene = Scene::new("decals", DVec3::Z);
+    let upright = square(9.0, 0.1).map(|p| DVec3::new(p.z, p.x, p.y));
+    scene.push(upright, 0);
+    for k in 0..12 {
+        let mut corners = square(8.0 - 0.5 * f64::from(k), f64::from(k % 2));
+        if k % 3 == 0 {
+            corners.reverse();
+        }
+        scene.push(corners, 0);
+    }
+    scene
+}
+
+/// A scene turned away from all axes.
+fn tilted(scene: &Scene) -> Scene {
+    let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
+    let mut tilted = Scene::new(scene.name(), scene.up());
+    for polygon in scene.polygons() {
+        tilted.push(polygon.iter().map(|&corner| turn * corner), 0);
+    }
+    tilted
+}
+
+/// Trees of all sorts: no node, one node, cuts, pieces in one plane, lists, large ones.
+fn trees() -> Vec<(String, BspTree)> {
+    let mut trees = Vec::new();
+    for scene in [
+        Scene::new("nothing", DVec3::Z),
+        scene::chain(1),
+        scene::crossing(7),
+        decals(),
+        tilted(&decals()),
+        scene::random_triangles(40, 3),
+        scene::random_triangles(300, 1),
+        tilted(&scene::sphere(600)),
+        scene::chain(500),
+        scene::city(500, 2),
+        scene::newell_bars(),
+        scene::layers(12, 1e-4),
+    ] {
+        for by in [Heuristic::First, Heuristic::FreePlanes, Heuristic::default()] {
+            trees.push((format!("{} by {by}", scene.name()), build(&scene, by)));
+        }
+    }
+    trees
+}
+
+#[test]
+fn trees_as_they_are_built_are_valid_and_their_cuts_are_those_counted() {
+    let (mut cut, mut lists, mut large) = (0, 0, 0);
+    for (name, tree) in trees() {
+        assert_eq!(verdict(&tree), "", "{name}");
+        assert_eq!(verdict(&Parts::of(&tree).tree(&tree)), "", "{name} put together again");
+        let stats = tree.stats();
+        assert_eq!(stats.fragments, stats.faces + stats.splits, "{name}");
+        cut += usize::from(stats.splits > 0);
+        lists += usize::from(stats.depth_max > 100);
+        large += usize::from(stats.fragments > 400);
+    }
+    assert!(cut >= 15 && lists >= 3 && large >= 10, "{cut} {lists} {large}");
+}
+
+#[test]
+fn cuts_are_counted_over_all_jobs_of_a_build() {
+    let tree = build(&scene::random_triangles(6000, 5), Heuristic::default());
+    let stats = tree.stats();
+    assert!(stats.splits > 5000, "{stats:?}");
+    assert_eq!((stats.fragments, verdict(&tree)), (stats.faces + stats.splits, String::new()));
+}

@@ -1,0 +1,161 @@
+//! Names of what is not there.
+
+use super::{Parts, Stored, assert_fault, build, crossing, verdict};
+use crate::build::Heuristic;
+use crate::exact::{Exact, Kernel, Line, PlaneId, Vertex};
+use crate::scene;
+use crate::tree::BspTree;
+
+const OUTLINE: &str = "does not have three or more known vertices";
+
+/// The first fragment that is a piece of a face.
+fn cut_piece(parts: &Parts) -> usize {
+    parts.pieces.iter().position(|(_, vertices)| !vertices.is_empty()).expect("a cut")
+}
+
+/// Puts another vertex in place of the first of a cut piece.
+#[track_caller]
+fn assert_unknown(tree: &BspTree, vertex: Stored) {
+    let edit = |parts: &mut Parts| {
+        let piece = cut_piece(parts);
+        parts.pieces[piece].1[0] = vertex;
+    };
+    assert_fault(tree, edit, OUTLINE);
+}
+
+#[test]
+fn planes_that_name_nothing_are_found() {
+    for tree in [crossing(5), build(&scene::city(300, 1), Heuristic::default())] {
+        let (faces, corners) = (tree.faces.len() as u32, tree.faces.corner_count() as u32);
+        let unknown = [
+            PlaneId::face(faces),
+            PlaneId::face(u32::MAX >> 4),
+            PlaneId::axis(0, corners),
+            PlaneId::axis(2, u32::MAX >> 4),
+            PlaneId::axis(3, 0),
+            PlaneId::axis(4, 0),
+        ];
+        for plane in unknown {
+            for node in [0, tree.nodes.len() / 2, tree.nodes.len() - 1] {
+                // Neither can its plane be rounded.
+                let mut tree = tree.clone();
+                tree.nodes[node].plane = plane;
+                let said = verdict(&tree);
+                assert!(said.contains("names a face or corner that does not exist"), "{said}");
+                assert!(said.starts_with(&format!("node {node}: ")), "{said}");
+            }
+        }
+    }
+}
+
+#[test]
+fn faces_and_vertices_that_name_nothing_are_found() {
+    let tree = crossing(5);
+    let faces = tree.faces.len() as u32;
+    assert_fault(&tree, |parts| parts.pieces[0].0 = faces, OUTLINE);
+    assert_fault(&tree, |parts| parts.pieces[3].0 = u32::MAX, OUTLINE);
+
+    // Vertices of a scene of more faces, with more corners.
+    let large = crossing(9);
+    let octagon: Vec<_> =
+        (0..8).map(|k| glam::DVec2::from_angle(f64::from(k)).extend(f64::from(k))).collect();
+    let other = BspTree::build([octagon]).expect("finite");
+    if let Some(beyond) = (0..other.faces.len() as u32).find(|&f| other.faces.corners(f).len() > 5)
+    {
+        assert_unknown(&tree, Exact.store(&Exact.corner(&other.faces, beyond, 5)));
+    }
+    let corner = Exact.corner(&large.faces, 1, 0);
+    let on = |plane| {
+        let splitter = Exact.splitter(&large.faces, plane);
+        Exact.cut(&large.faces, &splitter, 1, [&corner, &corner])
+    };
+    let on_edge = on(PlaneId::face(8));
+    assert_unknown(&tree, Exact.store(&on_edge));
+    assert_unknown(&tree, Exact.store(&on(PlaneId::axis(1, 35))));
+    let along_cut = corner.with_line(Line::cut(PlaneId::axis(2, 0), true));
+    let splitter = Exact.splitter(&large.faces, PlaneId::face(8));
+    let inside = Exact.cut(&large.faces, &splitter, 1, [&along_cut, &along_cut]);
+    assert_unknown(&tree, Exact.store(&inside.with_line(Line::edge(0))));
+    // A vertex of a known plane and an unknown one, whichever of the two comes first.
+    for (known, unknown) in [
+        (PlaneId::face(0), PlaneId::face(8)),
+        (PlaneId::face(0), PlaneId::axis(0, 35)),
+        (PlaneId::axis(0, 0), PlaneId::face(8)),
+    ] {
+        let along_cut = corner.with_line(Line::cut(known, true));
+        let splitter = Exact.splitter(&large.faces, unknown);
+        let inside = Exact.cut(&large.faces, &splitter, 1, [&along_cut, &along_cut]);
+        assert_unknown(&tree, Exact.store(&inside.with_line(Line::edge(0))));
+    }
+}
+
+#[test]
+fn corners_and_lines_beyond_a_face_are_found() {
+    let tree = crossing(5);
+    let piece = cut_piece(&Parts::of(&tree));
+    let vertex = Exact.restore(&tree.faces, 1, &Parts::of(&tree).pieces[piece].1[0]);
+    for line in [
+        Line::edge(4),
+        Line::edge(u32::MAX >> 4),
+        Line::cut(PlaneId::face(5), false),
+        Line::cut(PlaneId::face(99), true),
+        Line::cut(PlaneId::axis(0, 20), false),
+        Line::cut(PlaneId::axis(4, 0), false),
+    ] {
+        assert_unknown(&tree, Exact.store(&vertex.with_line(line)));
+    }
+    // Corner 3 of a square in a piece of a triangle.
+    let triangles = build(&scene::random_triangles(40, 3), Heuristic::First);
+    assert_unknown(
+        &triangles,
+        Exact.store(&Exact.corner(&tree.faces, 0, 3).with_line(Line::edge(0))),
+    );
+}
+
+#[test]
+fn outlines_of_two_vertices_and_those_without_a_place_are_found() {
+    let tree = crossing(5);
+    let mut fragments = 0;
+    for fragment in 0..tree.len() {
+        let mut parts = Parts::of(&tree);
+        let vertices = &mut parts.pieces[fragment].1;
+        if vertices.is_empty() {
+            continue;
+        }
+        vertices.truncate(2);
+        let said = verdict(&parts.tree(&tree));
+        assert!(said.contains(&format!("fragment {fragment} {OUTLINE}")), "{said}");
+        fragments += 1;
+
+        let mut tree = tree.clone();
+        tree.records[fragment].vertices = tree.vertices.len() as u32 + 1;
+        assert!(verdict(&tree).contains(OUTLINE));
+    }
+    assert!(fragments >= 8);
+    let mut before = tree.clone();
+    let last = before.records.len() - 1;
+    before.records[last].vertices = 0;
+    before.records[last - 1].vertices = 8;
+    assert!(verdict(&before).contains(OUTLINE));
+}
+
+#[test]
+fn vertices_that_belong_to_no_fragment_are_found() {
+    let mut tree = crossing(5);
+    let extra = tree.vertices[0];
+    tree.vertices.insert(0, extra);
+    tree.records.iter_mut().for_each(|record| record.vertices += 1);
+    assert!(verdict(&tree).contains(&format!("fragment 0 {OUTLINE}")));
+}
+
+#[test]
+fn a_whole_face_that_lists_its_corners_is_found() {
+    let tree = build(&scene::random_triangles(40, 3), Heuristic::First);
+    let whole = tree.fragments().find(|fragment| fragment.is_whole()).expect("one");
+    let edit = |parts: &mut Parts| {
+        let (face, vertices) = &mut parts.pieces[whole.index() as usize];
+        let corner = |k| Exact.store(&Exact.corner(&tree.faces, *face, k));
+        vertices.extend((0..3).map(corner));
+    };
+    assert_fault(&tree, edit, "was never cut, but is stored as a cut piece");
+}

@@ -1,0 +1,183 @@
+//! Trees broken at random, against what the planes make of the faces when they are cut anew.
+
+use super::{Parts, Stored, build, crossing, decals, tilted, verdict};
+use crate::build::Heuristic;
+use crate::exact::{Exact, ExactVertex, Kernel, Line, Piece, PlaneId, Side, Vertex, split};
+use crate::random::SplitMix64;
+use crate::scene;
+use crate::tree::BspTree;
+use crate::tree::parts::{Child, RawNode};
+
+/// A piece of a face; all of it, if it has no vertices.
+type Live = (u32, Vec<ExactVertex>);
+
+/// Whether a tree is what its planes make of its faces: by cutting them from the root down.
+fn is_right(tree: &BspTree, parts: &Parts) -> bool {
+    let faces = &tree.faces;
+    let mut pieces = parts.pieces.iter();
+    let mut nodes = parts.nodes.iter();
+    let whole = (0..faces.len() as u32).map(|face| (face, Vec::new())).collect();
+    let mut stack: Vec<Vec<Live>> = vec![whole];
+    let mut cuts = 0;
+    while let Some(set) = stack.pop() {
+        let Some(node) = nodes.next() else { return set.is_empty() && pieces.next().is_none() };
+        let (mut own, mut front, mut back) = (vec![], vec![], vec![]);
+        let splitter = Exact.splitter(faces, node.plane);
+        for (face, vertices) in set {
+            let cut = (!vertices.is_empty()).then_some(&vertices[..]);
+            match Exact.classify(faces, &splitter, Piece { face, cut }) {
+                Side::Coplanar => own.push((face, vertices)),
+                Side::Front => front.push((face, vertices)),
+                Side::Back => back.push((face, vertices)),
+                Side::Spanning => {
+                    let corners = 0..faces.corners(face).len() as u32;
+                    let all: Vec<ExactVertex> =
+                        corners.map(|k| Exact.corner(faces, face, k)).collect();
+                    let outline = if vertices.is_empty() { &all } else { &vertices };
+                    let [mut before, mut behind] = [vec![], vec![]];
+                    let by = (node.plane, &splitter);
+                    split(&Exact, faces, by, face, outline, &mut before, &mut behind);
+                    front.push((face, before));
+                    back.push((face, behind));
+                    cuts += 1;
+                }
+            }
+        }
+        let is_idle = own.is_empty() && (front.is_empty() || back.is_empty());
+        own.sort_by_key(|&(face, _)| face);
+        let mut take =
+            |list: &[Live]| list.iter().all(|live| pieces.next().is_some_and(|p| same(p, live)));
+        let fits = |child: Child, list: &[Live]| match child {
+            Child::Leaf(len) => len as usize == list.len() && len <= 1,
+            Child::Node => true,
+        };
+        let leaf = |child: Child| matches!(child, Child::Leaf(_));
+        if is_idle
+            || own.len() != node.own as usize
+            || !fits(node.front, &front)
+            || !fits(node.back, &back)
+            || !take(&own)
+            || leaf(node.front) && !take(&front)
+            || leaf(node.back) && !take(&back)
+        {
+            return false;
+        }
+        if node.back == Child::Node {
+            stack.push(back);
+        }
+        if node.front == Child::Node {
+            stack.push(front);
+        }
+    }
+    nodes.next().is_none() && pieces.next().is_none() && cuts == parts.cuts
+}
+
+/// Whether a stored piece has a face and an outline, wherever it begins.
+fn same((face, stored): &(u32, Vec<Stored>), (expected, vertices): &Live) -> bool {
+    let outline: Vec<Stored> = vertices.iter().map(|vertex| Exact.store(vertex)).collect();
+    let n = outline.len();
+    let turned = |by: usize| (0..n).all(|k| outline[(k + by) % n] == stored[k]);
+    face == expected && stored.len() == n && (n == 0 || (0..n).any(turned))
+}
+
+/// One change to a tree, whatever comes of it.
+fn change(parts: &mut Parts, tree: &BspTree, random: &mut SplitMix64) {
+    let mut below = |n: usize| (random.next() % n.max(1) as u64) as usize;
+    let (a, b) = (below(parts.pieces.len()), below(parts.pieces.len()));
+    let (node, kind) = (below(parts.nodes.len()), below(16));
+    let (k, other) = (below(12), below(12));
+    let faces = &tree.faces;
+    let (face, from) = (parts.pieces[a].0, parts.pieces[b].1.clone());
+    let RawNode { own, front, back, plane } = &mut parts.nodes[node];
+    let vertices = &mut parts.pieces[a].1;
+    let n = vertices.len().max(1);
+    match kind {
+        0 => parts.pieces.swap(a, b),
+        1 => std::mem::swap(front, back),
+        2 => *plane = PlaneId::face(below(faces.len()) as u32),
+        3 => *plane = PlaneId::axis(below(3), below(faces.corner_count()) as u32),
+        4 => vertices.clear(),
+        5 => parts.pieces[a] = parts.pieces[b].clone(),
+        6 => parts.pieces[a].0 = below(faces.len()) as u32,
+        7 => vertices.reverse(),
+        8 => vertices.rotate_left(k % n),
+        9 if n > 1 => drop(vertices.remove(k % n)),
+        10 if n > 1 => vertices.insert(k % n, vertices[other % n]),
+        11 if n > 1 => vertices.swap(k % n, other % n),
+        12 | 13 if n > 1 && !from.is_empty() => {
+            // A line of a vertex, or a vertex but for its line, from another piece.
+            let [here, there] = [vertices[k % n], from[other % from.len()]]
+                .map(|vertex| Exact.restore(faces, face, &vertex));
+            let (vertex, line) =
+                if kind == 12 { (here, there.line()) } else { (there, here.line()) };
+            vertices[k % n] = Exact.store(&vertex.with_line(line));
+        }
+        14 if n > 1 => {
+            let here = Exact.restore(faces, face, &vertices[k % n]);
+            if let Some(plane) = here.line().as_cut() {
+                let line = Line::cut(plane, !here.line().is_behind());
+                vertices[k % n] = Exact.store(&here.with_line(line));
+            }
+        }
+        _ => {
+            // A fragment more on the plane, or less.
+            if other % 2 == 0 {
+                *own += 1;
+                let piece = parts.pieces[a].clone();
+                parts.pieces.insert(b, piece);
+            } else if *own > 0 {
+                *own -= 1;
+                parts.pieces.remove(b);
+            }
+        }
+    }
+}
+
+#[test]
+fn trees_broken_at_random_are_valid_if_they_are_what_their_planes_make_of_the_faces() {
+    let mut random = SplitMix64::new(7);
+    let (mut valid, mut cover, mut broken) = (0, 0, 0);
+    for scene in [
+        scene::crossing(5),
+        decals(),
+        tilted(&decals()),
+        scene::random_triangles(14, 3),
+        scene::newell_bars(),
+        scene::layers(5, 1e-4),
+    ] {
+        for by in [Heuristic::First, Heuristic::FreePlanes, Heuristic::default()] {
+            let tree = build(&scene, by);
+            assert!(is_right(&tree, &Parts::of(&tree)), "{} by {by}", scene.name());
+            for _ in 0..700 {
+                let mut parts = Parts::of(&tree);
+                change(&mut parts, &tree, &mut random);
+                if random.next().is_multiple_of(4) {
+                    change(&mut parts, &tree, &mut random);
+                }
+                let said = verdict(&parts.tree(&tree));
+                let right = is_right(&tree, &parts);
+                assert_eq!(said.is_empty(), right, "{} by {by}: {said}", scene.name());
+                valid += usize::from(right);
+                broken += usize::from(!right);
+                cover += usize::from(said.contains("polygon ") && said.contains("(face"));
+            }
+        }
+    }
+    assert!(valid > 300 && broken > 3000 && cover > 500, "{valid} {broken} {cover}");
+}
+
+#[test]
+fn the_oracle_itself_sees_a_piece_that_is_missing_or_changed() {
+    let tree = crossing(4);
+    let mut parts = Parts::of(&tree);
+    parts.pieces.pop();
+    assert!(!is_right(&tree, &parts));
+    let mut parts = Parts::of(&tree);
+    let vertices = &mut parts.pieces.last_mut().expect("a piece").1;
+    assert!(vertices.len() > 2);
+    vertices.swap(0, 1);
+    assert!(!is_right(&tree, &parts));
+    let mut parts = Parts::of(&tree);
+    parts.cuts += 1;
+    assert!(!is_right(&tree, &parts));
+}

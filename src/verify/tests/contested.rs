@@ -1,0 +1,127 @@
+//! What the planes of a tree excuse, against exact rays and the ranges of its partitions.
+
+use crate::exact::{Line, PlaneId};
+use crate::random::SplitMix64;
+use crate::raster::tests::oracle::{is_near, meets, meets_piece};
+use crate::raster::{Order, Rays, Verdict, compare, zbuffer};
+use crate::tree::BspTree;
+use crate::verify::{contest, paint_list};
+use crate::view::Camera;
+use crate::{BuildOptions, Heuristic};
+use glam::DVec3;
+
+/// What may be added to the tolerance for corners that are kept rounded, in lattice units.
+const ROUNDED_CORNERS: f64 = 4.0;
+
+/// The plane that parts two fragments, by the ranges of all partitions.
+fn parting(tree: &BspTree, a: u32, b: u32) -> Option<PlaneId> {
+    let mut parting = tree.partitions().filter(|node| {
+        let side = |f: u32| [&node.on, &node.front, &node.back].map(|range| range.contains(&f));
+        let (a, b) = (side(a), side(b));
+        a.contains(&true) && b.contains(&true) && (a != b || a[0])
+    });
+    let first = parting.next();
+    assert!(parting.next().is_none(), "{a} and {b} are parted twice");
+    first.map(|node| node.plane())
+}
+
+/// The rule of the tolerance, exactly: of two fragments that a ray meets, the nearer is met within
+/// the tolerance of the plane that parts them, and the other, or the eye, is as well.
+fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2]) -> bool {
+    let faces = tree.faces();
+    let [near_face, far_face] = [near, far].map(|id| tree.fragment(id).face());
+    let [x, y] = pixel;
+    let depth = |face| meets(rays, faces, face, x, y).expect("a face that is met");
+    assert!(depth(near_face) < depth(far_face), "{near} does not hide {far} in {pixel:?}");
+    let reach = faces.tolerance() + ROUNDED_CORNERS;
+    parting(tree, near, far).is_some_and(|plane| {
+        let is_near = |face| is_near(rays, faces, (face, pixel), plane, reach);
+        is_near(Some(near_face)) && (is_near(Some(far_face)) || is_near(None))
+    })
+}
+
+/// The fragment of a face that the ray of a pixel meets.
+fn fragment_of(tree: &BspTree, rays: &Rays, face: u32, pixel: [u32; 2]) -> u32 {
+    let mut met = tree.fragments().filter(|fragment| {
+        let lines: Vec<Line> = fragment.lines().collect();
+        fragment.face() == face && meets_piece(rays, tree.faces(), face, &lines, pixel)
+    });
+    let first = met.next().expect("a fragment that is met").index();
+    assert!(met.next().is_none(), "two fragments of face {face} are met in {pixel:?}");
+    first
+}
+
+/// Holds the verdict on every pixel of an order against the rule, and counts what is excused and
+/// what is not.
+fn check(tree: &BspTree, camera: &Camera, order: &[u32], counts: &mut [usize; 2]) {
+    let faces = tree.faces();
+    let rays = Rays::new(camera, faces).unwrap();
+    let painted = paint_list(tree, order, Order::BackToFront, &rays, None);
+    let truth = zbuffer(&rays, faces).into_image();
+    let by_polygons = compare(&rays, faces, &painted, &truth);
+    let mut by_planes = by_polygons.clone();
+    contest(tree, &rays, [&painted, &truth], &mut by_planes);
+    let verdicts = by_polygons.verdicts.iter().zip(&by_planes.verdicts).enumerate();
+    let mut excused = 0;
+    for (i, (before, after)) in verdicts {
+        if *before != Verdict::WrongOrder {
+            assert_eq!(before, after);
+            continue;
+        }
+        let width = rays.size()[0] as usize;
+        let pixel = [(i % width) as u32, (i / width) as u32];
+        let met = [truth.faces()[i], painted.faces()[i]];
+        let met = met.map(|face| fragment_of(tree, &rays, face, pixel));
+        let is_excused = is_excused(tree, &rays, met, pixel);
+        assert_eq!(*after == Verdict::Contested, is_excused, "{pixel:?} from {camera:?}");
+        excused += usize::from(is_excused);
+        counts[usize::from(!is_excused)] += 1;
+    }
+    assert_eq!(by_planes.contested, by_polygons.contested + excused);
+    assert_eq!(by_planes.wrong_order, by_polygons.wrong_order - excused);
+}
+
+/// A floor aside, and around it walls and slopes that reach across its plane by less than the
+/// tolerance, from above or from below.
+fn walls(random: &mut SplitMix64, tolerance: f64) -> Vec<[DVec3; 4]> {
+    let floor = [(3.0, 5.0), (4.0, 5.0), (4.0, 6.0), (3.0, 6.0)];
+    let mut polygons = vec![floor.map(|(x, y)| DVec3::new(x, y, 0.0))];
+    for _ in 0..8 {
+        let across = tolerance * random.range(-0.2, 0.99);
+        let (low, high) = [(-across, 1.0), (-1.0, across)][(random.next() % 2) as usize];
+        let (near, lean) = (random.range(0.5, 3.0), random.range(-0.3, 0.3));
+        let end = |y: f64, z: f64| DVec3::new(near + lean * z, y * 0.9, z);
+        polygons.push([end(-1.0, low), end(1.0, low), end(1.0, high), end(-1.0, high)]);
+    }
+    polygons
+}
+
+#[test]
+fn exact_rays_confirm_what_planes_excuse() {
+    let mut random = SplitMix64::new(1);
+    let mut counts = [0, 0];
+    let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+    for round in 0..36 {
+        let tolerance = [1e-2, 1e-3, 1e-5][round % 3];
+        let tree = first.with_tolerance(tolerance).build(walls(&mut random, tolerance)).unwrap();
+        let eye = DVec3::new(-1.0, 0.0, tolerance * random.range(-2.0, 2.0));
+        let target = DVec3::new(1.0, 0.0, tolerance * random.range(-2.0, 2.0));
+        let size = [6, 40];
+        let cameras = [
+            Camera::perspective(eye, target, DVec3::Z, 3.0 * tolerance, size),
+            Camera::parallel(target - eye, DVec3::Z, target, 6.0 * tolerance, size),
+        ];
+        for camera in cameras {
+            let camera = camera.unwrap();
+            let (mut order, mut right) = (Vec::new(), [0, 0]);
+            tree.back_to_front_into(camera.viewpoint(), &mut order);
+            check(&tree, &camera, &order, &mut right);
+            assert_eq!(right[1], 0, "what is not excused is wrong");
+            counts[0] += right[0];
+            // An order that is wrong all over: excused are the same places.
+            order.reverse();
+            check(&tree, &camera, &order, &mut counts);
+        }
+    }
+    assert!(counts[0] > 300 && counts[1] > 300, "{counts:?} pixels excused and not");
+}

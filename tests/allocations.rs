@@ -1,0 +1,53 @@
+//! A second order into the same list allocates nothing. Alone in its program, as it counts what all
+//! threads allocate.
+
+use binspace::{BspTree, Viewpoint, scene};
+use dhat::{HeapStats, Profiler};
+
+#[global_allocator]
+static COUNTING: dhat::Alloc = dhat::Alloc;
+
+/// How often memory was asked for while something ran.
+fn allocations(work: impl FnOnce()) -> u64 {
+    let before = HeapStats::get().total_blocks;
+    work();
+    HeapStats::get().total_blocks - before
+}
+
+#[test]
+fn a_second_order_in_index_form_allocates_nothing() {
+    let _profiler = Profiler::builder().testing().build();
+    let scenes = [
+        scene::layers(1, 0.1),
+        scene::layers(12, 0.1),
+        scene::random_triangles(300, 1),
+        scene::city(3000, 1),
+    ];
+    // Eyes apart from the scenes, in them and on planes, and directions along axes and not: those
+    // that a filter decides and those that integers do.
+    let viewpoints = [
+        Viewpoint::eye([3.0, 1.0, 20.0]),
+        Viewpoint::eye([0.0, 0.0, 0.0]),
+        Viewpoint::eye([0.5, 0.5, 0.5]),
+        Viewpoint::direction([0.0, 0.0, -1.0]),
+        Viewpoint::direction([1.0, 2.0, 3.0]),
+    ];
+    for scene in scenes {
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        for forwards in [true, false] {
+            let mut order = Vec::new();
+            let mut write = |viewpoint| {
+                if forwards {
+                    tree.back_to_front_into(viewpoint, &mut order);
+                } else {
+                    tree.front_to_back_into(viewpoint, &mut order);
+                }
+                assert_eq!(order.len(), tree.len());
+            };
+            // What is counted is counted: the first order has to make room.
+            assert!(allocations(|| write(viewpoints[0])) > 0, "{}", scene.name());
+            let again = allocations(|| viewpoints.into_iter().for_each(&mut write));
+            assert_eq!(again, 0, "{}, back to front: {forwards}", scene.name());
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Each feature used, alone or with others, and the library without any.
+
+use binspace::{BspTree, BuildOptions, Error, Heuristic, Point, Polygon, Viewpoint};
+use std::collections::HashSet;
+use std::ops::ControlFlow;
+use std::thread;
+
+const ARROW: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 1.0, 0.0], [-2.0, 2.0, 0.0]];
+
+/// Squares in a grid of so many a side, tilted and so large that they cut their neighbours.
+fn squares(side: usize) -> Vec<[[f64; 3]; 4]> {
+    let place = |i: usize| (i % side, i / side % side, i / side / side);
+    let square = |i: usize| {
+        let (x, y, z) = place(i);
+        let [x, y, z] = [x, y, z].map(|k| k as f64);
+        let tilt = 0.2 * ((i * 7 % 11) as f64 - 5.0);
+        [[x, y, z], [x + 1.5, y, z + tilt], [x + 1.5, y + 1.5, z + tilt], [x, y + 1.5, z]]
+    };
+    (0..side * side * side).map(square).collect()
+}
+
+#[test]
+fn polygons_are_built_ordered_and_handed_out() {
+    let squares = squares(8);
+    for heuristic in [Heuristic::Auto, Heuristic::Sampled { candidates: 4 }] {
+        let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(&squares).unwrap();
+        assert_eq!(tree.validate(), Ok(()));
+        assert!(tree.len() >= squares.len() && tree.stats().splits > 0);
+        let mut order = Vec::new();
+        let from_above = Viewpoint::direction([0.0, -1.0, 0.25]);
+        tree.back_to_front_into(from_above, &mut order);
+        assert!(tree.back_to_front(from_above).map(|fragment| fragment.index()).eq(order));
+        assert!(tree.fragments().all(|fragment| fragment.vertices().len() >= 3));
+    }
+}
+
+#[test]
+fn a_polygon_that_is_not_convex_is_taken_apart() {
+    let tree = BspTree::build([ARROW]).unwrap();
+    assert_eq!((tree.len(), tree.preparation().triangulated), (2, 1));
+}
+
+#[test]
+fn an_error_names_the_polygon() {
+    let mut polygons = squares(2);
+    polygons[5][1][2] = f64::NAN;
+    let error: Error = BspTree::build(&polygons).unwrap_err();
+    assert_eq!(error.polygon(), Some(5));
+}
+
+/// A user's own polygon.
+struct Triangle([binspace::glam::DVec3; 3]);
+
+impl Polygon for Triangle {
+    fn corners(&self) -> impl Iterator<Item = binspace::glam::DVec3> {
+        self.0.iter().copied()
+    }
+}
+
+#[test]
+fn polygons_of_a_user_s_own_type_are_built() {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let tree = BspTree::build([Triangle(corners.map(|corner| corner.to_dvec3()))]).unwrap();
+    assert_eq!(tree.fragment(0).polygon(), 0);
+}
+
+/// The callback is called by the thread that builds; with `parallel`, by others of its pool too.
+#[test]
+fn parallel_builds_by_the_threads_of_a_pool() {
+    let squares = squares(24);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+    let callers = || {
+        let mut callers = HashSet::from([thread::current().id()]);
+        let tree = BuildOptions::DEFAULT.build_with_progress(&squares, |_| {
+            callers.insert(thread::current().id());
+            ControlFlow::Continue(())
+        });
+        assert_eq!(tree.unwrap().validate(), Ok(()));
+        callers.len()
+    };
+    if cfg!(feature = "parallel") {
+        // The other thread may come too late for one tree, but not for all of these.
+        assert!((0..100).any(|_| pool.install(callers) == 2));
+    } else {
+        assert_eq!(pool.install(callers), 1);
+    }
+}
+
+#[cfg(feature = "raster")]
+#[test]
+fn raster_paints_what_is_seen() {
+    use binspace::{raster, verify, view};
+
+    let tree = BspTree::build(squares(3)).unwrap();
+    let corners = [[0.0; 3], [3.0; 3]].map(Point::to_dvec3);
+    for camera in view::views(corners, binspace::glam::DVec3::Z, 2, [80, 60], 1).unwrap() {
+        let verification = verify(&tree, &camera).unwrap();
+        assert!(verification.is_right());
+        let seen = verification.painted.faces().iter().filter(|&&face| face != raster::NONE);
+        assert!(seen.count() > 100);
+    }
+}
+
+#[cfg(feature = "scene")]
+#[test]
+fn scene_makes_scenes() {
+    use binspace::scene;
+
+    let city = scene::city(300, 1);
+    let tree = BspTree::build(city.polygons()).unwrap();
+    assert_eq!(tree.validate(), Ok(()));
+    assert_eq!(city.material(0), &city.materials()[0]);
+}
+
+#[cfg(feature = "obj")]
+#[test]
+fn obj_reads_a_file() {
+    use binspace::scene::Scene;
+
+    let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let (scene, report) = Scene::from_obj("one", text, |_| None).unwrap();
+    assert_eq!((scene.len(), report.faces), (1, 1));
+    assert_eq!(BspTree::build(scene.polygons()).unwrap().len(), 1);
+}

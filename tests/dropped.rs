@@ -1,0 +1,267 @@
+//! Which polygons preparation drops, keeps whole and counts as duplicates, checked by brute force
+//! in big integers, on polygons with little or no area.
+
+mod support;
+
+use binspace::glam::DVec3;
+use binspace::internals::{Faces, Lattice};
+use num_bigint::BigInt;
+use num_traits::{Signed, Zero};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use std::collections::HashMap;
+use support::dice::Dice;
+use support::hard;
+use support::shapes::{self, Corners};
+use support::tally::tally;
+
+type Vector = [BigInt; 3];
+
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn product(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
+
+fn scalar(a: &Vector, b: &Vector) -> BigInt {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn is_zero(a: &Vector) -> bool {
+    a.iter().all(Zero::is_zero)
+}
+
+/// The corners on the lattice, those left out that are where the one before is.
+fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
+    let mut corners: Vec<Vector> =
+        polygon.iter().map(|&p| lattice.snap(p).map(|c| BigInt::from(c as i64))).collect();
+    corners.dedup();
+    while corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    corners
+}
+
+/// Two arms from the first corner that are not on one line, if there are any.
+fn plane(corners: &[Vector]) -> Option<Vector> {
+    let arms: Vec<Vector> = corners.iter().map(|corner| minus(corner, &corners[0])).collect();
+    let pairs = arms.iter().flat_map(|a| arms.iter().map(move |b| product(a, b)));
+    pairs.into_iter().find(|normal| !is_zero(normal))
+}
+
+/// Whether every part of the outline is run through as often backwards as forwards: then it has no
+/// area, though its corners may not be on one line.
+fn is_run_through_both_ways(corners: &[Vector]) -> bool {
+    let mut runs: HashMap<[&Vector; 2], i32> = HashMap::new();
+    for (i, a) in corners.iter().enumerate() {
+        let b = &corners[(i + 1) % corners.len()];
+        // Parted where other corners lie on it.
+        let arm = minus(b, a);
+        let mut along: Vec<(BigInt, &Vector)> = corners
+            .iter()
+            .filter(|corner| is_zero(&product(&arm, &minus(corner, a))))
+            .map(|corner| (scalar(&arm, &minus(corner, a)), corner))
+            .filter(|(at, _)| !at.is_negative() && *at <= scalar(&arm, &arm))
+            .collect();
+        along.sort();
+        along.dedup();
+        for pair in along.windows(2) {
+            let [from, to] = [pair[0].1, pair[1].1];
+            *runs.entry([from.min(to), from.max(to)]).or_default() +=
+                if from < to { 1 } else { -1 };
+        }
+    }
+    runs.values().all(|&run| run == 0)
+}
+
+/// Twice the vector area.
+fn area(corners: &[Vector]) -> Vector {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).fold([0, 0, 0].map(BigInt::from), |sum, (a, b)| {
+        let part = product(a, b);
+        std::array::from_fn(|i| &sum[i] + &part[i])
+    })
+}
+
+/// Whether the corners are in one plane, on the rim of what they span, and in order around their
+/// middle, once.
+fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
+    let flat = |corner: &Vector| scalar(normal, &minus(corner, &corners[0])).is_zero();
+    if !corners.iter().all(flat) {
+        return false;
+    }
+    let n = corners.len();
+    let count = BigInt::from(n);
+    let sum = corners.iter().fold([0, 0, 0].map(BigInt::from), |sum, corner| {
+        std::array::from_fn(|i| &sum[i] + &corner[i])
+    });
+    let arms: Vec<Vector> =
+        corners.iter().map(|c| std::array::from_fn(|i| &c[i] * &count - &sum[i])).collect();
+    let turn = |a: &Vector, b: &Vector| scalar(normal, &product(a, b));
+    let sign = turn(&arms[0], &arms[1]);
+    let around = (0..n).map(|i| turn(&arms[i], &arms[(i + 1) % n]));
+    if sign.is_zero() || around.into_iter().any(|t| t.is_zero() || t.sign() != sign.sign()) {
+        return false;
+    }
+    // How often they pass the first arm.
+    let is_ahead = |arm: &Vector| {
+        let across = turn(&arms[0], arm);
+        if across.is_zero() {
+            scalar(&arms[0], arm).is_positive()
+        } else {
+            across.sign() == sign.sign()
+        }
+    };
+    let passes = (0..n).filter(|&i| !is_ahead(&arms[i]) && is_ahead(&arms[(i + 1) % n])).count();
+    let on_rim = (0..n).all(|i| {
+        let edge = minus(&corners[(i + 1) % n], &corners[i]);
+        corners.iter().all(|c| {
+            let t = turn(&edge, &minus(c, &corners[i]));
+            t.is_zero() || t.sign() == sign.sign()
+        })
+    });
+    passes == 1 && on_rim
+}
+
+/// Whether one outline is another, from whichever corner and in whichever direction.
+fn is_same(a: &[Vector], b: &[Vector]) -> bool {
+    let n = a.len();
+    let matches = |start: usize, step: usize| (0..n).all(|i| a[i] == b[(start + i * step) % n]);
+    n == b.len() && (0..n).any(|start| matches(start, 1) || matches(start, n - 1))
+}
+
+/// How many polygons were of which kind.
+#[derive(Debug, Default)]
+struct Kinds {
+    on_a_line: usize,
+    /// Those run through there and back that were dropped, and others whose parts cancel.
+    folded: usize,
+    cancelled: usize,
+    whole: usize,
+    triangulated: usize,
+    /// Those whose area is within a rounding of none: 2⁻⁴⁰ of the square of their size.
+    thin: usize,
+    duplicates: usize,
+}
+
+fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
+    let (faces, report) = Faces::new(polygons, Some(0.0)).expect("finite");
+    let outlines: Vec<_> = polygons.iter().map(|p| outline(faces.lattice(), p)).collect();
+    let dropped: Vec<usize> = faces.dropped(report.polygons).collect();
+    prop_assert_eq!(dropped.len(), report.dropped);
+    let (mut triangulated, mut duplicates) = (0, 0);
+    for (i, corners) in outlines.iter().enumerate() {
+        let is_dropped = dropped.binary_search(&i).is_ok();
+        let Some(normal) = plane(corners) else {
+            prop_assert!(is_dropped, "polygon {i} is on a line: {corners:?}");
+            kinds.on_a_line += 1;
+            continue;
+        };
+        let area = area(corners);
+        let square = |v: &Vector| scalar(v, v);
+        let size = corners.iter().map(|c| square(&minus(c, &corners[0]))).max().expect("corners");
+        kinds.thin += usize::from(square(&area) << 80 < &size * &size && !is_zero(&area));
+        if is_zero(&area) {
+            // Run through there and back, it has none; else its parts face both ways and cancel,
+            // and what it covers is what ear clipping makes of it.
+            let is_fold = is_run_through_both_ways(corners);
+            kinds.folded += usize::from(is_fold && is_dropped);
+            kinds.cancelled += usize::from(!is_fold || !is_dropped);
+            triangulated += usize::from(!is_dropped);
+        } else {
+            prop_assert!(!is_dropped, "polygon {i} has area: {corners:?}");
+            let is_whole = corners.len() == 3 || is_convex(corners, &normal);
+            let own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == i);
+            prop_assert!(!is_whole || own.count() == 1, "polygon {i} is whole: {corners:?}");
+            triangulated += usize::from(!is_whole);
+            kinds.whole += usize::from(is_whole);
+        }
+        if is_dropped {
+            continue;
+        }
+        let earlier = (0..i).filter(|other| dropped.binary_search(other).is_err());
+        duplicates += usize::from(earlier.into_iter().any(|j| is_same(&outlines[j], corners)));
+    }
+    prop_assert_eq!(report.triangulated, triangulated);
+    prop_assert_eq!(report.duplicates, duplicates);
+    kinds.triangulated += triangulated;
+    kinds.duplicates += duplicates;
+    Ok(())
+}
+
+/// Polygons of little area or none: corners on a line, off it by ulps, given again, run through
+/// there and back; needles; and other polygons, some given twice.
+fn thin(seed: u64, count: usize) -> Vec<Corners> {
+    let mut dice = Dice(seed);
+    let lattice = dice.below(2) == 0;
+    let point = |dice: &mut Dice| {
+        DVec3::from_array(
+            [0; 3].map(|_| if lattice { dice.around_zero(6) } else { 2.0 * dice.share() - 1.0 }),
+        )
+    };
+    let mut polygons: Vec<Corners> = vec![vec![DVec3::splat(-7.0), DVec3::splat(7.0), DVec3::X]];
+    for _ in 0..count {
+        let [a, b] = [point(&mut dice), point(&mut dice)];
+        let corners = 3 + dice.below(4);
+        let share = |dice: &mut Dice| dice.below(9) as f64 / 8.0;
+        let mut polygon: Corners = match dice.below(6) {
+            0 => (0..corners).map(|_| a + (b - a) * share(&mut dice)).collect(),
+            1 => {
+                // There and back over some corners.
+                let way: Corners = (0..corners).map(|_| point(&mut dice)).collect();
+                let back = way[1..corners - 1].iter().rev();
+                way.iter().chain(back).copied().collect()
+            }
+            2 => vec![a, b, a + (b - a) * share(&mut dice) + DVec3::Z * 2f64.powi(-48)],
+            3 => {
+                let c = point(&mut dice);
+                vec![a, b, b + (c - b) * 0.5, c]
+            }
+            4 => polygons[dice.below(polygons.len())].clone(),
+            _ => (0..corners).map(|_| point(&mut dice)).collect(),
+        };
+        if dice.below(3) == 0 {
+            let k = dice.below(polygon.len());
+            polygon.insert(k, polygon[k]);
+        }
+        if dice.below(3) == 0 {
+            let (k, axis) = (dice.below(polygon.len()), dice.below(3));
+            polygon[k][axis] = shapes::ulps_from(polygon[k][axis], dice.around_zero(3) as i32);
+        }
+        if dice.below(3) == 0 {
+            let k = dice.below(polygon.len());
+            polygon.rotate_left(k);
+        }
+        if dice.below(3) == 0 {
+            polygon.reverse();
+        }
+        polygons.push(polygon);
+    }
+    polygons
+}
+
+#[test]
+fn exactly_polygons_without_area_are_dropped_and_exactly_others_cut_up() {
+    let seeds = (any::<u64>(), 1..24usize);
+    let kinds = tally(file!(), 600, seeds, |kinds: &mut Kinds, (seed, count)| {
+        check(kinds, &thin(seed, count))
+    });
+    let Kinds { on_a_line, folded, whole, triangulated, thin, duplicates, cancelled } = kinds;
+    let least = [on_a_line, folded, whole, triangulated, thin, duplicates].into_iter().min();
+    assert!(least > Some(200) && cancelled * 10 < folded, "{kinds:?}");
+}
+
+#[test]
+fn the_same_holds_in_hard_scenes() {
+    let kinds = tally(file!(), 600, hard::scene(), |kinds: &mut Kinds, scene| {
+        check(kinds, &scene.polygons)
+    });
+    let Kinds { on_a_line, whole, triangulated, duplicates, .. } = kinds;
+    let least = [on_a_line, whole, triangulated, duplicates].into_iter().min();
+    assert!(least > Some(10), "{kinds:?}");
+}

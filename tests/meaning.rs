@@ -1,0 +1,450 @@
+//! Each heuristic is held to what its documentation says, at every node, by brute force in exact
+//! rationals: on integer scenes, where it is certain what a plane cuts.
+
+mod support;
+
+use binspace::glam::DVec3;
+use binspace::internals::{Faces, Line, PlaneId, PlaneKind};
+use binspace::{BspTree, BuildOptions, Heuristic, Partition};
+use std::collections::HashMap;
+use support::dice::Dice;
+use support::model::{self, Face, Vertex, clip};
+use support::rational::{self, Plane, Rational};
+use support::shapes::{self, Corners};
+
+/// A piece of a face on its way down the tree.
+#[derive(Clone)]
+struct Piece {
+    face: u32,
+    outline: Vec<Vertex>,
+}
+
+impl Piece {
+    fn values(&self, plane: &Plane) -> Vec<Rational> {
+        self.outline.iter().map(|vertex| plane.at(&vertex.point)).collect()
+    }
+
+    /// The least and the largest coordinate along an axis.
+    fn span(&self, axis: usize) -> [&Rational; 2] {
+        let all = || self.outline.iter().map(|vertex| &vertex.point[axis]);
+        [all().min().expect("a vertex"), all().max().expect("a vertex")]
+    }
+
+    /// The corners of the face that are at an end of the piece along an axis.
+    fn ends(&self, exact: &Face, axis: usize) -> impl Iterator<Item = Rational> {
+        let span = self.span(axis).map(Clone::clone);
+        let is_corner = |c: &Rational| {
+            exact.corners.iter().any(|corner| &corner[axis] == c && self.has(corner))
+        };
+        span.into_iter().filter(is_corner).collect::<Vec<_>>().into_iter()
+    }
+
+    fn has(&self, corner: &rational::Point) -> bool {
+        self.outline.iter().any(|vertex| &vertex.point == corner)
+    }
+}
+
+/// How many pieces lie in front of a plane, behind it, and across.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Counts {
+    front: usize,
+    back: usize,
+    splits: usize,
+}
+
+impl Counts {
+    fn of(plane: &Plane, set: &[Piece]) -> Self {
+        set.iter().fold(Self::default(), |mut counts, piece| {
+            let values = piece.values(plane);
+            let reaches = |side| values.iter().any(|value| rational::sign(value) == side);
+            match [reaches(std::cmp::Ordering::Greater), reaches(std::cmp::Ordering::Less)] {
+                [true, true] => counts.splits += 1,
+                [true, false] => counts.front += 1,
+                [false, true] => counts.back += 1,
+                [false, false] => {}
+            }
+            counts
+        })
+    }
+
+    fn imbalance(&self) -> f64 {
+        self.front.abs_diff(self.back) as f64
+    }
+
+    /// Whether neither side has all pieces, nor the plane.
+    fn separates(&self, pieces: usize) -> bool {
+        let on_sides = [self.front + self.splits, self.back + self.splits];
+        on_sides.iter().all(|&side| side < pieces) && on_sides != [0, 0]
+    }
+
+    /// The cost that free planes are chosen by, but for the price of cutting at all.
+    fn cost(&self) -> f64 {
+        let work = |n: usize| n as f64 * (n.max(1) as f64).log2();
+        work(self.front + self.splits) + work(self.back + self.splits) + 0.2 * self.splits as f64
+    }
+}
+
+/// A node with the set that was divided there.
+struct Divided<'t> {
+    faces: &'t Faces,
+    exact: &'t [Face],
+    plane: PlaneId,
+    counts: Counts,
+    set: Vec<Piece>,
+}
+
+impl Divided<'_> {
+    fn own_planes(&self) -> impl Iterator<Item = (Counts, bool)> {
+        self.set.iter().map(|piece| {
+            let plane = model::plane(self.faces, PlaneId::face(piece.face));
+            let is_axial = (0..3).any(|axis| {
+                let [low, high] = piece.span(axis);
+                low == high
+            });
+            (Counts::of(&plane, &self.set), is_axial)
+        })
+    }
+
+    /// All planes perpendicular to an axis through a corner where a piece ends, that separate.
+    fn free_planes(&self) -> Vec<Counts> {
+        let mut found = Vec::new();
+        for axis in 0..3 {
+            let ends = self.set.iter().flat_map(|p| p.ends(&self.exact[p.face as usize], axis));
+            let mut ends: Vec<Rational> = ends.collect();
+            ends.sort();
+            ends.dedup();
+            let spans: Vec<_> = self.set.iter().map(|piece| piece.span(axis)).collect();
+            for at in ends {
+                let counts = spans.iter().fold(Counts::default(), |mut counts, [low, high]| {
+                    match [**high > at, **low < at] {
+                        [true, true] => counts.splits += 1,
+                        [true, false] => counts.front += 1,
+                        [false, true] => counts.back += 1,
+                        [false, false] => {}
+                    }
+                    counts
+                });
+                if counts.separates(self.set.len()) {
+                    found.push(counts);
+                }
+            }
+        }
+        found
+    }
+
+    /// The score of the chosen plane, and the least that any own plane has.
+    fn scores(&self, score: impl Fn(&Counts, bool) -> f64) -> [f64; 2] {
+        let PlaneKind::Face(face) = self.plane.kind() else { panic!("{:?} is free", self.plane) };
+        let chosen = self.set.iter().zip(self.own_planes()).filter(|(piece, _)| piece.face == face);
+        // Of several pieces of a face, one may be perpendicular to an axis only as all are.
+        let of_chosen = chosen.map(|(_, (counts, is_axial))| score(&counts, is_axial));
+        let least = self.own_planes().map(|(counts, is_axial)| score(&counts, is_axial));
+        [of_chosen.fold(f64::INFINITY, f64::min), least.fold(f64::INFINITY, f64::min)]
+    }
+}
+
+/// All nodes of a tree that was built without a tolerance, with the sets that were divided there:
+/// cut anew, in rationals.
+fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
+    let faces = tree.faces();
+    assert_eq!(faces.tolerance(), 0.0);
+    let exact: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
+    let total = |p: &Partition| {
+        let ranges = [&p.on, &p.front, &p.back];
+        let used = || ranges.into_iter().filter(|range| !range.is_empty());
+        let start = used().map(|range| range.start).min().expect("a fragment");
+        (p.depth, start..used().map(|range| range.end).max().expect("a fragment"))
+    };
+    let named: HashMap<_, Partition> = tree.partitions().map(|p| (total(&p), p)).collect();
+    let whole = |face: u32| Piece { face, outline: exact[face as usize].outline() };
+    let all = (0..faces.len() as u32).map(whole).collect();
+    let mut pending: Vec<(_, Vec<Piece>)> = vec![((1, 0..tree.len() as u32), all)];
+    let mut seen = 0;
+    while let Some((at, set)) = pending.pop() {
+        let Some(node) = named.get(&at) else {
+            assert_eq!((at.1.len(), set.len()), (1, 1), "no node divides {at:?}");
+            continue;
+        };
+        seen += 1;
+        let plane = model::plane(faces, node.plane());
+        let sides = divided(&set, node.plane(), &plane);
+        let found = sides.each_ref().map(Vec::len);
+        assert_eq!(found[0], node.on.len(), "on {:?}", node.plane());
+        let counts = Counts::of(&plane, &set);
+        visit(&Divided { faces, exact: &exact, plane: node.plane(), counts, set });
+        let [_, front, back] = sides;
+        for (range, set) in [(&node.front, front), (&node.back, back)] {
+            assert_eq!(range.is_empty(), set.is_empty());
+            if !set.is_empty() {
+                pending.push(((at.0 + 1, range.clone()), set));
+            }
+        }
+    }
+    assert_eq!(seen, named.len(), "nodes that no path leads to");
+}
+
+/// What of a set is on a plane, in front, and behind.
+fn divided(set: &[Piece], id: PlaneId, plane: &Plane) -> [Vec<Piece>; 3] {
+    let mut sides = [vec![], vec![], vec![]];
+    for piece in set {
+        let values = piece.values(plane);
+        let reaches = |side| values.iter().any(|value| rational::sign(value) == side);
+        let (in_front, behind) =
+            (reaches(std::cmp::Ordering::Greater), reaches(std::cmp::Ordering::Less));
+        match (in_front, behind) {
+            (false, false) => sides[0].push(piece.clone()),
+            (true, false) => sides[1].push(piece.clone()),
+            (false, true) => sides[2].push(piece.clone()),
+            (true, true) => {
+                for (side, behind) in [(1, false), (2, true)] {
+                    let outline: Vec<Vertex> = clip(&piece.outline, &values, id, behind);
+                    assert!(outline.iter().any(|v| v.line == Line::cut(id, behind)));
+                    sides[side].push(Piece { face: piece.face, outline });
+                }
+            }
+        }
+    }
+    sides
+}
+
+/// A scene on a small lattice, of one of several kinds.
+fn scene(dice: &mut Dice, count: usize) -> Vec<Corners> {
+    let wide = 2 + dice.below(8) as u32;
+    let kind = dice.below(3);
+    let point = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(wide)));
+    (0..count)
+        .map(|_| match kind {
+            0 => vec![point(dice), point(dice), point(dice)],
+            1 => {
+                // Small ones apart, so that free planes cut nothing.
+                let at = point(dice) * 4.0;
+                [0; 3].map(|_| at + point(dice) / 4.0).to_vec()
+            }
+            _ => {
+                // Squares perpendicular to an axis.
+                let (at, axis) = (point(dice), dice.below(3));
+                let square = shapes::square(binspace::glam::DMat3::IDENTITY, DVec3::ZERO);
+                let turned = |p: DVec3| {
+                    let mut turned = [p.x, p.y, p.z];
+                    turned.rotate_right(2 - axis);
+                    DVec3::from_array(turned) + at
+                };
+                square.into_iter().map(turned).collect()
+            }
+        })
+        .collect()
+}
+
+fn build(scene: &[Corners], by: Heuristic) -> BspTree {
+    BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0).build(scene).expect("finite")
+}
+
+/// Visits the nodes of trees of many scenes that divide at least two pieces; how many there were.
+fn each(by: Heuristic, scenes: u64, count: usize, mut visit: impl FnMut(&Divided<'_>)) -> usize {
+    let mut found = 0;
+    for seed in 0..scenes {
+        let scene = scene(&mut Dice(seed), 2 + (seed as usize * 5) % count);
+        nodes(&build(&scene, by), |node| {
+            if node.set.len() >= 2 {
+                visit(node);
+                found += 1;
+            }
+        });
+    }
+    found
+}
+
+fn assert_least(by: Heuristic, score: impl Fn(&Counts, bool) -> f64) {
+    let mut choices = 0;
+    let found = each(by, 24, 14, |node| {
+        let [chosen, least] = node.scores(&score);
+        assert!(chosen <= least + 1e-9, "{by}: {chosen}, not {least}, by {:?}", node.plane);
+        let most = node.own_planes().map(|(c, axial)| score(&c, axial)).fold(-1e300, f64::max);
+        choices += usize::from(most > least);
+    });
+    // Where all planes are alike, nothing is chosen.
+    assert!(found > 150 && choices > 80, "{by}: {found} nodes, {choices} choices");
+}
+
+#[test]
+fn first_takes_the_plane_of_the_first_polygon() {
+    let mut later = 0;
+    let found = each(Heuristic::First, 24, 14, |node| {
+        let first = node.set.iter().map(|piece| piece.face).min().expect("a piece");
+        assert_eq!(node.plane, PlaneId::face(first));
+        later += usize::from(node.set[0].face != first || first > 0);
+    });
+    assert!(found > 150 && later > 100, "{found} {later}");
+}
+
+#[test]
+fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
+    let planes = |seed: u64| {
+        let mut planes = Vec::new();
+        each(Heuristic::Random { seed }, 16, 12, |node| {
+            let PlaneKind::Face(face) = node.plane.kind() else { panic!("{:?}", node.plane) };
+            assert!(node.set.iter().any(|piece| piece.face == face));
+            planes.push(face);
+        });
+        assert!(planes.len() > 100, "{}", planes.len());
+        planes
+    };
+    let some: Vec<Vec<u32>> = (0..6).map(planes).collect();
+    assert_eq!(some[3], planes(3));
+    for (i, a) in some.iter().enumerate() {
+        assert!(some[..i].iter().all(|b| a != b), "seed {i}");
+    }
+    // Of many seeds, each polygon of a set is the choice of some: none is left out.
+    let scene: Vec<Corners> = scene(&mut Dice(4), 5);
+    let roots =
+        (0..200).filter_map(|seed| build(&scene, Heuristic::Random { seed }).partitions().next());
+    let mut counts = [0; 5];
+    for root in roots {
+        let PlaneKind::Face(face) = root.plane().kind() else { panic!("{:?}", root.plane()) };
+        counts[face as usize] += 1;
+    }
+    assert!(counts.iter().all(|&count| count >= 20), "{counts:?}");
+}
+
+#[test]
+fn fewest_splits_takes_a_plane_than_which_none_cuts_fewer() {
+    assert_least(Heuristic::FewestSplits, |c, _| c.splits as f64 * 1e3 + c.imbalance());
+}
+
+#[test]
+fn balanced_takes_a_plane_than_which_none_divides_more_evenly() {
+    assert_least(Heuristic::Balanced, |c, _| c.imbalance() * 1e3 + c.splits as f64);
+}
+
+#[test]
+fn weighted_takes_a_plane_of_least_weighted_sum() {
+    for (splits, balance) in [(8.0, 1.0), (1.0, 3.0), (0.0, 1.0), (1.0, 0.0), (2.0, -1.0)] {
+        for axial in [0.0, 0.5, -2.0] {
+            let by = Heuristic::Weighted { splits, balance, axial };
+            let mut choices = 0;
+            let found = each(by, 9, 12, |node| {
+                let reward = axial * node.set.len() as f64;
+                let score = |c: &Counts, is_axial: bool| {
+                    let bonus = if is_axial { reward } else { 0.0 };
+                    splits * c.splits as f64 + balance * c.imbalance() - bonus
+                };
+                let [chosen, least] = node.scores(score);
+                assert!(chosen <= least + 1e-9, "{by}: {chosen}, not {least}");
+                choices += usize::from(node.own_planes().any(|(c, a)| score(&c, a) > least));
+            });
+            assert!(found > 40 && choices > 15, "{by}: {found} nodes, {choices} choices");
+        }
+    }
+}
+
+#[test]
+fn sampled_from_all_planes_takes_one_of_least_weighted_sum() {
+    assert_least(Heuristic::Sampled { candidates: 1000 }, |c, _| {
+        8.0 * c.splits as f64 + c.imbalance()
+    });
+}
+
+/// With one candidate there is no choice; with more, some choice is better.
+#[test]
+fn sampled_looks_at_more_planes_the_more_it_is_told_to() {
+    let sum = |candidates: u32| {
+        let mut sum = 0.0;
+        each(Heuristic::Sampled { candidates }, 16, 14, |node| {
+            sum += 8.0 * node.counts.splits as f64;
+        });
+        sum
+    };
+    assert!(sum(1) > 1.2 * sum(32), "{} {}", sum(1), sum(32));
+}
+
+#[test]
+fn free_planes_are_taken_wherever_one_separates_something_and_cost_least() {
+    let (mut free, mut own, mut clean) = (0, 0, 0);
+    each(Heuristic::FreePlanes, 40, 20, |node| {
+        let planes = node.free_planes();
+        let key = |c: &Counts| (c.splits > 0, c.cost());
+        match node.plane.kind() {
+            PlaneKind::Face(_) => {
+                assert!(planes.is_empty(), "{} pieces, {planes:?}", node.set.len());
+                own += 1;
+            }
+            PlaneKind::Axis(..) => {
+                assert!(node.counts.separates(node.set.len()), "{:?}", node.counts);
+                let least =
+                    planes.iter().map(key).min_by(|a, b| a.partial_cmp(b).expect("numbers"));
+                let (least, chosen) = (least.expect("the chosen one"), key(&node.counts));
+                // The logarithm is within one in a hundred, and enough balance is enough.
+                let n = node.set.len();
+                let work = |n: usize| n as f64 * (n.max(1) as f64).log2();
+                let enough = chosen.1 <= 1.03 * (work(n / 4) + work(n - n / 4));
+                let fits = chosen.1 <= 1.03 * least.1 || !chosen.0 && enough;
+                assert!(chosen.0 == least.0 && fits, "{chosen:?}, not {least:?}, of {n}");
+                free += 1;
+                clean += usize::from(!chosen.0);
+            }
+        }
+    });
+    assert!(free > 150 && own > 30 && clean > 50 && clean < free, "{free} {own} {clean}");
+}
+
+/// In scenes that are built once: those of at most 200 faces are built for a frame.
+#[test]
+fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
+    let (mut clean, mut cut) = (0, 0);
+    for seed in [1, 2, 4] {
+        let scene = scene(&mut Dice(seed), 210);
+        let tree = build(&scene, Heuristic::Auto);
+        assert!(tree.faces().len() > 200, "{}", tree.faces().len());
+        nodes(&tree, |node| {
+            if node.free_planes().iter().any(|counts| counts.splits == 0) {
+                assert_eq!(node.counts.splits, 0, "{} pieces, seed {seed}", node.set.len());
+                clean += 1;
+            } else {
+                cut += usize::from(node.counts.splits > 0);
+            }
+        });
+    }
+    assert!(clean > 300 && cut > 25, "{clean} {cut}");
+}
+
+/// Squares of z = x² + y² over a grid of integers: exactly planar, in exactly convex position.
+fn bowl(across: i32) -> Vec<Corners> {
+    let at = |x: i32, y: i32| DVec3::new(x.into(), y.into(), (x * x + y * y).into());
+    let half = across / 2;
+    let cells = (-half..across - half).flat_map(|x| (-half..across - half).map(move |y| (x, y)));
+    cells.map(|(x, y)| vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)]).collect()
+}
+
+#[test]
+fn auto_never_cuts_sets_in_convex_position() {
+    for across in [2, 5, 14, 15, 25, 40] {
+        for shear in [0.0, 1.0, 3.0] {
+            // Sheared, no free plane follows it.
+            let place = |p: DVec3| DVec3::new(p.x + shear * p.z, p.y - shear * p.x, p.z);
+            let scene: Vec<Corners> =
+                bowl(across).into_iter().map(|p| p.into_iter().map(place).collect()).collect();
+            let tree = build(&scene, Heuristic::Auto);
+            assert_eq!(tree.len(), scene.len(), "{across}, {shear}");
+        }
+    }
+}
+
+#[test]
+fn no_heuristic_cuts_sets_in_one_plane_by_their_own_plane() {
+    for count in [3, 30, 300] {
+        let mut dice = Dice(count as u64);
+        let mut point = || {
+            let [x, y] = [dice.around_zero(40), dice.around_zero(40)];
+            DVec3::new(x, y, x + 2.0 * y)
+        };
+        let scene: Vec<Corners> = (0..count).map(|_| vec![point(), point(), point()]).collect();
+        for &by in Heuristic::ALL.iter().filter(|&&by| by != Heuristic::FreePlanes) {
+            let tree = build(&scene, by);
+            assert_eq!(
+                (tree.len(), tree.stats().nodes),
+                (tree.faces().len(), 1),
+                "{count} by {by}"
+            );
+        }
+    }
+}

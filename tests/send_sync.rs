@@ -1,0 +1,79 @@
+//! Public types are `Send` and `Sync`: trees above all, with everything that they return.
+
+use binspace::internals::{
+    Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Lattice, Line, Piece, PlaneId,
+    PlaneKind, Preparation, Side, Symbol, SymbolKind,
+};
+use binspace::raster::{Comparison, DepthImage, Image};
+use binspace::scene::{Builtin, Material, Scene};
+use binspace::view::{Camera, CameraError, Projection};
+use binspace::{
+    BspTree, BuildOptions, Error, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError,
+    Partition, Progress, Stats, Verification, Viewpoint,
+};
+
+/// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
+macro_rules! assert_shared {
+    ($($type:ty),* $(,)?) => {
+        const _: () = {
+            const fn is_shared<T: Send + Sync>() {}
+            $(is_shared::<$type>();)*
+        };
+    };
+}
+
+// Trees, and what they hand out.
+assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Partition, Stats, Viewpoint,);
+
+// Building, and what can go wrong.
+assert_shared!(BuildOptions, Heuristic, Progress, Error, Invalid, ParseHeuristicError, CameraError,);
+
+// Geometry.
+assert_shared!(
+    Faces,
+    Preparation,
+    Lattice,
+    Exact,
+    ExactSplitter,
+    ExactStored,
+    ExactVertex,
+    Eye,
+    Line,
+    Piece<'_, ExactVertex>,
+    PlaneId,
+    PlaneKind,
+    Side,
+    Symbol,
+    SymbolKind,
+);
+
+// Scenes, cameras, pictures.
+assert_shared!(
+    Scene,
+    Material,
+    Builtin,
+    Camera,
+    Projection,
+    Image,
+    DepthImage,
+    Comparison,
+    Verification,
+);
+
+#[cfg(feature = "obj")]
+assert_shared!(binspace::scene::ObjError, binspace::scene::ObjReport);
+
+#[test]
+fn a_tree_is_ordered_by_several_threads_at_once() {
+    let tree = BspTree::build(binspace::scene::random_triangles(200, 1).polygons()).unwrap();
+    let order = || {
+        let mut order = Vec::new();
+        tree.back_to_front_into(Viewpoint::eye([3.0, 1.0, 2.0]), &mut order);
+        order
+    };
+    let expected = order();
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..4).map(|_| scope.spawn(order)).collect();
+        assert!(threads.into_iter().all(|thread| thread.join().unwrap() == expected));
+    });
+}

@@ -1,0 +1,88 @@
+//! The cells of a tree: which side of each plane a fragment is said to be on, and whether a point
+//! is there, exactly.
+
+use binspace::BspTree;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use super::exact::{Plane, Spot};
+use super::ray::Targets;
+
+/// A partition plane and the fragments around it.
+struct Node {
+    plane: Plane,
+    parent: Option<usize>,
+    on: Range<u32>,
+    front: Range<u32>,
+    back: Range<u32>,
+}
+
+pub(crate) struct Cells {
+    nodes: Vec<Node>,
+    /// The last node above each fragment.
+    above: Vec<Option<usize>>,
+}
+
+impl Cells {
+    pub(crate) fn new(targets: &Targets<'_>, tree: &BspTree) -> Self {
+        let mut nodes: Vec<Node> = Vec::new();
+        let mut above = vec![None; tree.len()];
+        // The last node seen at each depth.
+        let mut path: Vec<usize> = Vec::new();
+        for partition in tree.partitions() {
+            path.truncate(partition.depth - 1);
+            let index = nodes.len();
+            let plane = targets.named(tree, partition.plane());
+            let (on, front, back) = (partition.on, partition.front, partition.back);
+            for range in [&on, &front, &back] {
+                above[range.start as usize..range.end as usize].fill(Some(index));
+            }
+            nodes.push(Node { plane, parent: path.last().copied(), on, front, back });
+            path.push(index);
+        }
+        Self { nodes, above }
+    }
+
+    /// Whether two fragments are said to lie on one plane.
+    pub(crate) fn share_a_plane(&self, a: u32, b: u32) -> bool {
+        let [above, other] = [a, b].map(|fragment| self.above[fragment as usize]);
+        above.is_some_and(|node| {
+            self.nodes[node].on.contains(&a) && self.nodes[node].on.contains(&b)
+        }) && above == other
+    }
+
+    /// Whether a point of a fragment's polygon is in the cell of the fragment: inside, on its
+    /// border, or (`None`) not; an error if the fragment is said to lie on a plane that is not
+    /// where the point is.
+    pub(crate) fn within(&self, fragment: u32, spot: &Spot) -> Result<Option<Border>, String> {
+        let mut border = Border::Inside;
+        let mut next = self.above[fragment as usize];
+        while let Some(index) = next {
+            let node = &self.nodes[index];
+            let side = node.plane.side(spot);
+            if node.on.contains(&fragment) {
+                if side.is_ne() {
+                    return Err(format!("fragment {fragment} is not on the plane of node {index}"));
+                }
+            } else if node.front.contains(&fragment) || node.back.contains(&fragment) {
+                let is_front = node.front.contains(&fragment);
+                match (side, is_front) {
+                    (Ordering::Equal, _) => border = Border::On,
+                    (Ordering::Greater, true) | (Ordering::Less, false) => {}
+                    _ => return Ok(None),
+                }
+            } else {
+                return Err(format!("fragment {fragment} is not at node {index}"));
+            }
+            next = node.parent;
+        }
+        Ok(Some(border))
+    }
+}
+
+/// Where in a cell a point is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Border {
+    Inside,
+    On,
+}

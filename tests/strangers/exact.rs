@@ -1,0 +1,159 @@
+//! Planes and signs in big integers.
+
+use num_bigint::{BigInt, Sign};
+use num_traits::{Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
+
+use super::scene::{Point, minus};
+
+/// A vector of whole numbers below 2¹²⁰.
+pub(crate) type Vector = [i128; 3];
+
+pub(crate) type Big = [BigInt; 3];
+
+pub(crate) fn big(v: Vector) -> Big {
+    v.map(BigInt::from)
+}
+
+pub(crate) fn wide(p: Point) -> Vector {
+    p.map(i128::from)
+}
+
+pub(crate) fn float(value: &BigInt) -> f64 {
+    value.to_f64().expect("a number in range")
+}
+
+pub(crate) fn scalar(a: &Big, b: &Big) -> BigInt {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+pub(crate) fn product(a: &Big, b: &Big) -> Big {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
+
+pub(crate) fn sign(value: &BigInt) -> Ordering {
+    match value.sign() {
+        Sign::Minus => Ordering::Less,
+        Sign::NoSign => Ordering::Equal,
+        Sign::Plus => Ordering::Greater,
+    }
+}
+
+/// Rounding in `f64` is believed beyond this share of the sum of magnitudes: a hundred times what
+/// a dozen operations can lose.
+const BELIEVED: f64 = 1e-13;
+
+/// The sign of the determinant of three rows.
+pub(crate) fn turn(rows: [&Vector; 3]) -> Ordering {
+    let [a, b, c] = rows.map(|row| row.map(|x| x as f64));
+    let (mut value, mut size) = (0.0, 0.0);
+    for (i, x) in a.iter().enumerate() {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (plus, minus) = (x * b[j] * c[k], x * b[k] * c[j]);
+        value += plus - minus;
+        size += plus.abs() + minus.abs();
+    }
+    if value.abs() > BELIEVED * size {
+        return if value > 0.0 { Ordering::Greater } else { Ordering::Less };
+    }
+    let [a, b, c] = rows.map(|&row| big(row));
+    sign(&scalar(&a, &product(&b, &c)))
+}
+
+/// A plane: normal · x = offset.
+#[derive(Clone, Debug)]
+pub(crate) struct Plane {
+    pub(crate) normal: Big,
+    pub(crate) offset: BigInt,
+    /// The same, rounded.
+    pub(crate) rounded: [f64; 4],
+}
+
+impl Plane {
+    pub(crate) fn new(normal: Big, point: Point) -> Self {
+        let offset = scalar(&normal, &big(wide(point)));
+        let [x, y, z] = normal.each_ref().map(float);
+        let rounded = [x, y, z, float(&offset)];
+        Self { normal, offset, rounded }
+    }
+
+    /// The plane of a polygon: twice its area vector is the normal.
+    pub(crate) fn of(polygon: &[Point]) -> Self {
+        let first = polygon[0];
+        let from_first = |p: Point| big(wide(minus(p, first)));
+        let mut normal = [0, 0, 0].map(BigInt::from);
+        for pair in polygon[1..].windows(2) {
+            let part = product(&from_first(pair[0]), &from_first(pair[1]));
+            normal.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+        }
+        Self::new(normal, first)
+    }
+
+    pub(crate) fn across(axis: usize, at: i64) -> Self {
+        let mut normal = [0, 0, 0].map(BigInt::from);
+        normal[axis] = 1.into();
+        Self::new(normal, [at; 3])
+    }
+
+    /// Whether it has a direction.
+    pub(crate) fn is_proper(&self) -> bool {
+        self.normal.iter().any(|c| !c.is_zero())
+    }
+
+    pub(crate) fn at(&self, p: Point) -> BigInt {
+        scalar(&self.normal, &big(wide(p))) - &self.offset
+    }
+
+    /// The first of the axes along which the normal is longest.
+    pub(crate) fn main_axis(&self) -> usize {
+        let size = |axis: usize| self.normal[axis].abs();
+        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    }
+
+    pub(crate) fn length(&self) -> f64 {
+        let [x, y, z, _] = self.rounded;
+        (x * x + y * y + z * z).sqrt()
+    }
+
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        let parallel = product(&self.normal, &other.normal).iter().all(Zero::is_zero);
+        let axis = self.main_axis();
+        parallel && &self.offset * &other.normal[axis] == &other.offset * &self.normal[axis]
+    }
+
+    /// On which side a point is.
+    pub(crate) fn side(&self, spot: &Spot) -> Ordering {
+        let ([a, b, c, d], [x, y, z]) = (self.rounded, spot.rounded);
+        let (value, size) =
+            (a * x + b * y + c * z - d, (a * x).abs() + (b * y).abs() + (c * z).abs() + d.abs());
+        if value.abs() > BELIEVED * size {
+            return if value > 0.0 { Ordering::Greater } else { Ordering::Less };
+        }
+        sign(&(scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator))
+    }
+
+    /// How far from it a point is, rounded; of the sign of its side.
+    pub(crate) fn distance(&self, spot: &Spot) -> f64 {
+        let value = scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator;
+        float(&value) / float(&spot.denominator) / self.length()
+    }
+}
+
+/// A point of fractions: numerators over a denominator above 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Spot {
+    pub(crate) numerators: Big,
+    pub(crate) denominator: BigInt,
+    pub(crate) rounded: [f64; 3],
+}
+
+impl Spot {
+    pub(crate) fn new(numerators: Big, denominator: BigInt) -> Self {
+        let below = float(&denominator);
+        let rounded = numerators.each_ref().map(|c| float(c) / below);
+        Self { numerators, denominator, rounded }
+    }
+}

@@ -1,0 +1,169 @@
+//! Rays against the polygons as they were given: what is hit, exactly sorted.
+
+use num_bigint::BigInt;
+use std::cmp::Ordering;
+
+use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
+use super::scene::{Point, Scene, minus, world};
+use binspace::BspTree;
+use binspace::glam::DVec3;
+use binspace::internals::{PlaneId, PlaneKind};
+
+/// The points (origin / below) + s · direction, s above 0, or, if it is endless, any.
+#[derive(Clone, Debug)]
+pub(crate) struct Ray {
+    pub(crate) origin: Vector,
+    pub(crate) below: i128,
+    pub(crate) direction: Vector,
+    pub(crate) endless: bool,
+}
+
+/// Where a ray meets a polygon.
+#[derive(Clone, Debug)]
+pub(crate) struct Hit {
+    pub(crate) polygon: usize,
+    pub(crate) spot: Spot,
+    /// How far along the ray: a fraction, the denominator above 0.
+    depth: [BigInt; 2],
+    rounded: f64,
+}
+
+impl Hit {
+    fn depth_order(&self, other: &Self) -> Ordering {
+        let (a, b) = (self.rounded, other.rounded);
+        if (a - b).abs() > 1e-12 * (a.abs() + b.abs()) {
+            return a.total_cmp(&b);
+        }
+        (&self.depth[0] * &other.depth[1]).cmp(&(&other.depth[0] * &self.depth[1]))
+    }
+}
+
+/// A scene made ready for rays.
+pub(crate) struct Targets<'s> {
+    pub(crate) scene: &'s Scene,
+    pub(crate) planes: Vec<Plane>,
+    /// Centres and radii of balls around the polygons, generous.
+    balls: Vec<(DVec3, f64)>,
+}
+
+impl<'s> Targets<'s> {
+    /// Panics unless all polygons are planar and have area: the judge's own claim.
+    pub(crate) fn new(scene: &'s Scene) -> Self {
+        let planes: Vec<Plane> = scene.polygons.iter().map(|p| Plane::of(p)).collect();
+        for (polygon, plane) in scene.polygons.iter().zip(&planes) {
+            assert!(plane.is_proper(), "{}: {polygon:?} has no area", scene.name);
+            assert!(
+                polygon.iter().all(|&p| sign(&plane.at(p)).is_eq()),
+                "{}: {polygon:?} is not planar",
+                scene.name
+            );
+            assert!(is_convex(polygon, plane), "{}: {polygon:?} is not convex", scene.name);
+        }
+        let ball = |polygon: &Vec<Point>| {
+            let sum: DVec3 = polygon.iter().map(|&p| world(p)).sum();
+            let centre = sum / polygon.len() as f64;
+            let radius = polygon.iter().map(|&p| world(p).distance(centre)).fold(0.0, f64::max);
+            (centre, radius)
+        };
+        let balls = scene.polygons.iter().map(ball).collect();
+        Self { scene, planes, balls }
+    }
+
+    /// A plane by its name, from the corners as they were given.
+    pub(crate) fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
+        let faces = tree.faces();
+        match id.kind() {
+            PlaneKind::Face(face) => self.planes[faces.polygon(face)].clone(),
+            PlaneKind::Axis(axis, corner) => {
+                let at = faces.lattice().to_world(faces.corner(corner))[axis];
+                Plane::across(axis, at as i64)
+            }
+        }
+    }
+
+    /// What a ray meets, the furthest first; what is met at the same place stands together.
+    pub(crate) fn hits(&self, ray: &Ray) -> Vec<Vec<Hit>> {
+        let origin = DVec3::from_array(ray.origin.map(|c| c as f64 / ray.below as f64));
+        let along = DVec3::from_array(ray.direction.map(|c| c as f64)).normalize();
+        let mut hits = Vec::new();
+        for (polygon, &(centre, radius)) in self.balls.iter().enumerate() {
+            // The rounding of the origin's and the centre's coordinates, a thousand times over.
+            let slack = 1e-12 * (origin.abs().max_element() + centre.abs().max_element());
+            if along.cross(centre - origin).length() <= radius * 1.001 + slack {
+                hits.extend(self.hit(ray, polygon));
+            }
+        }
+        hits.sort_by(|a, b| b.depth_order(a).then(a.polygon.cmp(&b.polygon)));
+        let mut groups: Vec<Vec<Hit>> = Vec::new();
+        for hit in hits {
+            match groups.last_mut() {
+                Some(group) if group[0].depth_order(&hit).is_eq() => group.push(hit),
+                _ => groups.push(vec![hit]),
+            }
+        }
+        groups
+    }
+
+    fn hit(&self, ray: &Ray, polygon: usize) -> Option<Hit> {
+        let corners = &self.scene.polygons[polygon];
+        let from_origin = |p: Point| -> Vector {
+            std::array::from_fn(|i| i128::from(p[i]) * ray.below - ray.origin[i])
+        };
+        let arms: Vec<Vector> = corners.iter().map(|&p| from_origin(p)).collect();
+        let mut seen = [false; 2];
+        for (i, a) in arms.iter().enumerate() {
+            match turn([&ray.direction, a, &arms[(i + 1) % arms.len()]]) {
+                Ordering::Greater => seen[0] = true,
+                Ordering::Less => seen[1] = true,
+                Ordering::Equal => {}
+            }
+            if seen == [true; 2] {
+                return None;
+            }
+        }
+        let plane = &self.planes[polygon];
+        let (origin, direction) = (big(ray.origin), big(ray.direction));
+        let mut slope = scalar(&plane.normal, &direction);
+        let mut start = &plane.offset * ray.below - scalar(&plane.normal, &origin);
+        match sign(&slope) {
+            // A polygon that is seen from its edge hides nothing.
+            Ordering::Equal => return None,
+            Ordering::Less => (slope, start) = (-slope, -start),
+            Ordering::Greater => {}
+        }
+        if !ray.endless && sign(&start).is_le() {
+            return None;
+        }
+        let numerators: Big = std::array::from_fn(|i| &origin[i] * &slope + &start * &direction[i]);
+        let rounded = float(&start) / float(&slope);
+        let spot = Spot::new(numerators, &slope * ray.below);
+        Some(Hit { polygon, spot, depth: [start, slope], rounded })
+    }
+}
+
+/// Whether all corners turn one way.
+fn is_convex(polygon: &[Point], plane: &Plane) -> bool {
+    let n = polygon.len();
+    let arm = |k: usize| -> Big {
+        let (a, b) = (polygon[k % n], polygon[(k + 1) % n]);
+        big(wide(minus(b, a)))
+    };
+    (0..n).all(|k| {
+        let turn = product(&arm(k), &arm(k + 1));
+        sign(&scalar(&turn, &plane.normal)).is_ge()
+    })
+}
+
+impl Ray {
+    /// Whether all of it lies in a plane.
+    pub(crate) fn is_in(&self, plane: &Plane) -> bool {
+        let start = scalar(&plane.normal, &big(self.origin)) - &plane.offset * self.below;
+        sign(&start).is_eq() && sign(&scalar(&plane.normal, &big(self.direction))).is_eq()
+    }
+
+    /// How far from a plane it begins; nowhere if it is endless.
+    pub(crate) fn start_from(&self, plane: &Plane) -> Option<f64> {
+        let eye = Spot::new(big(self.origin), self.below.into());
+        (!self.endless).then(|| plane.distance(&eye))
+    }
+}

@@ -1,0 +1,97 @@
+//! Which orders the coplanar tolerance leaves open, and which not: the statements of README.md.
+
+use binspace::glam::{DVec2, DVec3, dvec3};
+use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+
+/// A rectangle at a height.
+fn layer(low: DVec2, high: DVec2, z: f64) -> [DVec3; 4] {
+    [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(|corner| corner.extend(z))
+}
+
+/// Whether a ray meets a convex polygon.
+fn is_met(outline: &[DVec3], eye: DVec3, target: DVec3) -> bool {
+    let side = |i: usize| {
+        let (from, to) = (outline[i], outline[(i + 1) % outline.len()]);
+        (from - eye).cross(to - eye).dot(target - eye)
+    };
+    let sides: Vec<f64> = (0..outline.len()).map(side).collect();
+    sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
+}
+
+/// The polygon that shows where one looks from an eye to a target: the last one painted.
+fn shown(tree: &BspTree, eye: DVec3, target: DVec3) -> usize {
+    let mut painted = Vec::new();
+    for fragment in tree.back_to_front(Viewpoint::Eye(eye)) {
+        let outline: Vec<DVec3> = fragment.vertices().collect();
+        if is_met(&outline, eye, target) {
+            painted.push(fragment.polygon());
+        }
+    }
+    assert!(painted.len() > 1, "nothing to confuse: {painted:?}");
+    *painted.last().unwrap()
+}
+
+fn built(polygons: &[[DVec3; 4]], tolerance: Option<f64>) -> BspTree {
+    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+    let options = tolerance.map_or(options, |length| options.with_tolerance(length));
+    options.build(polygons).unwrap()
+}
+
+/// One layer above the plane of a third polygon and one below it, by less than the tolerance each.
+#[test]
+fn layers_up_to_twice_the_tolerance_apart_may_be_exchanged_and_none_further_apart() {
+    let tolerance = 1e-3;
+    let wide = [DVec2::splat(-1.0), DVec2::splat(1.0)];
+    let aside = layer(DVec2::splat(5.0), DVec2::splat(6.0), 0.0);
+    let shown_at = |gap: f64, tolerance: f64| {
+        let [upper, lower] = [0.5, -0.5].map(|half| layer(wide[0], wide[1], half * gap));
+        let tree = built(&[aside, upper, lower], Some(tolerance));
+        shown(&tree, dvec3(0.1, 0.2, 50.0), dvec3(0.1, 0.2, 0.0))
+    };
+    let (upper, lower) = (1, 2);
+    assert_eq!(shown_at(1.9 * tolerance, tolerance), lower, "in input order, as if coplanar");
+    assert_eq!(shown_at(2.1 * tolerance, tolerance), upper);
+    assert_eq!(shown_at(1.9 * tolerance, 0.0), upper);
+}
+
+/// A near wall that reaches below the plane of a floor, and a far one that reaches above it, by
+/// less than the tolerance each. The eye is a hundred tolerances away from that plane, but its
+/// ray keeps within the tolerance from one wall to the other.
+#[test]
+fn polygons_far_apart_may_be_exchanged_along_a_ray_that_keeps_within_the_tolerance_of_a_plane() {
+    let unit = 1e-3;
+    let wall = |x: f64, low: f64, high: f64| {
+        [dvec3(x, -1.0, low), dvec3(x, 1.0, low), dvec3(x, 1.0, high), dvec3(x, -1.0, high)]
+    };
+    let floor = layer(DVec2::new(3.0, 5.0), DVec2::new(4.0, 6.0), 0.0);
+    let polygons = [floor, wall(1.0, -0.5 * unit, 1.0), wall(2.0, -1.0, 0.5 * unit)];
+    let (near, far) = (1, 2);
+    // From 0.4 units below the plane at the near wall to 0.4 units above it at the far one.
+    let rise = 0.8 * unit;
+    let eye = |distance: f64| dvec3(1.0 - distance, 0.1, -0.4 * unit - distance * rise);
+    let target = dvec3(1.0, 0.1, -0.4 * unit);
+    let eye = eye(125.0);
+    assert!(eye.z < -100.0 * unit);
+    assert_eq!(shown(&built(&polygons, Some(unit)), eye, target), far);
+    assert_eq!(shown(&built(&polygons, Some(0.0)), eye, target), near);
+    // A ray that is steeper meets them in their order.
+    let (above, target) = (dvec3(-1.0, 0.1, 0.8), dvec3(2.0, 0.1, -0.1));
+    assert_eq!(shown(&built(&polygons, Some(unit)), above, target), near);
+}
+
+/// In metres: a millimetre between the layers, and a thousand kilometres to the stray vertex.
+#[test]
+fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
+    let wide = [DVec2::splat(-1.0), DVec2::splat(1.0)];
+    let [upper, lower] = [1e-3, 0.0].map(|z| layer(wide[0], wide[1], z));
+    let mut stray = layer(DVec2::splat(5.0), DVec2::splat(6.0), 2.0);
+    let look = |polygons: &[[DVec3; 4]], tolerance| {
+        shown(&built(polygons, tolerance), dvec3(0.1, 0.2, 50.0), dvec3(0.1, 0.2, 0.0))
+    };
+    assert_eq!(look(&[upper, lower, stray], None), 0);
+    stray[2].x = 1.000_01e6;
+    assert_eq!(look(&[upper, lower, stray], None), 1, "in input order, as if coplanar");
+    // Not so with a tolerance that is given as a length.
+    assert_eq!(look(&[upper, lower, stray], Some(1e-9)), 0);
+    assert_eq!(look(&[upper, lower, stray], Some(0.0)), 0);
+}
