@@ -5,12 +5,17 @@ use binspace::internals::{Exact, Faces};
 use binspace::{BuildOptions, Heuristic};
 use binspace_evidence::{Float, KernelTree};
 use std::time::{Duration, Instant};
-use support::{Table, Target, against, check, scene, time};
+use support::{Table, Target, against, check, rulings, scene, time};
 
 const SAMPLED: Heuristic = Heuristic::Sampled { candidates: 16 };
 
-/// The target is looser on lattices, where many points lie exactly on planes.
-const SCENES: [(&str, Heuristic, f64); 13] = [
+/// The target is looser on lattices, where many points lie exactly on planes, and on planes
+/// through one line, where most decisions are ties.
+const SCENES: [(&str, Heuristic, f64); 17] = [
+    ("rulings:60", SAMPLED, 3.0),
+    ("rulings:60", Heuristic::Auto, 3.0),
+    ("rulings:840", SAMPLED, 3.0),
+    ("rulings:840", Heuristic::Auto, 3.0),
     ("random:1000", SAMPLED, 1.3),
     ("random:1000", Heuristic::Auto, 1.3),
     ("bunny_4k.obj", SAMPLED, 1.3),
@@ -42,7 +47,11 @@ pub(crate) fn run() {
         ],
     );
     for (name, heuristic, target) in SCENES {
-        let Some(scene) = scene(name) else { continue };
+        let found = match name.strip_prefix("rulings:") {
+            Some(strips) => Some(rulings(strips.parse::<i32>().expect("a number") / 60)),
+            None => scene(name),
+        };
+        let Some(scene) = found else { continue };
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let (mut exact, mut epsilon) = (Duration::MAX, Duration::MAX);
         let mut pieces = [0; 2];

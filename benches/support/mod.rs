@@ -48,6 +48,27 @@ pub fn random_quads(count: u32) -> Scene {
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
 
+/// Strips along both families of lines of z = x y, 60 of them a patch: many planes hold one line,
+/// and many lines meet in one point.
+pub fn rulings(patches: i32) -> Scene {
+    const HALF: i32 = 15;
+    let mut scene = Scene::new(format!("rulings:{}", 4 * HALF * patches), DVec3::Z);
+    for patch in 0..patches {
+        let place = [patch % 4, patch / 4 % 4, 8 * (patch / 16)].map(|k| f64::from(200 * k));
+        for i in -HALF..HALF {
+            let along_x = [[i, -HALF, -HALF * i], [i, HALF, HALF * i]];
+            let along_y = along_x.map(|[x, y, z]| [y, x, z]);
+            let (flat, upright) = ((7 * i + patch).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
+            for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {
+                let [a, b] = line.map(|p| DVec3::from(place) + DVec3::from(p.map(f64::from)));
+                let arm = DVec3::from(arm.map(f64::from));
+                scene.push([a, b, b + arm, a + arm], 0);
+            }
+        }
+    }
+    scene
+}
+
 fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) -> Scene {
     let mut mapped = Scene::new(name, scene.up());
     for corners in scene.polygons() {
