@@ -119,6 +119,7 @@ proptest! {
         let (faces, report) = Faces::new([&polygon], None).expect("finite");
         prop_assert_eq!((faces.len(), report.triangulated, report.dropped), (1, 0, 0));
         prop_assert_eq!(faces.corners(0).len(), n);
+        assert_corners_are_the_input_s(&faces, 0, &polygon)?;
     }
 
     #[test]

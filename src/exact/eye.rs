@@ -128,3 +128,18 @@ fn largest(v: [f64; 3]) -> f64 {
 fn number(c: f64) -> f64 {
     if c.is_nan() { 0.0 } else { c }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Eye;
+
+    #[test]
+    fn directions_are_rounded_to_the_nearest() {
+        let unit = (1_i64 << 52) as f64;
+        // The largest component is 1, so these are the others in units of the last bit.
+        for (part, nearest) in [(0.25, 0), (0.75, 1), (-0.75, -1), (6.75, 7), (-6.25, -6)] {
+            let eye = Eye::towards([1.0, part / unit, -part / unit]);
+            assert_eq!(eye.integer(), [1 << 52, nearest, -nearest], "{part}");
+        }
+    }
+}

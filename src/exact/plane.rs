@@ -92,3 +92,23 @@ impl Plane {
 pub(crate) fn relative_to(numerator: Ordering, denominator: Ordering) -> Ordering {
     if denominator.is_lt() { numerator.reverse() } else { numerator }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Plane;
+
+    #[test]
+    fn of_equally_long_components_the_first_is_the_main_axis() {
+        let main_axis = |normal| Plane { normal, point: [0; 3] }.main_axis();
+        for (normal, axis) in [
+            ([5, 5, 5], 0),
+            ([5, -5, 5], 0),
+            ([-5, 5, 1], 0),
+            ([1, 5, -5], 1),
+            ([1, -2, 3], 2),
+            ([0, 0, -1], 2),
+        ] {
+            assert_eq!(main_axis(normal), axis, "{normal:?}");
+        }
+    }
+}

@@ -1,12 +1,13 @@
 //! `binspace` without a command: draws built-in scenes with every heuristic, and compares their
 //! pictures with a depth buffer's.
 
+use std::ops::AddAssign;
 use std::path::Path;
 
 use binspace::raster::{DepthImage, Rays, compare, zbuffer};
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Heuristic, paint_tree, verify};
+use binspace::{BspTree, BuildOptions, Heuristic, check_orders, paint_tree, verify};
 
 use super::Outcome;
 use crate::args::TourArgs;
@@ -37,6 +38,17 @@ struct Sum {
     covered: usize,
     contested: usize,
     wrong: usize,
+    /// Views whose orders miss or repeat a fragment, or are not the same in all their forms.
+    faulty_orders: usize,
+}
+
+impl AddAssign for Sum {
+    fn add_assign(&mut self, other: Self) {
+        self.covered += other.covered;
+        self.contested += other.contested;
+        self.wrong += other.wrong;
+        self.faulty_orders += other.faulty_orders;
+    }
 }
 
 /// A view of a scene with what a depth buffer shows in it.
@@ -52,10 +64,7 @@ pub(crate) fn run(args: &TourArgs) -> Result<Outcome, Failure> {
     let mut total = Sum::default();
     for (builtin, size) in SCENES {
         let scene = builtin.build(size, args.seed);
-        let found = show(args, builtin, &scene)?;
-        total.covered += found.covered;
-        total.contested += found.contested;
-        total.wrong += found.wrong;
+        total += show(args, builtin, &scene)?;
     }
     say("build: time to build the tree; order: time of an order, per fragment")?;
     say(format!("Wrote pictures of each scene into {}:", args.out.display()))?;
@@ -67,7 +76,7 @@ pub(crate) fn run(args: &TourArgs) -> Result<Outcome, Failure> {
         count(args.views as usize, "view"),
     ))?;
     say(verdict(&total))?;
-    Ok(if total.wrong == 0 { Outcome::Done } else { Outcome::Differs })
+    Ok(if total.wrong + total.faulty_orders == 0 { Outcome::Done } else { Outcome::Differs })
 }
 
 fn verdict(total: &Sum) -> String {
@@ -76,7 +85,12 @@ fn verdict(total: &Sum) -> String {
         1 => (BAD, "1 pixel is wrong".to_owned()),
         wrong => (BAD, format!("{wrong} pixels are wrong")),
     };
-    format!("  {}, {} contested", styled(style, found), total.contested)
+    let mut verdict = format!("  {}, {} contested", styled(style, found), total.contested);
+    if total.faulty_orders > 0 {
+        let faults = format!("the orders of {} are faulty", count(total.faulty_orders, "view"));
+        verdict += &format!("; {}", styled(BAD, faults));
+    }
+    verdict
 }
 
 /// A scene's table and pictures.
@@ -105,9 +119,7 @@ fn show(args: &TourArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure
         }
         let found = judge(&tree, &views, heuristic);
         say(row(&table, heuristic, (&tree, seconds), scene, &found))?;
-        total.covered += found.covered;
-        total.contested += found.contested;
-        total.wrong += found.wrong;
+        total += found;
         if heuristic == Heuristic::Auto {
             auto = Some(tree);
         }
@@ -142,6 +154,7 @@ fn judge(tree: &BspTree, views: &[View], heuristic: Heuristic) -> Sum {
         sum.covered += found.covered;
         sum.contested += found.contested;
         sum.wrong += found.wrong();
+        sum.faulty_orders += usize::from(check_orders(tree, view.camera.viewpoint()).is_err());
         progress.step();
     }
     sum
@@ -183,4 +196,23 @@ fn write_pictures(
     }
     let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
     file.write(|out| svg::write(out, tree, camera, scene))
+}
+
+#[cfg(test)]
+mod tests {
+    use anstream::adapter::strip_str;
+
+    use super::{Sum, verdict};
+
+    #[test]
+    fn whatever_is_wrong_is_told() {
+        let mut sum = Sum { covered: 9, contested: 1, ..Sum::default() };
+        let verdict = |sum: &Sum| strip_str(&verdict(sum)).to_string();
+        assert_eq!(verdict(&sum), "  no pixel is wrong, 1 contested");
+        sum.wrong = 2;
+        assert_eq!(verdict(&sum), "  2 pixels are wrong, 1 contested");
+        sum = Sum { faulty_orders: 1, ..Sum::default() };
+        let expected = "  no pixel is wrong, 0 contested; the orders of 1 view are faulty";
+        assert_eq!(verdict(&sum), expected);
+    }
 }
