@@ -111,7 +111,7 @@ impl fmt::Display for Error {
                 write!(f, "the polygons together have {limit} corners or more: divide the scene")
             }
             Kind::Tolerance { value } => {
-                write!(f, "the coplanar tolerance is {value}, but must be a length of 0 or more")
+                write!(f, "the coplanar tolerance is {value}, but must be 0 or more")
             }
             Kind::Polygons { limit } => write!(
                 f,

@@ -4,24 +4,30 @@ use glam::{DVec3, Vec3, Vec3A};
 
 /// A point of an input polygon.
 pub trait Point: Copy {
+    /// How precise a coordinate is: the distance from 1 to the next number that it could be.
+    /// `f32::EPSILON` for coordinates that are, or once were, `f32`.
+    const PRECISION: f64;
+
     /// The point in `f64`.
     fn to_dvec3(self) -> DVec3;
 }
 
 macro_rules! impl_point {
-    ($($type:ty: $self:ident => $value:expr;)*) => {
+    ($($type:ty, $number:ident: $self:ident => $value:expr;)*) => {
         $(impl Point for $type {
+            const PRECISION: f64 = $number::EPSILON as f64;
+
             fn to_dvec3($self) -> DVec3 { $value }
         })*
     };
 }
 
 impl_point! {
-    [f32; 3]: self => Vec3::from_array(self).as_dvec3();
-    [f64; 3]: self => DVec3::from_array(self);
-    Vec3: self => self.as_dvec3();
-    Vec3A: self => self.as_dvec3();
-    DVec3: self => self;
+    [f32; 3], f32: self => Vec3::from_array(self).as_dvec3();
+    [f64; 3], f64: self => DVec3::from_array(self);
+    Vec3, f32: self => self.as_dvec3();
+    Vec3A, f32: self => self.as_dvec3();
+    DVec3, f64: self => self;
 }
 
 /// An input polygon: its corners in order around it. The first corner is not repeated at the end.
@@ -32,16 +38,27 @@ impl_point! {
 /// ```
 /// use binspace::{BspTree, Polygon, glam::DVec3};
 ///
-/// struct Mesh { positions: Vec<DVec3>, quads: Vec<[usize; 4]> }
+/// struct Mesh { positions: Vec<[f32; 3]>, quads: Vec<[usize; 4]> }
 /// struct Quad<'a>(&'a Mesh, usize);
 ///
-/// impl Polygon for Quad<'_> {
-///     fn corners(&self) -> impl Iterator<Item = DVec3> {
-///         self.0.quads[self.1].iter().map(|&i| self.0.positions[i])
+/// impl Quad<'_> {
+///     fn points(&self) -> [[f32; 3]; 4] {
+///         self.0.quads[self.1].map(|i| self.0.positions[i])
 ///     }
 /// }
 ///
-/// # let mesh = Mesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y + DVec3::Z],
+/// impl Polygon for Quad<'_> {
+///     fn corners(&self) -> impl Iterator<Item = DVec3> {
+///         self.points().into_iter().map(|point| DVec3::from(point.map(f64::from)))
+///     }
+///
+///     // As for an array of these points: their type says that they are rounded to `f32`.
+///     fn precision(&self) -> f64 {
+///         self.points().precision()
+///     }
+/// }
+///
+/// # let mesh = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0; 3], [0.0, 1.0, 1.0]],
 /// #     quads: vec![[0, 1, 2, 3]] };
 /// let tree = BspTree::build((0..mesh.quads.len()).map(|i| Quad(&mesh, i)))?;
 /// # assert_eq!(tree.len(), 1);
@@ -51,11 +68,30 @@ pub trait Polygon {
     /// The corners, in order around the polygon. More than [`MAX_CORNERS`](crate::MAX_CORNERS) are an
     /// error, so an endless iterator is one as well.
     fn corners(&self) -> impl Iterator<Item = DVec3>;
+
+    /// How far a corner may be off the plane that it was meant to be on, a length. The default
+    /// tolerance is not below this; see [`Tolerance::Default`](crate::Tolerance::Default).
+    ///
+    /// Of arrays, vectors and slices it is four times [`Point::PRECISION`] of the polygon's largest
+    /// coordinate, about the rounding of a point that was turned by a matrix. For a type of your own
+    /// it is 0, which stands for `f64`, unless you say otherwise: do so if its coordinates are `f32`.
+    fn precision(&self) -> f64 {
+        0.0
+    }
 }
+
+/// Steps of the largest coordinate by which a computed point may be off its plane.
+/// Smaller: cards that a matrix put into one plane cut each other; larger: thin layers are merged.
+const STEPS: f64 = 4.0;
 
 impl<P: Point> Polygon for [P] {
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.iter().map(|point| point.to_dvec3())
+    }
+
+    fn precision(&self) -> f64 {
+        let sizes = self.iter().map(|point| point.to_dvec3().abs().max_element());
+        STEPS * P::PRECISION * sizes.fold(0.0, f64::max)
     }
 }
 
@@ -63,16 +99,28 @@ impl<P: Point, const N: usize> Polygon for [P; N] {
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.as_slice().corners()
     }
+
+    fn precision(&self) -> f64 {
+        self.as_slice().precision()
+    }
 }
 
 impl<P: Point> Polygon for Vec<P> {
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.as_slice().corners()
     }
+
+    fn precision(&self) -> f64 {
+        self.as_slice().precision()
+    }
 }
 
 impl<T: Polygon + ?Sized> Polygon for &T {
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         (**self).corners()
+    }
+
+    fn precision(&self) -> f64 {
+        (**self).precision()
     }
 }

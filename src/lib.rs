@@ -51,7 +51,7 @@ pub use build::{BuildOptions, Heuristic, ParseHeuristicError, Progress};
 pub use error::Error;
 #[cfg(feature = "raster")]
 pub use exact::Faces;
-pub use faces::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};
+pub use faces::{MAX_CORNERS, Preparation, Tolerance};
 pub use glam;
 pub use input::{Point, Polygon};
 pub use tree::{BspTree, Fragment, Fragments, Invalid, Ordered, Partition, Partitions, Stats};

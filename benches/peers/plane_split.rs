@@ -85,7 +85,8 @@ fn time_ours(scene: &Scene) -> Measured {
 
 fn time_theirs(scene: &Scene) -> Measured {
     let work = || {
-        let polygons: Vec<_> = scene.polygons().enumerate().map(polygon).collect();
+        let polygons: Vec<_> =
+            scene.polygons().enumerate().map(|(i, corners)| polygon(i, &corners)).collect();
         let mut splitter = BspSplitter::<usize>::new();
         let (build, ()) = best_of(1, || {
             splitter.reset();
@@ -105,7 +106,7 @@ fn time_theirs(scene: &Scene) -> Measured {
 }
 
 /// A triangle is a quad with a corner twice.
-fn polygon((index, corners): (usize, &[binspace::glam::DVec3])) -> plane_split::Polygon<usize> {
+fn polygon(index: usize, corners: &[binspace::glam::DVec3]) -> plane_split::Polygon<usize> {
     let point = |k: usize| {
         let corner = corners[k % corners.len()];
         Point3D::new(corner.x, corner.y, corner.z)

@@ -37,7 +37,8 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
     Failure::about(scene.name(), error)
 }
 
-/// Notes which faces were dropped, triangulated, or given more than once.
+/// Notes which faces were dropped, triangulated, or given more than once, and what the tolerance has
+/// to do with it.
 pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
@@ -51,9 +52,34 @@ pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparat
         let number = faces(found.crossing);
         format!("of these, {number} with crossing edges: the area covered is a guess")
     });
-    for problem in [dropped, triangulated, crossing, duplicates].into_iter().flatten() {
+    let tolerance = tolerance(scene, prepared, found);
+    for problem in [dropped, triangulated, crossing, duplicates, tolerance].into_iter().flatten() {
         note(&format!("{}: {problem}", scene.name()));
     }
+}
+
+/// What the user has to know of the tolerance: that it is too small for the faces, or, otherwise,
+/// that the file's decimals decided it.
+fn tolerance(scene: &Scene, prepared: &Faces, found: &Preparation) -> Option<String> {
+    let quads = scene.polygons().filter(|polygon| polygon.len() > 3).count();
+    if 2 * found.bent > quads {
+        return Some(format!(
+            "{} of {} with four corners or more are bent by at most {:.1e}, as by a rounding: \
+             `--tolerance {:.0e}` would keep them whole",
+            found.bent,
+            count(quads, "face"),
+            found.bent_by,
+            found.bent_by * 2.0,
+        ));
+    }
+    let used = prepared.lattice().length_to_world(prepared.tolerance());
+    (scene.precision() > 0.0 && (used / scene.precision() - 1.0).abs() < 1e-9).then(|| {
+        format!(
+            "the last decimal of its coordinates is {:e}: used as the tolerance, unless \
+             `--tolerance` gives another",
+            scene.precision(),
+        )
+    })
 }
 
 /// The first of the faces that were dropped, and how many more there are.

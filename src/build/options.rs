@@ -1,6 +1,7 @@
 //! The options of a build.
 
 use super::heuristic::Heuristic;
+use crate::faces::Tolerance;
 
 /// The options of a build; [`BspTree::build`](crate::BspTree::build) takes the defaults.
 ///
@@ -20,16 +21,9 @@ use super::heuristic::Heuristic;
 pub struct BuildOptions {
     /// How partition planes are chosen. Default: [`Heuristic::Auto`].
     pub heuristic: Heuristic,
-    /// The coplanar tolerance, a length in the polygons' unit: polygons that reach no further than
-    /// this from a plane count as lying on it. `None` stands for
-    /// [`DEFAULT_TOLERANCE`](crate::DEFAULT_TOLERANCE) (10⁻⁹) of the longest side of the scene's
-    /// bounding box, which one stray vertex makes larger. Default: `None`.
-    ///
-    /// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an
-    /// error. A tolerance that is too large, infinity included, is reduced to a fixed share of the
-    /// extent between 1/256 and 1/128. [`BspTree`](crate::BspTree#which-tolerance) says which to
-    /// take.
-    pub tolerance: Option<f64>,
+    /// The coplanar tolerance: polygons that reach no further than this from a plane count as lying
+    /// on it. Default: [`Tolerance::Default`], which follows the precision of the polygons.
+    pub tolerance: Tolerance,
     /// The most fragments that a tree may have, and the most polygons it may be built from.
     /// Exceeding it is an error; too many input polygons are rejected before the build starts, and
     /// before any is read if their iterator's size hint tells. Default: 2²⁵ (33 554 432 fragments,
@@ -44,7 +38,7 @@ impl BuildOptions {
     /// The defaults.
     pub const DEFAULT: Self = Self {
         heuristic: Heuristic::Auto,
-        tolerance: None,
+        tolerance: Tolerance::Default,
         max_fragments: 1 << 25,
         max_depth: usize::MAX,
     };
@@ -55,10 +49,16 @@ impl BuildOptions {
         Self { heuristic, ..self }
     }
 
-    /// Sets the coplanar tolerance, a length of 0 or more.
+    /// Sets the coplanar tolerance, a length of 0 or more in the polygons' unit.
     #[must_use]
-    pub const fn with_tolerance(self, tolerance: f64) -> Self {
-        Self { tolerance: Some(tolerance), ..self }
+    pub const fn with_tolerance(self, length: f64) -> Self {
+        Self { tolerance: Tolerance::Length(length), ..self }
+    }
+
+    /// Sets the coplanar tolerance, a share of the scene's extent of 0 or more.
+    #[must_use]
+    pub const fn with_relative_tolerance(self, share: f64) -> Self {
+        Self { tolerance: Tolerance::Relative(share), ..self }
     }
 
     /// Sets the most fragments.

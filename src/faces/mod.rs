@@ -6,4 +6,4 @@ mod prepare;
 mod triangulate;
 
 pub(crate) use listener::Listener;
-pub use prepare::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};
+pub use prepare::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation, Tolerance};

@@ -2,11 +2,14 @@
 
 mod collect;
 mod planar;
+mod tolerance;
 
 pub use collect::MAX_CORNERS;
 use collect::{Collected, collect};
 use glam::DVec3;
 use smallvec::SmallVec;
+use tolerance::Ground;
+pub use tolerance::{DEFAULT_TOLERANCE, Tolerance};
 
 use super::duplicates::Outlines;
 use super::listener::{Listener, Unheard};
@@ -18,20 +21,6 @@ use crate::input::Polygon;
 use crate::memory::reserve;
 use crate::parallel;
 
-/// The default coplanar tolerance as a share of the scene's extent, the longest side of its
-/// bounding box.
-///
-/// Larger: thin layers that are meant to be apart count as coplanar. Smaller: faces that are
-/// coplanar except for the rounding of their coordinates cut each other into slivers.
-///
-/// One stray vertex far off makes the extent larger, and with it the tolerance. Where that can
-/// happen, give the tolerance as a length.
-pub const DEFAULT_TOLERANCE: f64 = 1e-9;
-
-/// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are
-/// reduced to it, so that corners moved onto a plane fit the integers of the exact predicates.
-const LARGEST_TOLERANCE: f64 = crate::exact::LATTICE_LIMIT / 128.0;
-
 /// Polygons that one thread prepares as one job. Smaller: overhead per job; larger: threads wait
 /// for each other.
 const PART: usize = 1024;
@@ -42,7 +31,7 @@ const AT_ONCE: usize = 16 * PART;
 const STEP_CORNERS: usize = 4;
 
 /// What became of the polygons of an input.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Preparation {
     /// The number of input polygons.
@@ -65,13 +54,38 @@ pub struct Preparation {
     /// area. Then the triangles cover what is inside by the even-odd rule. If that takes too long,
     /// or nothing is left, the triangles fan out from the first corner.
     pub crossing: usize,
+    /// Polygons with a corner off the plane of the others, but within the tolerance: they are kept
+    /// whole, and those corners count as on the plane.
+    pub flattened: usize,
+    /// How far such a corner is off at most, a length.
+    pub flattened_by: f64,
+    /// Of the triangulated polygons, those that are convex, with a corner off the plane of the
+    /// others by more than the tolerance, but by no more than 10⁻⁵ of the extent: bent by a
+    /// rounding, as it seems. With a larger tolerance they would be whole.
+    pub bent: usize,
+    /// How far such a corner is off at most, a length.
+    pub bent_by: f64,
+}
+
+impl Preparation {
+    /// Adds what became of other polygons of the same input.
+    fn add(&mut self, other: &Self) {
+        self.polygons += other.polygons;
+        self.dropped += other.dropped;
+        self.duplicates += other.duplicates;
+        self.triangulated += other.triangulated;
+        self.crossing += other.crossing;
+        self.flattened += other.flattened;
+        self.flattened_by = self.flattened_by.max(other.flattened_by);
+        self.bent += other.bent;
+        self.bent_by = self.bent_by.max(other.bent_by);
+    }
 }
 
 impl Faces {
     /// Prepares polygons: turns them into convex planar faces.
     ///
-    /// The tolerance is a length in the polygons' own unit; `None` stands for
-    /// [`DEFAULT_TOLERANCE`] of the extent. More than 1/256 of the extent counts as that.
+    /// Instead of a [`Tolerance`], a length may be given, or `None` for the default.
     ///
     /// # Errors
     ///
@@ -80,32 +94,25 @@ impl Faces {
     /// runs out.
     pub fn new<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,
-        tolerance: Option<f64>,
+        tolerance: impl Into<Tolerance>,
     ) -> Result<(Self, Preparation), Error> {
-        Self::prepare(polygons, tolerance, usize::MAX, &Unheard)
+        Self::prepare(polygons, tolerance.into(), usize::MAX, &Unheard)
     }
 
     /// Like [`new`](Self::new), with a limit on the number of polygons, and with a listener.
     pub(crate) fn prepare<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,
-        tolerance: Option<f64>,
+        tolerance: Tolerance,
         limit: usize,
         listener: &dyn Listener,
     ) -> Result<(Self, Preparation), Error> {
-        if let Some(value) = tolerance.filter(|&value| value.is_nan() || value < 0.0) {
-            return Err(Error::tolerance(value));
-        }
+        tolerance.check()?;
         let input = collect(polygons, limit, listener)?;
         let [min, max] = input.bounds();
         let lattice = Lattice::new(min, max);
-        let extent = DVec3::from(lattice.snap(max)) - DVec3::from(lattice.snap(min));
-        let tolerance = match tolerance {
-            Some(length) => lattice.length_to_lattice(length).min(LARGEST_TOLERANCE),
-            None => DEFAULT_TOLERANCE * extent.max_element(),
-        };
-        let Part { mut faces, mut report, outlines } =
-            prepare_all(&input, lattice, tolerance, listener)?;
-        let mut builder = Builder::new(lattice, tolerance);
+        let ground = Ground::new(lattice, [min, max], tolerance, input.precision);
+        let Part { mut faces, mut report, outlines } = prepare_all(&input, &ground, listener)?;
+        let mut builder = Builder::new(&ground);
         report.duplicates = outlines.duplicates(|polygon| {
             listener.work(input.polygon(polygon).len())?;
             builder.keep_distinct(input.polygon(polygon))?;
@@ -115,18 +122,16 @@ impl Faces {
         faces.numbers.shrink_to_fit();
         faces.numbered.shrink_to_fit();
         faces.faces.shrink_to_fit();
+        for length in [&mut report.flattened_by, &mut report.bent_by] {
+            *length = lattice.length_to_world(*length);
+        }
         Ok((faces, report))
     }
 }
 
 /// Prepares all polygons, in parts, and puts the parts together in input order.
-fn prepare_all(
-    input: &Collected,
-    lattice: Lattice,
-    tolerance: f64,
-    listener: &dyn Listener,
-) -> Result<Part, Error> {
-    let mut whole = Part::new(lattice, tolerance);
+fn prepare_all(input: &Collected, ground: &Ground, listener: &dyn Listener) -> Result<Part, Error> {
+    let mut whole = Part::new(ground);
     reserve(&mut whole.faces.corners, input.corner_count())?;
     reserve(&mut whole.faces.faces, input.len())?;
     for start in (0..input.len()).step_by(AT_ONCE) {
@@ -135,7 +140,7 @@ fn prepare_all(
         let ranges = (start..end).step_by(PART).map(|start| start..end.min(start + PART));
         let parts = parallel::map(ranges.collect(), |range| {
             let polygons = range.map(|polygon| (polygon, input.polygon(polygon)));
-            Part::of(lattice, tolerance, polygons, listener)
+            Part::of(ground, polygons, listener)
         });
         for part in parts {
             whole.append(part?)?;
@@ -152,26 +157,32 @@ struct Part {
 }
 
 impl Part {
-    fn new(lattice: Lattice, tolerance: f64) -> Self {
-        let faces = Builder::new(lattice, tolerance).faces;
+    fn new(ground: &Ground) -> Self {
+        let faces = Builder::new(ground).faces;
         Self { faces, report: Preparation::default(), outlines: Outlines::default() }
     }
 
     fn of<'a>(
-        lattice: Lattice,
-        tolerance: f64,
+        ground: &Ground,
         polygons: impl Iterator<Item = (usize, &'a [DVec3])>,
         listener: &dyn Listener,
     ) -> Result<Self, Error> {
-        let mut builder = Builder::new(lattice, tolerance);
+        let mut builder = Builder::new(ground);
         let (mut report, mut outlines) = (Preparation::default(), Outlines::default());
         for (polygon, points) in polygons {
             report.polygons += 1;
             match builder.add(polygon, points, listener)? {
-                Outcome::Whole => {}
-                Outcome::Triangulated { crosses_itself } => {
+                Outcome::Whole { off } => {
+                    report.flattened += usize::from(off > 0.0);
+                    report.flattened_by = report.flattened_by.max(off);
+                }
+                Outcome::Triangulated { crosses_itself, off } => {
                     report.triangulated += 1;
                     report.crossing += usize::from(crosses_itself);
+                    if off > 0.0 && off <= ground.rounding {
+                        report.bent += 1;
+                        report.bent_by = report.bent_by.max(off);
+                    }
                 }
                 Outcome::Dropped => {
                     report.dropped += 1;
@@ -200,17 +211,22 @@ impl Part {
         reserve(&mut self.faces.faces, next.faces.faces.len())?;
         let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
         self.faces.faces.extend(next.faces.faces.into_iter().map(moved));
-        self.report.polygons += next.report.polygons;
-        self.report.dropped += next.report.dropped;
-        self.report.triangulated += next.report.triangulated;
-        self.report.crossing += next.report.crossing;
+        self.report.add(&next.report);
         self.outlines.append(next.outlines)
     }
 }
 
+/// What became of a polygon.
 enum Outcome {
-    Whole,
-    Triangulated { crosses_itself: bool },
+    /// One face, with a corner so far off the plane of the others, in lattice units.
+    Whole {
+        off: f64,
+    },
+    /// Triangles; of a convex polygon, a corner is so far off the plane of the others.
+    Triangulated {
+        crosses_itself: bool,
+        off: f64,
+    },
     Dropped,
 }
 
@@ -225,10 +241,10 @@ struct Builder {
 }
 
 impl Builder {
-    fn new(lattice: Lattice, tolerance: f64) -> Self {
+    fn new(ground: &Ground) -> Self {
         let faces = Faces {
-            lattice,
-            tolerance,
+            lattice: ground.lattice,
+            tolerance: ground.tolerance,
             corners: vec![],
             numbers: vec![],
             numbered: vec![],
@@ -250,28 +266,31 @@ impl Builder {
         };
         if self.kept.len() == 3 {
             self.push(polygon, &[0, 1, 2], Frame::TRIANGLE)?;
-            return Ok(Outcome::Whole);
+            return Ok(Outcome::Whole { off: 0.0 });
         }
         let convex = self.is_convex(second, third);
-        if convex
-            && self.kept.len() <= Frame::MAX_CORNERS
-            && let Some(frame) = self.planar_frame(second, third)
-        {
+        let off = if convex { self.off_plane(second, third) } else { 0.0 };
+        if convex && self.kept.len() <= Frame::MAX_CORNERS && off <= self.faces.tolerance {
             let all: Vec<usize> = (0..self.kept.len()).collect();
-            self.push(polygon, &all, frame)?;
-            return Ok(Outcome::Whole);
+            self.push(polygon, &all, self.frame(second, third, off > 0.0))?;
+            return Ok(Outcome::Whole { off });
         }
-        self.triangulate(polygon, convex, [second, third], listener)
+        let crosses_itself = self.triangulate(polygon, convex, [second, third], listener)?;
+        Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
+            crosses_itself,
+            off,
+        }))
     }
 
-    /// Adds triangles in place of a polygon.
+    /// Adds triangles in place of a polygon; tells whether it crosses itself, or nothing if there
+    /// are no triangles with area.
     fn triangulate(
         &mut self,
         polygon: usize,
         convex: bool,
         [second, third]: [usize; 2],
         listener: &dyn Listener,
-    ) -> Result<Outcome, Error> {
+    ) -> Result<Option<bool>, Error> {
         let mut corners: Vec<[f64; 3]> = Vec::new();
         reserve(&mut corners, self.kept.len())?;
         corners.extend(self.kept.iter().map(|&(point, _)| point));
@@ -293,9 +312,7 @@ impl Builder {
                 self.push(polygon, &triple, Frame::TRIANGLE)?;
             }
         }
-        let crosses_itself = found.crosses_itself;
-        let any = self.faces.len() > before;
-        Ok(if any { Outcome::Triangulated { crosses_itself } } else { Outcome::Dropped })
+        Ok((self.faces.len() > before).then_some(found.crosses_itself))
     }
 
     fn keep_distinct(&mut self, points: &[DVec3]) -> Result<(), Error> {

@@ -43,7 +43,11 @@ pub use sphere::sphere;
 pub use teapot::teapot;
 pub use terrain::terrain;
 
-use glam::DVec3;
+use std::ops::Deref;
+
+use glam::{DVec2, DVec3};
+
+use crate::Polygon;
 
 /// Polygons with colours.
 ///
@@ -74,8 +78,53 @@ pub struct Scene {
     /// The line of each polygon; empty unless the scene is from a file.
     lines: Vec<usize>,
     materials: Vec<Material>,
+    attributes: Attributes,
+    precision: f64,
     up: DVec3,
     view: Option<(DVec3, DVec3)>,
+}
+
+/// What a file says of corners besides their positions. A list is empty if the file says nothing of
+/// that kind; otherwise it has an entry for each corner that was read.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Attributes {
+    uvs: Vec<Option<DVec2>>,
+    normals: Vec<Option<DVec3>>,
+    colors: Vec<Option<[f32; 3]>>,
+}
+
+/// A polygon of a [`Scene`]: its corners, as a slice, and how precise they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScenePolygon<'a> {
+    corners: &'a [DVec3],
+    precision: f64,
+}
+
+impl Deref for ScenePolygon<'_> {
+    type Target = [DVec3];
+
+    fn deref(&self) -> &[DVec3] {
+        self.corners
+    }
+}
+
+impl<'a> IntoIterator for ScenePolygon<'a> {
+    type Item = &'a DVec3;
+    type IntoIter = std::slice::Iter<'a, DVec3>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.corners.iter()
+    }
+}
+
+impl Polygon for ScenePolygon<'_> {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.corners.iter().copied()
+    }
+
+    fn precision(&self) -> f64 {
+        self.precision
+    }
 }
 
 impl PartialEq for Scene {
@@ -86,6 +135,8 @@ impl PartialEq for Scene {
             && self.ends == other.ends
             && self.material_of == other.material_of
             && self.materials == other.materials
+            && self.attributes == other.attributes
+            && self.precision == other.precision
     }
 }
 
@@ -99,6 +150,8 @@ impl Scene {
             material_of: Vec::new(),
             lines: Vec::new(),
             materials: Vec::new(),
+            attributes: Attributes::default(),
+            precision: 0.0,
             up,
             view: None,
         }
@@ -150,9 +203,53 @@ impl Scene {
         &self.corners[start..self.ends[index]]
     }
 
-    /// The corners of every polygon, in order.
-    pub fn polygons(&self) -> impl ExactSizeIterator<Item = &[DVec3]> + Clone {
-        (0..self.len()).map(|index| self.polygon(index))
+    /// Every polygon, in order: a slice of corners that knows its precision, which the default
+    /// tolerance follows.
+    pub fn polygons(&self) -> impl ExactSizeIterator<Item = ScenePolygon<'_>> + Clone {
+        let polygon =
+            |index| ScenePolygon { corners: self.polygon(index), precision: self.precision };
+        (0..self.len()).map(polygon)
+    }
+
+    /// How far corners may be off the planes that they were meant to be on, a length: of a scene
+    /// from an OBJ file, one unit in the last decimal that it writes. 0 in generated scenes.
+    pub fn precision(&self) -> f64 {
+        self.precision
+    }
+
+    /// The texture coordinates of a corner of a polygon, if a file gives them.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such polygon or corner.
+    pub fn uv(&self, polygon: usize, corner: usize) -> Option<DVec2> {
+        self.attribute(&self.attributes.uvs, polygon, corner)
+    }
+
+    /// The normal at a corner of a polygon, if a file gives it; of the length that the file says.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such polygon or corner.
+    pub fn normal(&self, polygon: usize, corner: usize) -> Option<DVec3> {
+        self.attribute(&self.attributes.normals, polygon, corner)
+    }
+
+    /// The colour of a corner of a polygon, if a file gives it: red, green and blue as the file says
+    /// them, usually from 0 to 1.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such polygon or corner.
+    pub fn color(&self, polygon: usize, corner: usize) -> Option<[f32; 3]> {
+        self.attribute(&self.attributes.colors, polygon, corner)
+    }
+
+    fn attribute<T: Copy>(&self, of: &[Option<T>], polygon: usize, corner: usize) -> Option<T> {
+        let corners = self.polygon(polygon).len();
+        assert!(corner < corners, "corner {corner} of a polygon of {corners} corners");
+        let start = polygon.checked_sub(1).map_or(0, |before| self.ends[before]);
+        of.get(start + corner).copied().flatten()
     }
 
     /// The material of one polygon.

@@ -1,5 +1,7 @@
 //! Wavefront OBJ files as scenes.
 
+mod attributes;
+mod decimals;
 mod error;
 mod lines;
 mod material;
@@ -24,12 +26,16 @@ impl Scene {
     /// 0, with all its corners, in whatever object or group it stands. A face of
     /// fewer than three different corners stays in its place and is counted in
     /// the report; faces that are given twice, not convex or not planar stay as
-    /// they are, for the tree builder to judge. Points, lines, curves, normals and
-    /// texture coordinates are left out, and so is the weight or colour behind the
-    /// three coordinates of a `v` line. A line that ends in a backslash goes on in
-    /// the next.
+    /// they are, for the tree builder to judge. Corners keep their texture coordinates, their
+    /// normals, and the colours of their `v` lines ([`uv`](Self::uv), [`normal`](Self::normal),
+    /// [`color`](Self::color)). Points, lines and curves are left out, and so is a weight
+    /// behind the three coordinates of a `v` line. A line that ends in a backslash goes
+    /// on in the next.
     ///
-    /// Coordinates are read as `f64`. Up is y, as OBJ files do not say.
+    /// Coordinates are read as `f64`. One unit in the last decimal that the file writes is the
+    /// scene's [`precision`](Self::precision): of the decimals, or of the significant digits of
+    /// the largest coordinates, whichever number the file holds fixed. Up is y, as OBJ files
+    /// do not say.
     ///
     /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d`
     /// or `Tr` as opacity. A library that is missing or unreadable is no error;
@@ -89,6 +95,8 @@ impl Scene {
             scene.push(polygon.iter().copied(), *material);
         }
         scene.lines = scan.face_lines;
+        scene.precision = scan.decimals.unit();
+        (scene.attributes, scan.report.skipped_attributes) = scan.attributes.finish();
         Ok((scene, scan.report))
     }
 }

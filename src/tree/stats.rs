@@ -2,6 +2,7 @@
 
 use super::BspTree;
 use super::walk::Walk;
+use crate::exact::{Plane, PlaneId};
 
 /// Statistics of a tree: [`BspTree::stats`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,20 +32,47 @@ pub struct Stats {
     pub triangulated: usize,
     /// Of these, polygons that cross themselves.
     pub crossing: usize,
+    /// The coplanar tolerance that the tree was built with, a length.
+    pub tolerance: f64,
+    /// Polygons that the tolerance made planar; see [`Preparation::flattened`](crate::Preparation::flattened).
+    pub flattened: usize,
+    /// How far their corners were off at most, a length.
+    pub flattened_by: f64,
+    /// Polygons that are bent by little more than the tolerance, as by a rounding; see
+    /// [`Preparation::bent`](crate::Preparation::bent).
+    pub bent: usize,
+    /// How far their corners are off at most, a length.
+    pub bent_by: f64,
+    /// Faces that the tolerance alone made coplanar with a partition plane: the order of those on
+    /// one plane is that of the input.
+    pub nearly_coplanar: usize,
+    /// How far their corners are off that plane at most, a length.
+    pub nearly_coplanar_by: f64,
 }
 
 impl BspTree {
-    /// Statistics of the tree. O(nodes).
+    /// Statistics of the tree. O(fragments).
     pub fn stats(&self) -> Stats {
         let (mut depth_max, mut depth_sum) = (0, 0);
+        let (mut is_near, mut nearly_coplanar_by) = (vec![false; self.faces.len()], 0.0);
         let mut walk = Walk::new(self);
         while let Some(visit) = walk.next(self) {
             depth_max = depth_max.max(visit.depth);
             depth_sum += visit.depth * (visit.own.len() + visit.leaves());
+            let id = self.nodes[visit.node].plane;
+            let plane = self.faces.plane(id);
+            for fragment in visit.own {
+                let face = self.records[fragment as usize].face;
+                let off = if id == PlaneId::face(face) { 0.0 } else { self.off(face, &plane) };
+                is_near[face as usize] |= off > 0.0;
+                nearly_coplanar_by = off.max(nearly_coplanar_by);
+            }
         }
         let fragments = self.len();
+        let lattice = self.faces.lattice();
+        let found = &self.preparation;
         Stats {
-            polygons: self.preparation.polygons,
+            polygons: found.polygons,
             faces: self.faces.len(),
             fragments,
             nodes: self.nodes.len(),
@@ -52,11 +80,25 @@ impl BspTree {
             depth_mean: depth_sum as f64 / fragments.max(1) as f64,
             splits: self.cuts,
             bytes: self.bytes(),
-            dropped: self.preparation.dropped,
-            duplicates: self.preparation.duplicates,
-            crossing: self.preparation.crossing,
-            triangulated: self.preparation.triangulated,
+            dropped: found.dropped,
+            duplicates: found.duplicates,
+            crossing: found.crossing,
+            triangulated: found.triangulated,
+            tolerance: lattice.length_to_world(self.faces.tolerance()),
+            flattened: found.flattened,
+            flattened_by: found.flattened_by,
+            bent: found.bent,
+            bent_by: found.bent_by,
+            nearly_coplanar: is_near.into_iter().filter(|&is_near| is_near).count(),
+            nearly_coplanar_by: lattice.length_to_world(nearly_coplanar_by),
         }
+    }
+
+    /// How far a face's corners are off a plane at most, in lattice units, rounded; 0 only if all of
+    /// them are exactly on it.
+    fn off(&self, face: u32, plane: &Plane) -> f64 {
+        let values = self.faces.corners(face).iter().map(|corner| plane.at(corner).to_f64().abs());
+        values.fold(0.0, f64::max) / plane.normal_f64().length()
     }
 
     /// The size in bytes, heap included.

@@ -7,7 +7,6 @@ mod materials;
 mod noise;
 mod real;
 
-use binspace::glam::DVec3;
 use binspace::scene::{ObjError, ObjReport, Scene};
 use std::path::Path;
 
@@ -24,7 +23,7 @@ fn read_with(text: &str, libraries: &[(&str, &str)]) -> (Scene, ObjReport) {
 }
 
 fn sides(scene: &Scene) -> Vec<usize> {
-    scene.polygons().map(<[DVec3]>::len).collect()
+    scene.polygons().map(|polygon| polygon.len()).collect()
 }
 
 /// Five corners; the last stands apart.

@@ -142,6 +142,13 @@ struct Line {
     triangulated: usize,
     duplicates: usize,
     crossing: usize,
+    tolerance: f64,
+    flattened: usize,
+    flattened_by: f64,
+    bent: usize,
+    bent_by: f64,
+    nearly_coplanar: usize,
+    nearly_coplanar_by: f64,
 }
 
 fn json(figures: &Figures) -> Result<String, Failure> {
@@ -162,6 +169,13 @@ fn json(figures: &Figures) -> Result<String, Failure> {
         triangulated: stats.triangulated,
         duplicates: stats.duplicates,
         crossing: stats.crossing,
+        tolerance: stats.tolerance,
+        flattened: stats.flattened,
+        flattened_by: stats.flattened_by,
+        bent: stats.bent,
+        bent_by: stats.bent_by,
+        nearly_coplanar: stats.nearly_coplanar,
+        nearly_coplanar_by: stats.nearly_coplanar_by,
     };
     serde_json::to_string(&line).map_err(|error| Failure::of_output(&error.into()))
 }

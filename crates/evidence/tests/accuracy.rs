@@ -230,7 +230,8 @@ fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), St
 }
 
 fn scenes() -> Vec<(String, Vec<Vec<DVec3>>)> {
-    let polygons = |scene: &scene::Scene| scene.polygons().map(<[DVec3]>::to_vec).collect();
+    let polygons =
+        |scene: &scene::Scene| scene.polygons().map(|polygon| polygon.to_vec()).collect();
     let mut scenes: Vec<(String, Vec<Vec<DVec3>>)> = [
         scene::crossing(12),
         scene::random_triangles(150, 4),

@@ -28,6 +28,8 @@ const CORNERS_AT_ONCE: usize = 1 << 12;
 pub(super) struct Collected {
     points: Vec<DVec3>,
     ends: Vec<u32>,
+    /// The largest of the polygons' [`precision`](Polygon::precision): how far corners may be off.
+    pub(super) precision: f64,
 }
 
 impl Collected {
@@ -72,7 +74,7 @@ pub(super) fn collect<P: Polygon>(
     if expected > limit {
         return Err(too_many());
     }
-    let mut all = Collected { points: vec![], ends: vec![] };
+    let mut all = Collected { points: vec![], ends: vec![], precision: 0.0 };
     reserve(&mut all.points, 3 * expected.min(TRUSTED))?;
     reserve(&mut all.ends, expected.min(TRUSTED))?;
     for (index, polygon) in polygons.enumerate() {
@@ -110,6 +112,8 @@ impl Collected {
             reserve(&mut self.points, 1)?;
             self.points.push(point);
         }
+        // Of NaN and the other, `max` returns the other.
+        self.precision = self.precision.max(polygon.precision());
         reserve(&mut self.ends, 1)?;
         self.ends.push(self.points.len() as u32);
         Ok(())

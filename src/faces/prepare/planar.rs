@@ -25,29 +25,29 @@ impl Builder {
         Some([far.min(third), far.max(third)])
     }
 
-    /// The frame of the polygon, if it is planar within the tolerance.
-    pub(super) fn planar_frame(&self, second: usize, third: usize) -> Option<Frame> {
-        let triangle = [0, second, third].map(|k| self.kept[k].0);
-        let plane = Plane::through(triangle);
-        let limit = self.faces.tolerance * plane.normal_f64().length();
-        let mut exact = true;
-        for (point, _) in &self.kept {
-            let value = plane.at(point);
-            if value.sign().is_ne() {
-                exact = false;
-                if value.to_f64().abs() > limit {
-                    return None;
-                }
-            }
-        }
-        Some(Frame::new(second, third, if exact { None } else { Some(plane.main_axis()) }))
+    /// How far the corner furthest from the plane of three corners is off it, in lattice units,
+    /// rounded; 0 only if every corner is exactly on it.
+    pub(super) fn off_plane(&self, second: usize, third: usize) -> f64 {
+        let plane = self.plane(second, third);
+        let values = self.kept.iter().map(|(point, _)| plane.at(point).to_f64().abs());
+        values.fold(0.0, f64::max) / plane.normal_f64().length()
+    }
+
+    /// The frame of a planar polygon, with or without corners that are moved onto its plane.
+    pub(super) fn frame(&self, second: usize, third: usize, is_moved: bool) -> Frame {
+        let axis = is_moved.then(|| self.plane(second, third).main_axis());
+        Frame::new(second, third, axis)
+    }
+
+    fn plane(&self, second: usize, third: usize) -> Plane {
+        Plane::through([0, second, third].map(|k| self.kept[k].0))
     }
 
     /// Whether the polygon is convex and winds once, seen along the axis in which its plane is
     /// least steep. Exact.
     pub(super) fn is_convex(&self, second: usize, third: usize) -> bool {
         let at = |k: usize| self.kept[k % self.kept.len()].0;
-        let drop = Plane::through([at(0), at(second), at(third)]).main_axis();
+        let drop = self.plane(second, third).main_axis();
         let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
         let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
         let mut rises = 0;

@@ -1,3 +1,5 @@
+use super::attributes::Found;
+use super::decimals::Decimals;
 use super::error::{Kind, ObjError};
 use super::report::ObjReport;
 use super::text::lines;
@@ -24,6 +26,8 @@ pub(super) struct Scan {
     pub(super) materials: Vec<Option<String>>,
     /// Material libraries in the order of their first mention.
     pub(super) libraries: Vec<String>,
+    pub(super) attributes: Found,
+    pub(super) decimals: Decimals,
     pub(super) report: ObjReport,
     vertices: usize,
     /// The highest vertex number that was not yet defined when it was used.
@@ -53,6 +57,8 @@ impl Scan {
             let rest = || line.get(keyword.len()..).unwrap_or_default().trim_ascii();
             match keyword {
                 "v" => scan.vertex(words, number)?,
+                "vt" => scan.attributes.uv(words),
+                "vn" => scan.attributes.normal(words),
                 "f" => {
                     scan.face(words, number)?;
                     let material = scan.number_of(&mut numbers, &in_use);
@@ -100,16 +106,18 @@ impl Scan {
         number
     }
 
-    fn vertex(&mut self, words: SplitWhitespace<'_>, line: usize) -> Result<(), ObjError> {
+    fn vertex(&mut self, mut words: SplitWhitespace<'_>, line: usize) -> Result<(), ObjError> {
         self.cleaned.push('v');
         let mut found = 0;
-        for token in words.take_while(|word| !word.starts_with('#')).take(3) {
+        for token in words.by_ref().take(3).take_while(|word| !word.starts_with('#')) {
             check_coordinate(token).map_err(|kind| kind.at(Some(line), None))?;
+            self.decimals.see(token);
             self.cleaned.push(' ');
             self.cleaned.push_str(token);
             found += 1;
         }
         self.cleaned.push('\n');
+        self.attributes.vertex(self.vertices, words);
         self.vertices += 1;
         match found {
             3 => Ok(()),
@@ -132,6 +140,7 @@ impl Scan {
             }
             // Writing to a string does not fail.
             let _ = write!(self.cleaned, " {index}");
+            self.attributes.corner(index, token.split_once('/').map(|(_, rest)| rest));
             self.corners += 1;
         }
         self.cleaned.push('\n');
@@ -165,7 +174,7 @@ impl Scan {
 }
 
 /// Statements that name, group or decorate faces and change no polygon.
-const HARMLESS: [&str; 7] = ["o", "g", "s", "vt", "vn", "mtllib", "mg"];
+const HARMLESS: [&str; 5] = ["o", "g", "s", "mtllib", "mg"];
 
 fn check_coordinate(token: &str) -> Result<(), Kind> {
     match token.parse::<f64>() {

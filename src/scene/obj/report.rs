@@ -15,6 +15,9 @@ pub struct ObjReport {
     pub skipped_points: u32,
     /// `l` lines.
     pub skipped_lines: u32,
+    /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are
+    /// malformed or name none. Those corners are without that attribute.
+    pub skipped_attributes: u32,
     /// Lines that begin with any other word that is not understood, such as the
     /// statements for free-form curves and surfaces.
     pub skipped_statements: u32,
@@ -43,6 +46,7 @@ impl fmt::Display for ObjReport {
             (self.degenerate_faces, "faces with fewer than three different corners"),
             (self.skipped_points, "`p` lines skipped"),
             (self.skipped_lines, "`l` lines skipped"),
+            (self.skipped_attributes, "texture coordinates and normals skipped"),
             (self.skipped_statements, "unknown statements skipped"),
             (self.skipped_material_lines, "material properties skipped"),
         ];

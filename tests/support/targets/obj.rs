@@ -156,7 +156,11 @@ impl Known {
                 assert!(good, "read, though it is bad: {:?}", self.text);
                 let corner = |&k: &usize| self.corners[k];
                 let faces = self.faces.iter().map(|f| f.iter().map(corner).collect::<Vec<_>>());
-                assert!(scene.polygons().eq(faces), "{:?}", self.text);
+                assert!(
+                    scene.polygons().map(|polygon| polygon.to_vec()).eq(faces),
+                    "{:?}",
+                    self.text
+                );
             }
             Err(error) => {
                 let bad = self.refused.is_some() || ahead || self.faces.is_empty();

@@ -52,7 +52,7 @@ fn a_seed_gives_one_scene_and_another_seed_another() {
 #[test]
 fn triangles_cross_at_the_angle() {
     each_step(Family::Angle, |angle, scene| {
-        let normals: Vec<DVec3> = scene.polygons().map(normal).collect();
+        let normals: Vec<DVec3> = scene.polygons().map(|polygon| normal(&polygon)).collect();
         let mut least = f64::INFINITY;
         for (i, p) in normals.iter().enumerate() {
             for q in &normals[..i] {
@@ -116,7 +116,7 @@ fn counts_are_what_was_asked_for() {
             let size = |p: &[DVec3]| (p[1] - p[0]).length();
             size(p).total_cmp(&size(q))
         });
-        let plane = (large.unwrap()[0], normal(large.unwrap()));
+        let plane = (large.unwrap()[0], normal(&large.unwrap()));
         let pierces = |polygon: &[DVec3]| {
             let height = |p: &DVec3| (*p - plane.0).dot(plane.1);
             let low = polygon.iter().map(height).fold(f64::INFINITY, f64::min);
@@ -192,10 +192,9 @@ fn triangles_penetrate_each_other() {
         let side = |c: &DVec3| (*c - p[0]).dot(n);
         q.iter().any(|c| side(c) > 0.0) && q.iter().any(|c| side(c) < 0.0)
     };
-    let pairs = scene
-        .polygons()
-        .enumerate()
-        .flat_map(|(i, p)| scene.polygons().take(i).map(move |q| crossing(p, q) && crossing(q, p)));
+    let pairs = scene.polygons().enumerate().flat_map(|(i, p)| {
+        scene.polygons().take(i).map(move |q| crossing(&p, &q) && crossing(&q, &p))
+    });
     assert!(pairs.filter(|&cross| cross).count() > 500);
 }
 

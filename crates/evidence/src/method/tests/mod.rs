@@ -49,7 +49,7 @@ fn cycle_that_no_plane_cuts() -> Polygons {
 }
 
 fn polygons_of(scene: &Scene) -> Polygons {
-    scene.polygons().map(<[DVec3]>::to_vec).collect()
+    scene.polygons().map(|polygon| polygon.to_vec()).collect()
 }
 
 fn faces(polygons: &Polygons, tolerance: Option<f64>) -> Faces {

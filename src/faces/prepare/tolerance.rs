@@ -1,0 +1,95 @@
+//! Which tolerance a scene is prepared with.
+
+use glam::DVec3;
+
+use crate::Error;
+use crate::exact::{LATTICE_LIMIT, Lattice};
+
+/// The least default tolerance as a share of the scene's extent, the longest side of its bounding
+/// box; see [`Tolerance::Default`].
+///
+/// Larger: thin layers that are meant to be apart count as coplanar. Smaller: faces that are
+/// coplanar except for the rounding of a computation in `f64` cut each other into slivers.
+pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+
+/// The largest default tolerance as a share of the extent. Larger: coordinates rounded so coarsely
+/// would merge what they still tell apart; smaller: polygons bent by such a rounding are
+/// triangulated.
+const LARGEST_ROUNDING: f64 = 1e-5;
+
+/// The largest tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
+/// it, so that corners moved onto a plane fit the integers of the exact predicates.
+const LARGEST: f64 = LATTICE_LIMIT / 128.0;
+
+/// The coplanar tolerance: how far polygons may reach from a plane and yet count as lying on it.
+///
+/// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an
+/// error. One that is too large, infinity included, is reduced to a fixed share of the extent
+/// between 1/256 and 1/128. [`BspTree`](crate::BspTree#which-tolerance) says which to take.
+///
+/// The extent is the longest side of the bounding box of all corners. One stray vertex makes it
+/// larger; where that can happen, give a length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Tolerance {
+    /// The largest [`precision`](crate::Polygon::precision) of the polygons, but between 10⁻⁹ and
+    /// 10⁻⁵ of the extent. For `f64` near the origin that is 10⁻⁹, for `f32` between 2·10⁻⁷ and
+    /// 5·10⁻⁷ of the extent, for a scene read from an OBJ file one unit in the last decimal that it
+    /// writes.
+    #[default]
+    Default,
+    /// A length, in the polygons' unit.
+    Length(f64),
+    /// A share of the extent.
+    Relative(f64),
+}
+
+impl From<Option<f64>> for Tolerance {
+    /// A length, or the default.
+    fn from(length: Option<f64>) -> Self {
+        length.map_or(Self::Default, Self::Length)
+    }
+}
+
+impl Tolerance {
+    pub(super) fn check(self) -> Result<(), Error> {
+        match self {
+            Self::Length(value) | Self::Relative(value) if value.is_nan() || value < 0.0 => {
+                Err(Error::tolerance(value))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What all polygons of a scene are prepared by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground {
+    pub(super) lattice: Lattice,
+    /// The tolerance, in lattice units.
+    pub(super) tolerance: f64,
+    /// The largest distance, in lattice units, that is taken for a rounding.
+    pub(super) rounding: f64,
+}
+
+impl Ground {
+    /// For corners in a box, of this precision.
+    pub(super) fn new(
+        lattice: Lattice,
+        [min, max]: [DVec3; 2],
+        tolerance: Tolerance,
+        precision: f64,
+    ) -> Self {
+        let size = DVec3::from(lattice.snap(max)) - DVec3::from(lattice.snap(min));
+        let extent = size.max_element();
+        let rounding = LARGEST_ROUNDING * extent;
+        let tolerance = match tolerance {
+            Tolerance::Default => {
+                lattice.length_to_lattice(precision).min(rounding).max(DEFAULT_TOLERANCE * extent)
+            }
+            Tolerance::Length(length) => lattice.length_to_lattice(length),
+            Tolerance::Relative(share) => share * extent,
+        };
+        Self { lattice, tolerance: tolerance.min(LARGEST), rounding }
+    }
+}
