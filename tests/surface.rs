@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use std::iter::FusedIterator;
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint, scene};
+use binspace::scene::{self, ScenePolygon};
+use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 
 const EYES: [Viewpoint; 4] = [
     Viewpoint::Eye(dvec3(3.0, 1.0, 2.0)),
@@ -141,7 +142,8 @@ fn the_parts_of_a_fragment_are_read_from_both_ends() {
 fn normals_and_offsets_of_partitions_are_those_of_their_planes() {
     let (mut checked, far) = (0, dvec3(1e3, -2e3, 5e2));
     for scene in [scene::random_triangles(80, 2), scene::city(200, 1), scene::crossing(9)] {
-        let moved = |polygon: &[DVec3]| polygon.iter().map(|&p| p + far).collect::<Vec<_>>();
+        let moved =
+            |polygon: ScenePolygon<'_>| polygon.iter().map(|&p| p + far).collect::<Vec<_>>();
         let tree = BspTree::build(scene.polygons().map(moved)).unwrap();
         let (low, high) = scene.bounds().unwrap();
         let slack = 1e-8 * (high - low).max_element();

@@ -17,7 +17,7 @@ const SIZE: [u32; 2] = [40, 30];
 
 fn build(scene: &HardScene, by: Heuristic) -> Result<BspTree, TestCaseError> {
     let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-    options.tolerance = scene.tolerance();
+    options.tolerance = scene.tolerance().into();
     options.build(&scene.polygons).map_err(|error| TestCaseError::reject(error.to_string()))
 }
 

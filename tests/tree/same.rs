@@ -46,7 +46,7 @@ proptest! {
         scene in hard::scene(), by in prop::sample::select(Heuristic::ALL),
     ) {
         let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-        options.tolerance = scene.tolerance();
+        options.tolerance = scene.tolerance().into();
         let build = || options.build(&scene.polygons).unwrap();
         prop_assert_eq!(Snapshot::of(&build()), Snapshot::of(&build()));
     }
@@ -69,9 +69,9 @@ proptest! {
         let back = scaled.iter().flatten().map(|&corner| corner / factor);
         prop_assume!(back.eq(scene.polygons.iter().flatten().copied()));
         let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-        options.tolerance = scene.tolerance();
+        options.tolerance = scene.tolerance().into();
         let tree = options.build(&scene.polygons).unwrap();
-        options.tolerance = scene.tolerance().map(|tolerance| tolerance * factor);
+        options.tolerance = scene.tolerance().map(|tolerance| tolerance * factor).into();
         let other = options.build(&scaled).unwrap();
         prop_assert_eq!(Snapshot::of(&tree), Snapshot::of(&other));
         let eye = DVec3::from_array(eye) * hard::extent(&scene.polygons);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use binspace::glam::{DQuat, DVec3};
 use binspace::internals::Viewpoint;
-use binspace::scene::{self, Scene};
+use binspace::scene::{self, Scene, ScenePolygon};
 use binspace::{BspTree, BuildOptions};
 
 use super::scale::{mosaic, with_a_small_stack};
@@ -14,7 +14,7 @@ use crate::support::orders;
 /// The same turned away from all axes, where every free plane cuts.
 fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
-    let turned = |polygon: &[DVec3]| polygon.iter().map(|&corner| turn * corner).collect();
+    let turned = |polygon: ScenePolygon<'_>| polygon.iter().map(|&corner| turn * corner).collect();
     scene.polygons().map(turned).collect()
 }
 
