@@ -172,7 +172,10 @@ proptest! {
             .collect();
         let tolerance = scene.tolerance().map(|t| t * 2f64.powi(exponent));
         let (faces, report) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
-        let (other, other_report) = Faces::new(&scaled, tolerance).expect("finite");
+        let (other, mut other_report) = Faces::new(&scaled, tolerance).expect("finite");
+        for length in [&mut other_report.flattened_by, &mut other_report.bent_by] {
+            *length *= 2f64.powi(-exponent);
+        }
         prop_assert_eq!(report, other_report);
         prop_assert_eq!(faces.len(), other.len());
         for face in 0..faces.len() as u32 {

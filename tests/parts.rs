@@ -101,6 +101,10 @@ fn every_polygon_becomes_what_it_becomes_beside_the_ground_alone() {
         expected.dropped += found.dropped;
         expected.triangulated += found.triangulated;
         expected.crossing += found.crossing;
+        expected.flattened += found.flattened;
+        expected.flattened_by = found.flattened_by.max(expected.flattened_by);
+        expected.bent += found.bent;
+        expected.bent_by = found.bent_by.max(expected.bent_by);
         dropped.extend((found.dropped > 0).then_some(i));
     }
     assert_eq!((face as usize, report), (faces.len(), expected));

@@ -8,6 +8,7 @@ use binspace::{BuildOptions, Heuristic};
 use binspace_evidence::Family;
 use clap::{Args, Parser, Subcommand};
 
+use crate::colours::Colouring;
 use crate::examples;
 use crate::values::{self, Heuristics};
 
@@ -122,8 +123,7 @@ pub(crate) struct StatsArgs {
 
 /// Draw a scene as PNG or SVG
 ///
-/// Without a camera, all of the scene is shown. Colours are those of the scene's materials; if it
-/// has none, each polygon has a different one. Surfaces are darker the more obliquely they are
+/// Without a camera, all of the scene is shown. Surfaces are darker the more obliquely they are
 /// seen. Transparency shows in SVG and in the painter's PNG, but not in a depth buffer's picture.
 #[derive(Args, Debug)]
 #[command(after_help = examples::RENDER)]
@@ -151,6 +151,9 @@ pub(crate) struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub(crate) size: [u32; 2],
+    /// Where the colours of polygons come from
+    #[arg(long, value_name = "KIND", value_enum, default_value_t)]
+    pub(crate) colours: Colouring,
     #[command(flatten)]
     pub(crate) kind: KindArgs,
     #[command(flatten)]

@@ -1,35 +1,42 @@
 //! The colours of polygons.
 
 use binspace::raster::colour_of;
-use binspace::scene::{Material, Scene};
+use binspace::scene::Scene;
+use clap::ValueEnum;
 
 /// The background colour.
 pub(crate) const BACKGROUND: [u8; 3] = [255, 255, 255];
+
+/// Where the colours of polygons come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Colouring {
+    /// From their materials; grey without one
+    #[default]
+    Material,
+    /// A different one for each polygon
+    Polygon,
+}
 
 /// The colours of a scene's polygons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Colours<'a> {
     scene: &'a Scene,
-    by_material: bool,
+    by: Colouring,
 }
 
 impl<'a> Colours<'a> {
-    /// The colours of the scene's materials; if none is defined, one for each polygon.
-    pub(crate) fn of(scene: &'a Scene) -> Self {
-        let is_coloured = |material: &Material| {
-            material.color != Material::DEFAULT.color
-                || material.opacity != Material::DEFAULT.opacity
-        };
-        Self { scene, by_material: scene.materials().iter().any(is_coloured) }
+    pub(crate) fn new(scene: &'a Scene, by: Colouring) -> Self {
+        Self { scene, by }
     }
 
     /// Red, green and blue.
     pub(crate) fn rgb(&self, polygon: usize) -> [u8; 3] {
-        if self.by_material {
-            let colour = self.scene.material(polygon).color;
-            colour.map(|channel| (channel * 255.0).round() as u8)
-        } else {
-            colour_of(polygon)
+        match self.by {
+            Colouring::Material => {
+                let colour = self.scene.material(polygon).color;
+                colour.map(|channel| (channel * 255.0).round() as u8)
+            }
+            Colouring::Polygon => colour_of(polygon),
         }
     }
 

@@ -21,9 +21,9 @@ pub(crate) fn write(
     tree: &BspTree,
     camera: &Camera,
     scene: &Scene,
+    colours: &Colours<'_>,
 ) -> io::Result<()> {
     let [width, height] = camera.size();
-    let colours = Colours::of(scene);
     writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \

@@ -131,17 +131,23 @@ use crate::faces::Preparation;
 ///
 /// # Which tolerance
 ///
-/// | input | tolerance |
-/// |---|---|
-/// | integers or another coarse grid; layers whose order must never be wrong | 0 |
-/// | `f64`, or `f32` that no computation has touched | the default, 10⁻⁹ of the extent |
-/// | `f32` that was rotated or otherwise computed: coplanar polygons are off by rounding | 10⁻⁶ of the extent |
-/// | thin layers in a scene of large extent | a length well below half the distance of the layers |
+/// The [default](crate::Tolerance::Default) follows the input, so it need rarely be changed:
 ///
-/// Too small, and polygons that were meant to be coplanar cut each other into slivers. Too large,
-/// and layers that were meant to be apart come in input order. The default is a share of the extent
-/// of *all* corners, so one stray vertex far off makes it larger: remove the vertex, or give a
-/// length.
+/// | input | default | take instead |
+/// |---|---|---|
+/// | `f64` | 10⁻⁹ of the extent | 0 if layers, however thin, must never be exchanged |
+/// | `f32`, computed or not | four steps of the largest coordinate, 2·10⁻⁷ to 5·10⁻⁷ of the extent | 0 if no computation has touched them, as on integers |
+/// | an OBJ file | one unit in the last decimal that it writes, at most 10⁻⁵ of the extent | |
+/// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), at least 10⁻⁹ of the extent | |
+/// | thin layers in a scene of large extent | | a length below half the distance of the layers |
+///
+/// Too small, and polygons that were meant to be coplanar cut each other into slivers, and quads
+/// that rounding has bent are triangulated. Too large, and layers that were meant to be apart come
+/// in input order. [`Stats`](crate::Stats) tells: how many polygons are
+/// [`bent`](crate::Stats::bent) by little more than the tolerance, how many it
+/// [`flattened`](crate::Stats::flattened) or made [coplanar](crate::Stats::nearly_coplanar), and by
+/// how much. A share of the extent is one of *all* corners: a stray vertex far off makes it larger,
+/// so remove the vertex, or give a length.
 ///
 /// # T-junctions
 ///

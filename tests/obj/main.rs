@@ -1,10 +1,12 @@
 //! Reading OBJ files: what is kept, what is refused, and that nothing panics.
 #![cfg(feature = "obj")]
 
+mod attributes;
 mod errors;
 mod faces;
 mod materials;
 mod noise;
+mod precision;
 mod real;
 
 use binspace::scene::{ObjError, ObjReport, Scene};

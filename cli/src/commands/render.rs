@@ -34,12 +34,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let file = NewFile::create(&args.output)?;
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     let camera = camera::asked(args, &scene)?;
+    let colours = Colours::new(&scene, args.colours);
     let progress = Progress::spinner("drawing");
     match format {
-        Format::Svg => file.write(|out| svg::write(out, &tree, &camera, &scene))?,
+        Format::Svg => file.write(|out| svg::write(out, &tree, &camera, &scene, &colours))?,
         Format::Png => {
             let seen = verify(&tree, &camera).map_err(|error| camera::about(&scene, &error))?;
-            let pixels = kind.pixels(&tree, camera.viewpoint(), &seen, &Colours::of(&scene));
+            let pixels = kind.pixels(&tree, camera.viewpoint(), &seen, &colours);
             file.write(|out| png_file::write(out, camera.size(), &pixels))?;
             drop(progress);
             if kind == Kind::Difference {

@@ -12,7 +12,7 @@ use binspace::{BspTree, BuildOptions, Heuristic, check_orders, paint_tree, verif
 use super::Outcome;
 use crate::args::TourArgs;
 use crate::camera::{self, FIELD_OF_VIEW};
-use crate::colours::Colours;
+use crate::colours::{Colouring, Colours};
 use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
 use crate::measure;
@@ -187,7 +187,7 @@ fn write_pictures(
     tree: &BspTree,
     camera: &Camera,
 ) -> Result<(), Failure> {
-    let colours = Colours::of(scene);
+    let colours = Colours::new(scene, Colouring::Material);
     let seen = verify(tree, camera).map_err(|error| camera::about(scene, &error))?;
     for kind in Kind::ALL {
         let pixels = kind.pixels(tree, camera.viewpoint(), &seen, &colours);
@@ -195,7 +195,7 @@ fn write_pictures(
         file.write(|out| png_file::write(out, camera.size(), &pixels))?;
     }
     let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
-    file.write(|out| svg::write(out, tree, camera, scene))
+    file.write(|out| svg::write(out, tree, camera, scene, &colours))
 }
 
 #[cfg(test)]

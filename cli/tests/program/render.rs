@@ -77,6 +77,28 @@ fn colours_are_those_of_the_material_library() {
 }
 
 #[test]
+fn without_materials_all_is_grey_unless_polygons_are_asked_for() {
+    let folder = Folder::new("render_grey");
+    folder.write("grey.mtl", "newmtl grey\nKd 0.8 0.8 0.8\n");
+    folder.write("plain.obj", CROSSING);
+    folder.write("grey.obj", format!("mtllib grey.mtl\nusemtl grey\n{CROSSING}"));
+    let picture = |scene: &str, options: &str| {
+        folder
+            .run(&format!("render {scene} -o p.png --direction 1,2,-3 --size 50x50 {options}"))
+            .good();
+        Picture::read(&folder.path("p.png"))
+    };
+    for scene in ["plain.obj", "grey.obj"] {
+        let grey = picture(scene, "");
+        assert!(grey.rgb.chunks_exact(3).all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2]));
+        // Shades of grey by the angle, and the background.
+        assert!(grey.colours() > 2, "{scene}: {}", grey.colours());
+        let coloured = picture(scene, "--colours polygon");
+        assert!(coloured.rgb.chunks_exact(3).any(|rgb| rgb[0] != rgb[1]), "{scene}");
+    }
+}
+
+#[test]
 fn what_is_behind_glass_shines_through_in_the_png_too() {
     let folder = Folder::new("render_opacity");
     folder.write("m.mtl", "newmtl glass\nKd 0 0 1\nd 0.25\nnewmtl red\nKd 1 0 0\n");

@@ -101,7 +101,7 @@ mod tests {
             state = crate::random::mix(state);
             (state >> 11) as f64 * 2f64.powi(-53)
         };
-        for places in [2_usize, 4, 6] {
+        for places in [4_usize, 6, 8] {
             let (mut fixed, mut significant) = (Decimals::default(), Decimals::default());
             for _ in 0..300 {
                 let value = (random() - 0.5) * 40.0 * random() * random();

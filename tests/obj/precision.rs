@@ -1,0 +1,71 @@
+//! The last decimal that a file writes is its precision.
+
+use binspace::glam::{DVec2, DVec3};
+use binspace::scene::Scene;
+use binspace::{BspTree, Viewpoint};
+use std::fmt::Write;
+
+use super::{read, with_corners};
+
+/// Quads with a normal, so many units of the last of six decimals apart, written with a number
+/// format.
+fn layers(count: usize, units: f64, write: impl Fn(f64) -> String) -> (Scene, DVec3) {
+    let normal = DVec3::new(1.0, 2.0, 3.0).normalize();
+    let (across, along) = normal.any_orthonormal_pair();
+    let mut text = String::new();
+    for i in 0..count {
+        let turn = DVec2::from_angle(i as f64);
+        let (x, y) = (across * turn.x + along * turn.y, along * turn.x - across * turn.y);
+        let middle = normal * (units * 1e-6 * i as f64) + across * (0.013 * i as f64);
+        for [u, v] in [[-0.5, -0.4], [0.5, -0.4], [0.5, 0.4], [-0.5, 0.4]] {
+            let [x, y, z] = (middle + x * u + y * v).to_array().map(&write);
+            writeln!(text, "v {x} {y} {z}").unwrap();
+        }
+        let first = 4 * i + 1;
+        writeln!(text, "f {first} {} {} {}", first + 1, first + 2, first + 3).unwrap();
+    }
+    (read(text).unwrap().0, normal)
+}
+
+#[test]
+fn it_is_one_unit_in_the_last_decimal() {
+    let of = |text: &str| read(text).unwrap().0.precision();
+    assert_eq!(of(&with_corners("f 1 2 3")), 1.0);
+    assert_eq!(of("v 0 0 0\nv 1.50 0 0\nv 0 1 0.125\nf 1 2 3"), 1e-3);
+    assert_eq!(binspace::scene::crossing(2).precision(), 0.0);
+}
+
+#[test]
+fn quads_that_only_the_decimals_bend_stay_whole() {
+    let (scene, _) = layers(60, 1000.0, |c| format!("{c:.6}"));
+    assert_eq!(scene.precision(), 1e-6);
+    let stats = BspTree::build(scene.polygons()).unwrap().stats();
+    assert!(stats.flattened > 40, "{stats:?}");
+    assert!(stats.triangulated < 15, "{stats:?}");
+    // Of the same numbers, as if they were exact, most are triangulated.
+    let exact: Vec<Vec<DVec3>> = scene.polygons().map(|polygon| polygon.to_vec()).collect();
+    let stats = BspTree::build(&exact).unwrap().stats();
+    assert!(stats.triangulated > 50 && stats.bent == stats.triangulated, "{stats:?}");
+}
+
+/// Layers three units apart and more are told apart, from both sides.
+#[test]
+fn layers_some_units_apart_keep_their_order() {
+    for units in [3.0, 4.0, 10.0] {
+        let (scene, normal) = layers(30, units, |c| format!("{c:.6}"));
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        assert!(tree.stats().tolerance >= 1e-6, "{:?}", tree.stats());
+        for side in [1.0, -1.0] {
+            let order: Vec<usize> = tree
+                .back_to_front(Viewpoint::direction(normal * -side))
+                .map(|fragment| fragment.polygon())
+                .collect();
+            let place = |polygon| order.iter().position(|&p| p == polygon).unwrap();
+            let last = |polygon| order.iter().rposition(|&p| p == polygon).unwrap();
+            for upper in 1..30 {
+                let (far, near) = if side > 0.0 { (upper - 1, upper) } else { (upper, upper - 1) };
+                assert!(last(far) < place(near), "{units} units: {order:?}");
+            }
+        }
+    }
+}

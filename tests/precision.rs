@@ -1,0 +1,164 @@
+//! The default tolerance follows the precision of the input, and merges nothing that the input
+//! tells apart.
+
+use binspace::glam::{DVec3, Mat4, Quat, Vec3, vec3};
+use binspace::{BspTree, BuildOptions, Heuristic, Polygon, Tolerance, Viewpoint};
+
+/// How many turns of the cards are tried.
+const TURNS: u64 = 24;
+
+fn turn(number: u64) -> Mat4 {
+    let angle = |k: u64| (number * (2 * k + 3)) as f32 * 0.61 + k as f32;
+    let turn = Quat::from_euler(binspace::glam::EulerRot::XYZ, angle(0), angle(1), angle(2));
+    Mat4::from_rotation_translation(turn, vec3(0.3, -0.2, 0.1))
+}
+
+/// Overlapping cards in parallel planes, moved by a matrix in `f32`.
+fn cards(count: usize, gap: f32, turn: Mat4) -> Vec<[Vec3; 4]> {
+    let card = |i: usize| {
+        let [x, y] = [0.037, 0.023].map(|step| step * i as f32 - 0.7);
+        let z = gap * i as f32;
+        let corners = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]];
+        corners.map(|[u, v]| turn.transform_point3(vec3(x + u, y + v, z)))
+    };
+    (0..count).map(card).collect()
+}
+
+fn order(tree: &BspTree, direction: DVec3) -> Vec<usize> {
+    tree.back_to_front(Viewpoint::direction(direction)).map(|f| f.polygon()).collect()
+}
+
+#[test]
+fn cards_in_one_plane_out_of_a_matrix_of_f32_stay_whole_and_in_input_order() {
+    let mut cut_without = 0;
+    for number in 0..TURNS {
+        let turn = turn(number);
+        let cards = cards(40, 0.0, turn);
+        let tree = BspTree::build(&cards).unwrap();
+        assert_eq!(tree.len(), 40, "turn {number}");
+        let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
+        let input: Vec<usize> = (0..40).collect();
+        assert_eq!(order(&tree, normal), input, "turn {number}");
+        assert_eq!(order(&tree, -normal), input, "turn {number}");
+        let finer = BuildOptions::DEFAULT.with_relative_tolerance(1e-9).build(&cards).unwrap();
+        cut_without += usize::from(finer.len() > 40);
+    }
+    assert!(cut_without > 12, "only {cut_without} of the scenes tell one tolerance from another");
+}
+
+#[test]
+fn layers_some_steps_of_f32_apart_keep_their_order() {
+    // Twice the default tolerance, and the rounding of both layers.
+    let gap = 12.0 * f32::EPSILON;
+    for number in 0..TURNS {
+        let turn = turn(number);
+        let cards = cards(30, gap, turn);
+        let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
+        let tree = BspTree::build(&cards).unwrap();
+        let order = order(&tree, -normal);
+        // Neighbours overlap, so the order of the input, from below upwards, is the only right one.
+        let first = |polygon| order.iter().position(|&p| p == polygon).unwrap();
+        let last = |polygon| order.iter().rposition(|&p| p == polygon).unwrap();
+        for upper in 1..30 {
+            assert!(last(upper - 1) < first(upper), "turn {number}: {order:?}");
+        }
+    }
+}
+
+#[test]
+fn a_polygon_says_its_precision() {
+    let single = [[0.5_f32, -3.0, 0.25], [1.0; 3], [0.0; 3]];
+    let expected = 4.0 * f64::from(f32::EPSILON) * 3.0;
+    assert_eq!(single.precision(), expected);
+    assert_eq!(single.map(Vec3::from).to_vec().precision(), expected);
+    let double = single.map(|point| point.map(f64::from));
+    assert_eq!(double.precision(), 4.0 * f64::EPSILON * 3.0);
+    assert_eq!((&double[..]).precision(), double.precision());
+}
+
+/// Two squares of side 1, the second so much higher, from a type that claims a precision.
+struct Square {
+    height: f64,
+    precision: f64,
+}
+
+impl Polygon for Square {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+            .into_iter()
+            .map(|[x, y]| DVec3::new(x, y, self.height))
+    }
+
+    fn precision(&self) -> f64 {
+        self.precision
+    }
+}
+
+fn tolerance_of(precision: f64, options: BuildOptions) -> f64 {
+    let squares = [0.0, 1e-3].map(|height| Square { height, precision });
+    options.build(squares).unwrap().stats().tolerance
+}
+
+#[test]
+fn the_tolerance_is_the_precision_within_bounds_or_what_is_asked() {
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() <= 1e-12 * expected, "{found}, not {expected}");
+    };
+    let default = BuildOptions::DEFAULT;
+    for (precision, expected) in [
+        (0.0, 1e-9),
+        (1e-12, 1e-9),
+        (1e-7, 1e-7),
+        (1e-2, 1e-5),
+        (f64::INFINITY, 1e-5),
+        (f64::NAN, 1e-9),
+        (-1.0, 1e-9),
+    ] {
+        near(tolerance_of(precision, default), expected);
+    }
+    near(tolerance_of(1e-7, default.with_tolerance(1e-4)), 1e-4);
+    near(tolerance_of(1e-7, default.with_relative_tolerance(1e-3)), 1e-3);
+    assert_eq!(tolerance_of(1e-7, default.with_tolerance(0.0)), 0.0);
+    assert_eq!(tolerance_of(1e-7, default.with_relative_tolerance(0.0)), 0.0);
+    let largest = tolerance_of(0.0, default.with_tolerance(f64::INFINITY));
+    near(tolerance_of(0.0, default.with_relative_tolerance(f64::INFINITY)), largest);
+    assert!((1.0 / 256.0..=1.0 / 128.0).contains(&largest), "{largest}");
+    for wrong in [-1e-9, f64::NAN] {
+        let error = default.with_relative_tolerance(wrong).build([[[0.0; 3]; 3]]).unwrap_err();
+        assert!(error.to_string().contains("tolerance"), "{error}");
+    }
+    assert_eq!(Tolerance::from(None), Tolerance::Default);
+    assert_eq!(Tolerance::from(Some(2.0)), Tolerance::Length(2.0));
+}
+
+#[test]
+fn what_is_bent_flattened_or_nearly_coplanar_is_counted_and_measured() {
+    // The plane of three of its corners is level; the fourth is off by `off`.
+    let quad = |off: f64| {
+        [[0.0, 0.0, 0.0], [4.0, 0.0, off], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]].map(DVec3::from)
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() <= 1e-3 * expected, "{found}, not {expected}");
+    };
+    let stats = |tolerance, polygons: &[[DVec3; 4]]| {
+        // The first of all that are left is the next plane.
+        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+        options.with_tolerance(tolerance).build(polygons).unwrap().stats()
+    };
+    let quads = [quad(0.0), quad(3e-7), quad(2e-6), quad(0.5)];
+    let found = stats(1e-6, &quads);
+    assert_eq!((found.flattened, found.bent, found.triangulated), (1, 1, 2));
+    near(found.flattened_by, 3e-7);
+    near(found.bent_by, 2e-6);
+    let found = stats(0.0, &quads);
+    assert_eq!((found.flattened, found.flattened_by, found.bent), (0, 0.0, 2));
+    near(found.bent_by, 2e-6);
+
+    let level = |z: f64| quad(0.0).map(|corner| corner + DVec3::Z * z);
+    let layers = [level(0.0), level(1e-7), level(0.0), level(1.0)];
+    let found = stats(1e-6, &layers);
+    assert_eq!(found.nearly_coplanar, 1);
+    near(found.nearly_coplanar_by, 1e-7);
+    let found = stats(1e-8, &layers);
+    assert_eq!((found.nearly_coplanar, found.nearly_coplanar_by), (0, 0.0));
+}
