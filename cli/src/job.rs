@@ -4,7 +4,7 @@ use binspace::internals::{Faces, Preparation};
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
-use crate::args::{BuildArgs, SceneArgs};
+use crate::args::{BuildArgs, LimitArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::measure;
 use crate::scene_arg;
@@ -26,6 +26,7 @@ pub(crate) fn scene_and_tree(
     let options = build.limits.options(build.heuristic);
     let tree = measure::build(&scene, &options).map_err(|error| about(&scene, &error))?;
     note_preparation(&scene, tree.faces(), tree.preparation());
+    note_tolerance(&scene, &build.limits, &tree);
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
@@ -37,8 +38,7 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
     Failure::about(scene.name(), error)
 }
 
-/// Notes which faces were dropped, triangulated, or given more than once, and what the tolerance has
-/// to do with it.
+/// Notes which faces were dropped, triangulated, or given more than once.
 pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
@@ -52,34 +52,44 @@ pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparat
         let number = faces(found.crossing);
         format!("of these, {number} with crossing edges: the area covered is a guess")
     });
-    let tolerance = tolerance(scene, prepared, found);
-    for problem in [dropped, triangulated, crossing, duplicates, tolerance].into_iter().flatten() {
+    for problem in [dropped, triangulated, crossing, duplicates].into_iter().flatten() {
         note(&format!("{}: {problem}", scene.name()));
     }
 }
 
-/// What the user has to know of the tolerance: that it is too small for the faces, or, otherwise,
-/// that the file's decimals decided it.
-fn tolerance(scene: &Scene, prepared: &Faces, found: &Preparation) -> Option<String> {
+/// Notes that the tolerance is too small for the faces; otherwise which one was taken, if the file's
+/// decimals decided that.
+pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
+    let found = tree.preparation();
     let quads = scene.polygons().filter(|polygon| polygon.len() > 3).count();
     if 2 * found.bent > quads {
-        return Some(format!(
-            "{} of {} with four corners or more are bent by at most {:.1e}, as by a rounding: \
+        note(&format!(
+            "{}: {} of {} with four corners or more are bent by at most {:.1e}, as by a rounding: \
              `--tolerance {:.0e}` would keep them whole",
+            scene.name(),
             found.bent,
             count(quads, "face"),
             found.bent_by,
-            found.bent_by * 2.0,
+            2.0 * found.bent_by,
+        ));
+    } else if scene.precision() > 0.0 && limits.tolerance.is_none() {
+        let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
+        note(&format!(
+            "{}: the last decimal of its coordinates is {}, so the tolerance is {}, unless you give \
+             `--tolerance`",
+            scene.name(),
+            short(scene.precision()),
+            short(tolerance),
         ));
     }
-    let used = prepared.lattice().length_to_world(prepared.tolerance());
-    (scene.precision() > 0.0 && (used / scene.precision() - 1.0).abs() < 1e-9).then(|| {
-        format!(
-            "the last decimal of its coordinates is {:e}: used as the tolerance, unless \
-             `--tolerance` gives another",
-            scene.precision(),
-        )
-    })
+}
+
+/// A length with two digits.
+fn short(length: f64) -> String {
+    match format!("{length:.1e}").replace(".0e", "e") {
+        whole if whole.ends_with("e0") => whole.trim_end_matches("e0").to_owned(),
+        other => other,
+    }
 }
 
 /// The first of the faces that were dropped, and how many more there are.

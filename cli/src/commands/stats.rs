@@ -42,6 +42,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         };
         if is_first {
             job::note_preparation(&scene, tree.faces(), tree.preparation());
+            job::note_tolerance(&scene, &args.limits, &tree);
             if tree.is_empty() {
                 note(&format!("{}: {}", scene.name(), job::NOTHING_LEFT));
             }

@@ -130,10 +130,11 @@ fn polygons_are_numbered_by_their_line_in_the_file() {
         "`p` lines skipped: 1",
         "`l` lines skipped: 1",
         "2 faces without area dropped: face 0 (line 6), face 1 (line 8), counted from 0",
+        "the last decimal of its coordinates is 1, so the tolerance is 2e-5",
     ] {
         assert!(run.err.contains(part), "{part}: {}", run.err);
     }
-    assert_eq!(run.err.lines().count(), 2, "{}", run.err);
+    assert_eq!(run.err.lines().count(), 3, "{}", run.err);
     let lines = parse(&run.good());
     assert_eq!(lines.len(), 1);
     assert_eq!(lines[0].polygon, 2);

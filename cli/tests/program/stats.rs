@@ -68,3 +68,44 @@ fn a_heuristic_over_budget_does_not_stop_the_others() {
     assert_eq!(notes, over, "{run:?}");
     assert!(run.err.contains(&format!("error: random:100: {over} tree")), "{run:?}");
 }
+
+/// Ten quads in one tilted plane, to six decimals.
+fn rounded_quads() -> String {
+    let mut text = String::new();
+    for i in 0..10 {
+        let turn = f64::from(i);
+        for k in 0..4 {
+            let (sin, cos) = (turn + f64::from(k) * std::f64::consts::FRAC_PI_2).sin_cos();
+            let (x, y) = (cos + 0.1 * turn, sin);
+            let z = (x + 2.0 * y) / 3.0;
+            text += &format!("v {x:.6} {y:.6} {z:.6}\n");
+        }
+        let first = 4 * i + 1;
+        text += &format!("f {first} {} {} {}\n", first + 1, first + 2, first + 3);
+    }
+    text
+}
+
+#[test]
+fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
+    let folder = Folder::new("stats_tolerance");
+    folder.write("s.obj", rounded_quads());
+    let run = |options: &str| {
+        let run = folder.run(&format!("stats s.obj --json {options}"));
+        let notes = run.err.clone();
+        (serde_json::from_str::<Value>(&run.good()).unwrap(), notes)
+    };
+    let (line, notes) = run("");
+    let said = "the last decimal of its coordinates is 1e-6, so the tolerance is 1e-6, unless";
+    assert!(notes.contains(said), "{notes}");
+    let tolerance = line["tolerance"].as_f64().unwrap();
+    assert!((tolerance - 1e-6).abs() < 1e-15, "{line}");
+    assert!(line["flattened"].as_u64() >= Some(3), "{line}");
+
+    let (line, notes) = run("--tolerance 0");
+    assert!(!notes.contains("the last decimal"), "{notes}");
+    assert!(notes.contains("with four corners or more are bent by at most"), "{notes}");
+    assert_eq!((line["tolerance"].as_f64(), line["flattened"].as_u64()), (Some(0.0), Some(0)));
+    let bent_by = line["bent_by"].as_f64().unwrap();
+    assert!(line["bent"].as_u64() >= Some(3) && bent_by > 0.0 && bent_by < 2e-6, "{line}");
+}
