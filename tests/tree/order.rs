@@ -57,7 +57,22 @@ impl<'t> Sides<'t> {
     }
 
     fn check_all(&mut self, views: &[View]) -> Verdict {
-        views.iter().try_for_each(|view| self.check(view))
+        views.iter().try_for_each(|view| self.check(view))?;
+        views.iter().zip(views.iter().skip(1)).try_for_each(|(a, b)| {
+            self.check_same(a, b)?;
+            self.check_same(a, a)
+        })
+    }
+
+    /// Whether the orders of two viewpoints are the same exactly if no plane lies between them; a
+    /// plane that an eye is on may.
+    fn check_same(&self, a: &View, b: &View) -> Verdict {
+        let sides = |view: &View| self.planes.iter().map(|(_, plane)| view.side(plane));
+        let sides: Vec<_> = sides(a).zip(sides(b)).collect();
+        let parts = sides.iter().any(|(a, b)| a.is_ne() && b.is_ne() && a != b);
+        let touches = sides.iter().any(|(a, b)| a.is_eq() || b.is_eq());
+        let found = self.tree.same_order(a.viewpoint, b.viewpoint);
+        ensure(if found { !parts } else { parts || touches }, || format!("{found}: {a:?}, {b:?}"))
     }
 }
 

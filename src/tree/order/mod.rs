@@ -4,6 +4,7 @@ mod fragments;
 mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
+mod same;
 mod sides;
 mod twig;
 

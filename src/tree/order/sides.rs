@@ -65,26 +65,38 @@ impl View {
 
     /// As [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.
     pub(in crate::tree) fn write_signs(&self, tree: &BspTree, words: &mut [u32]) {
-        for (w, (word, groups)) in
-            words.iter_mut().zip(tree.planes.0.chunks(WORD / GROUP)).enumerate()
-        {
-            let (mut front, mut sure) = (0, 0);
-            for (g, group) in groups.iter().enumerate() {
-                let distances = self.distances(group);
-                let bound = Vec4::splat(self.bound);
-                // No early exit for doubtful planes: they are rare, and a word at a time can be decided
-                // without a branch.
-                front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
-                sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
-            }
-            *word = front;
-            let nodes = WORD * w..tree.nodes.len().min(WORD * (w + 1));
-            // The padding of the last group has distance 0 and is never sure, so it is masked out.
-            let all = u32::MAX >> (WORD - nodes.len());
-            if sure & all != all {
-                *word |= self.decide_rest(tree, nodes.start, !sure & all);
-            }
+        let groups = tree.planes.0.chunks(WORD / GROUP);
+        for (w, (word, groups)) in words.iter_mut().zip(groups).enumerate() {
+            *word = self.signs(tree, w, groups);
         }
+    }
+
+    /// Whether another viewpoint is on the same side of every plane. Stops at the first that lies
+    /// between the two.
+    pub(super) fn agrees_with(&self, other: &Self, tree: &BspTree) -> bool {
+        let mut groups = tree.planes.0.chunks(WORD / GROUP).enumerate();
+        groups.all(|(w, groups)| self.signs(tree, w, groups) == other.signs(tree, w, groups))
+    }
+
+    /// The bits of the nodes of word `w`, whose planes are in `groups`.
+    #[inline]
+    fn signs(&self, tree: &BspTree, w: usize, groups: &[[Vec4; 4]]) -> u32 {
+        let (mut front, mut sure) = (0, 0);
+        for (g, group) in groups.iter().enumerate() {
+            let distances = self.distances(group);
+            let bound = Vec4::splat(self.bound);
+            // No early exit for doubtful planes: they are rare, and a word at a time can be decided
+            // without a branch.
+            front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
+            sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
+        }
+        let nodes = WORD * w..tree.nodes.len().min(WORD * (w + 1));
+        // The padding of the last group has distance 0 and is never sure, so it is masked out.
+        let all = u32::MAX >> (WORD - nodes.len());
+        if sure & all != all {
+            front |= self.decide_rest(tree, nodes.start, !sure & all);
+        }
+        front
     }
 
     /// Decides the nodes exactly that have a bit in `unsure`; bit 0 stands for node `first`.
