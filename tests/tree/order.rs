@@ -67,8 +67,8 @@ impl<'t> Sides<'t> {
     /// Whether the orders of two viewpoints are the same exactly if no plane lies between them; a
     /// plane that an eye is on may.
     fn check_same(&self, a: &View, b: &View) -> Verdict {
-        let sides = |view: &View| self.planes.iter().map(|(_, plane)| view.side(plane));
-        let sides: Vec<_> = sides(a).zip(sides(b)).collect();
+        let planes = self.planes.iter().map(|(_, plane)| plane);
+        let sides: Vec<_> = planes.map(|plane| (a.side(plane), b.side(plane))).collect();
         let parts = sides.iter().any(|(a, b)| a.is_ne() && b.is_ne() && a != b);
         let touches = sides.iter().any(|(a, b)| a.is_eq() || b.is_eq());
         let found = self.tree.same_order(a.viewpoint, b.viewpoint);

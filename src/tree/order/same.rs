@@ -19,7 +19,7 @@ impl BspTree {
     /// let tree = BspTree::build([square(2.0), square(0.0), square(1.0)])?;
     /// let eye = |z: f64| Viewpoint::eye([0.5, 0.5, z]);
     /// assert!(tree.same_order(eye(3.0), eye(9.0)));
-    /// assert!(!tree.same_order(eye(1.5), eye(2.5)));
+    /// assert!(!tree.same_order(eye(-1.0), eye(9.0)));
     /// # Ok::<(), binspace::Error>(())
     /// ```
     pub fn same_order(&self, one: Viewpoint, other: Viewpoint) -> bool {
