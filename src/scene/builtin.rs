@@ -1,3 +1,5 @@
+//! Generated scenes by name, as the program takes them.
+
 use super::{
     Scene, chain, city, cornell_box, crossing, layers, newell_bars, random_triangles, sphere,
     teapot, terrain,

@@ -1,7 +1,9 @@
+//! Why an OBJ file cannot be read.
+
 use std::fmt;
 
-/// Why an OBJ file cannot be read. The message names the file, the line and the face
-/// where they are known, and says what to do.
+/// Why an OBJ file cannot be read. The message names the file, the line and the face where they are
+/// known, and says what to do.
 #[derive(Debug)]
 pub struct ObjError {
     file: String,
@@ -38,8 +40,7 @@ impl ObjError {
         self.line
     }
 
-    /// The face at fault: the number of its `f` line among the `f` lines,
-    /// counted from 0.
+    /// The face at fault: the number of its `f` line among the `f` lines, counted from 0.
     pub fn face(&self) -> Option<u32> {
         self.face
     }
