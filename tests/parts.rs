@@ -3,8 +3,8 @@
 mod support;
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, Preparation};
-use binspace::{BspTree, BuildOptions};
+use binspace::internals::Faces;
+use binspace::{BspTree, BuildOptions, Preparation};
 use support::shapes::Corners;
 
 /// More than what is prepared at once, which is sixteen parts of 1024 polygons.

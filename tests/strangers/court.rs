@@ -1,8 +1,7 @@
 //! Trees held against rays: far before near, input order where polygons are in one plane, and
 //! every polygon covered once.
 
-use binspace::BspTree;
-use binspace::internals::Viewpoint;
+use binspace::{BspTree, Viewpoint};
 
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
