@@ -123,7 +123,7 @@ fn load(scan: &Scan) -> Result<Polygons, ObjError> {
         .map_err(|error| Kind::Reader(error.to_string()).at(None, None))?;
     let mut polygons = Polygons {
         corners: Vec::with_capacity(scan.corners),
-        sides: Vec::with_capacity(scan.report.faces as usize),
+        sides: Vec::with_capacity(scan.report.faces),
     };
     for mesh in models.iter().map(|model| &model.mesh) {
         let points: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
@@ -139,10 +139,7 @@ fn load(scan: &Scan) -> Result<Polygons, ObjError> {
     }
     let sides: usize = polygons.sides.iter().map(|&sides| sides as usize).sum();
     let faces = polygons.sides.len();
-    if faces != scan.report.faces as usize
-        || sides != polygons.corners.len()
-        || sides != scan.corners
-    {
+    if faces != scan.report.faces || sides != polygons.corners.len() || sides != scan.corners {
         let expected = scan.report.faces;
         let problem = format!("found {faces} faces where the file has {expected}");
         return Err(Kind::Reader(problem).at(None, None));

@@ -8,7 +8,7 @@ use std::fmt;
 pub struct ObjError {
     file: String,
     line: Option<usize>,
-    face: Option<u32>,
+    face: Option<usize>,
     kind: Kind,
 }
 
@@ -29,7 +29,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    pub(super) fn at(self, line: Option<usize>, face: Option<u32>) -> ObjError {
+    pub(super) fn at(self, line: Option<usize>, face: Option<usize>) -> ObjError {
         ObjError { file: String::new(), line, face, kind: self }
     }
 }
@@ -41,7 +41,7 @@ impl ObjError {
     }
 
     /// The face at fault: the number of its `f` line among the `f` lines, counted from 0.
-    pub fn face(&self) -> Option<u32> {
+    pub fn face(&self) -> Option<usize> {
         self.face
     }
 

@@ -41,7 +41,7 @@ pub(super) struct Scan {
 struct Ahead {
     index: usize,
     line: usize,
-    face: u32,
+    face: usize,
 }
 
 impl Scan {
@@ -129,7 +129,7 @@ impl Scan {
 
     fn face(&mut self, words: SplitWhitespace<'_>, line: usize) -> Result<(), ObjError> {
         let face = self.report.faces;
-        if face == u32::MAX {
+        if face == u32::MAX as usize {
             return Err(Kind::TooManyFaces.at(Some(line), None));
         }
         self.cleaned.push('f');

@@ -9,20 +9,20 @@ use std::fmt;
 #[non_exhaustive]
 pub struct ObjReport {
     /// The `f` lines, degenerate ones included: the polygons of the scene.
-    pub faces: u32,
+    pub faces: usize,
     /// Faces with fewer than three different corner positions. They stay in the scene, so that
     /// polygon numbers are those of the file.
-    pub degenerate_faces: u32,
+    pub degenerate_faces: usize,
     /// `p` lines.
-    pub skipped_points: u32,
+    pub skipped_points: usize,
     /// `l` lines.
-    pub skipped_lines: u32,
+    pub skipped_lines: usize,
     /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are
     /// malformed or name none. Those corners are without that attribute.
-    pub skipped_attributes: u32,
+    pub skipped_attributes: usize,
     /// Lines that begin with any other word that is not understood, such as the statements for
     /// free-form curves and surfaces.
-    pub skipped_statements: u32,
+    pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
     /// Material libraries that were not read, because their names lead out of the file's folder:
@@ -32,7 +32,7 @@ pub struct ObjReport {
     pub missing_materials: Vec<String>,
     /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
     /// unsupported kind, such as spectral curves.
-    pub skipped_material_lines: u32,
+    pub skipped_material_lines: usize,
 }
 
 impl ObjReport {
