@@ -16,6 +16,7 @@ const LAYER_GAP: f64 = 1e-4;
 
 /// The generated scenes, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Builtin {
     /// [`newell_bars`].
     Newell,

@@ -2,6 +2,7 @@
 
 /// A flat colour. There is no lighting.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Material {
     /// A name for people; need not be unique.
     pub name: String,
@@ -18,6 +19,12 @@ impl Material {
     /// An opaque material.
     pub fn new(name: impl Into<String>, color: [f32; 3]) -> Self {
         Self { name: name.into(), color, opacity: 1.0 }
+    }
+
+    /// The same material with an opacity from 0, invisible, to 1, opaque.
+    #[must_use]
+    pub fn with_opacity(self, opacity: f32) -> Self {
+        Self { opacity, ..self }
     }
 
     /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito, "Color Universal
