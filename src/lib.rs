@@ -68,9 +68,8 @@ pub mod internals {
     pub use crate::build::choose::Tuning;
     pub use crate::build::driver::{parts, tree_of_faces, tree_tuned};
     pub use crate::exact::{
-        Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Int, Kernel, LATTICE_LIMIT,
-        Lattice, Line, Piece, Plane, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, Weights,
-        split,
+        Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Kernel, LATTICE_LIMIT, Lattice,
+        Line, Piece, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, split,
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
     pub use crate::random::{SplitMix64, mix};
