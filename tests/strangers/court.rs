@@ -58,7 +58,7 @@ pub(crate) struct Shot {
     rays: Vec<(Ray, Vec<Vec<Hit>>)>,
 }
 
-/// Rays from so many viewpoints, of all kinds in turn.
+/// Rays from `views` viewpoints, of all kinds in turn.
 pub(crate) fn shots(
     targets: &Targets<'_>,
     [views, rays]: [usize; 2],
