@@ -2,18 +2,11 @@
 
 #![allow(missing_docs, reason = "criterion's macros make functions without any")]
 
-use binspace::scene::{Scene, city, random_triangles, sphere, teapot};
-use binspace::{BspTree, BuildOptions, Heuristic};
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use binspace::scene::{city, random_triangles, sphere, teapot};
+use binspace::{BuildOptions, Heuristic};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::time::Duration;
-
-/// The tree that is timed must be right: valid, every face in it, and the same each time.
-fn check(tree: &BspTree, scene: &Scene) {
-    let stats = tree.stats();
-    assert_eq!(tree.validate(), Ok(()), "{}", scene.name());
-    assert_eq!(stats.polygons, scene.len());
-    assert_eq!(stats.fragments, stats.faces + stats.splits);
-}
+use support::check;
 
 fn bench(criterion: &mut Criterion) {
     for scene in [random_triangles(500, 1), city(2000, 1), sphere(2000), teapot(8)] {
@@ -26,15 +19,11 @@ fn bench(criterion: &mut Criterion) {
             check(&tree, &scene);
             let fragments = tree.len();
             group.bench_function(heuristic.to_string(), |b| {
-                b.iter_batched(
-                    || (),
-                    |()| {
-                        let tree = build();
-                        assert_eq!(tree.len(), fragments);
-                        tree
-                    },
-                    BatchSize::PerIteration,
-                );
+                b.iter_with_large_drop(|| {
+                    let tree = build();
+                    assert_eq!(tree.len(), fragments);
+                    tree
+                });
             });
         }
         group.finish();

@@ -67,8 +67,11 @@ pub use viewpoint::Viewpoint;
 pub mod internals {
     pub use crate::build::choose::Tuning;
     pub use crate::build::driver::{parts, tree_of_faces, tree_tuned};
-    pub use crate::exact::*;
-    pub use crate::faces::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};
+    pub use crate::exact::{
+        Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Kernel, LATTICE_LIMIT, Lattice,
+        Line, Piece, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, split,
+    };
+    pub use crate::faces::DEFAULT_TOLERANCE;
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]
     pub use crate::scene::cuboid::cuboid;
@@ -78,7 +81,6 @@ pub mod internals {
     pub use crate::tree::parts::{Child, Parts, RawNode, Record};
     #[cfg(feature = "raster")]
     pub use crate::verify::paint_order;
-    pub use crate::viewpoint::Viewpoint;
 }
 
 /// The README's examples are tested as they stand.

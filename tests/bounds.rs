@@ -85,7 +85,7 @@ fn distance(triangle: &Triangle, place: &Place) -> f64 {
     let product = |i: usize, j: usize| ((q[i] - p[i]) as f64 * (r[j] - p[j]) as f64).abs();
     let pairs = [(0, 1), (1, 0), (1, 2), (2, 1), (2, 0), (0, 2)];
     let size: f64 = pairs.into_iter().map(|(i, j)| product(i, j)).sum();
-    Exact::distance(&splitter, place.rounded) / size
+    splitter.distance(place.rounded) / size
 }
 
 /// Where all that errs errs most: a plane as steep along x as along z through the far ends of both,
@@ -179,8 +179,8 @@ fn bound(triangle: &Triangle) -> f64 {
     let faces = faces(&[*triangle]);
     let splitter = Exact.splitter(&faces, PlaneId::face(1));
     let place = Place::corner([EDGE, 0, 0]);
-    let unit = Exact::distance(&splitter, place.rounded) / distance(triangle, &place);
-    Exact::slack(&splitter) / unit
+    let unit = splitter.distance(place.rounded) / distance(triangle, &place);
+    splitter.slack() / unit
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn a_bound_of_three_quarters_would_put_a_cut_vertex_on_the_wrong_side_of_a_plane
     let (triangle, level, _) = &vertices[at];
     let (faces, vertex) = vertex(triangle, *level, &[plane]);
     let splitter = Exact.splitter(&faces, PlaneId::face(1));
-    assert!(Exact::distance(&splitter, vertex.position()) > 0.75 * Exact::slack(&splitter));
+    assert!(splitter.distance(vertex.position()) > 0.75 * splitter.slack());
     let side = Exact.side(&faces, &splitter, 2, &vertex);
     assert_eq!(side, exactly(&plane, place).0.cmp(&BigInt::zero()));
     assert!(side.is_le());
@@ -214,7 +214,7 @@ fn a_bound_of_six_tenths_would_put_a_corner_on_the_wrong_side_of_a_plane() {
     let behind = [corner, [corner[0], 0, -EDGE], [0, 0, -EDGE]];
     let faces = faces(&[plane, behind]);
     let splitter = Exact.splitter(&faces, PlaneId::face(1));
-    assert!(Exact::distance(&splitter, place.rounded) > 0.6 * Exact::slack(&splitter));
+    assert!(splitter.distance(place.rounded) > 0.6 * splitter.slack());
     let side = Exact.side(&faces, &splitter, 2, &Exact.corner(&faces, 2, 0));
     assert!(side.is_le() && side == exactly(&plane, place).0.cmp(&BigInt::zero()));
 }
@@ -234,7 +234,7 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
                 let (faces, vertex) = vertex(&triangle, level, &[standing]);
                 let corner = faces.corner_range(1).start as u32;
                 let splitter = Exact.splitter(&faces, PlaneId::axis(axis, corner));
-                assert!(Exact::distance(&splitter, vertex.position()) >= 0.25);
+                assert!(splitter.distance(vertex.position()) >= 0.25);
                 let side = Exact.side(&faces, &splitter, 2, &vertex);
                 assert_eq!(side, at.cmp(&BigInt::zero()));
                 crossed += 1;

@@ -5,8 +5,8 @@ use std::cell::Cell;
 use std::iter;
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, MAX_CORNERS};
-use binspace::{BspTree, BuildOptions, Error, Polygon};
+use binspace::internals::Faces;
+use binspace::{BspTree, BuildOptions, Error, MAX_CORNERS, Polygon};
 
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;

@@ -3,13 +3,13 @@
 mod support;
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, Preparation};
-use binspace::{BspTree, BuildOptions};
+use binspace::internals::Faces;
+use binspace::{BspTree, BuildOptions, Preparation};
 use support::shapes::Corners;
 
 /// More than what is prepared at once, which is sixteen parts of 1024 polygons.
 const COUNT: usize = 20_000;
-/// The polygons stand on a square grid with so many cells a side.
+/// The polygons stand on a square grid with this many cells a side.
 const ACROSS: usize = 150;
 
 const TOLERANCE: f64 = 1e-3;

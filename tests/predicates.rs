@@ -139,11 +139,11 @@ impl<'a> Walk<'a> {
         vertex: &ExactVertex,
         exact: &Rational,
     ) -> Outcome<()> {
-        let rounded = Exact::distance(splitter, vertex.position());
+        let rounded = splitter.distance(vertex.position());
         let bound = stated_bound(self.faces, plane);
         if self.faces.tolerance() == 0.0 {
             // Without a tolerance the slack is the bound that the filter goes by.
-            prop_assert!(Exact::slack(splitter) >= bound * (1.0 - 1e-12));
+            prop_assert!(splitter.slack() >= bound * (1.0 - 1e-12));
         }
         if rounded != 0.0 && rational::sign(&rational::exact(rounded)) != rational::sign(exact) {
             let error = rounded.abs() / bound;

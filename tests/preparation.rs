@@ -3,8 +3,9 @@
 
 mod support;
 
+use binspace::Preparation;
 use binspace::glam::{DMat3, DVec3};
-use binspace::internals::{Faces, LATTICE_LIMIT, Preparation};
+use binspace::internals::{Faces, LATTICE_LIMIT};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
 use support::checks::{area, assert_convex_and_planar, face_area};

@@ -2,14 +2,14 @@
 
 use binspace::internals::{
     Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Lattice, Line, Piece, PlaneId,
-    PlaneKind, Preparation, Side, Symbol, SymbolKind,
+    PlaneKind, Side, Symbol, SymbolKind,
 };
 use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
     BspTree, BuildOptions, Error, Fragment, Heuristic, Invalid, Ordered, ParseHeuristicError,
-    Partition, Progress, Stats, Verification, Viewpoint,
+    Partition, Preparation, Progress, Stats, Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.

@@ -1,12 +1,15 @@
 //! What the pages of `BspTree`, `Viewpoint` and `BuildOptions` say of iterators, odd viewpoints and
 //! odd tolerances.
 
+mod support;
+
 use std::fmt::Debug;
 use std::iter::FusedIterator;
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::scene::{self, ScenePolygon};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use support::dice::Dice;
 
 const EYES: [Viewpoint; 4] = [
     Viewpoint::Eye(dvec3(3.0, 1.0, 2.0)),
@@ -36,18 +39,6 @@ fn trees() -> Vec<BspTree> {
     }
     trees.push(BspTree::build(Vec::<[DVec3; 3]>::new()).unwrap());
     trees
-}
-
-/// A stream of numbers, the same every time.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
 }
 
 fn reversed<T>(iterator: impl Iterator<Item = T>) -> Vec<T> {

@@ -78,7 +78,8 @@ fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) 
     mapped
 }
 
-/// Work is repeated for so long, or so many times: more would give the same shortest time.
+/// Work is repeated for at most this long, or this many times: more would give the same shortest
+/// time.
 const ENOUGH: (Duration, u32) = (Duration::from_secs(2), 200);
 
 /// The shortest time of several, three at least, and the last result.
@@ -102,7 +103,7 @@ pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     }
 }
 
-/// So many decisions by the exact kernel are made to check a tree. Fewer are some seconds.
+/// The most decisions by the exact kernel that are made to check a tree: some seconds.
 const MOST_CHECKS: f64 = 3e8;
 
 /// A tree whose time is reported must be right: every face in it, and valid, if that can be checked
@@ -168,9 +169,9 @@ pub fn against(measured: f64, target: Target) -> [String; 3] {
 /// What a figure is to reach.
 #[derive(Clone, Copy, Debug)]
 pub enum Target {
-    /// At most so much.
+    /// At most this.
     AtMost(f64),
-    /// At least so much.
+    /// At least this.
     AtLeast(f64),
 }
 

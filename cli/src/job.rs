@@ -1,8 +1,8 @@
 //! The first step of most commands: loads a scene and builds its tree.
 
-use binspace::internals::{Faces, Preparation};
+use binspace::internals::Faces;
 use binspace::scene::Scene;
-use binspace::{BspTree, Error};
+use binspace::{BspTree, Error, Preparation};
 
 use crate::args::{BuildArgs, LimitArgs, SceneArgs};
 use crate::failure::Failure;

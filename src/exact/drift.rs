@@ -7,7 +7,7 @@ impl Faces {
     /// A position minus the exact position of a vertex, in lattice units. Each coordinate is within
     /// a few roundings of the exact difference. `None` if the planes that define the vertex do not
     /// meet in a point.
-    pub fn drift(&self, face: u32, vertex: Symbol, position: [f64; 3]) -> Option<[f64; 3]> {
+    pub(crate) fn drift(&self, face: u32, vertex: Symbol, position: [f64; 3]) -> Option<[f64; 3]> {
         match self.weights(face, vertex) {
             Weights::Corner(point) => Some(std::array::from_fn(|i| position[i] - point[i])),
             Weights::Edge(points, weights) => {

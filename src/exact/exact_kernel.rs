@@ -30,23 +30,12 @@ pub struct ExactStored {
 }
 
 impl Kernel for Exact {
-    const IS_EXACT: bool = true;
     type Splitter = ExactSplitter;
     type Vertex = ExactVertex;
     type Stored = ExactStored;
 
     fn splitter(&self, faces: &Faces, plane: PlaneId) -> ExactSplitter {
         ExactSplitter::new(faces, plane)
-    }
-
-    #[inline]
-    fn distance(splitter: &ExactSplitter, position: [f64; 3]) -> f64 {
-        splitter.distance(position)
-    }
-
-    #[inline]
-    fn slack(splitter: &ExactSplitter) -> f64 {
-        splitter.bound + splitter.band
     }
 
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> ExactVertex {

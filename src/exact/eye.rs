@@ -88,7 +88,7 @@ impl Eye {
 impl Plane {
     /// On which side an eye lies of the plane that is perpendicular to an axis and goes through a
     /// lattice point: the same as [`at_eye`](Self::at_eye), without products.
-    pub fn axis_at_eye(axis: usize, point: [f64; 3], eye: &Eye) -> Ordering {
+    pub(crate) fn axis_at_eye(axis: usize, point: [f64; 3], eye: &Eye) -> Ordering {
         let (e, p) = (i128::from(eye.integer()[axis]), i128::from(point[axis] as i64));
         match eye.shift() {
             // With a larger shift, every integer except 0 is further out than any lattice point:
@@ -100,7 +100,7 @@ impl Plane {
     }
 
     /// On which side of the plane an eye lies: `Greater` is in front.
-    pub fn at_eye(&self, eye: &Eye) -> Ordering {
+    pub(crate) fn at_eye(&self, eye: &Eye) -> Ordering {
         let p = self.point();
         match eye.shift() {
             // Near: both products fit three limbs.

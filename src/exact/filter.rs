@@ -51,11 +51,19 @@ impl ExactSplitter {
         }
     }
 
-    /// The rounded distance of a position, times the length of the normal.
+    /// The signed distance of a position, times the length of the normal, rounded; in front it is
+    /// positive.
     #[inline]
-    pub(super) fn distance(&self, p: [f64; 3]) -> f64 {
+    pub fn distance(&self, p: [f64; 3]) -> f64 {
         let n = self.normal;
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
+    }
+
+    /// The largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a
+    /// vertex rounded to a position further than this from the plane certainly lies on the side
+    /// that the distance says.
+    pub fn slack(&self) -> f64 {
+        self.bound + self.band
     }
 }
 

@@ -10,31 +10,26 @@ use std::cmp::Ordering;
 /// The predicates know in advance how many bits their results take (see the table in `vertex.rs`),
 /// so nothing here checks for overflow in release builds: each product names its own width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Int<const N: usize>([u64; N]);
+pub(crate) struct Int<const N: usize>([u64; N]);
 
 impl<const N: usize> Int<N> {
     /// Zero.
-    pub const ZERO: Self = Self([0; N]);
+    pub(crate) const ZERO: Self = Self([0; N]);
 
     /// The value of the limbs, least significant first, in two's complement.
-    pub const fn from_limbs(limbs: [u64; N]) -> Self {
+    pub(crate) const fn from_limbs(limbs: [u64; N]) -> Self {
         Self(limbs)
-    }
-
-    /// The limbs, least significant first, in two's complement.
-    pub const fn limbs(&self) -> &[u64; N] {
-        &self.0
     }
 
     /// Whether the value is below zero.
     #[inline]
-    pub const fn is_negative(&self) -> bool {
+    pub(crate) const fn is_negative(&self) -> bool {
         (self.0[N - 1] as i64) < 0
     }
 
     /// How the value compares with zero.
     #[inline]
-    pub fn sign(&self) -> Ordering {
+    pub(crate) fn sign(&self) -> Ordering {
         if self.is_negative() {
             Ordering::Less
         } else if self.0.iter().all(|&limb| limb == 0) {
@@ -46,7 +41,7 @@ impl<const N: usize> Int<N> {
 
     /// The same value in `M` limbs; `M` must suffice.
     #[inline]
-    pub fn resize<const M: usize>(&self) -> Int<M> {
+    pub(crate) fn resize<const M: usize>(&self) -> Int<M> {
         let fill = if self.is_negative() { u64::MAX } else { 0 };
         let mut limbs = [fill; M];
         let shared = N.min(M);
@@ -62,7 +57,7 @@ impl<const N: usize> Int<N> {
 
     /// The product, in `R` limbs; `R` must suffice.
     #[inline]
-    pub fn times<const M: usize, const R: usize>(&self, other: &Int<M>) -> Int<R> {
+    pub(crate) fn times<const M: usize, const R: usize>(&self, other: &Int<M>) -> Int<R> {
         let (a, b) = (self.magnitude(), other.magnitude());
         let mut limbs = [0u64; R];
         for (i, &x) in a.iter().enumerate().take(R) {
@@ -83,7 +78,7 @@ impl<const N: usize> Int<N> {
     }
 
     /// The value times two to the power of `shift`, in `R` limbs; `R` must suffice.
-    pub fn shifted<const R: usize>(&self, shift: u32) -> Int<R> {
+    pub(crate) fn shifted<const R: usize>(&self, shift: u32) -> Int<R> {
         let wide: Int<R> = self.resize();
         let (limb_shift, bit_shift) = ((shift / 64) as usize, shift % 64);
         let limbs = std::array::from_fn(|i| {
@@ -95,7 +90,7 @@ impl<const N: usize> Int<N> {
     }
 
     /// The value of an `f64`, rounded towards zero; it must be finite and fit.
-    pub fn from_f64(value: f64) -> Self {
+    pub(crate) fn from_f64(value: f64) -> Self {
         let bits = value.abs().to_bits();
         let exponent = (bits >> 52) as i32 - 1075;
         let fraction = if bits >> 52 == 0 { 0 } else { bits & ((1 << 52) - 1) | 1 << 52 };
@@ -108,7 +103,7 @@ impl<const N: usize> Int<N> {
     }
 
     /// The nearest `f64`, ties to even; infinite beyond its range.
-    pub fn to_f64(&self) -> f64 {
+    pub(crate) fn to_f64(&self) -> f64 {
         let magnitude = self.magnitude();
         let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else {
             return 0.0;

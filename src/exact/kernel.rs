@@ -44,11 +44,7 @@ pub trait Vertex: Copy + Debug + Send + Sync {
 ///
 /// The library's own is [`Exact`](super::Exact). Kernels that decide by rounded distances and an
 /// epsilon are in `crates/evidence`, to be compared with it.
-pub trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
-    /// Whether every decision is exact. Then a piece is bounded by its lines; otherwise it is
-    /// bounded by its rounded vertices.
-    const IS_EXACT: bool = false;
-
+pub trait Kernel: Copy + Debug + Send + Sync + 'static {
     /// A plane prepared for many decisions.
     type Splitter: Copy + Debug + Send + Sync;
     /// A vertex while the tree is built.
@@ -58,14 +54,6 @@ pub trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
 
     /// Prepares a plane.
     fn splitter(&self, faces: &Faces, plane: PlaneId) -> Self::Splitter;
-
-    /// The signed distance of a position from a plane in some unit of the plane's, rounded; in
-    /// front it is positive.
-    fn distance(splitter: &Self::Splitter, position: [f64; 3]) -> f64;
-
-    /// The largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a
-    /// position further than this from the plane certainly lies on the side that its distance says.
-    fn slack(splitter: &Self::Splitter) -> f64;
 
     /// Corner `k` of a face as a vertex.
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> Self::Vertex;

@@ -10,7 +10,7 @@ const AXIS: u32 = 2;
 const BEHIND: u32 = 1 << 31;
 
 /// Labels can name this many faces, and this many corners of all faces together.
-pub const MAX_LABELS: usize = 1 << TAG_SHIFT;
+pub(crate) const MAX_LABELS: usize = 1 << TAG_SHIFT;
 
 /// A partition plane, defined by input geometry alone.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

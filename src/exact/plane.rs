@@ -18,7 +18,7 @@ pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
 
 /// A plane in integers: a normal and a lattice point on it.
 #[derive(Clone, Copy, Debug)]
-pub struct Plane {
+pub(crate) struct Plane {
     normal: [i128; 3],
     point: [i64; 3],
 }
@@ -26,12 +26,12 @@ pub struct Plane {
 impl Plane {
     /// The plane through three lattice points; its front is the side from which they run
     /// counter-clockwise.
-    pub fn through([p, q, r]: [[f64; 3]; 3]) -> Self {
+    pub(crate) fn through([p, q, r]: [[f64; 3]; 3]) -> Self {
         Self { normal: cross(p, q, r), point: p.map(|c| c as i64) }
     }
 
     /// The plane through two lattice points and along an axis.
-    pub fn upright(p: [f64; 3], q: [f64; 3], axis: usize) -> Self {
+    pub(crate) fn upright(p: [f64; 3], q: [f64; 3], axis: usize) -> Self {
         let mut normal = [0; 3];
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         normal[j] = i128::from((q[k] - p[k]) as i64);
@@ -46,12 +46,12 @@ impl Plane {
     }
 
     /// The normal, each component rounded.
-    pub fn normal_f64(&self) -> DVec3 {
+    pub(crate) fn normal_f64(&self) -> DVec3 {
         DVec3::from_array(self.normal.map(|c| c as f64))
     }
 
     /// The scalar product of the normal and a point of the plane, rounded.
-    pub fn offset_f64(&self) -> f64 {
+    pub(crate) fn offset_f64(&self) -> f64 {
         self.along(self.point).to_f64()
     }
 
@@ -61,26 +61,26 @@ impl Plane {
     }
 
     /// The normal.
-    pub fn normal(&self) -> [i128; 3] {
+    pub(crate) fn normal(&self) -> [i128; 3] {
         self.normal
     }
 
     /// The axis along which the normal is longest, the first of several: the one in which the
     /// plane is least steep.
-    pub fn main_axis(&self) -> usize {
+    pub(crate) fn main_axis(&self) -> usize {
         let size = |axis: usize| self.normal[axis].unsigned_abs();
         (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
     }
 
     /// The signed distance of a lattice point times the length of the normal.
     #[inline]
-    pub fn at(&self, x: &[f64; 3]) -> Int<3> {
+    pub(crate) fn at(&self, x: &[f64; 3]) -> Int<3> {
         self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
     }
 
     /// The scalar product of the normal and a direction of components below 2⁶³.
     #[inline]
-    pub fn along(&self, direction: [i64; 3]) -> Int<3> {
+    pub(crate) fn along(&self, direction: [i64; 3]) -> Int<3> {
         let term =
             |i: usize| Int::<2>::from(self.normal[i]).times::<1, 3>(&Int::<1>::from(direction[i]));
         term(0) + term(1) + term(2)

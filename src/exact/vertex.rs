@@ -28,7 +28,7 @@ use super::plane::{Plane, cross, relative_to};
 
 /// A vertex as a combination of lattice points. The sum of the weights is not zero; it and the
 /// weights may have either sign.
-pub enum Weights {
+pub(crate) enum Weights {
     /// A corner.
     Corner([f64; 3]),
     /// A point between two corners.
@@ -56,7 +56,7 @@ impl Faces {
     }
 
     /// A partition plane in integers.
-    pub fn plane(&self, plane: PlaneId) -> Plane {
+    pub(crate) fn plane(&self, plane: PlaneId) -> Plane {
         match plane.kind() {
             PlaneKind::Face(face) => {
                 Plane::through(self.reference_triangle(face).map(|c| self.corner(c)))
@@ -67,7 +67,7 @@ impl Faces {
 
     /// How the distance of a vertex from a plane, times the length of the plane's normal, compares
     /// with `threshold`: exact. `threshold` is an integer of at most 2⁵¹ times that length.
-    pub fn compare(
+    pub(crate) fn compare(
         &self,
         (id, plane): (PlaneId, &Plane),
         face: u32,
@@ -163,7 +163,7 @@ impl Faces {
     }
 
     /// A vertex as a combination of corners of its face.
-    pub fn weights(&self, face: u32, vertex: Symbol) -> Weights {
+    pub(crate) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
         let record = &self.faces[face as usize];
         let corners = self.corners(face);
         let triangle = record.frame.triangle().map(|k| corners[k as usize]);

@@ -4,10 +4,10 @@ use crate::Error;
 
 /// Who hears of a preparation, from any thread, and may stop it by an error.
 pub(crate) trait Listener: Sync {
-    /// So many polygons have been read so far.
+    /// This many polygons have been read so far.
     fn read(&self, polygons: usize) -> Result<(), Error>;
 
-    /// So many more steps of work have been taken.
+    /// This many more steps of work have been taken.
     fn work(&self, steps: usize) -> Result<(), Error>;
 }
 

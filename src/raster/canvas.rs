@@ -10,7 +10,7 @@ use crate::exact::Faces;
 
 /// A picture on which pieces are painted one over the other, from back to front.
 #[derive(Debug)]
-pub struct Canvas<'a> {
+pub(crate) struct Canvas<'a> {
     rays: &'a Rays,
     faces: &'a Faces,
     pixels: Vec<[f32; 3]>,
@@ -18,7 +18,7 @@ pub struct Canvas<'a> {
 
 impl<'a> Canvas<'a> {
     /// An empty picture.
-    pub fn new(rays: &'a Rays, faces: &'a Faces, background: [u8; 3]) -> Self {
+    pub(crate) fn new(rays: &'a Rays, faces: &'a Faces, background: [u8; 3]) -> Self {
         let [width, height] = rays.size().map(|side| side as usize);
         Self { rays, faces, pixels: vec![background.map(f32::from); width * height] }
     }
@@ -26,7 +26,7 @@ impl<'a> Canvas<'a> {
     /// Paints a piece over the picture so far, shaded as by [`picture`](super::picture): darker the
     /// more obliquely it is seen. An opacity of 1 hides everything behind it; with 0 it is
     /// invisible.
-    pub fn draw(&mut self, piece: Piece<'_>, colour: [u8; 3], opacity: f32) {
+    pub(crate) fn draw(&mut self, piece: Piece<'_>, colour: [u8; 3], opacity: f32) {
         let Some(coverage) = Coverage::new(self.rays, self.faces, piece.face, piece.outline) else {
             return;
         };
@@ -44,7 +44,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// The picture: RGB, 8 bits each, row by row from the top left.
-    pub fn finish(self) -> Vec<u8> {
+    pub(crate) fn finish(self) -> Vec<u8> {
         self.pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
     }
 }

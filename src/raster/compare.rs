@@ -7,6 +7,7 @@ use crate::exact::{Faces, PlaneId};
 
 /// The verdict on one pixel of a painted picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Verdict {
     /// Nothing is there, and nothing is painted.
     Empty,
@@ -24,6 +25,7 @@ pub enum Verdict {
 
 /// How a painted picture differs from the true one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Pixels in which the true picture shows a polygon.
     pub covered: usize,
@@ -59,7 +61,7 @@ const MOVED_CORNERS: f64 = 4.0;
 /// polygons that are each within τ of a partition plane may both count as part of that plane, and
 /// then they are painted in input order. With τ = 0 only ties are contested.
 ///
-/// This rule knows the polygons, not the partition planes; for these see [`is_open`].
+/// This rule knows the polygons, not the partition planes; [`verify`](crate::verify()) knows both.
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
@@ -115,7 +117,7 @@ fn distance(rays: &Rays, to: &Plane, on: &Plane, pixel: Given) -> f64 {
 /// hiding piece, and at least −τ further on, at the hidden piece. If the height falls along the
 /// ray, both pieces are met within τ of the plane; if it rises, it is at most τ from the eye to the
 /// hiding piece.
-pub fn is_open(
+pub(crate) fn is_open(
     rays: &Rays,
     faces: &Faces,
     plane: PlaneId,

@@ -10,6 +10,7 @@ use crate::exact::Faces;
 
 /// How far behind the nearest polygon the painted ones are; see [`depth_error`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct DepthError {
     /// Wrong pixels in which the painted face is met at all.
     pub pixels: usize,

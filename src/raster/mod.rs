@@ -32,14 +32,22 @@ mod sheet;
 pub(crate) mod tests;
 mod zbuffer;
 
-pub use canvas::Canvas;
-pub use compare::{Comparison, Verdict, compare, is_open};
+pub(crate) use canvas::Canvas;
+pub(crate) use compare::is_open;
+pub use compare::{Comparison, Verdict, compare};
 pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};
 pub(crate) use layers::Layers;
-pub use painter::{Order, Painter, covers, for_each_run, paint};
+pub(crate) use painter::covers;
 pub use picture::{brightness, colour_of, depth_map, difference, picture};
-pub use piece::{Outline, Piece};
 pub use rays::Rays;
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};
+
+/// For painters of other orders, which `crates/evidence` compares with the tree's. What they draw is
+/// named by faces on the lattice, which users do not see.
+#[doc(hidden)]
+pub use self::{
+    painter::{Order, Painter, for_each_run},
+    piece::{Outline, Piece},
+};

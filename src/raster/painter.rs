@@ -75,14 +75,7 @@ pub fn for_each_run(
     }
 }
 
-/// Paints pieces given from back to front.
-pub fn paint<'p>(rays: &Rays, faces: &Faces, pieces: impl IntoIterator<Item = Piece<'p>>) -> Image {
-    let mut painter = Painter::new(rays, faces, Order::BackToFront);
-    pieces.into_iter().for_each(|piece| painter.draw(piece));
-    painter.finish()
-}
-
 /// Whether a piece covers a pixel.
-pub fn covers(rays: &Rays, faces: &Faces, piece: Piece<'_>, [x, y]: [u32; 2]) -> bool {
+pub(crate) fn covers(rays: &Rays, faces: &Faces, piece: Piece<'_>, [x, y]: [u32; 2]) -> bool {
     Coverage::new(rays, faces, piece.face, piece.outline).is_some_and(|piece| piece.covers(x, y))
 }

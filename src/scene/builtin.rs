@@ -1,3 +1,5 @@
+//! Generated scenes by name, as the program takes them.
+
 use super::{
     Scene, chain, city, cornell_box, crossing, layers, newell_bars, random_triangles, sphere,
     teapot, terrain,
@@ -14,6 +16,7 @@ const LAYER_GAP: f64 = 1e-4;
 
 /// The generated scenes, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Builtin {
     /// [`newell_bars`].
     Newell,

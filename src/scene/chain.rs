@@ -1,11 +1,12 @@
+//! Parallel squares, one behind the other.
+
 use super::{Material, Scene};
 use glam::DVec3;
 
 /// `count` parallel squares, one behind the other; up is z.
 ///
-/// Square `i` lies in the plane y = `i`, has side 10 and faces −y. No plane of
-/// one touches another; a tree of their own planes can be a list of depth
-/// `count`, which is what makes the scene hard.
+/// Square `i` lies in the plane y = `i`, has side 10 and faces −y. No plane of one touches another;
+/// a tree of their own planes can be a list of depth `count`, which is what makes the scene hard.
 pub fn chain(count: u32) -> Scene {
     let mut scene = Scene::new(format!("chain:{count}"), DVec3::Z);
     Material::palette().for_each(|material| {

@@ -1,3 +1,5 @@
+//! A city of houses on one ground square.
+
 use super::cuboid::cuboid;
 use super::{Material, Scene};
 use crate::random::SplitMix64;
@@ -6,12 +8,11 @@ use glam::DVec3;
 /// The side of a building plot with half the street around it, in metres.
 const PLOT: f64 = 30.0;
 
-/// A city of about `polygons` polygons in metres, up is z: a grid of houses on
-/// one ground square.
+/// A city of about `polygons` polygons in metres, up is z: a grid of houses on one ground square.
 ///
-/// There are `side`² houses, with `side` = √((`polygons` − 1)/5) rounded, at
-/// least 1: axis-aligned boxes without an underside, 12 to 24 wide and deep, 6
-/// to 120 high, that stand apart. Low houses are frequent, high ones rare.
+/// There are `side`² houses, with `side` = √((`polygons` − 1)/5) rounded, at least 1: axis-aligned
+/// boxes without an underside, 12 to 24 wide and deep, 6 to 120 high, that stand apart. Low houses
+/// are frequent, high ones rare.
 pub fn city(polygons: u32, seed: u64) -> Scene {
     let wanted = (f64::from(polygons.saturating_sub(1)) / 5.0).sqrt();
     let side = wanted.round().max(1.0) as u32;

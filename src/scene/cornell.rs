@@ -1,3 +1,5 @@
+//! The Cornell box.
+
 use super::{Material, Scene};
 use glam::{DVec3, dvec3};
 
@@ -19,13 +21,12 @@ const TALL_BLOCK: [DVec3; 4] = [
 
 /// The Cornell box: 16 quads in millimetres, up is y, open towards −z.
 ///
-/// The measurements are those published by the Cornell University Program of
-/// Computer Graphics ("Cornell Box Data"), with its camera position. The room's
-/// walls face inwards, the blocks outwards, and the blocks have no underside.
-/// As measured, the walls are not square and the red one is not quite planar;
-/// the lamp lies in the plane of the ceiling. Order: floor, ceiling, lamp, back
-/// wall, green wall, red wall, short block, tall block (top, then sides).
-/// Colours are for display and do not derive from the measured spectra.
+/// The measurements are those published by the Cornell University Program of Computer Graphics
+/// ("Cornell Box Data"), with its camera position. The room's walls face inwards, the blocks
+/// outwards, and the blocks have no underside. As measured, the walls are not square and the red
+/// one is not quite planar; the lamp lies in the plane of the ceiling. Order: floor, ceiling, lamp,
+/// back wall, green wall, red wall, short block, tall block (top, then sides). Colours are for
+/// display and do not derive from the measured spectra.
 pub fn cornell_box() -> Scene {
     let mut scene = Scene::new("cornell", DVec3::Y).with_view(
         // Published: direction 0 0 1. The room is 559.2 deep.

@@ -1,7 +1,9 @@
+//! The rectangles of a box.
+
 use glam::DVec3;
 
-/// The six rectangles of an axis-aligned box, counter-clockwise from outside,
-/// in the order −x +x −y +y −z +z.
+/// The six rectangles of an axis-aligned box, counter-clockwise from outside, in the order −x +x −y
+/// +y −z +z.
 pub fn cuboid(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
     let corner = |x: bool, y: bool, z: bool| {
         DVec3::new(

@@ -1,10 +1,12 @@
+//! Flat colours.
+
 /// A flat colour. There is no lighting.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Material {
     /// A name for people; need not be unique.
     pub name: String,
-    /// Red, green, blue from 0 to 1, sRGB-encoded: the value to display, as it
-    /// stands.
+    /// Red, green, blue from 0 to 1, sRGB-encoded: the value to display, as it stands.
     pub color: [f32; 3],
     /// From 0, invisible, to 1, opaque.
     pub opacity: f32,
@@ -19,8 +21,14 @@ impl Material {
         Self { name: name.into(), color, opacity: 1.0 }
     }
 
-    /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito,
-    /// "Color Universal Design", 2008, with grey in place of black.
+    /// The same material with an opacity from 0, invisible, to 1, opaque.
+    #[must_use]
+    pub fn with_opacity(self, opacity: f32) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito, "Color Universal
+    /// Design", 2008, with grey in place of black.
     pub fn palette() -> impl Iterator<Item = Self> {
         const PALETTE: [(&str, [u8; 3]); 8] = [
             ("orange", [230, 159, 0]),

@@ -1,15 +1,14 @@
 //! Scenes: polygons with flat colours, generated or read from a file.
 //!
-//! A [`Scene`] is a plain list of polygons, in the order in which they were
-//! added, and says nothing about how they are sorted or drawn. Generated scenes
-//! have one function each ([`cornell_box`], [`teapot`], …) and are listed by
-//! [`Builtin`]; with the feature `obj`, Wavefront OBJ files are read by
-//! `Scene::read_obj`.
+//! A [`Scene`] is a plain list of polygons, in the order in which they were added, and says nothing
+//! about how they are sorted or drawn. Generated scenes have one function each ([`cornell_box`],
+//! [`teapot`], …) and are listed by [`Builtin`]; with the feature `obj`, Wavefront OBJ files are
+//! read by `Scene::read_obj`.
 //!
-//! The corners of a polygon run counter-clockwise as seen from its front. The
-//! front of a closed body is its outside; that of a room is its inside.
-//! Every generated scene is the same, bit for bit, on every machine: generators
-//! use `+ − × ÷` and `sqrt` alone, which IEEE 754 defines to the last bit.
+//! The corners of a polygon run counter-clockwise as seen from its front. The front of a closed
+//! body is its outside; that of a room is its inside. Every generated scene is the same, bit for
+//! bit, on every machine: generators use `+ − × ÷` and `sqrt` alone, which IEEE 754 defines to the
+//! last bit.
 
 mod builtin;
 mod chain;
@@ -51,9 +50,9 @@ use crate::Polygon;
 
 /// Polygons with colours.
 ///
-/// Polygons are numbered from 0 in the order in which they were pushed. A scene
-/// accepts everything: the tree builder decides about polygons of fewer than three corners, without
-/// area or with non-finite coordinates.
+/// Polygons are numbered from 0 in the order in which they were pushed. A scene accepts everything:
+/// the tree builder decides about polygons of fewer than three corners, without area or with
+/// non-finite coordinates.
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -163,8 +162,7 @@ impl Scene {
         (self.materials.len() - 1) as u32
     }
 
-    /// Adds a polygon. A `material` that was never added shows as
-    /// [`Material::DEFAULT`].
+    /// Adds a polygon. A `material` that was never added shows as [`Material::DEFAULT`].
     pub fn push(&mut self, polygon: impl IntoIterator<Item = DVec3>, material: u32) {
         self.corners.extend(polygon);
         self.ends.push(self.corners.len());

@@ -1,15 +1,16 @@
+//! Three bars that overlap in a cycle.
+
 use super::cuboid::cuboid;
 use super::{Material, Scene};
 use glam::DVec3;
 
-/// Three bars in a cycle: each covers a part of the next, so that no order of
-/// whole bars is right and one must be cut. 18 rectangles; up is z.
+/// Three bars in a cycle: each covers a part of the next, so that no order of whole bars is right
+/// and one must be cut. 18 rectangles; up is z.
 ///
-/// The classic counterexample to sorting by depth, after M. E. Newell,
-/// R. G. Newell and T. L. Sancha, "A solution to the hidden surface problem",
-/// ACM 1972. Here the bars are axis-aligned boxes of 9 × 1 × 1 along x, y and
-/// z that do not touch, each the cyclic permutation of the other; seen from
-/// (1, 1, 1) the bar along y covers that along x, z covers y, and x covers z.
+/// The classic counterexample to sorting by depth, after M. E. Newell, R. G. Newell and T. L.
+/// Sancha, "A solution to the hidden surface problem", ACM 1972. Here the bars are axis-aligned
+/// boxes of 9 × 1 × 1 along x, y and z that do not touch, each the cyclic permutation of the other;
+/// seen from (1, 1, 1) the bar along y covers that along x, z covers y, and x covers z.
 pub fn newell_bars() -> Scene {
     let mut scene = Scene::new("newell", DVec3::Z).with_view(DVec3::splat(9.0), DVec3::ZERO);
     let mut low = DVec3::new(-4.5, 0.5, -1.5);

@@ -22,37 +22,34 @@ use std::path::Path;
 impl Scene {
     /// Reads a Wavefront OBJ file and the material libraries it names.
     ///
-    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from
-    /// 0, with all its corners, in whatever object or group it stands. A face of
-    /// fewer than three different corners stays in its place and is counted in
-    /// the report; faces that are given twice, not convex or not planar stay as
-    /// they are, for the tree builder to judge. Corners keep their texture coordinates, their
-    /// normals, and the colours of their `v` lines ([`uv`](Self::uv), [`normal`](Self::normal),
-    /// [`color`](Self::color)). Points, lines and curves are left out, and so is a weight
-    /// behind the three coordinates of a `v` line. A line that ends in a backslash goes
-    /// on in the next.
+    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0, with all its
+    /// corners, in whatever object or group it stands. A face of fewer than three different corners
+    /// stays in its place and is counted in the report; faces that are given twice, not convex or
+    /// not planar stay as they are, for the tree builder to judge. Corners keep their texture
+    /// coordinates, their normals, and the colours of their `v` lines ([`uv`](Self::uv),
+    /// [`normal`](Self::normal), [`color`](Self::color)). Points, lines and curves are left out,
+    /// and so is a weight behind the three coordinates of a `v` line. A line that ends in a
+    /// backslash goes on in the next.
     ///
     /// Coordinates are read as `f64`. One unit in the last decimal that the file writes is the
-    /// scene's [`precision`](Self::precision): of the decimals, or of the significant digits of
-    /// the largest coordinates, whichever number the file holds fixed. Up is y, as OBJ files
-    /// do not say.
+    /// scene's [`precision`](Self::precision): of the decimals, or of the significant digits of the
+    /// largest coordinates, whichever number the file holds fixed. Up is y, as OBJ files do not
+    /// say.
     ///
-    /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d`
-    /// or `Tr` as opacity. A library that is missing or unreadable is no error;
-    /// its materials show as [`Material::DEFAULT`], and the report says so.
+    /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d` or `Tr` as opacity.
+    /// A library that is missing or unreadable is no error; its materials show as
+    /// [`Material::DEFAULT`], and the report says so.
     ///
-    /// Libraries are read from the file's folder and the folders in it. A name
-    /// that leads out of it, because it is absolute or contains `..`, is not
-    /// followed, and the report lists it. (Symbolic links are followed: they were
-    /// put there by whoever owns the folder, not by the file.) Only regular files
-    /// are read.
+    /// Libraries are read from the file's folder and the folders in it. A name that leads out of
+    /// it, because it is absolute or contains `..`, is not followed, and the report lists it.
+    /// (Symbolic links are followed: they were put there by whoever owns the folder, not by the
+    /// file.) Only regular files are read.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of
-    /// ASCII, has no face, has a coordinate that is malformed or not finite, or
-    /// a face that names a corner which is not there. The error names the line
-    /// and face.
+    /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has
+    /// a coordinate that is malformed or not finite, or a face that names a corner which is not
+    /// there. The error names the line and face.
     pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), ObjError> {
         let path = path.as_ref();
         let name = path.display().to_string();
@@ -67,9 +64,9 @@ impl Scene {
 
     /// Reads the text of an OBJ file as [`read_obj`](Self::read_obj) does.
     ///
-    /// `name` becomes the scene's name and stands in errors. `library` gives the
-    /// content of a material library by the name used in the text, or `None`;
-    /// it is never asked for a name that is absolute or contains `..`.
+    /// `name` becomes the scene's name and stands in errors. `library` gives the content of a
+    /// material library by the name used in the text, or `None`; it is never asked for a name that
+    /// is absolute or contains `..`.
     ///
     /// # Errors
     ///
@@ -118,8 +115,7 @@ impl Polygons {
     }
 }
 
-/// Lets `tobj` read the cleaned text, and checks that it found every face with
-/// every corner.
+/// Lets `tobj` read the cleaned text, and checks that it found every face with every corner.
 fn load(scan: &Scan) -> Result<Polygons, ObjError> {
     let options = tobj::LoadOptions::default();
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
@@ -127,7 +123,7 @@ fn load(scan: &Scan) -> Result<Polygons, ObjError> {
         .map_err(|error| Kind::Reader(error.to_string()).at(None, None))?;
     let mut polygons = Polygons {
         corners: Vec::with_capacity(scan.corners),
-        sides: Vec::with_capacity(scan.report.faces as usize),
+        sides: Vec::with_capacity(scan.report.faces),
     };
     for mesh in models.iter().map(|model| &model.mesh) {
         let points: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
@@ -143,10 +139,7 @@ fn load(scan: &Scan) -> Result<Polygons, ObjError> {
     }
     let sides: usize = polygons.sides.iter().map(|&sides| sides as usize).sum();
     let faces = polygons.sides.len();
-    if faces != scan.report.faces as usize
-        || sides != polygons.corners.len()
-        || sides != scan.corners
-    {
+    if faces != scan.report.faces || sides != polygons.corners.len() || sides != scan.corners {
         let expected = scan.report.faces;
         let problem = format!("found {faces} faces where the file has {expected}");
         return Err(Kind::Reader(problem).at(None, None));

@@ -1,3 +1,5 @@
+//! Triangles at random.
+
 use super::{Material, Scene};
 use crate::random::SplitMix64;
 use glam::DVec3;
@@ -5,8 +7,8 @@ use glam::DVec3;
 /// The shortest and the longest edge of a random triangle.
 const EDGES: (f64, f64) = (0.1, 0.3);
 
-/// `count` triangles anywhere in the unit cube, every edge between 0.1 and 0.3
-/// long; up is z. Most of a dense scene's triangles cross others.
+/// `count` triangles anywhere in the unit cube, every edge between 0.1 and 0.3 long; up is z. Most
+/// of a dense scene's triangles cross others.
 pub fn random_triangles(count: u32, seed: u64) -> Scene {
     let mut scene = Scene::new(format!("random:{count}"), DVec3::Z);
     Material::palette().for_each(|material| {
@@ -19,8 +21,8 @@ pub fn random_triangles(count: u32, seed: u64) -> Scene {
     scene
 }
 
-/// Draws until the triangle fits. One draw in about 16 does; a thousand misses
-/// in a row are as good as impossible, and then a fixed triangle ends the loop.
+/// Draws until the triangle fits. One draw in about 16 does; a thousand misses in a row are as good
+/// as impossible, and then a fixed triangle ends the loop.
 fn triangle(random: &mut SplitMix64) -> [DVec3; 3] {
     for _ in 0..1000 {
         let a = random.point(0.0, 1.0);

@@ -1,15 +1,16 @@
+//! A sphere of quads.
+
 use super::turn::unit_circle;
 use super::{Material, Scene};
 use glam::{DVec2, DVec3};
 
-/// A unit sphere of about `faces` faces, up is z: quads between parallels and
-/// meridians, triangles at the poles.
+/// A unit sphere of about `faces` faces, up is z: quads between parallels and meridians, triangles
+/// at the poles.
 ///
-/// It has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least
-/// 2 (an octahedron). Every quad is an isosceles trapezium inscribed in the
-/// sphere, so all faces are planar and the body is convex, up to the rounding
-/// of the corners. The worst case for trees whose planes are the faces' own:
-/// none of them splits anything off but its own face.
+/// It has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least 2 (an octahedron).
+/// Every quad is an isosceles trapezium inscribed in the sphere, so all faces are planar and the
+/// body is convex, up to the rounding of the corners. The worst case for trees whose planes are the
+/// faces' own: none of them splits anything off but its own face.
 pub fn sphere(faces: u32) -> Scene {
     let rows = (f64::from(faces) / 2.0).sqrt().round().max(2.0) as u64;
     let columns = 2 * rows;

@@ -1,3 +1,5 @@
+//! A hilly height field.
+
 use super::{Material, Scene};
 use crate::random::SplitMix64;
 use glam::DVec3;
@@ -10,10 +12,9 @@ const OCTAVES: [(usize, f64); 5] = [(3, 14.0), (7, 6.0), (15, 2.5), (31, 1.0), (
 
 /// A hilly terrain of about `triangles` triangles, 100 × 100, up is z.
 ///
-/// A height field over `side` × `side` squares of two triangles, with `side` =
-/// √(`triangles`/2) rounded, at least 1. Heights are value noise in five
-/// octaves, mostly within ±12 and never beyond ±24. Every triangle faces up; no
-/// two cross.
+/// A height field over `side` × `side` squares of two triangles, with `side` = √(`triangles`/2)
+/// rounded, at least 1. Heights are value noise in five octaves, mostly within ±12 and never beyond
+/// ±24. Every triangle faces up; no two cross.
 pub fn terrain(triangles: u32, seed: u64) -> Scene {
     let side = (f64::from(triangles) / 2.0).sqrt().round().max(1.0) as usize;
     let mut scene = Scene::new(format!("terrain:{triangles}"), DVec3::Z)

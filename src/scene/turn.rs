@@ -1,11 +1,13 @@
+//! Points of a circle, the same on every machine.
+
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// The point of the unit circle at `step`/`steps` of a full turn,
-/// counter-clockwise from (1, 0), within a few units in the last place.
+/// The point of the unit circle at `step`/`steps` of a full turn, counter-clockwise from (1, 0),
+/// within a few units in the last place.
 ///
-/// Not `f64::sin_cos`, whose last bits depend on the platform. The circle's
-/// eightfold symmetry is kept exactly: quarter turns give exact zeros and ones.
+/// Not `f64::sin_cos`, whose last bits depend on the platform. The circle's eightfold symmetry is
+/// kept exactly: quarter turns give exact zeros and ones.
 pub fn unit_circle(step: u64, steps: u64) -> DVec2 {
     let eighths = 8 * (step % steps);
     let (octant, rest) = (eighths / steps, eighths % steps);

@@ -17,7 +17,7 @@ pub fn parts_of_tree(tree: &BspTree) -> Parts<ExactStored> {
             plane,
             own: tree.nodes[visit.node].own(),
             front: child(front_nodes > 0, front_len),
-            back: child(tree.nodes[visit.node].back_is_node(), visit.back_len),
+            back: child(tree.nodes[visit.node].back_is_node(), visit.behind.len() as u32),
         });
     }
     Parts { nodes, records: tree.records.clone(), vertices: tree.vertices.clone(), cuts: tree.cuts }

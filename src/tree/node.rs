@@ -1,5 +1,7 @@
 //! A node of the finished tree.
 
+use std::ops::Range;
+
 use super::parts::{Child, RawNode};
 use crate::exact::PlaneId;
 
@@ -36,6 +38,40 @@ impl Node {
     pub(super) fn back_is_node(&self) -> bool {
         self.own & BACK_IS_NODE != 0
     }
+
+    /// The number of the node in front, given that of this one; `None` if the front is a leaf.
+    #[inline]
+    pub(super) fn front_node(&self, index: usize) -> Option<usize> {
+        (self.front_nodes > 0).then_some(index + 1)
+    }
+
+    /// The number of the node behind, given that of this one; `None` if the back is a leaf.
+    #[inline]
+    pub(super) fn back_node(&self, index: usize) -> Option<usize> {
+        self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
+    }
+
+    /// Where the fragments of the subtree of this node are, given the numbers of all of them.
+    #[inline]
+    pub(super) fn ranges(&self, all: Range<u32>) -> Ranges {
+        let own = all.start..all.start + self.own();
+        // A leaf is numbered before a subtree, so it is only here that the back comes first.
+        if self.front_nodes > 0 && !self.back_is_node() {
+            let middle = all.end - self.front_len;
+            return Ranges { front: middle..all.end, back: own.end..middle, own };
+        }
+        let middle = own.end + self.front_len;
+        Ranges { front: own.end..middle, back: middle..all.end, own }
+    }
+}
+
+/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind,
+/// down to the leaves.
+#[derive(Clone, Debug)]
+pub(super) struct Ranges {
+    pub(super) own: Range<u32>,
+    pub(super) front: Range<u32>,
+    pub(super) back: Range<u32>,
 }
 
 /// Computes the sizes of all subtrees.

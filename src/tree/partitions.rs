@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::BspTree;
+use super::node::Ranges;
 use super::walk::{Visit, Walk};
 use crate::exact::{Faces, PlaneId, PlaneKind};
 
@@ -35,18 +36,10 @@ pub struct Partition {
 impl Partition {
     fn new(tree: &BspTree, visit: Visit) -> Self {
         let node = &tree.nodes[visit.node];
-        // Subtrees are numbered behind the leaves of their parent.
-        let mut next = visit.back.end;
-        let mut subtree = |len: u32| {
-            next += len;
-            next - len..next
-        };
-        let front =
-            if node.front_nodes > 0 { subtree(node.front_len) } else { visit.front.clone() };
-        let back = if node.back_is_node() { subtree(visit.back_len) } else { visit.back };
         let (normal, offset) = rounded(&tree.faces, node.plane);
         let (depth, plane) = (visit.depth, node.plane);
-        Self { normal, offset, depth, on: visit.own, front, back, plane }
+        let Visit { own: on, in_front: front, behind: back, .. } = visit;
+        Self { normal, offset, depth, on, front, back, plane }
     }
 
     /// The plane's exact name, by a face or corner of [`BspTree::faces`].
@@ -115,29 +108,22 @@ impl BspTree {
     /// If there are no such fragments.
     #[doc(hidden)]
     pub fn plane_between(&self, a: u32, b: u32) -> Option<PlaneId> {
-        let (low, high) = (a.min(b), a.max(b));
+        let high = a.max(b);
         assert!((high as usize) < self.records.len(), "no fragment {high}");
-        let (mut index, mut total, mut start) = (0, self.records.len() as u32, 0);
+        let (mut index, mut fragments) = (0, 0..self.records.len() as u32);
         loop {
             let node = &self.nodes[index];
-            let back_len = total - node.own() - node.front_len;
-            let front = start + node.own();
-            let back = front + if node.front_nodes > 0 { 0 } else { node.front_len };
-            let subtrees = back + if node.back_is_node() { 0 } else { back_len };
-            if low < subtrees {
-                let same_leaf = low >= back && high < subtrees || low >= front && high < back;
-                return (!same_leaf).then_some(node.plane);
-            }
-            let in_front = if node.front_nodes > 0 { node.front_len } else { 0 };
-            if low < subtrees + in_front {
-                if high >= subtrees + in_front {
-                    return Some(node.plane);
-                }
-                (index, total, start) = (index + 1, node.front_len, subtrees);
+            let Ranges { front, back, .. } = node.ranges(fragments);
+            let has_both = |side: &Range<u32>| side.contains(&a) && side.contains(&b);
+            let (child, side) = if has_both(&front) {
+                (node.front_node(index), front)
+            } else if has_both(&back) {
+                (node.back_node(index), back)
             } else {
-                index += 1 + node.front_nodes as usize;
-                (total, start) = (back_len, subtrees + in_front);
-            }
+                return Some(node.plane);
+            };
+            // Without a node both are in one leaf.
+            (index, fragments) = (child?, side);
         }
     }
 }

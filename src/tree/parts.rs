@@ -18,7 +18,7 @@ pub struct RawNode {
 /// What is on one side of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Child {
-    /// A leaf of so many fragments, stored right behind the node's own.
+    /// A leaf of this many fragments, stored right behind the node's own.
     Leaf(u32),
     /// Another node.
     Node,

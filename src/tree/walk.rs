@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use super::BspTree;
+use super::node::Ranges;
 use crate::exact::Side;
 
 /// A node on a walk.
@@ -20,8 +21,10 @@ pub(super) struct Visit {
     pub(super) front: Range<u32>,
     /// The fragments of a back leaf.
     pub(super) back: Range<u32>,
-    /// How many fragments are behind, in a leaf or not.
-    pub(super) back_len: u32,
+    /// All fragments in front, in a leaf or not.
+    pub(super) in_front: Range<u32>,
+    /// All fragments behind, in a leaf or not.
+    pub(super) behind: Range<u32>,
 }
 
 impl Visit {
@@ -111,33 +114,22 @@ fn visit(tree: &BspTree, subtree: &Subtree) -> Option<Visit> {
     let &Subtree { node: index, depth, is_front, ref fragments, .. } = subtree;
     let node = tree.nodes.get(index)?;
     let total = fragments.end - fragments.start;
-    let back_len = total.checked_sub(node.own())?.checked_sub(node.front_len)?;
-    let mut next = fragments.start;
-    let mut take = |len: u32| {
-        let range = next..next + len;
-        next += len;
-        range
-    };
-    let own = take(node.own());
-    let front = take(if node.front_nodes == 0 { node.front_len } else { 0 });
-    let back = take(if node.back_is_node() { 0 } else { back_len });
-    Some(Visit { node: index, depth, is_front, own, front, back, back_len })
+    total.checked_sub(node.own())?.checked_sub(node.front_len)?;
+    let Ranges { own, front: in_front, back: behind } = node.ranges(fragments.clone());
+    let front = if node.front_nodes == 0 { in_front.clone() } else { own.end..own.end };
+    let back = if node.back_is_node() { front.end..front.end } else { behind.clone() };
+    Some(Visit { node: index, depth, is_front, own, front, back, in_front, behind })
 }
 
 /// The subtrees in front of a root and behind it, where they are not leaves.
 fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2] {
     let node = &tree.nodes[root.node];
-    let child = |node, is_front, fragments| {
-        let depth = subtree.depth + 1;
+    let child = |node, is_front, fragments: &Range<u32>| {
+        let (depth, fragments) = (subtree.depth + 1, fragments.clone());
         Subtree { node, depth, is_front, fragments, is_root_alone: false }
     };
-    // Fragments of leaves are numbered first, then those of the front, then those of the back.
-    let start = root.back.end;
-    let front = (node.front_nodes > 0).then(|| start..start + node.front_len);
-    let middle = front.as_ref().map_or(start, |front| front.end);
-    let back = node.back_is_node().then_some(middle..subtree.fragments.end);
     [
-        front.map(|fragments| child(root.node + 1, true, fragments)),
-        back.map(|fragments| child(root.node + 1 + node.front_nodes as usize, false, fragments)),
+        node.front_node(root.node).map(|front| child(front, true, &root.in_front)),
+        node.back_node(root.node).map(|back| child(back, false, &root.behind)),
     ]
 }

@@ -56,8 +56,9 @@ impl Verification {
 ///
 /// Everything [is right](Verification::is_right), whatever the scene and the camera. Pixels that
 /// differ only as far as the tolerance allows count as contested: by the rule of [`compare`], which
-/// knows the polygons, or by that of [`is_open`](crate::raster::is_open) for the tree's plane
-/// between the two. With a tolerance of 0 only ties are contested.
+/// knows the polygons, or because the ray meets both within the tolerance of the tree's plane
+/// between them, or meets the nearer one there and begins there. With a tolerance of 0 only ties are
+/// contested.
 ///
 /// ```
 /// use binspace::{BspTree, scene, verify, view};

@@ -1,5 +1,7 @@
 //! Which file imports which, read from the sources: layers point one way, and no files import each
 //! other in a circle.
+//!
+//! Imports only: methods that a child file adds to its parent's type are not seen.
 
 mod graph;
 mod imports;

@@ -4,7 +4,7 @@ use crate::{CORNERS, read, with_corners};
 use binspace::scene::Scene;
 
 /// Line, face and message of the error.
-fn refused(text: impl AsRef<[u8]>) -> (Option<usize>, Option<u32>, String) {
+fn refused(text: impl AsRef<[u8]>) -> (Option<usize>, Option<usize>, String) {
     match read(text) {
         Ok((scene, _)) => panic!("accepted with {} polygons", scene.len()),
         Err(error) => (error.line(), error.face(), error.to_string()),

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 fn check(result: Result<(Scene, ObjReport), ObjError>) {
     match result {
         Ok((scene, report)) => {
-            assert_eq!(scene.len(), report.faces as usize);
+            assert_eq!(scene.len(), report.faces);
             assert!(scene.polygons().flatten().all(|p| p.is_finite()));
             assert!((0..scene.len()).all(|i| scene.material(i).opacity <= 1.0));
             let _ = report.to_string();

@@ -9,7 +9,7 @@ use super::scene::{Point, Scene, add, between, each, tilt, times};
 use crate::support::dice::Dice;
 use crate::support::shapes::rotation;
 
-/// So many corners on a circle around the z axis, convex though rounded.
+/// `sides` corners on a circle around the z axis, convex though rounded.
 fn ring(sides: usize, radius: i64) -> Vec<Point> {
     let angle = |k: usize| TAU * (k as f64 + 0.3) / sides as f64;
     let whole = |x: f64| (x * radius as f64).round() as i64;

@@ -1,8 +1,7 @@
 //! Trees held against rays: far before near, input order where polygons are in one plane, and
 //! every polygon covered once.
 
-use binspace::BspTree;
-use binspace::internals::Viewpoint;
+use binspace::{BspTree, Viewpoint};
 
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
@@ -59,7 +58,7 @@ pub(crate) struct Shot {
     rays: Vec<(Ray, Vec<Vec<Hit>>)>,
 }
 
-/// Rays from so many viewpoints, of all kinds in turn.
+/// Rays from `views` viewpoints, of all kinds in turn.
 pub(crate) fn shots(
     targets: &Targets<'_>,
     [views, rays]: [usize; 2],

@@ -31,7 +31,7 @@ const SHAPED: [Make; 19] = [
 /// How many kinds there are without a tolerance.
 pub(crate) const KINDS: usize = SHAPED.len() + copies::FAMILIES;
 
-/// A scene of a kind, of about so many polygons.
+/// A scene of a kind, of about `n` polygons.
 pub(crate) fn scene(kind: usize, dice: &mut Dice, n: usize) -> Scene {
     match SHAPED.get(kind) {
         Some(make) => make(dice, n),

@@ -1,7 +1,7 @@
 //! Viewpoints that are known exactly, most of them where it is hard to tell sides.
 
+use binspace::Viewpoint;
 use binspace::glam::DVec3;
-use binspace::internals::Viewpoint;
 
 use super::exact::{Vector, wide};
 use super::ray::Ray;

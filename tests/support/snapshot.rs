@@ -1,7 +1,7 @@
 //! A tree's planes and fragments, for comparing trees bit for bit.
 
-use binspace::BspTree;
-use binspace::internals::{Line, PlaneId, Viewpoint};
+use binspace::internals::{Line, PlaneId};
+use binspace::{BspTree, Viewpoint};
 use std::ops::Range;
 
 /// A fragment: its face, its polygon, its lines, its vertices in lattice units.

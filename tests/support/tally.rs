@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{TestCaseError, TestRunner};
 use std::cell::RefCell;
 
-/// Holds a property against so many cases, and gives back what they counted. What fails is kept
+/// Holds a property against this many cases, and gives back what they counted. What fails is kept
 /// beside the source file, as by `proptest!`.
 pub(crate) fn tally<S: Strategy, T: Default>(
     source: &'static str,

@@ -3,8 +3,9 @@
 use super::dice::Dice;
 use super::rational::{self, Plane, Point, Rational};
 use super::rays::{Rays, Vector, vector};
+use binspace::Viewpoint;
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, Viewpoint};
+use binspace::internals::Faces;
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::cmp::Ordering;

@@ -73,7 +73,7 @@ impl Compared {
         self.contested += result.comparison.verdicts.iter().filter(contested).count();
     }
 
-    /// So many pictures, and a tenth of their pixels not empty nor contested.
+    /// At least this many pictures, and a tenth of their pixels not empty nor contested.
     fn assert_floor(&self, pictures: usize) {
         let clear = self.pixels - self.contested;
         let least = pictures * (SIZE[0] * SIZE[1]) as usize / 10;

@@ -1,9 +1,8 @@
 //! Large and deep: no recursion, no quadratic work, budgets that hold.
 
 use binspace::glam::DVec3;
-use binspace::internals::Viewpoint;
 use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Error, Heuristic};
+use binspace::{BspTree, BuildOptions, Error, Heuristic, Viewpoint};
 use std::thread;
 
 use crate::support::orders;

@@ -4,9 +4,8 @@ use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use binspace::glam::{DQuat, DVec3};
-use binspace::internals::Viewpoint;
 use binspace::scene::{self, Scene, ScenePolygon};
-use binspace::{BspTree, BuildOptions};
+use binspace::{BspTree, BuildOptions, Viewpoint};
 
 use super::scale::{mosaic, with_a_small_stack};
 use crate::support::orders;

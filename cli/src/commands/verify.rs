@@ -149,7 +149,8 @@ mod tests {
 
     #[test]
     fn a_wrong_view_is_called_wrong() {
-        let mut found = Comparison { covered: 9, contested: 1, ..Comparison::default() };
+        let mut found = Comparison::default();
+        (found.covered, found.contested) = (9, 1);
         let row = |right| row(&table(100), ["1", "inside"], &found, right);
         assert!(row(true).contains("right"));
         assert!(row(false).contains("wrong"));

@@ -130,7 +130,7 @@ fn a_scene_too_large_for_a_camera_is_said_to_be_that() {
     }
 }
 
-/// Runs the program with so much memory, in kB.
+/// Runs the program with at most this much memory, in kB.
 #[cfg(target_os = "linux")]
 fn run_within(kilobytes: u32, folder: &Folder, arguments: &str) -> (Option<i32>, String) {
     let program = env!("CARGO_BIN_EXE_binspace");

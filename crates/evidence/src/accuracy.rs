@@ -1,10 +1,12 @@
 //! Compares a tree's fragments with their exact definitions.
 
-use std::cmp::Ordering;
+use num_bigint::BigInt;
+use num_traits::{FromPrimitive, Zero};
 
-use crate::residue::Residue;
+use crate::place::{Place, Plane};
+use crate::residue::{Residue, twice_area};
 use crate::tree::{KernelTree, Visit};
-use binspace::internals::{Exact, ExactSplitter, Kernel, Plane, PlaneId, PlaneKind, Side, Symbol};
+use binspace::internals::{Faces, Kernel, PlaneId, PlaneKind, Side, Symbol};
 
 /// The errors of the vertices of a tree's fragments, and the number of those on a wrong side; see
 /// [`accuracy`].
@@ -29,149 +31,170 @@ pub struct Accuracy {
     pub drift_mean: f64,
 }
 
-/// In lattice units. Larger: vertices that are moved back that far are off by more than a rounding;
-/// smaller: time for integers.
-const NEAR: f64 = (1u64 << 40) as f64;
-
 /// A plane on the way to a fragment, and where the fragment was put.
 struct Above {
     id: PlaneId,
-    splitter: ExactSplitter,
     plane: Plane,
-    /// The tolerance times the length of the normal, an integer.
+    /// The plane, each number rounded once.
+    normal: [f64; 3],
+    offset: f64,
+    /// The tolerance times the length of the normal, a whole number.
     band: f64,
     side: Side,
 }
 
-/// Compares every vertex with its definition, and its definition with every plane above it, in
-/// exact arithmetic, whatever the kernel: O(n · mean depth).
+/// A vertex where its definition puts it.
+struct Vertex {
+    symbol: Symbol,
+    place: Place,
+    /// The place, each coordinate within three roundings.
+    rounded: [f64; 3],
+}
+
+/// Compares every vertex with its definition, and its definition with every plane above it,
+/// exactly, whatever the kernel: O(n · mean depth).
 ///
 /// The exact kernel misplaces nothing, and its vertices are off only by their last rounding. This
-/// function uses the kernel's own integers; tests count the same in rationals, on hard scenes of up
-/// to some hundred faces.
+/// function computes planes and vertices in big integers of its own, with a filter of its own in
+/// front, so a mistake in the kernel's arithmetic is counted and not repeated. Tests count the same
+/// in rationals, on hard scenes of up to some hundred faces.
 pub fn accuracy<K: Kernel>(tree: &KernelTree<K>) -> Accuracy {
-    let mut result = Accuracy::default();
+    let mut count = Count::new(tree.faces());
     let mut path: Vec<Above> = Vec::new();
-    let mut sum = 0.0;
     for visit in tree.walk() {
-        tree.extend_path(&mut path, &visit);
+        extend_path(tree.faces(), &mut path, &visit);
         for (range, side) in
             [(visit.on, Side::Coplanar), (visit.front, Side::Front), (visit.back, Side::Back)]
         {
             if let Some(last) = path.last_mut() {
                 last.side = side;
             }
-            range.for_each(|fragment| tree.judge(fragment, &path, &mut result, &mut sum));
+            range.for_each(|fragment| count.judge(tree, fragment, &path));
         }
     }
-    result.torn = tree.torn_faces();
-    result.drift_mean = sum / result.vertices.max(1) as f64;
-    result
+    count.finish()
 }
 
-impl<K: Kernel> KernelTree<K> {
-    /// The number of faces whose area is not the sum of their fragments' areas.
-    fn torn_faces(&self) -> usize {
-        // For each face the sum of its fragments' areas; none if a vertex has no place.
-        let mut sums = vec![Some(Residue::ZERO); self.faces().len()];
-        let axis = |face| self.faces().plane(PlaneId::face(face)).main_axis();
-        for fragment in 0..self.len() as u32 {
-            let face = self.face(fragment);
-            let area = self.twice_area(face, axis(face), self.symbols(fragment));
-            let sum = &mut sums[face as usize];
-            *sum = sum.zip(area).map(|(sum, area)| sum.plus(area));
-        }
-        let is_torn = |(face, sum): (u32, Option<Residue>)| {
-            let corners = 0..self.faces().corners(face).len() as u32;
-            sum != self.twice_area(face, axis(face), corners.map(Symbol::corner))
-        };
-        (0..).zip(sums).filter(|&sum| is_torn(sum)).count()
+fn extend_path(faces: &Faces, path: &mut Vec<Above>, visit: &Visit) {
+    path.truncate(visit.depth - 1);
+    if let Some(parent) = path.last_mut() {
+        parent.side = if visit.is_front { Side::Front } else { Side::Back };
+    }
+    path.push(Above::new(faces, visit.plane));
+}
+
+/// What has been counted so far.
+struct Count<'a> {
+    faces: &'a Faces,
+    result: Accuracy,
+    drift_sum: f64,
+    /// For each face the sum of its fragments' areas; `None` if a vertex has no place.
+    areas: Vec<Option<Residue>>,
+}
+
+impl<'a> Count<'a> {
+    fn new(faces: &'a Faces) -> Self {
+        let areas = vec![Some(Residue::ZERO); faces.len()];
+        Self { faces, result: Accuracy::default(), drift_sum: 0.0, areas }
     }
 
-    /// Twice the area of a polygon, seen along an axis.
-    fn twice_area(
-        &self,
-        face: u32,
-        axis: usize,
-        symbols: impl Iterator<Item = Symbol>,
-    ) -> Option<Residue> {
-        let place = |symbol| Residue::place(self.faces(), face, symbol, axis);
-        let places: Vec<[Residue; 2]> = symbols.map(place).collect::<Option<_>>()?;
-        let cross = |k: usize| {
-            let ([a, b], [c, d]) = (places[k], places[(k + 1) % places.len()]);
-            a.times(d).minus(b.times(c))
-        };
-        Some((0..places.len()).fold(Residue::ZERO, |sum, k| sum.plus(cross(k))))
-    }
-
-    fn extend_path(&self, path: &mut Vec<Above>, visit: &Visit) {
-        path.truncate(visit.depth - 1);
-        if let Some(parent) = path.last_mut() {
-            parent.side = if visit.is_front { Side::Front } else { Side::Back };
-        }
-        let id = visit.plane;
-        let plane = self.faces().plane(id);
-        let length = match id.kind() {
-            PlaneKind::Face(_) => plane.normal_f64().length(),
-            PlaneKind::Axis(..) => 1.0,
-        };
-        let band = (self.faces().tolerance() * length).floor();
-        let splitter = Exact.splitter(self.faces(), id);
-        path.push(Above { id, splitter, plane, band, side: Side::Coplanar });
-    }
-
-    fn judge(&self, id: u32, path: &[Above], result: &mut Accuracy, sum: &mut f64) {
-        let face = self.face(id);
-        for (symbol, position) in self.symbols(id).zip(self.lattice_vertices(id)) {
-            result.vertices += 1;
-            let Some(drift) = self.faces().drift(face, symbol, position) else {
-                result.undefined += 1;
+    fn judge<K: Kernel>(&mut self, tree: &KernelTree<K>, fragment: u32, path: &[Above]) {
+        let face = tree.face(fragment);
+        let id = PlaneId::face(face);
+        let plane = Plane::of(self.faces, id);
+        let axis = plane.main_axis();
+        let mut outline = Some(Vec::new());
+        for (symbol, position) in tree.symbols(fragment).zip(tree.lattice_vertices(fragment)) {
+            self.result.vertices += 1;
+            let Some(place) = Place::of(self.faces, face, &plane, symbol) else {
+                self.result.undefined += 1;
+                outline = None;
                 continue;
             };
-            let size = drift.iter().fold(0.0, |max: f64, c| max.max(c.abs()));
-            *sum += size;
-            result.drift_max = result.drift_max.max(size);
-            // A long way is rounded by more than the filter allows for.
-            let place = (size < NEAR).then(|| std::array::from_fn(|i| position[i] - drift[i]));
-            let own = PlaneId::face(face);
-            let wrong = |above: &Above| self.is_misplaced(above, own, face, symbol, place);
-            result.misplaced += usize::from(path.iter().any(wrong));
+            let drift = place.drift(position);
+            self.drift_sum += drift;
+            self.result.drift_max = self.result.drift_max.max(drift);
+            let point = Residue::place(&place, axis);
+            outline = outline.zip(point).map(|(mut outline, point)| {
+                outline.push(point);
+                outline
+            });
+            let vertex = Vertex { symbol, rounded: place.rounded(), place };
+            let is_wrong = path.iter().any(|above| above.has_misplaced(id, &vertex));
+            self.result.misplaced += usize::from(is_wrong);
         }
+        let sum = &mut self.areas[face as usize];
+        *sum = sum.zip(outline).map(|(sum, outline)| sum.plus(twice_area(&outline)));
     }
 
-    /// Whether a vertex, by its definition, is not where its fragment was put; `place` is the
-    /// vertex within the error that the exact kernel's filter allows for, if that is known.
-    fn is_misplaced(
-        &self,
-        above: &Above,
-        own: PlaneId,
-        face: u32,
-        symbol: Symbol,
-        place: Option<[f64; 3]>,
-    ) -> bool {
-        if above.plane_is(own) {
-            return above.side != Side::Coplanar;
-        }
-        let slack = Exact::slack(&above.splitter);
-        let s = place.map_or(0.0, |place| Exact::distance(&above.splitter, place));
-        let plane = (above.id, &above.plane);
-        let exactly = |threshold| self.faces().compare(plane, face, symbol, threshold);
-        let beyond = |threshold: f64, order: Ordering| {
-            if s.abs() > slack { s.total_cmp(&0.0) == order } else { exactly(threshold) == order }
-        };
-        let in_front = || beyond(above.band, Ordering::Greater);
-        let behind = || beyond(-above.band, Ordering::Less);
-        match above.side {
-            Side::Front => behind(),
-            Side::Back => in_front(),
-            Side::Coplanar | Side::Spanning => in_front() || behind(),
-        }
+    /// Twice a face's own area, seen along its plane's main axis.
+    fn area(&self, face: u32) -> Option<Residue> {
+        let plane = Plane::of(self.faces, PlaneId::face(face));
+        let axis = plane.main_axis();
+        let corners = (0..self.faces.corners(face).len() as u32).map(Symbol::corner);
+        let point = |corner| Residue::place(&Place::of(self.faces, face, &plane, corner)?, axis);
+        let outline: Option<Vec<_>> = corners.map(point).collect();
+        outline.map(|outline| twice_area(&outline))
+    }
+
+    fn finish(self) -> Accuracy {
+        let torn = (0..).zip(&self.areas).filter(|&(face, &sum)| sum != self.area(face)).count();
+        let drift_mean = self.drift_sum / self.result.vertices.max(1) as f64;
+        Accuracy { torn, drift_mean, ..self.result }
     }
 }
 
+/// The largest error of a rounded distance from a plane, per unit of the sum of the magnitudes of
+/// its terms n₀x₀, n₁x₁, n₂x₂, the offset and the threshold. In units of 2⁻⁵³, conversions from big
+/// integers are off by at most 2: a coordinate, the quotient of two, by 5, a component of the
+/// normal by 2, so a product by 8, and the four sums that follow by 4. The rest is for the rounding
+/// of the sum of magnitudes, and terms of second order.
+const ERROR: f64 = 16.0 * (f64::EPSILON / 2.0);
+
 impl Above {
-    /// Whether it is the plane of a face.
-    fn plane_is(&self, id: PlaneId) -> bool {
-        self.id == id
+    fn new(faces: &Faces, id: PlaneId) -> Self {
+        let plane = Plane::of(faces, id);
+        let (normal, offset) = plane.rounded();
+        let length = match id.kind() {
+            PlaneKind::Face(_) => normal.map(|c| c * c).iter().sum::<f64>().sqrt(),
+            PlaneKind::Axis(..) => 1.0,
+        };
+        let band = (faces.tolerance() * length).floor();
+        Self { id, plane, normal, offset, band, side: Side::Coplanar }
+    }
+
+    /// Whether a vertex of a face's fragment, by its definition, is not where the fragment was put;
+    /// `own` is the face's plane.
+    fn has_misplaced(&self, own: PlaneId, vertex: &Vertex) -> bool {
+        if self.id == own {
+            return self.side != Side::Coplanar;
+        }
+        // What a plane defines lies on it.
+        if vertex.symbol.is_on(self.id) {
+            return false;
+        }
+        match self.side {
+            Side::Front => self.is_beyond(vertex, -1.0),
+            Side::Back => self.is_beyond(vertex, 1.0),
+            Side::Coplanar | Side::Spanning => {
+                self.is_beyond(vertex, 1.0) || self.is_beyond(vertex, -1.0)
+            }
+        }
+    }
+
+    /// Whether a vertex is further from the plane than the tolerance: in front, if `sign` is 1, or
+    /// behind, if it is −1.
+    fn is_beyond(&self, vertex: &Vertex, sign: f64) -> bool {
+        let terms: [f64; 3] = std::array::from_fn(|i| self.normal[i] * vertex.rounded[i]);
+        let distance = terms[0] + terms[1] + terms[2] - self.offset;
+        let size = terms.map(f64::abs).iter().sum::<f64>() + self.offset.abs() + self.band;
+        let excess = sign * distance - self.band;
+        if excess.abs() > ERROR * size {
+            return excess > 0.0;
+        }
+        let distance = self.plane.at(&vertex.place);
+        let distance = if sign < 0.0 { -distance } else { distance };
+        let band = BigInt::from_f64(self.band).unwrap_or_else(BigInt::zero);
+        distance > band * vertex.place.weight()
     }
 }

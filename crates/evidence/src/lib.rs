@@ -6,6 +6,7 @@ mod accuracy;
 mod family;
 pub mod measure;
 pub mod method;
+mod place;
 mod residue;
 mod rounded;
 mod tree;

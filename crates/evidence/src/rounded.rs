@@ -146,16 +146,6 @@ impl<T: Precision> Kernel for Float<T> {
         FloatSplitter { plane, normal, offset, epsilon, precision: std::marker::PhantomData }
     }
 
-    #[inline]
-    fn distance(splitter: &FloatSplitter<T>, position: [f64; 3]) -> f64 {
-        splitter.distance(position)
-    }
-
-    #[inline]
-    fn slack(splitter: &FloatSplitter<T>) -> f64 {
-        splitter.epsilon
-    }
-
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> FloatVertex {
         let position = faces.corners(face)[k as usize].map(T::round);
         FloatVertex { position, symbol: Symbol::corner(k), line: Line::edge(k) }

@@ -6,7 +6,7 @@ use num_traits::{FromPrimitive, ToPrimitive};
 use proptest::prelude::*;
 
 fn big<const N: usize>(value: &Int<N>) -> BigInt {
-    let bytes: Vec<u8> = value.limbs().iter().flat_map(|limb| limb.to_le_bytes()).collect();
+    let bytes: Vec<u8> = value.0.iter().flat_map(|limb| limb.to_le_bytes()).collect();
     BigInt::from_signed_bytes_le(&bytes)
 }
 

@@ -6,6 +6,6 @@ use crate::Error;
 /// ones, and stops it all by an error.
 pub(in crate::faces) type Work<'a> = &'a dyn Fn(usize) -> Result<(), Error>;
 
-/// So many steps are taken before it is asked whether to go on. Smaller: time for asking; larger: it
-/// takes longer to stop.
+/// How many steps are taken before it is asked whether to go on. Smaller: time for asking; larger:
+/// it takes longer to stop.
 pub(super) const AT_ONCE: usize = 1 << 10;

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::faces;
 use crate::exact::{Faces, Line, PlaneId};
 use crate::raster::{
-    Comparison, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare, depth_map,
-    difference, paint, picture, zbuffer,
+    Comparison, Image, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare,
+    depth_map, difference, picture, zbuffer,
 };
 use crate::view::Camera;
 
@@ -32,6 +32,13 @@ fn drawn(faces: &[u32]) -> String {
 
 fn whole<'a>(order: &'a [u32]) -> impl Iterator<Item = Piece<'a>> {
     order.iter().map(|&face| Piece { face, outline: Outline::Whole })
+}
+
+/// Paints pieces given from back to front.
+fn paint<'p>(rays: &Rays, faces: &Faces, pieces: impl IntoIterator<Item = Piece<'p>>) -> Image {
+    let mut painter = Painter::new(rays, faces, Order::BackToFront);
+    pieces.into_iter().for_each(|piece| painter.draw(piece));
+    painter.finish()
 }
 
 /// A at depth 5 all over; B from depth 4 at the left to depth 10 at the right, above the diagonal.

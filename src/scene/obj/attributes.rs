@@ -18,7 +18,7 @@ pub(super) struct Found {
     /// For each corner the numbers from 0 of its vertex, its `vt` line and its `vn` line.
     corners: Vec<[Option<u32>; 3]>,
     /// Malformed lines, and references to what is not there.
-    pub(super) faults: u32,
+    pub(super) faults: usize,
 }
 
 impl Found {
@@ -30,7 +30,7 @@ impl Found {
             [Some(u), Some(v), ..] => Some(DVec2::new(u, v)),
             _ => None,
         };
-        self.faults += u32::from(uv.is_none());
+        self.faults += usize::from(uv.is_none());
         self.uvs.push(uv);
     }
 
@@ -40,7 +40,7 @@ impl Found {
             [Some(x), Some(y), Some(z), ..] => Some(DVec3::new(x, y, z)),
             _ => None,
         };
-        self.faults += u32::from(normal.is_none());
+        self.faults += usize::from(normal.is_none());
         self.normals.push(normal);
     }
 
@@ -59,7 +59,7 @@ impl Found {
         let mut next = |count: usize| {
             let word = references.next().unwrap_or_default();
             let number = (!word.is_empty()).then(|| number_from_0(word, count));
-            self.faults += u32::from(number == Some(None));
+            self.faults += usize::from(number == Some(None));
             number.flatten()
         };
         let (uv, normal) = (next(self.uvs.len()), next(self.normals.len()));
@@ -67,11 +67,11 @@ impl Found {
     }
 
     /// The attributes of each corner.
-    pub(super) fn finish(mut self) -> (Attributes, u32) {
+    pub(super) fn finish(mut self) -> (Attributes, usize) {
         let mut faults = self.faults;
         let mut lost = |numbers: &dyn Fn(&[Option<u32>; 3]) -> Option<u32>, count: usize| {
             let is_lost = |corner: &&_| numbers(corner).is_some_and(|n| n as usize >= count);
-            faults += self.corners.iter().filter(is_lost).count() as u32;
+            faults += self.corners.iter().filter(is_lost).count();
         };
         lost(&|corner| corner[1], self.uvs.len());
         lost(&|corner| corner[2], self.normals.len());

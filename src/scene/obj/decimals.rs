@@ -2,8 +2,8 @@
 
 /// Powers of ten from −`DECADES` to `DECADES` − 1 are told apart.
 const DECADES: i32 = 40;
-/// Programs that write a fixed number of significant digits write at least so many. Fewer: short
-/// numbers of different size, as people write them, are taken for rounded ones.
+/// The least fixed number of significant digits that programs write. Fewer: short numbers of
+/// different size, as people write them, are taken for rounded ones.
 const FEWEST_DIGITS: i32 = 5;
 
 /// What was seen of the digits of numbers.

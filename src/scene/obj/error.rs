@@ -1,12 +1,14 @@
+//! Why an OBJ file cannot be read.
+
 use std::fmt;
 
-/// Why an OBJ file cannot be read. The message names the file, the line and the face
-/// where they are known, and says what to do.
+/// Why an OBJ file cannot be read. The message names the file, the line and the face where they are
+/// known, and says what to do.
 #[derive(Debug)]
 pub struct ObjError {
     file: String,
     line: Option<usize>,
-    face: Option<u32>,
+    face: Option<usize>,
     kind: Kind,
 }
 
@@ -27,7 +29,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    pub(super) fn at(self, line: Option<usize>, face: Option<u32>) -> ObjError {
+    pub(super) fn at(self, line: Option<usize>, face: Option<usize>) -> ObjError {
         ObjError { file: String::new(), line, face, kind: self }
     }
 }
@@ -38,9 +40,8 @@ impl ObjError {
         self.line
     }
 
-    /// The face at fault: the number of its `f` line among the `f` lines,
-    /// counted from 0.
-    pub fn face(&self) -> Option<u32> {
+    /// The face at fault: the number of its `f` line among the `f` lines, counted from 0.
+    pub fn face(&self) -> Option<usize> {
         self.face
     }
 

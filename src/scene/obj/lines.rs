@@ -1,3 +1,5 @@
+//! The lines of an OBJ file, checked, and the text that is left for `tobj`.
+
 use super::attributes::Found;
 use super::decimals::Decimals;
 use super::error::{Kind, ObjError};
@@ -9,10 +11,10 @@ use std::str::SplitWhitespace;
 
 /// The statements of an OBJ file, read and checked line by line before `tobj` sees them.
 ///
-/// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a
-/// fourth one, reorders faces by material, fails on indices of normals that are not read,
-/// and names no line in its errors. So it gets only `v` lines of three finite numbers and
-/// `f` lines of vertex numbers from 1.
+/// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth one,
+/// reorders faces by material, fails on indices of normals that are not read, and names no line in
+/// its errors. So it gets only `v` lines of three finite numbers and `f` lines of vertex numbers
+/// from 1.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
     pub(super) cleaned: String,
@@ -39,7 +41,7 @@ pub(super) struct Scan {
 struct Ahead {
     index: usize,
     line: usize,
-    face: u32,
+    face: usize,
 }
 
 impl Scan {
@@ -127,7 +129,7 @@ impl Scan {
 
     fn face(&mut self, words: SplitWhitespace<'_>, line: usize) -> Result<(), ObjError> {
         let face = self.report.faces;
-        if face == u32::MAX {
+        if face == u32::MAX as usize {
             return Err(Kind::TooManyFaces.at(Some(line), None));
         }
         self.cleaned.push('f');
@@ -148,9 +150,8 @@ impl Scan {
         Ok(())
     }
 
-    /// The number from 1 of the vertex in `vertex/texture/normal`, where a
-    /// negative one counts back from the last vertex so far. It may still lie
-    /// beyond the last vertex of the file.
+    /// The number from 1 of the vertex in `vertex/texture/normal`, where a negative one counts back
+    /// from the last vertex so far. It may still lie beyond the last vertex of the file.
     fn vertex_number(&self, token: &str) -> Result<usize, Kind> {
         let digits = token.split('/').next().unwrap_or_default();
         let out_of_range =

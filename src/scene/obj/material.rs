@@ -1,3 +1,5 @@
+//! Material libraries of OBJ files.
+
 use super::report::ObjReport;
 use super::text::{decode, lines};
 use crate::scene::Material;
@@ -54,8 +56,8 @@ pub(super) fn load(
     looks
 }
 
-/// The libraries that one `mtllib` line names: the name may hold spaces, or be
-/// several names; or have been written on Windows.
+/// The libraries that one `mtllib` line names: the name may hold spaces, or be several names; or
+/// have been written on Windows.
 fn find_all(name: &str, find: &mut impl FnMut(&str) -> Library) -> Vec<Library> {
     let whole = match find(name) {
         Library::Missing if name.contains('\\') => find(&name.replace('\\', "/")),
@@ -68,8 +70,7 @@ fn find_all(name: &str, find: &mut impl FnMut(&str) -> Library) -> Vec<Library> 
     }
 }
 
-/// Whether a path stays within its folder and those below it, judged by its text
-/// alone.
+/// Whether a path stays within its folder and those below it, judged by its text alone.
 fn is_inside(path: &Path) -> bool {
     path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
 }
@@ -86,9 +87,9 @@ fn parse(bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> 
     Some(names.into_iter().zip(materials.iter().map(look)).collect())
 }
 
-/// Keeps the well-formed `newmtl`, `Kd` and opacity lines. The others must go, because
-/// `tobj` rejects a whole library for one bad line, and panics on a `Kd` of one number.
-/// Names are replaced by numbers, because `tobj` treats other characters as spaces.
+/// Keeps the well-formed `newmtl`, `Kd` and opacity lines. The others must go, because `tobj`
+/// rejects a whole library for one bad line, and panics on a `Kd` of one number. Names are replaced
+/// by numbers, because `tobj` treats other characters as spaces.
 fn clean(text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
     let (mut cleaned, mut names) = (String::new(), Vec::new());
     let mut named = false;

@@ -1,3 +1,5 @@
+//! What reading an OBJ file has found.
+
 use std::fmt;
 
 /// What was read from an OBJ file, and what was left out.
@@ -7,30 +9,30 @@ use std::fmt;
 #[non_exhaustive]
 pub struct ObjReport {
     /// The `f` lines, degenerate ones included: the polygons of the scene.
-    pub faces: u32,
-    /// Faces with fewer than three different corner positions. They stay in the
-    /// scene, so that polygon numbers are those of the file.
-    pub degenerate_faces: u32,
+    pub faces: usize,
+    /// Faces with fewer than three different corner positions. They stay in the scene, so that
+    /// polygon numbers are those of the file.
+    pub degenerate_faces: usize,
     /// `p` lines.
-    pub skipped_points: u32,
+    pub skipped_points: usize,
     /// `l` lines.
-    pub skipped_lines: u32,
+    pub skipped_lines: usize,
     /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are
     /// malformed or name none. Those corners are without that attribute.
-    pub skipped_attributes: u32,
-    /// Lines that begin with any other word that is not understood, such as the
-    /// statements for free-form curves and surfaces.
-    pub skipped_statements: u32,
+    pub skipped_attributes: usize,
+    /// Lines that begin with any other word that is not understood, such as the statements for
+    /// free-form curves and surfaces.
+    pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
-    /// Material libraries that were not read, because their names lead out of the file's
-    /// folder: they are absolute or contain `..`.
+    /// Material libraries that were not read, because their names lead out of the file's folder:
+    /// they are absolute or contain `..`.
     pub outside_libraries: Vec<String>,
     /// Materials that are used but not defined.
     pub missing_materials: Vec<String>,
     /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
     /// unsupported kind, such as spectral curves.
-    pub skipped_material_lines: u32,
+    pub skipped_material_lines: usize,
 }
 
 impl ObjReport {

@@ -1,3 +1,5 @@
+//! From the bytes of a file to its lines.
+
 use super::error::{Kind, ObjError};
 use std::borrow::Cow;
 
@@ -11,10 +13,9 @@ const MARKS: [(&[u8], &str); 4] = [
 
 /// The text without its byte-order mark.
 ///
-/// Old files have names and comments in other encodings. Where there is a line,
-/// not a comment, that is not UTF-8, each byte becomes the character of that
-/// number (Latin-1), so that different names stay different, and a name in a
-/// material library is the same as in the file that uses it.
+/// Old files have names and comments in other encodings. Where there is a line, not a comment, that
+/// is not UTF-8, each byte becomes the character of that number (Latin-1), so that different names
+/// stay different, and a name in a material library is the same as in the file that uses it.
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ObjError> {
     if let Some((_, name)) = MARKS.iter().find(|(mark, _)| bytes.starts_with(mark)) {
         return Err(Kind::Encoding(name).at(None, None));
@@ -34,8 +35,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ObjError> {
     Ok(text.iter().map(|&byte| char::from(byte)).collect())
 }
 
-/// Lines with their numbers from 1. They end in LF, CR LF or CR; a line that is
-/// no comment and ends in a backslash is joined with the next by a space.
+/// Lines with their numbers from 1. They end in LF, CR LF or CR; a line that is no comment and ends
+/// in a backslash is joined with the next by a space.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut rest = text;
     let mut number = 0;

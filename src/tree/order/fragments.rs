@@ -5,6 +5,7 @@ use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
 use super::sides::View;
+use crate::tree::node::Ranges;
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
 
@@ -12,7 +13,7 @@ use crate::viewpoint::Viewpoint;
 #[derive(Clone, Debug)]
 enum Part {
     Run(Range<u32>),
-    Subtree { node: u32, fragments: Range<u32> },
+    Subtree { node: usize, fragments: Range<u32> },
 }
 
 /// The fragments of a tree in the order of a viewpoint: [`BspTree::back_to_front`] and
@@ -50,25 +51,17 @@ impl<'t> Ordered<'t> {
     }
 
     /// The parts of a subtree, back to front.
-    fn open(&self, index: u32, fragments: Range<u32>) -> [Part; 3] {
-        let node = &self.tree.nodes[index as usize];
-        let mut next = fragments.start;
-        let mut take = |len| {
-            next += len;
-            Part::Run(next - len..next)
+    fn open(&self, index: usize, fragments: Range<u32>) -> [Part; 3] {
+        let node = &self.tree.nodes[index];
+        let Ranges { own, front, back } = node.ranges(fragments);
+        let part = |child: Option<usize>, fragments| match child {
+            Some(node) => Part::Subtree { node, fragments },
+            None => Part::Run(fragments),
         };
-        let own = take(node.own());
-        let back_len = fragments.len() as u32 - node.own() - node.front_len;
-        // Fragments of leaves are numbered before those of subtrees, so they are taken first.
-        let front_leaf = (node.front_nodes == 0).then(|| take(node.front_len));
-        let back_leaf = (!node.back_is_node()).then(|| take(back_len));
-        let mut subtree = |len, node| {
-            next += len;
-            Part::Subtree { node, fragments: next - len..next }
-        };
-        let front = front_leaf.unwrap_or_else(|| subtree(node.front_len, index + 1));
-        let back = back_leaf.unwrap_or_else(|| subtree(back_len, index + 1 + node.front_nodes));
-        if self.view.is_in_front(self.tree, index as usize) {
+        let own = Part::Run(own);
+        let front = part(node.front_node(index), front);
+        let back = part(node.back_node(index), back);
+        if self.view.is_in_front(self.tree, index) {
             [back, own, front]
         } else {
             [front, own, back]

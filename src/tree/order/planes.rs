@@ -6,11 +6,11 @@ use crate::exact::{Faces, LATTICE_LIMIT};
 use crate::parallel;
 use crate::tree::node::Node;
 
-/// So many planes stand together, and so many signs in a word.
+/// How many planes stand together, and how many signs are in a word.
 pub(super) const GROUP: usize = 4;
 pub(super) const WORD: usize = 32;
 
-/// So many groups are made by one thread at a time.
+/// How many groups one thread makes at a time.
 const PART: usize = 1024;
 
 /// The rounded planes of a tree's nodes, in the order of the nodes and by fours: the three

@@ -7,7 +7,7 @@ use std::thread;
 
 const ARROW: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 1.0, 0.0], [-2.0, 2.0, 0.0]];
 
-/// Squares in a grid of so many a side, tilted and so large that they cut their neighbours.
+/// Squares in a grid of `side` a side, tilted and so large that they cut their neighbours.
 fn squares(side: usize) -> Vec<[[f64; 3]; 4]> {
     let place = |i: usize| (i % side, i / side % side, i / side / side);
     let square = |i: usize| {

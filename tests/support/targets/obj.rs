@@ -33,7 +33,7 @@ fn read_any(bytes: &[u8]) {
     let Ok((scene, report)) = Scene::from_obj("any", bytes, |_| Some(bytes.to_vec())) else {
         return;
     };
-    assert!(scene.len() == report.faces as usize && !scene.is_empty());
+    assert!(scene.len() == report.faces && !scene.is_empty());
     assert!(scene.polygons().flatten().all(|corner| corner.is_finite()));
     let colours = scene.materials().iter();
     assert!(colours.flat_map(|m| m.color.into_iter().chain([m.opacity])).all(|c| c.is_finite()));

@@ -83,7 +83,7 @@ const METHODS: &str = "
 - *centroid*: painted by the depth of the faces' centroids. *newell*: the algorithm of Newell, Newell
   and Sancha in f64, with an epsilon of 1e-10 of half the extent and budgets for pieces and
   comparisons.
-- *z 16*, *z 24*: depth buffers of so many bits after the perspective divide; *f32*: of floats,
+- *z 16*, *z 24*: depth buffers of 16 and 24 bits after the perspective divide; *f32*: of floats,
   *reversed*: with 1 at the near plane; *w*: of depths before the divide; *incremental*: scanlines on
   which depth grows by steps, others by edge functions. *z f64* judges, with exact arithmetic where
   two depths are closer than its rounding.

@@ -38,7 +38,7 @@ use crate::units::count;
 /// The budget of fragments of a tree, and of pieces of Newell's algorithm. Larger: a single step of
 /// a sweep takes minutes; smaller: methods are stopped that would have finished.
 const MAX_PIECES: usize = 1 << 19;
-/// A scene that is a file may have so many for each of its corners.
+/// How many a scene that is a file may have for each of its corners.
 const PIECES_PER_CORNER: usize = 8;
 /// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if it has to
 /// be quick.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use binspace::glam::DVec3;
-use binspace::internals::Faces;
+use binspace::internals::{Faces, SplitMix64};
 use binspace::raster::{Image, Rays, zbuffer};
 use binspace::scene::Scene;
 use binspace::view::{Camera, CameraError};
@@ -163,10 +163,9 @@ fn around_and_inside(
     let (low, high) = scene.bounds().unwrap_or_default();
     let (centre, half) = (low * 0.5 + high * 0.5, high * 0.5 - low * 0.5);
     let reach = half.max_element();
-    let mut dice = Dice(seed);
+    let mut random = SplitMix64::new(seed);
     let eye_and_target = |i: usize| {
-        let mut point = || DVec3::from_array(std::array::from_fn(|_| dice.between(-0.8, 0.8)));
-        let (first, second) = (point(), point());
+        let (first, second) = (random.point(-0.8, 0.8), random.point(-0.8, 0.8));
         if i.is_multiple_of(2) {
             let away = (first + DVec3::new(0.01, 0.02, 0.03)).normalize();
             (centre + away * (3.2 * reach), centre + second * half * 0.2)
@@ -181,18 +180,4 @@ fn around_and_inside(
             .or_else(|_| Camera::perspective_by_slope(eye, target, DVec3::ONE, slope, size))
     };
     pairs.into_iter().map(camera).collect()
-}
-
-/// Even numbers (Steele, Lea & Flood 2014, `SplitMix64`).
-struct Dice(u64);
-
-impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        low + (high - low) * ((bits >> 11) as f64 / (1u64 << 53) as f64)
-    }
 }

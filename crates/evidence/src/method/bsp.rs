@@ -21,12 +21,14 @@ pub struct Bsp<K: Kernel> {
     pub options: BuildOptions,
     /// Decides on which side of a plane a vertex lies.
     pub kernel: K,
+    /// Whether the tree is the library's own, whose fragments have exact lines.
+    is_exact: bool,
 }
 
 impl Bsp<Exact> {
     /// The tree that the library builds: no decision is ever wrong.
     pub fn exact(options: BuildOptions) -> Self {
-        Self { name: "bsp exact".into(), options, kernel: Exact }
+        Self { name: "bsp exact".into(), options, kernel: Exact, is_exact: true }
     }
 }
 
@@ -34,7 +36,12 @@ impl Bsp<Float<f64>> {
     /// With decisions in `f64`; vertices no further from a plane than `epsilon` times half the
     /// scene's extent count as on it.
     pub fn double(options: BuildOptions, epsilon: f64) -> Self {
-        Self { name: format!("bsp f64 {epsilon:e}"), options, kernel: Float::new(epsilon) }
+        Self {
+            name: format!("bsp f64 {epsilon:e}"),
+            options,
+            kernel: Float::new(epsilon),
+            is_exact: false,
+        }
     }
 }
 
@@ -42,7 +49,12 @@ impl Bsp<Float<f32>> {
     /// With decisions in `f32`; vertices no further from a plane than `epsilon` times half the
     /// scene's extent count as on it.
     pub fn single(options: BuildOptions, epsilon: f64) -> Self {
-        Self { name: format!("bsp f32 {epsilon:e}"), options, kernel: Float::new(epsilon) }
+        Self {
+            name: format!("bsp f32 {epsilon:e}"),
+            options,
+            kernel: Float::new(epsilon),
+            is_exact: false,
+        }
     }
 }
 
@@ -53,7 +65,7 @@ impl<K: Kernel> Method for Bsp<K> {
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
         let (options, faces) = (&self.options, faces.clone());
-        if K::IS_EXACT {
+        if self.is_exact {
             return Ok(Box::new(Ready { tree: tree_of_faces(options, faces)?, order: Vec::new() }));
         }
         let tree = KernelTree::build(self.kernel, options, faces)?;

@@ -25,7 +25,7 @@ impl Shape {
         [Self::Star, Self::Monotone, Self::Untangled, Self::Spiral, Self::Comb, Self::Zigzag];
 }
 
-/// A polygon of about so many corners that does not cross itself.
+/// A polygon of about `n` corners that does not cross itself.
 pub(super) fn simple(shape: Shape, n: usize, random: &mut SplitMix64) -> Vec<Point> {
     match shape {
         Shape::Star => star(n, random),

@@ -132,7 +132,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// All trees of so many fragments, at least one: on every plane some, or some on both sides.
+/// All trees of `fragments` fragments, at least one: on every plane some, or some on both sides.
 fn trees(fragments: u32) -> Vec<Tree> {
     let mut all = Vec::new();
     for own in 0..=fragments {
@@ -229,7 +229,7 @@ fn lists_follow_lists_and_stand_on_both_sides_of_a_branch() {
     }
 }
 
-/// A tree of so many fragments, divided by chance.
+/// A tree of `fragments` fragments, divided by chance.
 fn some_tree(fragments: u32, random: &mut SplitMix64) -> Tree {
     let mut below = |limit: u32| (random.next() % u64::from(limit + 1)) as u32;
     let own = match below(5) {

@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Twice a vector area.
 pub(super) type Area = [i128; 3];
 
-/// So many points are tried of a polygon.
+/// How many points of a polygon are tried.
 const POINTS: usize = 24;
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [i128; 3] {

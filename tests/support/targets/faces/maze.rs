@@ -5,7 +5,7 @@ use super::outline::Corner;
 use std::collections::HashSet;
 
 /// The cells of a tree on a grid, and those between them, with what bounds them: a simple outline of
-/// about so many corners, all of its angles right ones.
+/// about `size` corners, all of its angles right ones.
 pub(super) fn outline(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let cells = cells(size.div_ceil(3).max(2), dice);
     around(&cells)

@@ -16,7 +16,7 @@ pub(super) struct Outline {
 
 /// How many corners, about. Large ones are rare.
 const SIZES: [usize; 12] = [3, 4, 5, 6, 8, 12, 20, 40, 100, 300, 1_000, 3_000];
-/// At most so many of an outline that crosses itself: the crossings grow with the square.
+/// The most corners of an outline that crosses itself: the crossings grow with the square.
 const MOST_CROSSING: usize = 150;
 /// An outline of more corners is given no more.
 const MOST: usize = 6_000;

@@ -33,7 +33,7 @@ impl Turn {
     }
 }
 
-/// Where the copies stand: so many in a row, so many rows in a layer.
+/// Where the copies stand: how many in a row, and how many rows in a layer.
 #[derive(Debug)]
 struct Grid {
     row: usize,

@@ -16,7 +16,7 @@ pub(super) struct Watched {
     read_late: usize,
 }
 
-/// Builds by so many threads, and cancels at a call.
+/// Builds by this many threads, and cancels at a call.
 pub(super) fn watch(
     options: &BuildOptions,
     polygons: &[Vec<DVec3>],

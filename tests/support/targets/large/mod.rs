@@ -24,7 +24,7 @@ const MOST_FRAGMENTS: usize = 8_000;
 /// long as well.
 const MOST_CALLS: usize = 100;
 
-/// Trees of at most so many fragments are judged in rationals.
+/// Trees of at most this many fragments are judged in rationals.
 const JUDGED: usize = 48;
 
 /// What is asked of a build beside its tree.

@@ -3,7 +3,7 @@
 /// With more, threads wait for each other.
 pub(super) const MOST_THREADS: usize = 3;
 
-/// Runs in a pool of so many threads.
+/// Runs in a pool of this many threads.
 #[cfg(feature = "parallel")]
 pub(super) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     use rayon::{ThreadPool, ThreadPoolBuilder};

@@ -22,7 +22,7 @@ fn ray(camera: &Camera, x: u32, y: u32) -> (DVec3, DVec3) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meeting {
     Nothing,
-    /// After so much of its direction.
+    /// How far along its direction, in lengths of the direction.
     At(f64),
     /// It passes too near an edge, or too much along the polygon, to tell.
     Doubtful,

@@ -1,0 +1,192 @@
+//! Where planes and vertices are by their definitions, in big integers.
+//!
+//! It shares no arithmetic with the library's: planes by their coefficients, vertices as crossings
+//! of segments and by Cramer's rule. It takes over the input: the corners on the lattice, which of
+//! them define a face's plane, and the names of planes and vertices.
+
+use binspace::internals::{Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
+use num_bigint::BigInt;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+/// The points x with normal · x = offset; in front the left side is larger.
+#[derive(Clone, Debug)]
+pub(crate) struct Plane {
+    pub(crate) normal: [BigInt; 3],
+    offset: BigInt,
+}
+
+impl Plane {
+    /// A plane of the scene.
+    pub(crate) fn of(faces: &Faces, id: PlaneId) -> Self {
+        match id.kind() {
+            PlaneKind::Axis(axis, corner) => {
+                let mut normal = [BigInt::ZERO, BigInt::ZERO, BigInt::ZERO];
+                normal[axis] = BigInt::one();
+                Self { normal, offset: integer(faces.corner(corner)[axis]) }
+            }
+            PlaneKind::Face(face) => {
+                let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
+                Self::through(triangle)
+            }
+        }
+    }
+
+    /// The plane through three lattice points, by Newell's sums over their edges: below 2¹⁰⁷.
+    fn through(points: [[f64; 3]; 3]) -> Self {
+        let points = points.map(|point| point.map(|c| c as i128));
+        let normal: [i128; 3] = std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let edges = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (points[a], points[b]));
+            edges.iter().map(|(a, b)| (a[j] - b[j]) * (a[k] + b[k])).sum()
+        });
+        let normal = normal.map(BigInt::from);
+        let offset = dot(&normal, &points[0].map(BigInt::from));
+        Self { normal, offset }
+    }
+
+    /// The distance of a place times the length of the normal and the place's weight.
+    pub(crate) fn at(&self, place: &Place) -> BigInt {
+        dot(&self.normal, &place.coordinates) - &self.offset * &place.weight
+    }
+
+    /// The normal and the offset, each number rounded once.
+    pub(crate) fn rounded(&self) -> ([f64; 3], f64) {
+        (self.normal.each_ref().map(float), float(&self.offset))
+    }
+
+    /// The first of the axes along which the normal is longest.
+    pub(crate) fn main_axis(&self) -> usize {
+        let size = |axis: usize| self.normal[axis].magnitude();
+        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    }
+}
+
+/// An exact point: coordinates over a weight above 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    coordinates: [BigInt; 3],
+    weight: BigInt,
+}
+
+impl Place {
+    /// Where a vertex of a face is; `None` if what defines it is parallel. `plane` is the face's.
+    pub(crate) fn of(faces: &Faces, face: u32, plane: &Plane, vertex: Symbol) -> Option<Self> {
+        match vertex.kind() {
+            SymbolKind::Corner(k) => Some(Self::corner(faces, face, plane, k as usize)),
+            SymbolKind::OnEdge(k, by) => {
+                let (k, len) = (k as usize, faces.corners(face).len());
+                let ends = [k, (k + 1) % len].map(|k| Self::corner(faces, face, plane, k));
+                Self::crossing(&ends, &Plane::of(faces, by))
+            }
+            SymbolKind::Inside(g, h) => {
+                Self::meeting([plane, &Plane::of(faces, g), &Plane::of(faces, h)])
+            }
+        }
+    }
+
+    /// Corner `k` of a face; if it is off the face's plane, it is moved there along the plane's
+    /// main axis.
+    fn corner(faces: &Faces, face: u32, plane: &Plane, k: usize) -> Self {
+        let point = faces.corners(face)[k];
+        let mut place = Self { coordinates: point.map(integer), weight: BigInt::one() };
+        if faces.reference_triangle(face).iter().any(|&c| faces.corner(c) == point) {
+            return place;
+        }
+        let off = plane.at(&place);
+        if off.is_zero() {
+            return place;
+        }
+        let axis = plane.main_axis();
+        place.coordinates = place.coordinates.map(|c| c * &plane.normal[axis]);
+        place.coordinates[axis] -= off;
+        place.weight = plane.normal[axis].clone();
+        place.with_positive_weight()
+    }
+
+    /// The point in which a segment meets a plane: its ends' mean, weighted by the plane at the
+    /// other end.
+    fn crossing([a, b]: &[Self; 2], plane: &Plane) -> Option<Self> {
+        let (at_a, at_b) = (plane.at(a), plane.at(b));
+        let mean = |of_a: &BigInt, of_b: &BigInt| &at_a * of_b - &at_b * of_a;
+        let weight = mean(&a.weight, &b.weight);
+        let coordinates = std::array::from_fn(|i| mean(&a.coordinates[i], &b.coordinates[i]));
+        (!weight.is_zero()).then(|| Self { coordinates, weight }.with_positive_weight())
+    }
+
+    /// The point in which three planes meet, by Cramer's rule.
+    fn meeting([f, g, h]: [&Plane; 3]) -> Option<Self> {
+        let pairs = [(g, h), (h, f), (f, g)].map(|(a, b)| cross(&a.normal, &b.normal));
+        let weight = dot(&f.normal, &pairs[0]);
+        if weight.is_zero() {
+            return None;
+        }
+        let offsets = [&f.offset, &g.offset, &h.offset];
+        let coordinates = std::array::from_fn(|i| {
+            offsets[0] * &pairs[0][i] + offsets[1] * &pairs[1][i] + offsets[2] * &pairs[2][i]
+        });
+        Some(Self { coordinates, weight }.with_positive_weight())
+    }
+
+    fn with_positive_weight(self) -> Self {
+        if self.weight.is_positive() {
+            return self;
+        }
+        Self { coordinates: self.coordinates.map(|c| -c), weight: -self.weight }
+    }
+
+    /// What a distance from a plane is multiplied by in [`Plane::at`].
+    pub(crate) fn weight(&self) -> &BigInt {
+        &self.weight
+    }
+
+    /// Two coordinates, those behind an axis, as numerators.
+    pub(crate) fn along(&self, axis: usize) -> [&BigInt; 2] {
+        [&self.coordinates[(axis + 1) % 3], &self.coordinates[(axis + 2) % 3]]
+    }
+
+    /// The point, each coordinate within three roundings.
+    pub(crate) fn rounded(&self) -> [f64; 3] {
+        let weight = float(&self.weight);
+        self.coordinates.each_ref().map(|c| float(c) / weight)
+    }
+
+    /// The largest difference between the coordinates of a position and those of this point, within
+    /// a few roundings; infinite if the position is further off than any scene reaches, or no
+    /// number.
+    pub(crate) fn drift(&self, position: [f64; 3]) -> f64 {
+        let weight = float(&self.weight);
+        let off = |i: usize| {
+            if position[i].is_nan() || position[i].abs() > REACH {
+                return f64::INFINITY;
+            }
+            // What is left of the whole part is exact, and small enough to be rounded.
+            let whole = position[i].trunc();
+            let rest = integer(whole) * &self.weight - &self.coordinates[i];
+            ((position[i] - whole) + float(&rest) / weight).abs()
+        };
+        (0..3).map(off).fold(0.0, f64::max)
+    }
+}
+
+/// Rounded kernels make vertices anywhere; further off than 256 scenes is as bad as infinitely far.
+const REACH: f64 = (1u64 << 59) as f64;
+
+/// A whole number below 2⁶³.
+fn integer(value: f64) -> BigInt {
+    BigInt::from(value as i64)
+}
+
+fn float(value: &BigInt) -> f64 {
+    value.to_f64().unwrap_or(f64::NAN)
+}
+
+fn dot(a: &[BigInt; 3], b: &[BigInt; 3]) -> BigInt {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn cross(a: &[BigInt; 3], b: &[BigInt; 3]) -> [BigInt; 3] {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
