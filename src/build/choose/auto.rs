@@ -57,9 +57,9 @@ impl Chooser<'_> {
         {
             return Choice::Split(set.own_plane(own.piece));
         }
-        let rim = self.contest.rim().iter().map(|&place| place as usize);
+        let mut rim = self.contest.rim().peekable();
         if !is_peeled
-            && rim.len() > 0
+            && rim.peek().is_some()
             && let Some(peeled) = self.peeler.search(set, &self.sketch, rim, tuning, self.watch)
         {
             return Choice::Peel(peeled);
@@ -71,7 +71,7 @@ impl Chooser<'_> {
         let tuning = self.tuning;
         let terms = Terms::large(set, tuning);
         let mut order = self.begin_large(set, &terms);
-        if self.contest.rim().len() >= tuning.at_rim {
+        if self.contest.at_rim() >= tuning.at_rim {
             self.sketch.clear();
             self.sketch.extend(set, peel::arrange(set, tuning.leaf).into_iter());
             let all = 0..set.len();

@@ -117,6 +117,8 @@ impl Shares {
 #[derive(Debug, Default)]
 pub(super) struct Contest {
     field: Vec<Candidate>,
+    /// How many of the field were taken from the sketch: they have the same places in both.
+    sketched: usize,
     /// How many groups of the sketch they were held against.
     seen: usize,
     /// The costs of the field, by their places in it.
@@ -134,7 +136,8 @@ impl Contest {
         self.rim.clear();
         let shares = Shares::of(set);
         let largest = (set.len() > count).then(|| shares.largest(set.pieces)).into_iter();
-        let first = (0..count.min(sketch.len())).map(|place| sketch.number(place));
+        self.sketched = count.min(sketch.len());
+        let first = (0..self.sketched).map(|place| sketch.number(place));
         self.field.extend(first.chain(largest.flatten()).map(|piece| Candidate {
             piece,
             share: shares.get(&set.pieces[piece]),
@@ -159,10 +162,14 @@ impl Contest {
         self.rim.extend(rim.map(|(_, place)| place));
     }
 
-    /// Which candidates had all pieces of the first sample on one side of their planes: those from
-    /// the sketch by their places in it.
-    pub(super) fn rim(&self) -> &[u32] {
-        &self.rim
+    /// How many candidates had all pieces of the first sample on one side of their planes.
+    pub(super) fn at_rim(&self) -> usize {
+        self.rim.len()
+    }
+
+    /// The places in the sketch of those among them that were taken from it.
+    pub(super) fn rim(&self) -> impl Iterator<Item = usize> {
+        self.rim.iter().map(|&place| place as usize).take_while(|&place| place < self.sketched)
     }
 
     /// The best candidate after the first sample; the earliest of equals. What the sketch lacks of
