@@ -8,8 +8,9 @@
 #![allow(missing_docs, reason = "a program")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
 
+use binspace::BuildOptions;
 use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::internals::{Faces, Tuning, tree_tuned};
+use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
 use support::{Table, check, print_head, random_quads, scene, small_triangles};
@@ -119,7 +120,7 @@ fn compare(scene: &Scene, tuning: &Tuning) -> [f64; 2] {
         for (i, tuning) in [&Tuning::DEFAULT, tuning].into_iter().enumerate() {
             let start = Instant::now();
             let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");
-            let tree = tree_tuned(tuning, faces, preparation).expect("a tree");
+            let tree = tree_of(&BuildOptions::DEFAULT, tuning, faces, preparation).expect("a tree");
             let time = start.elapsed();
             shortest[i] = shortest[i].min(time);
             fragments[i] = tree.stats().fragments;

@@ -66,7 +66,7 @@ pub use viewpoint::Viewpoint;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::build::choose::Tuning;
-    pub use crate::build::driver::{parts, tree_of_faces, tree_tuned};
+    pub use crate::build::driver::{parts, tree_of};
     pub use crate::exact::*;
     pub use crate::faces::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation};
     pub use crate::random::{SplitMix64, mix};

@@ -60,7 +60,7 @@ impl<K: Kernel> Builder<'_, K> {
         } else {
             let count = set.len();
             let Shared { kernel, faces, normals, .. } = self.shared;
-            let set = Set::new(kernel, faces, normals, (set, &self.arena));
+            let set = Set::new(kernel, faces, normals, set, &self.arena);
             let plane = match self.chooser.choose(&set, pending.is_peeled) {
                 Choice::Split(plane) => plane,
                 Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),

@@ -40,6 +40,11 @@ impl Kernel for Exact {
     }
 
     #[inline]
+    fn plane(splitter: &ExactSplitter) -> PlaneId {
+        splitter.plane
+    }
+
+    #[inline]
     fn distance(splitter: &ExactSplitter, position: [f64; 3]) -> f64 {
         splitter.distance(position)
     }

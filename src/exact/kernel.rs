@@ -59,6 +59,9 @@ pub trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
     /// Prepares a plane.
     fn splitter(&self, faces: &Faces, plane: PlaneId) -> Self::Splitter;
 
+    /// The plane of a splitter.
+    fn plane(splitter: &Self::Splitter) -> PlaneId;
+
     /// The signed distance of a position from a plane in some unit of the plane's, rounded; in
     /// front it is positive.
     fn distance(splitter: &Self::Splitter, position: [f64; 3]) -> f64;

@@ -154,8 +154,8 @@ impl<K: Kernel> KernelTree<K> {
         }
         let slack = Exact::slack(&above.splitter);
         let s = place.map_or(0.0, |place| Exact::distance(&above.splitter, place));
-        let plane = (above.id, &above.plane);
-        let exactly = |threshold| self.faces().compare(plane, face, symbol, threshold);
+        let exactly =
+            |threshold| self.faces().compare(above.id, &above.plane, face, symbol, threshold);
         let beyond = |threshold: f64, order: Ordering| {
             if s.abs() > slack { s.total_cmp(&0.0) == order } else { exactly(threshold) == order }
         };

@@ -146,6 +146,10 @@ impl<T: Precision> Kernel for Float<T> {
         FloatSplitter { plane, normal, offset, epsilon, precision: std::marker::PhantomData }
     }
 
+    fn plane(splitter: &FloatSplitter<T>) -> PlaneId {
+        splitter.plane
+    }
+
     #[inline]
     fn distance(splitter: &FloatSplitter<T>, position: [f64; 3]) -> f64 {
         splitter.distance(position)

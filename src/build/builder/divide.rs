@@ -92,7 +92,7 @@ impl<K: Kernel> Builder<'_, K> {
             split(
                 &kernel,
                 faces,
-                (plane, &splitter),
+                &splitter,
                 live.face,
                 &scratch.outline,
                 &mut scratch.front_part,

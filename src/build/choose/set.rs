@@ -45,7 +45,8 @@ impl<'a, K: Kernel> Set<'a, K> {
         kernel: &'a K,
         faces: &'a Faces,
         normals: &'a Normals,
-        (pieces, arena): (&'a [Live], &'a [K::Vertex]),
+        pieces: &'a [Live],
+        arena: &'a [K::Vertex],
     ) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let (mut first_end, mut last_begin) = (min, max);

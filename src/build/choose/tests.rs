@@ -28,7 +28,7 @@ impl Fixture {
     }
 
     pub(super) fn set(&self) -> Set<'_, Exact> {
-        Set::new(&Exact, &self.faces, &self.normals, (&self.pieces, &self.arena))
+        Set::new(&Exact, &self.faces, &self.normals, &self.pieces, &self.arena)
     }
 
     /// Keeps what is on one side of a plane.
@@ -46,8 +46,7 @@ impl Fixture {
                     <[_]>::to_vec,
                 );
                 let (mut front, mut back) = (vec![], vec![]);
-                let plane = (plane, &splitter);
-                split(&Exact, &self.faces, plane, live.face, &outline, &mut front, &mut back);
+                split(&Exact, &self.faces, &splitter, live.face, &outline, &mut front, &mut back);
                 let start = self.arena.len();
                 self.arena.extend(if kept == Side::Front { front } else { back });
                 self.pieces.push(Live::cut::<Exact>(&live, &self.arena, start));

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::{Method, MethodError, Painted, Prepared};
 use crate::{Accuracy, Float, KernelTree, accuracy};
-use binspace::internals::{Exact, Faces, Kernel, paint_order, tree_of_faces};
+use binspace::internals::{Exact, Faces, Kernel, Preparation, Tuning, paint_order, tree_of};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
@@ -54,7 +54,8 @@ impl<K: Kernel> Method for Bsp<K> {
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
         let (options, faces) = (&self.options, faces.clone());
         if K::IS_EXACT {
-            return Ok(Box::new(Ready { tree: tree_of_faces(options, faces)?, order: Vec::new() }));
+            let tree = tree_of(options, &Tuning::DEFAULT, faces, Preparation::default())?;
+            return Ok(Box::new(Ready { tree, order: Vec::new() }));
         }
         let tree = KernelTree::build(self.kernel, options, faces)?;
         Ok(Box::new(Ready { tree, order: Vec::new() }))
