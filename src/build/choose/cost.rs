@@ -81,8 +81,31 @@ pub(super) struct Candidate {
 /// at the rim of sets in which every plane cuts much.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
-    let n = n as f64;
-    n * n.sqrt().sqrt()
+    WORK.get(n).copied().unwrap_or_else(|| {
+        let n = n as f64;
+        n * n.sqrt().sqrt()
+    })
+}
+
+/// The work of small sets, which is asked for most often: to take two roots each time instead, builds
+/// take 2 to 4 % longer.
+static WORK: [f64; 1024] = {
+    let (mut table, mut n) = ([0.0; 1024], 1);
+    while n < table.len() {
+        table[n] = n as f64 * sqrt(sqrt(n as f64));
+        n += 1;
+    }
+    table
+};
+
+/// The square root of a number from 1 on, by Newton's method.
+const fn sqrt(x: f64) -> f64 {
+    let (mut root, mut steps) = (x, 0);
+    while steps < 16 {
+        root = 0.5 * (root + x / root);
+        steps += 1;
+    }
+    root
 }
 
 #[cfg(test)]
