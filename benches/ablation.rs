@@ -8,8 +8,9 @@
 #![allow(missing_docs, reason = "a program")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
 
+use binspace::BuildOptions;
 use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::internals::{Faces, Tuning, tree_tuned};
+use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
 use support::{Table, check, print_head, random_quads, scene, small_triangles};
@@ -60,20 +61,21 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 34] = changes! {
+const CHANGES: [Change; 37] = changes! {
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
     few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
-    at_rim: "never" => MOST, "½" => 6, "×4/3" => 16;
+    largest: "0" => 0, "½" => 1, "×2" => 4;
+    one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
     uneven: "½" => 2, "×2" => 8;
-    looks: "½" => 8, "×2" => 32, "all" => MOST / 2;
+    first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;
     rate: "½" => 2, "×2" => 8;
     reward: "0" => 0.0, "½" => 0.175, "×2" => 0.7;
-    rim_share: "off" => MOST, "½" => 4, "×2" => 16;
+    least_share: "off" => MOST, "½" => 4, "×2" => 16;
     per_bin: "½" => 1, "×2" => 4;
     most_bins: "½" => 512, "×2" => 2048;
-    leaf: "½" => 32, "×2" => 128;
+    groups_per_box: "½" => 32, "×2" => 128;
 };
 
 fn main() {
@@ -118,7 +120,7 @@ fn compare(scene: &Scene, tuning: &Tuning) -> [f64; 2] {
         for (i, tuning) in [&Tuning::DEFAULT, tuning].into_iter().enumerate() {
             let start = Instant::now();
             let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");
-            let tree = tree_tuned(tuning, faces, preparation).expect("a tree");
+            let tree = tree_of(&BuildOptions::DEFAULT, tuning, faces, preparation).expect("a tree");
             let time = start.elapsed();
             shortest[i] = shortest[i].min(time);
             fragments[i] = tree.stats().fragments;

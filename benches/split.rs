@@ -28,7 +28,7 @@ fn cut<K: Kernel>(kernel: K, faces: &Faces, plane: PlaneId, spanning: &[u32]) ->
         outline.clear();
         let corners = 0..faces.corners(face).len() as u32;
         outline.extend(corners.map(|k| kernel.corner(faces, face, k)));
-        split(&kernel, faces, (plane, &splitter), face, &outline, &mut front, &mut back);
+        split(&kernel, faces, &splitter, face, &outline, &mut front, &mut back);
     }
     [front.len(), back.len()]
 }

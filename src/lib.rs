@@ -34,7 +34,7 @@ mod exact;
 mod faces;
 mod input;
 mod memory;
-mod parallel;
+mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
 pub mod raster;
@@ -66,7 +66,7 @@ pub use viewpoint::Viewpoint;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::build::choose::Tuning;
-    pub use crate::build::driver::{parts, tree_of_faces, tree_tuned};
+    pub use crate::build::driver::{parts, tree_of};
     pub use crate::exact::{
         Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Kernel, LATTICE_LIMIT, Lattice,
         Line, Piece, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, split,

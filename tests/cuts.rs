@@ -36,7 +36,7 @@ fn parts(faces: &Faces, plane: PlaneId, face: u32) -> [Vec<ExactVertex>; 2] {
     let (mut front, mut back) = (Vec::new(), Vec::new());
     let splitter = Exact.splitter(faces, plane);
     let whole = outline(faces, face);
-    split(&Exact, faces, (plane, &splitter), face, &whole, &mut front, &mut back);
+    split(&Exact, faces, &splitter, face, &whole, &mut front, &mut back);
     [front, back]
 }
 

@@ -69,7 +69,7 @@ fn decide_all(faces: &Faces) {
             let splitter = Exact.splitter(faces, plane);
             if Exact.classify(faces, &splitter, Piece { face, cut: None }) == Side::Spanning {
                 let (mut front, mut back) = (Vec::new(), Vec::new());
-                split(&Exact, faces, (plane, &splitter), face, &whole, &mut front, &mut back);
+                split(&Exact, faces, &splitter, face, &whole, &mut front, &mut back);
                 assert!(front.len() >= 3 && back.len() >= 3);
             }
         }

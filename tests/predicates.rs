@@ -81,21 +81,21 @@ impl<'a> Walk<'a> {
             values.iter().any(Signed::is_positive) && values.iter().any(Signed::is_negative);
         self.tally.tolerated += usize::from(spans && side != Side::Spanning);
         if side == Side::Spanning {
-            self.cut((plane, &splitter), &values, keep_back)?;
+            self.cut(plane, &splitter, &values, keep_back)?;
         }
         Ok(())
     }
 
     fn cut(
         &mut self,
-        (plane, splitter): (PlaneId, &<Exact as Kernel>::Splitter),
+        plane: PlaneId,
+        splitter: &<Exact as Kernel>::Splitter,
         values: &[Rational],
         keep_back: bool,
     ) -> Outcome<()> {
         self.tally.cuts += 1;
         let (mut front, mut back) = (Vec::new(), Vec::new());
-        let by = (plane, splitter);
-        split(&Exact, self.faces, by, self.face, &self.piece, &mut front, &mut back);
+        split(&Exact, self.faces, splitter, self.face, &self.piece, &mut front, &mut back);
         let parts = [false, true].map(|behind| model::clip(&self.outline, values, plane, behind));
         self.check_part(&front, &parts[0])?;
         self.check_part(&back, &parts[1])?;

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::assemble::assemble;
-use super::builder::{Job, Shared};
+use super::builder::Shared;
 use super::choose::Tuning;
+use super::job::Job;
 use super::jobs;
 use super::live::Live;
 use super::options::BuildOptions;
@@ -94,7 +95,7 @@ fn tree<P: Polygon>(
     let (faces, preparation) =
         Faces::prepare(polygons, options.tolerance, options.max_fragments, watch)?;
     watch.expect(faces.len())?;
-    let parts = parts_of(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
+    let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
     watch.end()?;
     Ok(BspTree::new(faces, preparation, parts))
 }
@@ -104,9 +105,14 @@ fn tree<P: Polygon>(
 /// # Errors
 ///
 /// If a budget or memory runs out.
-pub fn tree_of_faces(options: &BuildOptions, faces: Faces) -> Result<BspTree, Error> {
-    let parts = parts(Exact, options, &faces)?;
-    Ok(BspTree::new(faces, Preparation::default(), parts))
+pub fn tree_of(
+    options: &BuildOptions,
+    tuning: &Tuning,
+    faces: Faces,
+    preparation: Preparation,
+) -> Result<BspTree, Error> {
+    let parts = parts(Exact, options, tuning, &faces)?;
+    Ok(BspTree::new(faces, preparation, parts))
 }
 
 /// Builds the parts of a tree whose decisions a kernel makes.
@@ -117,24 +123,10 @@ pub fn tree_of_faces(options: &BuildOptions, faces: Faces) -> Result<BspTree, Er
 pub fn parts<K: Kernel>(
     kernel: K,
     options: &BuildOptions,
+    tuning: &Tuning,
     faces: &Faces,
 ) -> Result<Parts<K::Stored>, Error> {
-    parts_of(kernel, options, &Tuning::DEFAULT, faces, &Watch::default())
-}
-
-/// Builds a tree with other tuning constants, to measure what they do.
-///
-/// # Errors
-///
-/// If a budget or memory runs out.
-pub fn tree_tuned(
-    tuning: &Tuning,
-    faces: Faces,
-    preparation: Preparation,
-) -> Result<BspTree, Error> {
-    let options = &BuildOptions::DEFAULT;
-    let parts = parts_of(Exact, options, tuning, &faces, &Watch::default())?;
-    Ok(BspTree::new(faces, preparation, parts))
+    watched_parts(kernel, options, tuning, faces, &Watch::default())
 }
 
 /// A step of the preparation takes about as long as examining this many pieces.
@@ -150,7 +142,7 @@ impl Listener for Watch<'_> {
     }
 }
 
-fn parts_of<K: Kernel>(
+fn watched_parts<K: Kernel>(
     kernel: K,
     options: &BuildOptions,
     tuning: &Tuning,

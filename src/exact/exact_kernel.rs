@@ -38,6 +38,11 @@ impl Kernel for Exact {
         ExactSplitter::new(faces, plane)
     }
 
+    #[inline]
+    fn plane(splitter: &ExactSplitter) -> PlaneId {
+        splitter.plane
+    }
+
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> ExactVertex {
         let symbol = Symbol::corner(k);
         ExactVertex { position: faces.position(face, symbol), symbol, line: Line::edge(k) }

@@ -170,5 +170,5 @@ fn compare_exactly(
             _ => {}
         }
     }
-    faces.compare((splitter.plane, &splitter.exact), face, vertex, threshold)
+    faces.compare(splitter.plane, &splitter.exact, face, vertex, threshold)
 }

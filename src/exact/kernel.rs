@@ -55,6 +55,9 @@ pub trait Kernel: Copy + Debug + Send + Sync + 'static {
     /// Prepares a plane.
     fn splitter(&self, faces: &Faces, plane: PlaneId) -> Self::Splitter;
 
+    /// The plane of a splitter.
+    fn plane(splitter: &Self::Splitter) -> PlaneId;
+
     /// Corner `k` of a face as a vertex.
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> Self::Vertex;
 

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::kernel::{Kernel, Vertex};
-use super::{Faces, Line, PlaneId};
+use super::{Faces, Line};
 
 /// Cuts a piece by a plane that has some of its vertices in front and some behind, and appends
 /// the vertices of the two parts to `front` and `back`, in the piece's orientation.
@@ -16,13 +16,13 @@ use super::{Faces, Line, PlaneId};
 pub fn split<K: Kernel>(
     kernel: &K,
     faces: &Faces,
-    (plane, splitter): (PlaneId, &K::Splitter),
+    splitter: &K::Splitter,
     face: u32,
     vertices: &[K::Vertex],
     front: &mut Vec<K::Vertex>,
     back: &mut Vec<K::Vertex>,
 ) {
-    let cut = |side: Ordering| Line::cut(plane, side.is_lt());
+    let cut = |side: Ordering| Line::cut(K::plane(splitter), side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
         vertices.iter().map(|vertex| kernel.side(faces, splitter, face, vertex)).collect();
     for (i, vertex) in vertices.iter().enumerate() {

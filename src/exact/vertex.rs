@@ -69,7 +69,8 @@ impl Faces {
     /// with `threshold`: exact. `threshold` is an integer of at most 2⁵¹ times that length.
     pub(crate) fn compare(
         &self,
-        (id, plane): (PlaneId, &Plane),
+        id: PlaneId,
+        plane: &Plane,
         face: u32,
         vertex: Symbol,
         threshold: f64,

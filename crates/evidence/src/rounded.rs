@@ -146,6 +146,10 @@ impl<T: Precision> Kernel for Float<T> {
         FloatSplitter { plane, normal, offset, epsilon, precision: std::marker::PhantomData }
     }
 
+    fn plane(splitter: &FloatSplitter<T>) -> PlaneId {
+        splitter.plane
+    }
+
     fn corner(&self, faces: &Faces, face: u32, k: u32) -> FloatVertex {
         let position = faces.corners(face)[k as usize].map(T::round);
         FloatVertex { position, symbol: Symbol::corner(k), line: Line::edge(k) }

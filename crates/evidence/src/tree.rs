@@ -5,8 +5,8 @@ use std::fmt;
 use std::ops::Range;
 
 use binspace::internals::{
-    Child, Exact, Eye, Faces, Kernel, Line, Parts, Piece, PlaneId, Side, Symbol, Vertex, parts,
-    parts_of_tree,
+    Child, Exact, Eye, Faces, Kernel, Line, Parts, Piece, PlaneId, Side, Symbol, Tuning, Vertex,
+    parts, parts_of_tree,
 };
 use binspace::{BspTree, BuildOptions, Error, Viewpoint};
 
@@ -57,7 +57,7 @@ impl<K: Kernel> KernelTree<K> {
     ///
     /// If a budget runs out.
     pub fn build(kernel: K, options: &BuildOptions, faces: Faces) -> Result<Self, Error> {
-        let parts = parts(kernel, options, &faces)?;
+        let parts = parts(kernel, options, &Tuning::DEFAULT, &faces)?;
         Ok(Self::new(kernel, faces, parts))
     }
 

@@ -29,7 +29,7 @@ fn tiles(faces: &Faces, planes: &[PlaneId]) -> Vec<Tile> {
                 sides.fold((false, false), |(f, b), side| (f | side.is_gt(), b | side.is_lt()));
             if front && back {
                 let (mut ahead, mut behind) = (Vec::new(), Vec::new());
-                split(&Exact, faces, (plane, &splitter), 0, &piece, &mut ahead, &mut behind);
+                split(&Exact, faces, &splitter, 0, &piece, &mut ahead, &mut behind);
                 next.extend([ahead, behind]);
             } else {
                 next.push(piece);

@@ -76,8 +76,7 @@ impl<'a> Walk<'a> {
             return Ok(());
         }
         let (mut front, mut back) = (Vec::new(), Vec::new());
-        let by = (plane, &splitter);
-        split(&Exact, self.faces, by, self.face, &self.piece, &mut front, &mut back);
+        split(&Exact, self.faces, &splitter, self.face, &self.piece, &mut front, &mut back);
         let parts = [false, true].map(|behind| model::clip(&self.outline, &values, plane, behind));
         self.check_part(&front, &parts[0])?;
         self.check_part(&back, &parts[1])?;

@@ -4,10 +4,10 @@ use std::time::{Duration, Instant};
 
 use super::{Method, MethodError, Painted, Prepared};
 use crate::{Accuracy, Float, KernelTree, accuracy};
-use binspace::internals::{Exact, Faces, Kernel, paint_order, tree_of_faces};
+use binspace::internals::{Exact, Faces, Kernel, Tuning, paint_order, tree_of};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
+use binspace::{BspTree, BuildOptions, Preparation};
 
 /// A BSP tree (Fuchs, Kedem & Naylor 1980) with the decisions of a kernel.
 ///
@@ -66,7 +66,8 @@ impl<K: Kernel> Method for Bsp<K> {
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
         let (options, faces) = (&self.options, faces.clone());
         if self.is_exact {
-            return Ok(Box::new(Ready { tree: tree_of_faces(options, faces)?, order: Vec::new() }));
+            let tree = tree_of(options, &Tuning::DEFAULT, faces, Preparation::default())?;
+            return Ok(Box::new(Ready { tree, order: Vec::new() }));
         }
         let tree = KernelTree::build(self.kernel, options, faces)?;
         Ok(Box::new(Ready { tree, order: Vec::new() }))

@@ -35,8 +35,7 @@ fn is_right(tree: &BspTree, parts: &Parts) -> bool {
                         corners.map(|k| Exact.corner(faces, face, k)).collect();
                     let outline = if vertices.is_empty() { &all } else { &vertices };
                     let [mut before, mut behind] = [vec![], vec![]];
-                    let by = (node.plane, &splitter);
-                    split(&Exact, faces, by, face, outline, &mut before, &mut behind);
+                    split(&Exact, faces, &splitter, face, outline, &mut before, &mut behind);
                     front.push((face, before));
                     back.push((face, behind));
                     cuts += 1;

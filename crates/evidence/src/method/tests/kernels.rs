@@ -135,7 +135,7 @@ fn part<K: Kernel>(
 ) -> Vec<K::Vertex> {
     let (mut front, mut back) = (Vec::new(), Vec::new());
     let splitter = kernel.splitter(faces, plane);
-    split(&kernel, faces, (plane, &splitter), face, vertices, &mut front, &mut back);
+    split(&kernel, faces, &splitter, face, vertices, &mut front, &mut back);
     if in_front { front } else { back }
 }
 
