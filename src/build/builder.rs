@@ -61,7 +61,7 @@ struct Pending {
     /// The length of the arena that it needs.
     arena: usize,
     depth: usize,
-    /// Whether peeling left this set. Peeling it again would find nothing.
+    /// Whether peeling has just been tried on this set. Then a small set is split by a plane first.
     is_peeled: bool,
     /// The job that builds it, if that is not this one.
     job: Option<usize>,

@@ -70,23 +70,23 @@ impl<K: Kernel> Builder<'_, K> {
         depth: usize,
         peeled: &Peeled,
     ) -> Result<(), Error> {
-        let depth = depth + peeled.len();
+        let depth = depth + peeled.layers().len();
         self.shared.budget.check_depth(depth)?;
         let mut left = vec![true; self.pieces.len() - start];
-        for taken in peeled.layers() {
+        for layer in peeled.layers() {
             let own = &mut self.scratch.own;
             own.clear();
             // Pieces are marked and not removed yet: all layers name them by their places in the set.
-            for &piece in taken.pieces {
+            for &piece in peeled.pieces(layer) {
                 left[piece as usize] = false;
                 own.push(self.pieces[start + piece as usize]);
             }
             own.sort_by_key(|piece| piece.face);
             let own = own.len();
             (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
-            let child = |side| if taken.rest == side { Child::Node } else { Child::Leaf(0) };
+            let child = |side| if layer.rest == side { Child::Node } else { Child::Leaf(0) };
             let (front, back) = (child(Side::Front), child(Side::Back));
-            let node = RawNode { plane: taken.plane, own: own as u32, front, back };
+            let node = RawNode { plane: layer.plane, own: own as u32, front, back };
             self.output.push_node(node)?;
         }
         let mut left = left.iter();

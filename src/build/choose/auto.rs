@@ -57,10 +57,10 @@ impl Chooser<'_> {
         {
             return Choice::Split(set.own_plane(own.piece));
         }
-        let mut rim = self.contest.rim().peekable();
+        let mut places = self.contest.one_sided_places().peekable();
         if !is_peeled
-            && rim.peek().is_some()
-            && let Some(peeled) = self.peeler.search(set, &self.sketch, rim, tuning, self.watch)
+            && places.peek().is_some()
+            && let Some(peeled) = self.peeler.search(set, &self.sketch, places, tuning, self.watch)
         {
             return Choice::Peel(peeled);
         }
@@ -71,9 +71,9 @@ impl Chooser<'_> {
         let tuning = self.tuning;
         let terms = Terms::large(set, tuning);
         let mut order = self.begin_large(set, &terms);
-        if self.contest.at_rim() >= tuning.at_rim {
+        if self.contest.one_sided() >= tuning.one_sided_needed {
             self.sketch.clear();
-            self.sketch.extend(set, peel::arrange(set, tuning.leaf).into_iter());
+            self.sketch.extend(set, peel::arrange(set, tuning.groups_per_box).into_iter());
             let all = 0..set.len();
             if let Some(peeled) = self.peeler.search(set, &self.sketch, all, tuning, self.watch) {
                 return Choice::Peel(peeled);
@@ -82,6 +82,7 @@ impl Chooser<'_> {
             order = self.begin_large(set, &terms);
         }
         let own = self.contest.best(set, &mut self.sketch, &mut order, &terms, tuning);
+        // Own planes of large sets are compared by amount alone, so the free plane is too.
         best_of(
             set,
             own,
@@ -89,7 +90,7 @@ impl Chooser<'_> {
         )
     }
 
-    /// Sketches a sample of a large set, and holds own planes against it; gives the order of the
+    /// Sketches a sample of a large set, and compares own planes with it; gives the order of the
     /// rest.
     fn begin_large<K: Kernel>(
         &mut self,

@@ -27,8 +27,8 @@ pub use tuning::Tuning;
 /// How many own planes the heuristics that would look at all of them try at most, so that no
 /// node takes quadratic time. They are spread evenly over the set.
 const MOST_CANDIDATES: usize = 256;
-/// So many pieces of a set are sketched at a time, to be held against several planes. Larger:
-/// memory; smaller: planes are fetched more often.
+/// Pieces sketched at a time, to be compared with all candidates. Larger: memory; smaller: planes
+/// are fetched more often.
 const SKETCHED: usize = 512;
 
 /// What is to be done with a set.
@@ -69,9 +69,8 @@ impl<'a> Chooser<'a> {
         }
     }
 
-    /// What to do with a set of at least one piece, that `is_peeled` if it is what peeling left. A
-    /// splitter is either the plane of a piece, or is likely to have fewer pieces on each side than
-    /// there are.
+    /// Chooses what to do with a set of at least one piece. `is_peeled`: peeling has just been tried
+    /// on it. Not every plane chosen makes progress; the builder checks.
     pub(super) fn choose<K: Kernel>(&mut self, set: &Set<'_, K>, is_peeled: bool) -> Choice {
         let lowest = || (0..set.len()).min_by_key(|&piece| set.pieces[piece].face).unwrap_or(0);
         Choice::Split(match self.heuristic {

@@ -10,7 +10,8 @@ use super::tuning::Tuning;
 use crate::build::live::Live;
 use crate::exact::Kernel;
 
-/// How many of the largest polygons are tried, wherever they stand in the set. More: time.
+/// How many of the largest pieces are candidates besides the sample. Fewer: a large wall outside the
+/// sample is cut again and again; more: time.
 const LARGEST: usize = 2;
 
 /// A candidate for the plane that divides a set.
@@ -23,7 +24,7 @@ pub(super) struct Candidate {
     /// How much of the set's bounding box the piece fills, 0 to 1.
     share: f64,
     plane: SketchPlane,
-    /// Of the pieces that it was held against.
+    /// Of the pieces that it was compared with.
     counts: Counts,
 }
 
@@ -34,9 +35,9 @@ pub(super) struct Terms {
     reward: f64,
     /// How many pieces there are.
     pieces: f64,
-    /// In a large set, a plane that cuts nothing is passed over if it has fewer pieces than that on
-    /// either side, and takes fewer off.
-    rim: Option<f64>,
+    /// In a large set, a plane that cuts nothing is passed over unless both sides, or the plane
+    /// itself, get at least this many pieces.
+    least: Option<f64>,
 }
 
 impl Terms {
@@ -45,33 +46,34 @@ impl Terms {
         let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
         let pieces = set.len() as f64;
         let mean = cuts as f64 / pieces;
-        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, rim: None }
+        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
     }
 
-    /// Of a large set.
+    /// Of a large set. Whether a plane cuts is left out: the first rounds see a sample, in which many
+    /// planes cut nothing that cut much of the set.
     pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        let rim = Some((set.len() / tuning.rim_share) as f64);
-        Self { rim, ..Self::small(set, tuning) }
+        let least = Some((set.len() / tuning.least_share) as f64);
+        Self { least, ..Self::small(set, tuning) }
     }
 
-    /// For counts of so many of the pieces, a sample. (Work is a power: that of a part of the
-    /// pieces is a part of the work, so that costs of samples can be compared.)
+    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
+    /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
     fn of_sample(&self, looked: usize, all: usize) -> Self {
         let ratio = looked as f64 / all as f64;
         Self {
             reward: self.reward * work(looked) / work(all),
             pieces: looked as f64,
-            rim: self.rim.map(|rim| rim * ratio),
+            least: self.least.map(|least| least * ratio),
         }
     }
 
     #[inline]
     fn cost(&self, counts: &Counts, share: f64) -> Cost {
         let amount = counts.work() - self.reward * share;
-        let Some(rim) = self.rim else { return Cost { cuts: counts.splits > 0, amount } };
+        let Some(least) = self.least else { return Cost { cuts: counts.splits > 0, amount } };
         let [front, back] = [counts.front, counts.back].map(f64::from);
         let on = self.pieces - front - back;
-        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < rim;
+        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;
         Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
     }
 }
@@ -112,28 +114,26 @@ impl Shares {
     }
 }
 
-/// Holds candidates against more and more pieces, and keeps those that promise most (successive
-/// halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+/// Compares candidates with more and more pieces, and keeps the best of them (successive halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
 pub(super) struct Contest {
     field: Vec<Candidate>,
     /// How many of the field were taken from the sketch: they have the same places in both.
     sketched: usize,
-    /// How many groups of the sketch they were held against.
+    /// How many groups of the sketch they were compared with.
     seen: usize,
     /// The costs of the field, by their places in it.
     ranks: Vec<(Cost, u32)>,
-    /// Which of the field had all pieces of the first sample on one side of their planes.
-    rim: Vec<u32>,
+    /// Places in the field of those that had all pieces of the first sample on one side.
+    one_sided: Vec<usize>,
 }
 
 impl Contest {
-    /// Takes the first pieces of the sketch as candidates, so many, and the largest of the set, in
-    /// place of those before.
+    /// Replaces the field by the first `count` pieces of the sketch and the largest pieces of the set.
     pub(super) fn enter<K: Kernel>(&mut self, set: &Set<'_, K>, sketch: &Sketch, count: usize) {
         self.seen = 0;
         self.field.clear();
-        self.rim.clear();
+        self.one_sided.clear();
         let shares = Shares::of(set);
         let largest = (set.len() > count).then(|| shares.largest(set.pieces)).into_iter();
         self.sketched = count.min(sketch.len());
@@ -147,7 +147,7 @@ impl Contest {
         }));
     }
 
-    /// Holds all candidates against the first sample.
+    /// Compares all candidates with the first sample.
     pub(super) fn begin<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
@@ -156,20 +156,21 @@ impl Contest {
         terms: &Terms,
         tuning: &Tuning,
     ) {
-        self.look(set, sketch, order, tuning.looks, terms);
-        let at_rim = |c: &Candidate| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
-        let rim = self.field.iter().zip(0..).filter(|(candidate, _)| at_rim(candidate));
-        self.rim.extend(rim.map(|(_, place)| place));
+        self.look(set, sketch, order, tuning.first_sample, terms);
+        let is_one_sided =
+            |c: &Candidate| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
+        let found = self.field.iter().enumerate().filter(|(_, candidate)| is_one_sided(candidate));
+        self.one_sided.extend(found.map(|(place, _)| place));
     }
 
     /// How many candidates had all pieces of the first sample on one side of their planes.
-    pub(super) fn at_rim(&self) -> usize {
-        self.rim.len()
+    pub(super) fn one_sided(&self) -> usize {
+        self.one_sided.len()
     }
 
     /// The places in the sketch of those among them that were taken from it.
-    pub(super) fn rim(&self) -> impl Iterator<Item = usize> {
-        self.rim.iter().map(|&place| place as usize).take_while(|&place| place < self.sketched)
+    pub(super) fn one_sided_places(&self) -> impl Iterator<Item = usize> {
+        self.one_sided.iter().copied().take_while(|&place| place < self.sketched)
     }
 
     /// The best candidate after the first sample; the earliest of equals. What the sketch lacks of
@@ -182,16 +183,16 @@ impl Contest {
         terms: &Terms,
         tuning: &Tuning,
     ) -> Option<Candidate> {
-        let mut looks = tuning.looks;
-        while looks < set.len() {
+        let mut sample = tuning.first_sample;
+        while sample < set.len() {
             self.halve(tuning.rate);
-            looks *= tuning.rate;
-            self.look(set, sketch, order, looks, terms);
+            sample *= tuning.rate;
+            self.look(set, sketch, order, sample, terms);
         }
         self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost)).copied()
     }
 
-    /// Keeps one in so many of the candidates, the best, in the order that they stand in.
+    /// Keeps the best 1/`rate` of the candidates, in their order.
     fn halve(&mut self, rate: usize) {
         let left = self.field.len().div_ceil(rate);
         if left == self.field.len() {
@@ -209,21 +210,21 @@ impl Contest {
         self.field.truncate(left);
     }
 
-    /// Holds all candidates against so many pieces.
+    /// Compares all candidates with the first `pieces` pieces.
     fn look<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
         sketch: &mut Sketch,
         order: &mut impl Iterator<Item = usize>,
-        looks: usize,
+        pieces: usize,
         terms: &Terms,
     ) {
-        let looks = looks.min(set.len());
-        let missing = looks.saturating_sub(sketch.len());
+        let pieces = pieces.min(set.len());
+        let missing = pieces.saturating_sub(sketch.len());
         if missing > 0 {
             sketch.extend(set, order.take(missing));
         }
-        let groups = self.seen..looks.div_ceil(LANES);
+        let groups = self.seen..pieces.div_ceil(LANES);
         self.seen = groups.end;
         let looked = sketch.len().min(groups.end * LANES);
         let terms = if looked == set.len() { *terms } else { terms.of_sample(looked, set.len()) };

@@ -123,6 +123,6 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
         let mut chooser = Chooser::new(Heuristic::Auto, &tuning, &watch);
         let choice = chooser.choose(&fixture.set(), false);
         let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
-        assert_eq!(peeled.len(), tuning.own_planes, "{sides} sides");
+        assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
     }
 }

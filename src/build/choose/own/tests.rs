@@ -11,8 +11,9 @@ use super::{Candidate, Contest, Terms};
 use crate::exact::{Exact, Side};
 use crate::random::SplitMix64;
 
-/// Every plane is held against every piece.
-const ALL: Tuning = Tuning { own_planes: usize::MAX, looks: usize::MAX >> 1, ..Tuning::DEFAULT };
+/// Every plane is compared with every piece.
+const ALL: Tuning =
+    Tuning { own_planes: usize::MAX, first_sample: usize::MAX >> 1, ..Tuning::DEFAULT };
 
 fn best(set: &Set<'_, Exact>, tuning: &Tuning) -> Candidate {
     let (mut sketch, mut contest) = (Sketch::default(), Contest::default());
@@ -39,7 +40,7 @@ fn cost(set: &Set<'_, Exact>, own: usize) -> Cost {
 }
 
 #[test]
-fn the_least_cost_wins_where_all_are_held_against_all() {
+fn the_least_cost_wins_where_all_are_compared_with_all() {
     let mut random = SplitMix64::new(1);
     for n in [2, 3, 5, 16, 17, 60] {
         for size in [0.1, 0.5, 2.0] {
@@ -66,7 +67,7 @@ fn of_equals_the_earliest_wins() {
     assert_eq!(best(&fixture.set(), &ALL).piece, 0);
 }
 
-/// To hold few planes against few pieces finds nearly as good ones.
+/// Comparing few planes with few pieces finds nearly as good ones.
 #[test]
 fn halving_finds_a_good_plane() {
     let mut random = SplitMix64::new(2);
@@ -75,7 +76,7 @@ fn halving_finds_a_good_plane() {
         let set = fixture.set();
         let (found, least) = (best(&set, &Tuning::DEFAULT), best(&set, &ALL));
         let exact = cost(&set, found.piece);
-        assert!((found.cost.amount - exact.amount).abs() < 1e-9, "held against all in the end");
+        assert!((found.cost.amount - exact.amount).abs() < 1e-9, "compared with all in the end");
         assert!(exact.amount <= 1.2 * least.cost.amount, "{n}: {exact:?}, {least:?}");
     }
 }
