@@ -12,11 +12,6 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// The work left on both sides.
-    pub(super) fn work(&self) -> f64 {
-        work((self.front + self.splits) as usize) + work((self.back + self.splits) as usize)
-    }
-
     pub(super) fn imbalance(&self) -> u32 {
         self.front.abs_diff(self.back)
     }
@@ -43,6 +38,14 @@ pub(super) struct Cost {
 }
 
 impl Cost {
+    /// Of a plane by what it does to the pieces: the work left on both sides.
+    #[inline]
+    pub(super) fn of(counts: &Counts) -> Self {
+        let Counts { front, back, splits } = *counts;
+        let amount = work((front + splits) as usize) + work((back + splits) as usize);
+        Self { cuts: splits > 0, amount }
+    }
+
     /// More than that of any plane.
     pub(super) const MOST: Self = Self { cuts: true, amount: f64::INFINITY };
 
@@ -69,30 +72,8 @@ impl Cost {
 /// at the rim of sets in which every plane cuts much.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
-    WORK.get(n).copied().unwrap_or_else(|| {
-        let n = n as f64;
-        n * n.sqrt().sqrt()
-    })
-}
-
-/// The work of small sets, as that is asked for most often.
-static WORK: [f64; 1024] = {
-    let (mut table, mut n) = ([0.0; 1024], 1);
-    while n < table.len() {
-        table[n] = n as f64 * sqrt(sqrt(n as f64));
-        n += 1;
-    }
-    table
-};
-
-/// The square root of a number from 1 on, by Newton's method.
-const fn sqrt(x: f64) -> f64 {
-    let (mut root, mut steps) = (x, 0);
-    while steps < 16 {
-        root = 0.5 * (root + x / root);
-        steps += 1;
-    }
-    root
+    let n = n as f64;
+    n * n.sqrt().sqrt()
 }
 
 #[cfg(test)]

@@ -24,8 +24,8 @@ pub(super) use set::{Normals, Set};
 use sketch::{LANES, Sketch, SketchPlane};
 pub use tuning::Tuning;
 
-/// How many own planes the heuristics that would look at all of them try at most, so that no
-/// node takes quadratic time. They are spread evenly over the set.
+/// The most own planes that heuristics try which would try all, spread evenly over the set. More: time
+/// that grows with the square of the set; fewer: planes that cut more.
 const MOST_CANDIDATES: usize = 256;
 /// Pieces sketched at a time, to be compared with all candidates. Larger: memory; smaller: planes
 /// are fetched more often.

@@ -69,8 +69,9 @@ impl Terms {
 
     #[inline]
     fn cost(&self, counts: &Counts, share: f64) -> Cost {
-        let amount = counts.work() - self.reward * share;
-        let Some(least) = self.least else { return Cost { cuts: counts.splits > 0, amount } };
+        let cost = Cost::of(counts);
+        let amount = cost.amount - self.reward * share;
+        let Some(least) = self.least else { return Cost { amount, ..cost } };
         let [front, back] = [counts.front, counts.back].map(f64::from);
         let on = self.pieces - front - back;
         let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;

@@ -6,7 +6,7 @@ use crate::build::live::Live;
 use crate::exact::{Faces, Kernel, PlaneId, Side, Vertex};
 use crate::parallel_map;
 
-/// So many normals are computed by one thread at a time.
+/// Normals that one thread computes at a time. More: threads idle; fewer: time to hand them out.
 const PART: usize = 4096;
 
 /// The unit normals of all faces, rounded: enough to choose planes by.
