@@ -62,6 +62,9 @@ pub enum Heuristic {
     Auto,
 }
 
+/// What `Weighted` weighs splits, balance and axial planes by, unless told otherwise.
+pub(super) const DEFAULT_WEIGHTS: [f64; 3] = [8.0, 1.0, 0.0];
+
 impl Heuristic {
     /// Every heuristic, with its default parameters.
     pub const ALL: &'static [Self] = &[
@@ -69,7 +72,11 @@ impl Heuristic {
         Self::Random { seed: 0 },
         Self::FewestSplits,
         Self::Balanced,
-        Self::Weighted { splits: 8.0, balance: 1.0, axial: 0.0 },
+        Self::Weighted {
+            splits: DEFAULT_WEIGHTS[0],
+            balance: DEFAULT_WEIGHTS[1],
+            axial: DEFAULT_WEIGHTS[2],
+        },
         Self::Sampled { candidates: 16 },
         Self::FreePlanes,
         Self::Auto,
@@ -149,7 +156,7 @@ impl FromStr for Heuristic {
             "fewest-splits" => plain(Self::FewestSplits),
             "balanced" => plain(Self::Balanced),
             "weighted" => {
-                let mut weights = [8.0, 1.0, 0.0];
+                let mut weights = DEFAULT_WEIGHTS;
                 if numbers.len() > weights.len() {
                     return Err(error());
                 }

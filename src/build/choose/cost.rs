@@ -3,6 +3,8 @@
 use std::cmp::Ordering;
 use std::ops::AddAssign;
 
+use crate::exact::PlaneId;
+
 /// How many pieces lie in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
@@ -63,6 +65,13 @@ impl Cost {
         (self.cuts, other.cuts) == (false, true)
             || self.cuts == other.cuts && self.amount < other.amount
     }
+}
+
+/// A plane with what it costs to divide a set by it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) plane: PlaneId,
+    pub(super) cost: Cost,
 }
 
 /// The work of putting `n` pieces in order: n^1.25.

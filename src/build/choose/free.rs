@@ -5,7 +5,7 @@ mod tests;
 
 use std::cmp::Ordering;
 
-use super::cost::{Cost, Counts};
+use super::cost::{Candidate, Cost, Counts};
 use super::set::Set;
 use super::tuning::Tuning;
 use crate::build::live::Live;
@@ -16,10 +16,10 @@ use crate::exact::{Kernel, PlaneId};
 /// more often; smaller: cancelling takes longer.
 const PASSES: usize = 10;
 
-/// A free plane with what it promises.
+/// A free plane whose corner is not known yet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FreePlane {
-    pub(super) cost: Cost,
+struct FreePlane {
+    cost: Cost,
     axis: usize,
     coordinate: f64,
 }
@@ -102,7 +102,7 @@ impl Sweep {
         set: &Set<'_, K>,
         tuning: &Tuning,
         watch: &Watch<'_>,
-    ) -> Option<FreePlane> {
+    ) -> Option<Candidate> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, [low, high]) in axes(set) {
@@ -118,7 +118,7 @@ impl Sweep {
                 self.walk(n, axis, &mut best);
             }
         }
-        best
+        best?.with_corner(set)
     }
 
     /// The free plane of least cost among those that cut nothing, for sets so small that they are
@@ -127,7 +127,7 @@ impl Sweep {
         &mut self,
         set: &Set<'_, K>,
         tuning: &Tuning,
-    ) -> Option<FreePlane> {
+    ) -> Option<Candidate> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis)) {
@@ -160,7 +160,7 @@ impl Sweep {
                 }
             }
         }
-        best
+        best?.with_corner(set)
     }
 
     /// Counts what begins and ends in each bin.
@@ -313,14 +313,15 @@ fn axes<K: Kernel>(set: &Set<'_, K>) -> impl Iterator<Item = (usize, [f64; 2])> 
 
 impl FreePlane {
     /// The plane by the name of a corner on it.
-    pub(super) fn id<K: Kernel>(&self, set: &Set<'_, K>) -> Option<PlaneId> {
-        let (axis, c) = (self.axis, self.coordinate);
+    fn with_corner<K: Kernel>(&self, set: &Set<'_, K>) -> Option<Candidate> {
+        let Self { cost, axis, coordinate } = *self;
         let touches = |piece: &&Live| {
-            piece.min[axis] == c && piece.min_is_corner(axis)
-                || piece.max[axis] == c && piece.max_is_corner(axis)
+            piece.min[axis] == coordinate && piece.min_is_corner(axis)
+                || piece.max[axis] == coordinate && piece.max_is_corner(axis)
         };
-        let corner = set.pieces.iter().find(touches)?.corner_at(set.faces, axis, c)?;
-        Some(PlaneId::axis(axis, corner))
+        let piece = set.pieces.iter().find(touches)?;
+        let corner = piece.corner_at(set.faces, axis, coordinate)?;
+        Some(Candidate { plane: PlaneId::axis(axis, corner), cost })
     }
 }
 

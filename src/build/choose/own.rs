@@ -3,24 +3,21 @@
 #[cfg(test)]
 mod tests;
 
-use super::cost::{Cost, Counts, work};
+use super::cost::{Candidate, Cost, Counts, work};
+use super::sample::Sample;
 use super::set::Set;
-use super::sketch::{LANES, Sketch, SketchPlane};
+use super::sketch::{LANES, SketchPlane};
 use super::tuning::Tuning;
 use crate::build::live::Live;
 use crate::exact::Kernel;
 
-/// How many of the largest pieces are candidates besides the sample. Fewer: a large wall outside the
-/// sample is cut again and again; more: time.
-const LARGEST: usize = 2;
-
-/// A candidate for the plane that divides a set.
+/// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
+struct Entrant {
     /// The piece, by its number in the set.
-    pub(super) piece: usize,
+    piece: usize,
     /// What its plane costs, as far as is known.
-    pub(super) cost: Cost,
+    cost: Cost,
     /// How much of the set's bounding box the piece fills, 0 to 1.
     share: f64,
     plane: SketchPlane,
@@ -101,24 +98,29 @@ impl Shares {
         (x * y).max(y * z).max(z * x)
     }
 
-    /// The pieces that fill most of the box.
-    fn largest(&self, pieces: &[Live]) -> impl Iterator<Item = usize> + use<> {
-        let mut top: [(f64, Option<usize>); LARGEST] = [(0.0, None); LARGEST];
+    /// Fills `top` with the `count` pieces that fill most of the box, and their shares.
+    fn largest(&self, pieces: &[Live], count: usize, top: &mut Vec<(f64, usize)>) {
+        top.clear();
+        // What the next one has to exceed.
+        let mut least = if count > 0 { 0.0 } else { f64::INFINITY };
         for (i, piece) in pieces.iter().enumerate() {
             let share = self.get(piece);
-            if share > top[LARGEST - 1].0 {
-                top[LARGEST - 1] = (share, Some(i));
+            if share > least {
+                top.truncate(count - 1);
+                top.push((share, i));
                 top.sort_by(|a, b| b.0.total_cmp(&a.0));
+                least = if top.len() < count { 0.0 } else { top[count - 1].0 };
             }
         }
-        top.into_iter().filter_map(|(_, piece)| piece)
     }
 }
 
 /// Compares candidates with more and more pieces, and keeps the best of them (successive halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
 pub(super) struct Contest {
-    field: Vec<Candidate>,
+    field: Vec<Entrant>,
+    /// The largest pieces, with their shares of the box.
+    largest: Vec<(f64, usize)>,
     /// How many of the field were taken from the sketch: they have the same places in both.
     sketched: usize,
     /// How many groups of the sketch they were compared with.
@@ -130,37 +132,37 @@ pub(super) struct Contest {
 }
 
 impl Contest {
-    /// Replaces the field by the first `count` pieces of the sketch and the largest pieces of the set.
-    pub(super) fn enter<K: Kernel>(&mut self, set: &Set<'_, K>, sketch: &Sketch, count: usize) {
-        self.seen = 0;
-        self.field.clear();
-        self.one_sided.clear();
+    /// Replaces the field by the first `count` pieces of the sample and the largest pieces of the set,
+    /// and compares them with the first sample.
+    pub(super) fn begin<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sample: &mut Sample,
+        count: usize,
+        terms: &Terms,
+        tuning: &Tuning,
+    ) {
         let shares = Shares::of(set);
-        let largest = (set.len() > count).then(|| shares.largest(set.pieces)).into_iter();
+        let largest = if set.len() > count { tuning.largest } else { 0 };
+        shares.largest(set.pieces, largest, &mut self.largest);
+        let sketch = &sample.sketch;
+        self.seen = 0;
         self.sketched = count.min(sketch.len());
         let first = (0..self.sketched).map(|place| sketch.number(place));
-        self.field.extend(first.chain(largest.flatten()).map(|piece| Candidate {
+        let pieces = first.chain(self.largest.iter().map(|&(_, piece)| piece));
+        self.field.clear();
+        self.field.extend(pieces.map(|piece| Entrant {
             piece,
             share: shares.get(&set.pieces[piece]),
             plane: sketch.plane(set, piece),
             counts: Counts::default(),
             cost: Cost::MOST,
         }));
-    }
-
-    /// Compares all candidates with the first sample.
-    pub(super) fn begin<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        sketch: &mut Sketch,
-        order: &mut impl Iterator<Item = usize>,
-        terms: &Terms,
-        tuning: &Tuning,
-    ) {
-        self.look(set, sketch, order, tuning.first_sample, terms);
+        self.look(set, sample, tuning.first_sample, terms);
         let is_one_sided =
-            |c: &Candidate| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
-        let found = self.field.iter().enumerate().filter(|(_, candidate)| is_one_sided(candidate));
+            |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
+        let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
+        self.one_sided.clear();
         self.one_sided.extend(found.map(|(place, _)| place));
     }
 
@@ -174,23 +176,22 @@ impl Contest {
         self.one_sided.iter().copied().take_while(|&place| place < self.sketched)
     }
 
-    /// The best candidate after the first sample; the earliest of equals. What the sketch lacks of
-    /// the set is added to it in an order of which every beginning is a sample of the set.
+    /// The best plane of the field, by more and more of the set; the earliest of equals.
     pub(super) fn best<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
-        sketch: &mut Sketch,
-        order: &mut impl Iterator<Item = usize>,
+        sample: &mut Sample,
         terms: &Terms,
         tuning: &Tuning,
     ) -> Option<Candidate> {
-        let mut sample = tuning.first_sample;
-        while sample < set.len() {
+        let mut pieces = tuning.first_sample;
+        while pieces < set.len() {
             self.halve(tuning.rate);
-            sample *= tuning.rate;
-            self.look(set, sketch, order, sample, terms);
+            pieces *= tuning.rate;
+            self.look(set, sample, pieces, terms);
         }
-        self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost)).copied()
+        let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost))?;
+        Some(Candidate { plane: set.own_plane(best.piece), cost: best.cost })
     }
 
     /// Keeps the best 1/`rate` of the candidates, in their order.
@@ -200,7 +201,7 @@ impl Contest {
             return;
         }
         self.ranks.clear();
-        self.ranks.extend(self.field.iter().zip(0..).map(|(candidate, i)| (candidate.cost, i)));
+        self.ranks.extend(self.field.iter().zip(0..).map(|(entrant, i)| (entrant.cost, i)));
         let by_cost = |a: &(Cost, u32), b: &(Cost, u32)| a.0.cmp(&b.0).then(a.1.cmp(&b.1));
         self.ranks.select_nth_unstable_by(left, by_cost);
         self.ranks.truncate(left);
@@ -215,23 +216,19 @@ impl Contest {
     fn look<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
-        sketch: &mut Sketch,
-        order: &mut impl Iterator<Item = usize>,
+        sample: &mut Sample,
         pieces: usize,
         terms: &Terms,
     ) {
-        let pieces = pieces.min(set.len());
-        let missing = pieces.saturating_sub(sketch.len());
-        if missing > 0 {
-            sketch.extend(set, order.take(missing));
-        }
-        let groups = self.seen..pieces.div_ceil(LANES);
+        sample.grow(set, pieces);
+        let sketch = &sample.sketch;
+        let groups = self.seen..pieces.min(set.len()).div_ceil(LANES);
         self.seen = groups.end;
         let looked = sketch.len().min(groups.end * LANES);
         let terms = if looked == set.len() { *terms } else { terms.of_sample(looked, set.len()) };
-        for candidate in &mut self.field {
-            candidate.counts += sketch.count(&candidate.plane, groups.clone());
-            candidate.cost = terms.cost(&candidate.counts, candidate.share);
+        for entrant in &mut self.field {
+            entrant.counts += sketch.count(&entrant.plane, groups.clone());
+            entrant.cost = terms.cost(&entrant.counts, entrant.share);
         }
     }
 }
