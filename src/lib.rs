@@ -34,7 +34,7 @@ mod exact;
 mod faces;
 mod input;
 mod memory;
-mod parallel;
+mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
 pub mod raster;

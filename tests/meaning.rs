@@ -77,11 +77,14 @@ impl Counts {
         on_sides.iter().all(|&side| side < pieces) && on_sides != [0, 0]
     }
 
-    /// The cost that free planes are chosen by, but for the price of cutting at all.
-    fn cost(&self) -> f64 {
-        let work = |n: usize| n as f64 * (n.max(1) as f64).log2();
-        work(self.front + self.splits) + work(self.back + self.splits) + 0.2 * self.splits as f64
+    /// The work left on both sides, by which planes that cut alike are compared.
+    fn work(&self) -> f64 {
+        work(self.front + self.splits) + work(self.back + self.splits)
     }
+}
+
+fn work(pieces: usize) -> f64 {
+    (pieces as f64).powf(1.25)
 }
 
 /// A node with the set that was divided there.
@@ -102,6 +105,26 @@ impl Divided<'_> {
                 low == high
             });
             (Counts::of(&plane, &self.set), is_axial)
+        })
+    }
+
+    /// What `auto` takes the planes of a set of whole faces to cost.
+    fn own_costs(&self) -> impl Iterator<Item = f64> {
+        let span = |corners: &[[f64; 3]], axis: usize| {
+            let along = || corners.iter().map(|corner| corner[axis]);
+            along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+        };
+        let corners = |piece: &Piece| self.faces.corners(piece.face);
+        let all: Vec<[f64; 3]> = self.set.iter().flat_map(corners).copied().collect();
+        let pieces = self.set.len() as f64;
+        self.set.iter().zip(self.own_planes()).map(move |(piece, (counts, _))| {
+            let mut shares =
+                [0, 1, 2].map(|axis| match [span(corners(piece), axis), span(&all, axis)] {
+                    [_, 0.0] => 1.0,
+                    [own, of_all] => own / of_all,
+                });
+            shares.sort_by(f64::total_cmp);
+            counts.work() - 0.35 * pieces * shares[1] * shares[2]
         })
     }
 
@@ -362,7 +385,7 @@ fn free_planes_are_taken_wherever_one_separates_something_and_cost_least() {
     let (mut free, mut own, mut clean) = (0, 0, 0);
     each(Heuristic::FreePlanes, 40, 20, |node| {
         let planes = node.free_planes();
-        let key = |c: &Counts| (c.splits > 0, c.cost());
+        let key = |c: &Counts| (c.splits > 0, c.work());
         match node.plane.kind() {
             PlaneKind::Face(_) => {
                 assert!(planes.is_empty(), "{} pieces, {planes:?}", node.set.len());
@@ -373,11 +396,11 @@ fn free_planes_are_taken_wherever_one_separates_something_and_cost_least() {
                 let least =
                     planes.iter().map(key).min_by(|a, b| a.partial_cmp(b).expect("numbers"));
                 let (least, chosen) = (least.expect("the chosen one"), key(&node.counts));
-                // The logarithm is within one in a hundred, and enough balance is enough.
+                // Enough balance is enough: the search stops at a plane that cuts nothing and
+                // leaves a quarter on each side.
                 let n = node.set.len();
-                let work = |n: usize| n as f64 * (n.max(1) as f64).log2();
-                let enough = chosen.1 <= 1.03 * (work(n / 4) + work(n - n / 4));
-                let fits = chosen.1 <= 1.03 * least.1 || !chosen.0 && enough;
+                let enough = chosen.1 <= work(n / 4) + work(n - n / 4) + 1e-9;
+                let fits = chosen.1 <= least.1 + 1e-9 || !chosen.0 && enough;
                 assert!(chosen.0 == least.0 && fits, "{chosen:?}, not {least:?}, of {n}");
                 free += 1;
                 clean += usize::from(!chosen.0);
@@ -387,24 +410,56 @@ fn free_planes_are_taken_wherever_one_separates_something_and_cost_least() {
     assert!(free > 150 && own > 30 && clean > 50 && clean < free, "{free} {own} {clean}");
 }
 
-/// In scenes that are built once: those of at most 200 faces are built for a frame.
+/// Below and above the sizes at which `auto` changes its search.
 #[test]
 fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     let (mut clean, mut cut) = (0, 0);
-    for seed in [1, 2, 4] {
-        let scene = scene(&mut Dice(seed), 210);
-        let tree = build(&scene, Heuristic::Auto);
-        assert!(tree.faces().len() > 200, "{}", tree.faces().len());
-        nodes(&tree, |node| {
-            if node.free_planes().iter().any(|counts| counts.splits == 0) {
-                assert_eq!(node.counts.splits, 0, "{} pieces, seed {seed}", node.set.len());
-                clean += 1;
-            } else {
-                cut += usize::from(node.counts.splits > 0);
+    for count in [40, 63, 64, 65, 210, 255, 256, 257] {
+        for seed in [1, 2, 4] {
+            // Some polygons have no area.
+            let mut scene = scene(&mut Dice(seed), count + count / 4);
+            scene.retain(|polygon| build(&[polygon.clone()], Heuristic::First).len() == 1);
+            scene.truncate(count);
+            let tree = build(&scene, Heuristic::Auto);
+            assert_eq!(tree.faces().len(), count);
+            nodes(&tree, |node| {
+                if node.free_planes().iter().any(|counts| counts.splits == 0) {
+                    assert_eq!(node.counts.splits, 0, "{} pieces, seed {seed}", node.set.len());
+                    clean += 1;
+                } else {
+                    cut += usize::from(node.counts.splits > 0);
+                }
+            });
+        }
+    }
+    assert!(clean > 2000 && cut > 150, "{clean} {cut}");
+}
+
+/// Where every plane cuts, `auto` takes the own plane of least work less the reward for its size.
+/// Sets of at most 16 pieces are compared with every plane.
+#[test]
+fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
+    let (mut cut, mut rewarded) = (0, 0);
+    for seed in 0..300 {
+        let scene = scene(&mut Dice(seed), 4 + seed as usize % 13);
+        let mut is_root = true;
+        nodes(&build(&scene, Heuristic::Auto), |node| {
+            if !std::mem::take(&mut is_root) || node.counts.splits == 0 {
+                return;
             }
+            let PlaneKind::Face(face) = node.plane.kind() else { panic!("{:?}", node.plane) };
+            let costs: Vec<f64> = node.own_costs().collect();
+            let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+            let chosen = node.set.iter().position(|piece| piece.face == face).expect("a piece");
+            assert!(costs[chosen] <= least + 1e-9, "seed {seed}: {}, not {least}", costs[chosen]);
+            let planes: Vec<(Counts, bool)> = node.own_planes().collect();
+            assert!(planes.iter().all(|(counts, _)| counts.splits > 0), "seed {seed}");
+            cut += 1;
+            rewarded +=
+                usize::from(planes.iter().any(|(counts, _)| counts.work() < node.counts.work()));
         });
     }
-    assert!(clean > 300 && cut > 25, "{clean} {cut}");
+    assert!(cut > 50 && rewarded > 5, "{cut} {rewarded}");
 }
 
 /// Squares of z = x² + y² over a grid of integers: exactly planar, in exactly convex position.

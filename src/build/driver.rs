@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::assemble::assemble;
-use super::builder::{Job, Shared};
+use super::builder::Shared;
 use super::choose::Tuning;
+use super::job::Job;
 use super::jobs;
 use super::live::Live;
 use super::options::BuildOptions;

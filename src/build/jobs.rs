@@ -1,7 +1,8 @@
 //! Subtrees built in parallel.
 
 use super::assemble::Output;
-use super::builder::{Job, Shared, build};
+use super::builder::{Shared, build};
+use super::job::Job;
 use crate::Error;
 use crate::exact::Kernel;
 
@@ -44,7 +45,6 @@ pub(super) fn run<K: Kernel>(
     }
 
     let slots = Mutex::new(vec![None]);
-    // Waking other threads takes longer than building a small tree.
     if job.pieces.len() < ALONE {
         rayon::in_place_scope(|scope| work(scope, shared, &slots, 0, job));
     } else {
@@ -55,8 +55,7 @@ pub(super) fn run<K: Kernel>(
     slots.into_iter().flatten().collect()
 }
 
-/// Builds a job, and all jobs that it and they hand over. The first output is the job's own; gaps in
-/// the outputs refer to the others by their index.
+/// As above, one after the other.
 #[cfg(not(feature = "parallel"))]
 pub(super) fn run<K: Kernel>(
     shared: &Shared<'_, K>,

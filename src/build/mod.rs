@@ -6,6 +6,7 @@ mod builder;
 pub(crate) mod choose;
 pub(crate) mod driver;
 mod heuristic;
+mod job;
 mod jobs;
 pub(crate) mod live;
 mod options;

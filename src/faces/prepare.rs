@@ -19,7 +19,7 @@ use crate::exact::faces::{Face, Frame, INNER};
 use crate::exact::{Faces, Lattice, MAX_LABELS, Plane, cross};
 use crate::input::Polygon;
 use crate::memory::reserve;
-use crate::parallel;
+use crate::parallel_map;
 
 /// Polygons that one thread prepares as one job. Smaller: overhead per job; larger: threads wait
 /// for each other.
@@ -138,7 +138,7 @@ fn prepare_all(input: &Collected, ground: &Ground, listener: &dyn Listener) -> R
         listener.read(input.len())?;
         let end = input.len().min(start + AT_ONCE);
         let ranges = (start..end).step_by(PART).map(|start| start..end.min(start + PART));
-        let parts = parallel::map(ranges.collect(), |range| {
+        let parts = parallel_map::map(ranges.collect(), |range| {
             let polygons = range.map(|polygon| (polygon, input.polygon(polygon)));
             Part::of(ground, polygons, listener)
         });

@@ -2,8 +2,9 @@
 
 use std::mem::take;
 
-use super::{Builder, COMPACT, Job};
+use super::state::{Builder, COMPACT};
 use crate::Error;
+use crate::build::job::Job;
 use crate::exact::Kernel;
 
 impl<K: Kernel> Builder<'_, K> {
@@ -13,7 +14,7 @@ impl<K: Kernel> Builder<'_, K> {
         let mut arena = Vec::new();
         for pending in &mut self.pending {
             if pending.job.is_none() {
-                for live in &mut self.pieces[pending.start..pending.end] {
+                for live in &mut self.pieces[pending.range.clone()] {
                     let start = arena.len();
                     arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
                     *live = live.moved_to(start);

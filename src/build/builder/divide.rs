@@ -1,7 +1,8 @@
 //! Divides a set of pieces by a plane, and cuts the pieces that span it.
 
-use super::{Builder, Live};
+use super::state::Builder;
 use crate::Error;
+use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side, split};
 use crate::memory::reserve;
 

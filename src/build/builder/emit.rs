@@ -1,8 +1,10 @@
 //! Writes finished nodes and leaves, and puts the sets on their sides on the stack.
 
-use super::{Builder, JOB, Job, Live, Pending, is_leaf};
+use super::leaf::is_leaf;
+use super::state::{Builder, Pending};
 use crate::Error;
 use crate::build::choose::Peeled;
+use crate::build::job::{Job, is_worth_a_job};
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
 use crate::tree::parts::{Child, RawNode};
@@ -40,12 +42,11 @@ impl<K: Kernel> Builder<'_, K> {
         let arena = self.arena.len();
         // The back goes below the front, so that the front is built first, as nodes stand depth first.
         if !back_is_leaf {
-            let both_large = back >= JOB && front >= JOB && !front_is_leaf;
-            // Only where both sides are large is there work for another thread. The back is handed
-            // over because it is on top of the stack just now; this thread goes on with the front.
-            let job = both_large.then(|| hand_over(self.take(start, depth)));
-            let end = self.pieces.len();
-            self.pending.push(Pending { start, end, arena, depth, is_peeled: false, job });
+            // The back is handed over because it is on top of the stack just now; this thread goes on
+            // with the front.
+            let job = is_worth_a_job(back, front).then(|| hand_over(self.take(start, depth)));
+            let range = start..self.pieces.len();
+            self.pending.push(Pending { job, ..Pending::new(range, arena, depth) });
         }
         if !front_is_leaf {
             let start = self.pieces.len();
@@ -56,8 +57,7 @@ impl<K: Kernel> Builder<'_, K> {
                 reserve(&mut self.pieces, front)?;
                 self.pieces.extend_from_slice(&self.scratch.front);
             }
-            let end = self.pieces.len();
-            self.pending.push(Pending { start, end, arena, depth, is_peeled: false, job: None });
+            self.pending.push(Pending::new(start..self.pieces.len(), arena, depth));
         }
         Ok(())
     }
@@ -70,29 +70,28 @@ impl<K: Kernel> Builder<'_, K> {
         depth: usize,
         peeled: &Peeled,
     ) -> Result<(), Error> {
-        let depth = depth + peeled.len();
+        let depth = depth + peeled.layers().len();
         self.shared.budget.check_depth(depth)?;
         let mut left = vec![true; self.pieces.len() - start];
-        for taken in peeled.layers() {
+        for layer in peeled.layers() {
             let own = &mut self.scratch.own;
             own.clear();
             // Pieces are marked and not removed yet: all layers name them by their places in the set.
-            for &piece in taken.pieces {
+            for &piece in peeled.pieces(layer) {
                 left[piece as usize] = false;
                 own.push(self.pieces[start + piece as usize]);
             }
             own.sort_by_key(|piece| piece.face);
             let own = own.len();
             (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
-            let child = |side| if taken.rest == side { Child::Node } else { Child::Leaf(0) };
+            let child = |side| if layer.rest == side { Child::Node } else { Child::Leaf(0) };
             let (front, back) = (child(Side::Front), child(Side::Back));
-            let node = RawNode { plane: taken.plane, own: own as u32, front, back };
+            let node = RawNode { plane: layer.plane, own: own as u32, front, back };
             self.output.push_node(node)?;
         }
-        let mut left = left.iter();
         let mut next = start;
-        for i in start..self.pieces.len() {
-            if left.next() == Some(&true) {
+        for (i, &is_left) in (start..).zip(&left) {
+            if is_left {
                 self.pieces[next] = self.pieces[i];
                 next += 1;
             }
@@ -107,25 +106,9 @@ impl<K: Kernel> Builder<'_, K> {
                 *side = child;
             }
         } else {
-            let arena = self.arena.len();
-            self.pending.push(Pending {
-                start,
-                end: next,
-                arena,
-                depth,
-                is_peeled: true,
-                job: None,
-            });
+            let rest = Pending::new(start..next, self.arena.len(), depth);
+            self.pending.push(Pending { is_peeled: true, ..rest });
         }
-        Ok(())
-    }
-
-    /// Appends a piece to the output as a fragment.
-    fn store(&mut self, live: Live) -> Result<(), Error> {
-        let kernel = self.shared.kernel;
-        let vertices = live.piece(&self.arena).cut.unwrap_or_default();
-        self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)))?;
-        self.shared.watch.finish(live.cuts);
         Ok(())
     }
 }

@@ -1,123 +1,122 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
-use super::cost::Cost;
-use super::own::{Candidate, Terms};
-use super::peel;
+use super::choice::Choice;
+use super::cost::{Candidate, Cost};
+use super::free::Sweep;
+use super::own::{Contest, Terms};
+use super::peel::{Peeler, arrange};
+use super::sample::Sample;
 use super::set::Set;
 use super::sketch::{LANES, Sketch};
-use super::{Choice, Chooser};
+use super::tuning::Tuning;
+use crate::build::progress::Watch;
 use crate::exact::{Kernel, PlaneId, Side};
 
-impl Chooser<'_> {
+/// Chooses by the default heuristic; its lists are kept to be used again.
+#[derive(Debug)]
+pub(super) struct Auto<'a> {
+    tuning: &'a Tuning,
+    watch: &'a Watch<'a>,
+    sweep: Sweep,
+    sample: Sample,
+    contest: Contest,
+    peeler: Peeler,
+}
+
+impl<'a> Auto<'a> {
+    pub(super) fn new(tuning: &'a Tuning, watch: &'a Watch<'a>) -> Self {
+        Self {
+            tuning,
+            watch,
+            sweep: Sweep::default(),
+            sample: Sample::default(),
+            contest: Contest::default(),
+            peeler: Peeler::default(),
+        }
+    }
+
     /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
-    pub(super) fn auto<K: Kernel>(&mut self, set: &Set<'_, K>, is_peeled: bool) -> Choice {
-        self.sketch.reset(set);
-        let tuning = self.tuning;
-        if let Some(plane) = common_plane(set, &self.sketch) {
+    pub(super) fn choose<K: Kernel>(&mut self, set: &Set<'_, K>, is_peeled: bool) -> Choice {
+        self.sample.sketch.reset(set);
+        if let Some(plane) = common_plane(set, &self.sample.sketch) {
             return Choice::Split(plane);
         }
-        let free = if set.len() < tuning.clean_below {
-            self.sweep.clean(set, tuning)
+        let free = if set.len() < self.tuning.clean_below {
+            self.sweep.clean(set, self.tuning)
         } else {
-            self.sweep.best(set, tuning, self.watch)
+            self.sweep.best(set, self.tuning, self.watch)
         };
-        let free = free.and_then(|free| Some((free, free.id(set)?)));
-        match free {
-            Some((free, plane)) if !free.cost.cuts => return Choice::Split(plane),
-            _ => {}
+        if let Some(free) = free
+            && !free.cost.cuts
+        {
+            return Choice::Split(free.plane);
         }
-        let free = free.map(|(free, plane)| Rival { plane, cost: free.cost });
-        if set.len() < tuning.small {
+        if set.len() < self.tuning.small {
             self.best_of_small(set, free, is_peeled)
         } else {
             self.best_of_large(set, free)
         }
     }
 
-    /// The best own plane of a small set, which is sketched.
-    fn own_of_small<K: Kernel>(&mut self, set: &Set<'_, K>) -> Option<Candidate> {
-        let tuning = self.tuning;
-        self.sketch.extend(set, spread(set.len()));
-        self.contest.enter(set, &self.sketch, tuning.own_planes);
-        let (terms, mut rest) = (Terms::small(set, tuning), std::iter::empty());
-        self.contest.begin(set, &mut self.sketch, &mut rest, &terms, tuning);
-        self.contest.best(set, &mut self.sketch, &mut rest, &terms, tuning)
-    }
-
     fn best_of_small<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
-        free: Option<Rival>,
+        free: Option<Candidate>,
         is_peeled: bool,
     ) -> Choice {
-        let tuning = self.tuning;
-        let own = self.own_of_small(set);
-        if let Some(own) = &own
+        let (tuning, terms) = (self.tuning, Terms::small(set, self.tuning));
+        self.sample.restart(set, set.len());
+        self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
+        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
+        if let Some(own) = own
             && own.cost.divides_evenly(set.len(), tuning.uneven)
         {
-            return Choice::Split(set.own_plane(own.piece));
+            return Choice::Split(own.plane);
         }
-        let rim = self.contest.rim().iter().map(|&place| place as usize);
+        let mut places = self.contest.one_sided_places().peekable();
         if !is_peeled
-            && rim.len() > 0
-            && let Some(peeled) = self.peeler.search(set, &self.sketch, rim, tuning, self.watch)
+            && places.peek().is_some()
+            && let Some(peeled) =
+                self.peeler.search(set, &self.sample.sketch, places, tuning, self.watch)
         {
             return Choice::Peel(peeled);
         }
-        best_of(set, own, free)
+        better(set, own, free)
     }
 
-    fn best_of_large<K: Kernel>(&mut self, set: &Set<'_, K>, free: Option<Rival>) -> Choice {
-        let tuning = self.tuning;
-        let terms = Terms::large(set, tuning);
-        let mut order = self.begin_large(set, &terms);
-        if self.contest.rim().len() >= tuning.at_rim {
-            self.sketch.clear();
-            self.sketch.extend(set, peel::arrange(set, tuning.leaf).into_iter());
-            let all = 0..set.len();
-            if let Some(peeled) = self.peeler.search(set, &self.sketch, all, tuning, self.watch) {
+    fn best_of_large<K: Kernel>(&mut self, set: &Set<'_, K>, free: Option<Candidate>) -> Choice {
+        let (tuning, terms) = (self.tuning, Terms::large(set, self.tuning));
+        self.begin_large(set, &terms);
+        if self.contest.one_sided() >= tuning.one_sided_needed {
+            let Sample { sketch, .. } = &mut self.sample;
+            sketch.clear();
+            sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
+            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, self.watch)
+            {
                 return Choice::Peel(peeled);
             }
             // The sketch has another order now, in which the first are no sample.
-            order = self.begin_large(set, &terms);
+            self.begin_large(set, &terms);
         }
-        let own = self.contest.best(set, &mut self.sketch, &mut order, &terms, tuning);
-        best_of(
-            set,
-            own,
-            free.map(|free| Rival { cost: Cost { cuts: false, ..free.cost }, ..free }),
-        )
+        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
+        // Own planes of large sets are compared by amount alone, so the free plane is too.
+        let cost_of_large = |cost| Cost { cuts: false, ..cost };
+        better(set, own, free.map(|free| Candidate { cost: cost_of_large(free.cost), ..free }))
     }
 
-    /// Sketches a sample of a large set, and holds own planes against it; gives the order of the
-    /// rest.
-    fn begin_large<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        terms: &Terms,
-    ) -> impl Iterator<Item = usize> + use<K> {
-        let mut order = spread(set.len());
+    /// Compares own planes of a large set with a first sample of it.
+    fn begin_large<K: Kernel>(&mut self, set: &Set<'_, K>, terms: &Terms) {
         let count = self.tuning.few_own_planes;
-        self.sketch.clear();
-        self.sketch.extend(set, order.by_ref().take(count.next_multiple_of(LANES)));
-        self.contest.enter(set, &self.sketch, count);
-        self.contest.begin(set, &mut self.sketch, &mut order, terms, self.tuning);
-        order
+        self.sample.restart(set, count.next_multiple_of(LANES));
+        self.contest.begin(set, &mut self.sample, count, terms, self.tuning);
     }
-}
-
-/// A free plane with what it costs.
-struct Rival {
-    plane: PlaneId,
-    cost: Cost,
 }
 
 /// The better of an own plane and a free one; any, if there are none.
-fn best_of<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Rival>) -> Choice {
+fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Candidate>) -> Choice {
     Choice::Split(match (own, free) {
         (Some(own), Some(free)) if free.cost.is_less(&own.cost) => free.plane,
-        (Some(own), _) => set.own_plane(own.piece),
-        (None, Some(free)) => free.plane,
+        (Some(one), _) | (None, Some(one)) => one.plane,
         (None, None) => set.own_plane(0),
     })
 }
@@ -134,37 +133,11 @@ fn common_plane<K: Kernel>(set: &Set<'_, K>, sketch: &Sketch) -> Option<PlaneId>
     pieces().all(|piece| set.classify(&splitter, piece) == Side::Coplanar).then_some(plane)
 }
 
-/// The numbers below `n`, so that however many of the first are taken, they are spread evenly.
-fn spread(n: usize) -> impl Iterator<Item = usize> {
-    let step = coprime(n);
-    let mut next = 0;
-    (0..n).map(move |_| {
-        let here = next;
-        next += step;
-        next -= if next < n { 0 } else { n };
-        here
-    })
-}
-
-/// A number without a common divisor with `n`, near the golden section of it: its multiples are the
-/// most evenly spread.
-fn coprime(n: usize) -> usize {
-    let section = (n as f64 * 0.618_034) as usize;
-    (section.max(1)..n.max(2)).find(|&step| gcd(step, n) == 1).unwrap_or(1)
-}
-
-fn gcd(mut a: usize, mut b: usize) -> usize {
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::sketch::Sketch;
     use super::super::tests::{Fixture, grid};
-    use super::{common_plane, spread};
+    use super::common_plane;
     use crate::random::SplitMix64;
 
     #[test]
@@ -179,21 +152,6 @@ mod tests {
             sketch.reset(&set);
             let name = format!("{height} within {tolerance}");
             assert_eq!(common_plane(&set, &sketch).is_some(), expected, "{name}");
-        }
-    }
-
-    #[test]
-    fn every_number_comes_once_and_the_first_are_spread_evenly() {
-        for n in (0..100).chain([255, 256, 1000, 4096]) {
-            let mut numbers: Vec<usize> = spread(n).collect();
-            let first = numbers.len().min(16);
-            let mut sample = numbers[..first].to_vec();
-            sample.sort_unstable();
-            for pair in sample.windows(2) {
-                assert!(pair[1] - pair[0] <= 4 * n / first + 2, "{n}: {sample:?}");
-            }
-            numbers.sort_unstable();
-            assert!(numbers.iter().copied().eq(0..n));
         }
     }
 }

@@ -3,6 +3,8 @@
 use std::cmp::Ordering;
 use std::ops::AddAssign;
 
+use crate::exact::PlaneId;
+
 /// How many pieces lie in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
@@ -12,11 +14,6 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// The work left on both sides.
-    pub(super) fn work(&self) -> f64 {
-        work((self.front + self.splits) as usize) + work((self.back + self.splits) as usize)
-    }
-
     pub(super) fn imbalance(&self) -> u32 {
         self.front.abs_diff(self.back)
     }
@@ -33,7 +30,9 @@ impl AddAssign for Counts {
 /// What it costs to divide a set by a plane. The lower cost is the better.
 ///
 /// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later.
-/// (Whatever tree there is of all pieces, its parts on either side are trees of those.)
+/// (Whatever tree there is of all pieces, its parts on either side are trees of those.) In large sets
+/// this is not applied to own planes: those at the rim cut nothing too, and would make a list of the
+/// set (see `Terms::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -41,6 +40,14 @@ pub(super) struct Cost {
 }
 
 impl Cost {
+    /// Of a plane by what it does to the pieces: the work left on both sides.
+    #[inline]
+    pub(super) fn of(counts: &Counts) -> Self {
+        let Counts { front, back, splits } = *counts;
+        let amount = work((front + splits) as usize) + work((back + splits) as usize);
+        Self { cuts: splits > 0, amount }
+    }
+
     /// More than that of any plane.
     pub(super) const MOST: Self = Self { cuts: true, amount: f64::INFINITY };
 
@@ -60,6 +67,13 @@ impl Cost {
     }
 }
 
+/// A plane with what it costs to divide a set by it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) plane: PlaneId,
+    pub(super) cost: Cost,
+}
+
 /// The work of putting `n` pieces in order: n^1.25.
 ///
 /// It grows faster than n·log n, the work of sorting, because a larger set is also cut more. A
@@ -67,30 +81,8 @@ impl Cost {
 /// at the rim of sets in which every plane cuts much.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
-    WORK.get(n).copied().unwrap_or_else(|| {
-        let n = n as f64;
-        n * n.sqrt().sqrt()
-    })
-}
-
-/// The work of small sets, as that is asked for most often.
-static WORK: [f64; 1024] = {
-    let (mut table, mut n) = ([0.0; 1024], 1);
-    while n < table.len() {
-        table[n] = n as f64 * sqrt(sqrt(n as f64));
-        n += 1;
-    }
-    table
-};
-
-/// The square root of a number from 1 on, by Newton's method.
-const fn sqrt(x: f64) -> f64 {
-    let (mut root, mut steps) = (x, 0);
-    while steps < 16 {
-        root = 0.5 * (root + x / root);
-        steps += 1;
-    }
-    root
+    let n = n as f64;
+    n * n.sqrt().sqrt()
 }
 
 #[cfg(test)]

@@ -5,20 +5,21 @@ mod tests;
 
 use std::cmp::Ordering;
 
-use super::cost::{Cost, work};
+use super::cost::{Candidate, Cost, Counts};
 use super::set::Set;
 use super::tuning::Tuning;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
 use crate::exact::{Kernel, PlaneId};
 
-/// To search along an axis is as much work as to look at each piece so often.
+/// What a search along an axis counts as, in comparisons of each piece. Larger: cancelling is checked
+/// more often; smaller: cancelling takes longer.
 const PASSES: usize = 10;
 
-/// A free plane with what it promises.
+/// A free plane whose corner is not known yet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FreePlane {
-    pub(super) cost: Cost,
+struct FreePlane {
+    cost: Cost,
     axis: usize,
     coordinate: f64,
 }
@@ -38,65 +39,57 @@ pub(super) struct FreePlane {
 pub(super) struct Sweep {
     /// For each piece, the bins in which it begins and ends.
     bins: Vec<[u16; 2]>,
-    /// For each bin, how much of each kind there is; behind the last bin, and once summed, how much
-    /// there is before each.
-    counts: Vec<[u32; 4]>,
+    /// For each bin, how many pieces begin and end in it; behind the last bin, and once summed, how
+    /// many do so before each.
+    counts: Vec<Passed>,
     bounds: Vec<Cost>,
     chosen: Vec<bool>,
-    /// What is in the bins that are looked into.
-    events: [Vec<f64>; 4],
+    /// Where pieces of each kind begin and end in the bins that are looked into.
+    begins: [Vec<f64>; 2],
+    ends: [Vec<f64>; 2],
     candidates: Vec<(u16, f64)>,
     /// Where the pieces of a small set begin and end, and which they are.
     spans: Vec<(f64, f64, u32)>,
 }
-
-/// The kinds of values, for pieces that are not flat and, `FLAT` later, for those that are.
-const BEGUN: usize = 0;
-const ENDED: usize = 1;
-const FLAT: usize = 2;
 
 /// Where a piece begins and ends along an axis: it is begun beyond its beginning, and ended at its
 /// end.
 struct Span {
     begin: f64,
     end: f64,
-    /// Zero, or [`FLAT`].
     kind: usize,
 }
+
+/// The kinds of pieces.
+const THICK: usize = 0;
+const FLAT: usize = 1;
 
 impl Span {
     #[inline]
     fn of(piece: &Live, axis: usize, tolerance: f64) -> Self {
         let (min, max) = (piece.min[axis], piece.max[axis]);
-        let kind = if max - min <= 2.0 * tolerance { FLAT } else { 0 };
+        let kind = if max - min <= 2.0 * tolerance { FLAT } else { THICK };
         Self { begin: min + tolerance, end: max - tolerance, kind }
     }
 }
 
-/// How many pieces are begun and ended at a plane.
+/// How many pieces of each kind are begun and ended at a plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Passed {
-    begun: usize,
-    ended: usize,
-    splits: usize,
+    begun: [u32; 2],
+    ended: [u32; 2],
 }
 
 impl Passed {
-    #[inline]
-    fn new(begun: [usize; 2], ended: [usize; 2]) -> Self {
-        Self {
-            begun: begun[0] + begun[1],
-            ended: ended[0] + ended[1],
-            // Where rounding makes a piece end before it begins, it counts as uncut.
-            splits: begun[0].saturating_sub(ended[0]),
-        }
-    }
-
     /// What the plane costs, if it leaves fewer pieces on each side than there are.
     #[inline]
-    fn cost(&self, pieces: usize) -> (Cost, bool) {
-        let amount = work(pieces - self.ended) + work(self.begun);
-        let divides = self.begun < pieces && self.ended > 0;
-        (Cost { cuts: self.splits > 0, amount }, divides)
+    fn cost(&self, pieces: usize) -> Option<Cost> {
+        let pieces = pieces as u32;
+        let [begun, ended] = [self.begun, self.ended].map(|kinds| kinds[THICK] + kinds[FLAT]);
+        // Where rounding makes a piece end before it begins, it counts as uncut.
+        let splits = self.begun[THICK].saturating_sub(self.ended[THICK]);
+        let counts = Counts { front: pieces - ended - splits, back: begun - splits, splits };
+        (begun < pieces && ended > 0).then(|| Cost::of(&counts))
     }
 }
 
@@ -109,7 +102,7 @@ impl Sweep {
         set: &Set<'_, K>,
         tuning: &Tuning,
         watch: &Watch<'_>,
-    ) -> Option<FreePlane> {
+    ) -> Option<Candidate> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, [low, high]) in axes(set) {
@@ -125,7 +118,7 @@ impl Sweep {
                 self.walk(n, axis, &mut best);
             }
         }
-        best
+        best?.with_corner(set)
     }
 
     /// The free plane of least cost among those that cut nothing, for sets so small that they are
@@ -134,7 +127,7 @@ impl Sweep {
         &mut self,
         set: &Set<'_, K>,
         tuning: &Tuning,
-    ) -> Option<FreePlane> {
+    ) -> Option<Candidate> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis)) {
@@ -149,7 +142,8 @@ impl Sweep {
             let mut furthest = (f64::NEG_INFINITY, 0);
             for (behind, &(min, max, i)) in self.spans.iter().enumerate() {
                 if behind > 0 && min + tolerance >= furthest.0 {
-                    let cost = Cost { cuts: false, amount: work(n - behind) + work(behind) };
+                    let (front, back) = ((n - behind) as u32, behind as u32);
+                    let cost = Cost::of(&Counts { front, back, splits: 0 });
                     let coordinate = if pieces[i as usize].min_is_corner(axis) {
                         Some(min)
                     } else {
@@ -166,37 +160,37 @@ impl Sweep {
                 }
             }
         }
-        best
+        best?.with_corner(set)
     }
 
     /// Counts what begins and ends in each bin.
     fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
         self.counts.clear();
-        self.counts.resize(bins.count + 1, [0; 4]);
+        self.counts.resize(bins.count + 1, Passed::default());
         self.bins.clear();
         let counts = &mut self.counts;
         self.bins.extend(pieces.iter().map(|piece| {
             let span = Span::of(piece, axis, tolerance);
             let [begin, end] = [span.begin, span.end].map(|value| bins.of(value));
-            counts[begin][span.kind + BEGUN] += 1;
-            counts[end][span.kind + ENDED] += 1;
+            counts[begin].begun[span.kind] += 1;
+            counts[end].ended[span.kind] += 1;
             [begin as u16, end as u16]
         }));
-        let mut total = [0; 4];
+        let mut total = Passed::default();
         for count in counts {
-            let here = *count;
-            *count = total;
-            total = std::array::from_fn(|kind| total[kind] + here[kind]);
+            let Passed { begun, ended } = std::mem::replace(count, total);
+            for kind in [THICK, FLAT] {
+                total.begun[kind] += begun[kind];
+                total.ended[kind] += ended[kind];
+            }
         }
     }
 
     /// Chooses the bins that may hold a plane of less cost than the limit, and than is certain of
     /// another bin; tells whether there are any.
     fn bound(&mut self, pieces: usize, mut limit: Cost) -> bool {
-        let passed = |begun: &[u32; 4], ended: &[u32; 4]| {
-            let of =
-                |counts: &[u32; 4], kind| [kind, kind + FLAT].map(|kind| counts[kind] as usize);
-            Passed::new(of(begun, BEGUN), of(ended, ENDED)).cost(pieces)
+        let cost = |begun: &Passed, ended: &Passed| {
+            Passed { begun: begun.begun, ended: ended.ended }.cost(pieces)
         };
         self.bounds.clear();
         for ends in self.counts.windows(2) {
@@ -205,9 +199,10 @@ impl Sweep {
                 self.bounds.push(Cost::MOST);
                 continue;
             }
-            self.bounds.push(passed(before, after).0);
-            let (most, divides) = passed(after, before);
-            if divides && most.is_less(&limit) {
+            self.bounds.push(cost(before, after).unwrap_or(Cost::MOST));
+            if let Some(most) = cost(after, before)
+                && most.is_less(&limit)
+            {
                 limit = Cost { amount: most.amount.next_up(), ..most };
             }
         }
@@ -219,7 +214,7 @@ impl Sweep {
     /// Gathers what is in the chosen bins.
     fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) {
         let chosen = &self.chosen[..];
-        self.events.iter_mut().for_each(Vec::clear);
+        self.begins.iter_mut().chain(&mut self.ends).for_each(Vec::clear);
         self.candidates.clear();
         for (&[begin, end], piece) in self.bins.iter().zip(pieces) {
             let is_chosen = |bin: u16| chosen[usize::from(bin)];
@@ -228,13 +223,13 @@ impl Sweep {
             }
             let span = Span::of(piece, axis, tolerance);
             if is_chosen(begin) {
-                self.events[span.kind + BEGUN].push(span.begin);
+                self.begins[span.kind].push(span.begin);
                 if piece.min_is_corner(axis) {
                     self.candidates.push((begin, piece.min[axis]));
                 }
             }
             if is_chosen(end) {
-                self.events[span.kind + ENDED].push(span.end);
+                self.ends[span.kind].push(span.end);
                 if piece.max_is_corner(axis) {
                     self.candidates.push((end, piece.max[axis]));
                 }
@@ -244,20 +239,17 @@ impl Sweep {
 
     /// Tries the candidates in the chosen bins, each upwards, with a finger in the list of each kind.
     fn walk(&mut self, pieces: usize, axis: usize, best: &mut Option<FreePlane>) {
-        for values in &mut self.events {
+        for values in self.begins.iter_mut().chain(&mut self.ends) {
             values.sort_unstable_by(compare);
         }
         self.candidates.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(compare(&a.1, &b.1)));
-        let mut lists = self.events.each_ref().map(|values| &values[..]);
+        let [mut begins, mut ends] =
+            [&self.begins, &self.ends].map(|kinds| kinds.each_ref().map(|values| &values[..]));
         let mut candidates = self.candidates.chunk_by(|a, b| a.0 == b.0).peekable();
         for bin in (0..self.chosen.len()).filter(|&bin| self.chosen[bin]) {
-            let mut passed = self.counts[bin].map(|count| count as usize);
-            let mut events: [&[f64]; 4] = std::array::from_fn(|kind| {
-                let count = self.counts[bin + 1][kind] - self.counts[bin][kind];
-                let (here, rest) = lists[kind].split_at(count as usize);
-                lists[kind] = rest;
-                here
-            });
+            let (mut passed, after) = (self.counts[bin], self.counts[bin + 1]);
+            let mut begins = take(&mut begins, passed.begun, after.begun);
+            let mut ends = take(&mut ends, passed.ended, after.ended);
             let here = candidates.next_if(|candidates| usize::from(candidates[0].0) == bin);
             let mut last = f64::NAN;
             for &(_, coordinate) in here.unwrap_or_default() {
@@ -265,16 +257,13 @@ impl Sweep {
                     continue;
                 }
                 last = coordinate;
-                for kind in [BEGUN, BEGUN + FLAT] {
-                    passed[kind] += pass(&mut events[kind], |v| v < coordinate);
+                for kind in [THICK, FLAT] {
+                    passed.begun[kind] += pass(&mut begins[kind], |v| v < coordinate);
+                    passed.ended[kind] += pass(&mut ends[kind], |v| v <= coordinate);
                 }
-                for kind in [ENDED, ENDED + FLAT] {
-                    passed[kind] += pass(&mut events[kind], |v| v <= coordinate);
-                }
-                let [begun, ended, flat_begun, flat_ended] = passed;
-                let passed = Passed::new([begun, flat_begun], [ended, flat_ended]);
-                let (cost, divides) = passed.cost(pieces);
-                if divides && best.is_none_or(|best| cost.is_less(&best.cost)) {
+                if let Some(cost) = passed.cost(pieces)
+                    && best.is_none_or(|best| cost.is_less(&best.cost))
+                {
                     *best = Some(FreePlane { cost, axis, coordinate });
                 }
             }
@@ -294,12 +283,21 @@ fn compare(a: &f64, b: &f64) -> Ordering {
     }
 }
 
+/// Takes the values of one bin from the front of each list, by the counts at the bin's borders.
+fn take<'a>(lists: &mut [&'a [f64]; 2], before: [u32; 2], after: [u32; 2]) -> [&'a [f64]; 2] {
+    std::array::from_fn(|kind| {
+        let (here, rest) = lists[kind].split_at((after[kind] - before[kind]) as usize);
+        lists[kind] = rest;
+        here
+    })
+}
+
 /// Drops the values that pass from the front of a list; gives how many.
 #[inline]
-fn pass(list: &mut &[f64], passes: impl Fn(f64) -> bool) -> usize {
+fn pass(list: &mut &[f64], passes: impl Fn(f64) -> bool) -> u32 {
     let count = list.iter().take_while(|&&value| passes(value)).count();
     *list = &list[count..];
-    count
+    count as u32
 }
 
 /// The axes along which a set has an extent, with its ends: those first along which it may part,
@@ -315,14 +313,15 @@ fn axes<K: Kernel>(set: &Set<'_, K>) -> impl Iterator<Item = (usize, [f64; 2])> 
 
 impl FreePlane {
     /// The plane by the name of a corner on it.
-    pub(super) fn id<K: Kernel>(&self, set: &Set<'_, K>) -> Option<PlaneId> {
-        let (axis, c) = (self.axis, self.coordinate);
+    fn with_corner<K: Kernel>(&self, set: &Set<'_, K>) -> Option<Candidate> {
+        let Self { cost, axis, coordinate } = *self;
         let touches = |piece: &&Live| {
-            piece.min[axis] == c && piece.min_is_corner(axis)
-                || piece.max[axis] == c && piece.max_is_corner(axis)
+            piece.min[axis] == coordinate && piece.min_is_corner(axis)
+                || piece.max[axis] == coordinate && piece.max_is_corner(axis)
         };
-        let corner = set.pieces.iter().find(touches)?.corner_at(set.faces, axis, c)?;
-        Some(PlaneId::axis(axis, corner))
+        let piece = set.pieces.iter().find(touches)?;
+        let corner = piece.corner_at(set.faces, axis, coordinate)?;
+        Some(Candidate { plane: PlaneId::axis(axis, corner), cost })
     }
 }
 

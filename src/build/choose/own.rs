@@ -3,27 +3,25 @@
 #[cfg(test)]
 mod tests;
 
-use super::cost::{Cost, Counts, work};
+use super::cost::{Candidate, Cost, Counts, work};
+use super::sample::Sample;
 use super::set::Set;
-use super::sketch::{LANES, Sketch, SketchPlane};
+use super::sketch::{LANES, SketchPlane};
 use super::tuning::Tuning;
 use crate::build::live::Live;
 use crate::exact::Kernel;
 
-/// How many of the largest polygons are tried, wherever they stand in the set. More: time.
-const LARGEST: usize = 2;
-
-/// A candidate for the plane that divides a set.
+/// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
+struct Entrant {
     /// The piece, by its number in the set.
-    pub(super) piece: usize,
+    piece: usize,
     /// What its plane costs, as far as is known.
-    pub(super) cost: Cost,
+    cost: Cost,
     /// How much of the set's bounding box the piece fills, 0 to 1.
     share: f64,
     plane: SketchPlane,
-    /// Of the pieces that it was held against.
+    /// Of the pieces that it was compared with.
     counts: Counts,
 }
 
@@ -34,9 +32,9 @@ pub(super) struct Terms {
     reward: f64,
     /// How many pieces there are.
     pieces: f64,
-    /// In a large set, a plane that cuts nothing is passed over if it has fewer pieces than that on
-    /// either side, and takes fewer off.
-    rim: Option<f64>,
+    /// In a large set, a plane that cuts nothing is passed over unless both sides, or the plane
+    /// itself, get at least this many pieces.
+    least: Option<f64>,
 }
 
 impl Terms {
@@ -45,33 +43,35 @@ impl Terms {
         let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
         let pieces = set.len() as f64;
         let mean = cuts as f64 / pieces;
-        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, rim: None }
+        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
     }
 
-    /// Of a large set.
+    /// Of a large set. Whether a plane cuts is left out: the first rounds see a sample, in which many
+    /// planes cut nothing that cut much of the set.
     pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        let rim = Some((set.len() / tuning.rim_share) as f64);
-        Self { rim, ..Self::small(set, tuning) }
+        let least = Some((set.len() / tuning.least_share) as f64);
+        Self { least, ..Self::small(set, tuning) }
     }
 
-    /// For counts of so many of the pieces, a sample. (Work is a power: that of a part of the
-    /// pieces is a part of the work, so that costs of samples can be compared.)
+    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
+    /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
     fn of_sample(&self, looked: usize, all: usize) -> Self {
         let ratio = looked as f64 / all as f64;
         Self {
             reward: self.reward * work(looked) / work(all),
             pieces: looked as f64,
-            rim: self.rim.map(|rim| rim * ratio),
+            least: self.least.map(|least| least * ratio),
         }
     }
 
     #[inline]
     fn cost(&self, counts: &Counts, share: f64) -> Cost {
-        let amount = counts.work() - self.reward * share;
-        let Some(rim) = self.rim else { return Cost { cuts: counts.splits > 0, amount } };
+        let cost = Cost::of(counts);
+        let amount = cost.amount - self.reward * share;
+        let Some(least) = self.least else { return Cost { amount, ..cost } };
         let [front, back] = [counts.front, counts.back].map(f64::from);
         let on = self.pieces - front - back;
-        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < rim;
+        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;
         Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
     }
 }
@@ -98,100 +98,110 @@ impl Shares {
         (x * y).max(y * z).max(z * x)
     }
 
-    /// The pieces that fill most of the box.
-    fn largest(&self, pieces: &[Live]) -> impl Iterator<Item = usize> + use<> {
-        let mut top: [(f64, Option<usize>); LARGEST] = [(0.0, None); LARGEST];
+    /// Fills `top` with the `count` pieces that fill most of the box, and their shares.
+    fn largest(&self, pieces: &[Live], count: usize, top: &mut Vec<(f64, usize)>) {
+        top.clear();
+        // What the next one has to exceed.
+        let mut least = if count > 0 { 0.0 } else { f64::INFINITY };
         for (i, piece) in pieces.iter().enumerate() {
             let share = self.get(piece);
-            if share > top[LARGEST - 1].0 {
-                top[LARGEST - 1] = (share, Some(i));
+            if share > least {
+                top.truncate(count - 1);
+                top.push((share, i));
                 top.sort_by(|a, b| b.0.total_cmp(&a.0));
+                least = if top.len() < count { 0.0 } else { top[count - 1].0 };
             }
         }
-        top.into_iter().filter_map(|(_, piece)| piece)
     }
 }
 
-/// Holds candidates against more and more pieces, and keeps those that promise most (successive
-/// halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+/// Compares candidates with more and more pieces, and keeps the best of them (successive halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
 pub(super) struct Contest {
-    field: Vec<Candidate>,
-    /// How many groups of the sketch they were held against.
+    field: Vec<Entrant>,
+    /// The largest pieces, with their shares of the box.
+    largest: Vec<(f64, usize)>,
+    /// How many of the field were taken from the sketch: they have the same places in both.
+    sketched: usize,
+    /// How many groups of the sketch they were compared with.
     seen: usize,
     /// The costs of the field, by their places in it.
     ranks: Vec<(Cost, u32)>,
-    /// Which of the field had all pieces of the first sample on one side of their planes.
-    rim: Vec<u32>,
+    /// Places in the field of those that had all pieces of the first sample on one side.
+    one_sided: Vec<usize>,
 }
 
 impl Contest {
-    /// Takes the first pieces of the sketch as candidates, so many, and the largest of the set, in
-    /// place of those before.
-    pub(super) fn enter<K: Kernel>(&mut self, set: &Set<'_, K>, sketch: &Sketch, count: usize) {
-        self.seen = 0;
-        self.field.clear();
-        self.rim.clear();
+    /// Replaces the field by the first `count` pieces of the sample and the largest pieces of the set,
+    /// and compares them with the first sample.
+    pub(super) fn begin<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sample: &mut Sample,
+        count: usize,
+        terms: &Terms,
+        tuning: &Tuning,
+    ) {
         let shares = Shares::of(set);
-        let largest = (set.len() > count).then(|| shares.largest(set.pieces)).into_iter();
-        let first = (0..count.min(sketch.len())).map(|place| sketch.number(place));
-        self.field.extend(first.chain(largest.flatten()).map(|piece| Candidate {
+        let largest = if set.len() > count { tuning.largest } else { 0 };
+        shares.largest(set.pieces, largest, &mut self.largest);
+        let sketch = &sample.sketch;
+        self.seen = 0;
+        self.sketched = count.min(sketch.len());
+        let first = (0..self.sketched).map(|place| sketch.number(place));
+        let pieces = first.chain(self.largest.iter().map(|&(_, piece)| piece));
+        self.field.clear();
+        self.field.extend(pieces.map(|piece| Entrant {
             piece,
             share: shares.get(&set.pieces[piece]),
             plane: sketch.plane(set, piece),
             counts: Counts::default(),
             cost: Cost::MOST,
         }));
+        self.look(set, sample, tuning.first_sample, terms);
+        let is_one_sided =
+            |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
+        let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
+        self.one_sided.clear();
+        self.one_sided.extend(found.map(|(place, _)| place));
     }
 
-    /// Holds all candidates against the first sample.
-    pub(super) fn begin<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        sketch: &mut Sketch,
-        order: &mut impl Iterator<Item = usize>,
-        terms: &Terms,
-        tuning: &Tuning,
-    ) {
-        self.look(set, sketch, order, tuning.looks, terms);
-        let at_rim = |c: &Candidate| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
-        let rim = self.field.iter().zip(0..).filter(|(candidate, _)| at_rim(candidate));
-        self.rim.extend(rim.map(|(_, place)| place));
+    /// How many candidates had all pieces of the first sample on one side of their planes.
+    pub(super) fn one_sided(&self) -> usize {
+        self.one_sided.len()
     }
 
-    /// Which candidates had all pieces of the first sample on one side of their planes: those from
-    /// the sketch by their places in it.
-    pub(super) fn rim(&self) -> &[u32] {
-        &self.rim
+    /// The places in the sketch of those among them that were taken from it.
+    pub(super) fn one_sided_places(&self) -> impl Iterator<Item = usize> {
+        self.one_sided.iter().copied().take_while(|&place| place < self.sketched)
     }
 
-    /// The best candidate after the first sample; the earliest of equals. What the sketch lacks of
-    /// the set is added to it in an order of which every beginning is a sample of the set.
+    /// The best plane of the field, by more and more of the set; the earliest of equals.
     pub(super) fn best<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
-        sketch: &mut Sketch,
-        order: &mut impl Iterator<Item = usize>,
+        sample: &mut Sample,
         terms: &Terms,
         tuning: &Tuning,
     ) -> Option<Candidate> {
-        let mut looks = tuning.looks;
-        while looks < set.len() {
+        let mut pieces = tuning.first_sample;
+        while pieces < set.len() {
             self.halve(tuning.rate);
-            looks *= tuning.rate;
-            self.look(set, sketch, order, looks, terms);
+            pieces *= tuning.rate;
+            self.look(set, sample, pieces, terms);
         }
-        self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost)).copied()
+        let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost))?;
+        Some(Candidate { plane: set.own_plane(best.piece), cost: best.cost })
     }
 
-    /// Keeps one in so many of the candidates, the best, in the order that they stand in.
+    /// Keeps the best 1/`rate` of the candidates, in their order.
     fn halve(&mut self, rate: usize) {
         let left = self.field.len().div_ceil(rate);
         if left == self.field.len() {
             return;
         }
         self.ranks.clear();
-        self.ranks.extend(self.field.iter().zip(0..).map(|(candidate, i)| (candidate.cost, i)));
+        self.ranks.extend(self.field.iter().zip(0..).map(|(entrant, i)| (entrant.cost, i)));
         let by_cost = |a: &(Cost, u32), b: &(Cost, u32)| a.0.cmp(&b.0).then(a.1.cmp(&b.1));
         self.ranks.select_nth_unstable_by(left, by_cost);
         self.ranks.truncate(left);
@@ -202,27 +212,23 @@ impl Contest {
         self.field.truncate(left);
     }
 
-    /// Holds all candidates against so many pieces.
+    /// Compares all candidates with the first `pieces` pieces.
     fn look<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
-        sketch: &mut Sketch,
-        order: &mut impl Iterator<Item = usize>,
-        looks: usize,
+        sample: &mut Sample,
+        pieces: usize,
         terms: &Terms,
     ) {
-        let looks = looks.min(set.len());
-        let missing = looks.saturating_sub(sketch.len());
-        if missing > 0 {
-            sketch.extend(set, order.take(missing));
-        }
-        let groups = self.seen..looks.div_ceil(LANES);
+        sample.grow(set, pieces);
+        let sketch = &sample.sketch;
+        let groups = self.seen..pieces.min(set.len()).div_ceil(LANES);
         self.seen = groups.end;
         let looked = sketch.len().min(groups.end * LANES);
         let terms = if looked == set.len() { *terms } else { terms.of_sample(looked, set.len()) };
-        for candidate in &mut self.field {
-            candidate.counts += sketch.count(&candidate.plane, groups.clone());
-            candidate.cost = terms.cost(&candidate.counts, candidate.share);
+        for entrant in &mut self.field {
+            entrant.counts += sketch.count(&entrant.plane, groups.clone());
+            entrant.cost = terms.cost(&entrant.counts, entrant.share);
         }
     }
 }

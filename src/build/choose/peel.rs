@@ -14,45 +14,36 @@ use crate::exact::{Kernel, PlaneId, Side};
 /// Pieces that are taken off a set one after the other, and cut nothing of what is left.
 #[derive(Debug, Default)]
 pub(crate) struct Peeled {
-    steps: Vec<Step>,
-    /// The pieces of all steps, by their numbers in the set.
+    layers: Vec<Layer>,
+    /// The pieces of all layers, by their numbers in the set.
     pieces: Vec<u32>,
 }
 
+/// The pieces on one plane, taken off a set together.
 #[derive(Debug)]
-struct Step {
-    plane: PlaneId,
-    rest: Side,
-    /// Where its pieces end; they begin where those of the step before end.
-    end: usize,
-}
-
-/// What is taken off a set in one step.
-#[derive(Debug)]
-pub(crate) struct Layer<'a> {
+pub(crate) struct Layer {
     pub(crate) plane: PlaneId,
     /// Where all others are that are not yet taken.
     pub(crate) rest: Side,
-    /// The pieces on the plane.
-    pub(crate) pieces: &'a [u32],
+    /// Where its pieces stand among those of all layers.
+    range: Range<usize>,
 }
 
 impl Peeled {
-    /// How many steps there are.
-    pub(crate) fn len(&self) -> usize {
-        self.steps.len()
+    /// The layers in the order in which they are taken off.
+    pub(crate) fn layers(&self) -> &[Layer] {
+        &self.layers
     }
 
-    pub(crate) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
-        self.steps.iter().enumerate().map(|(i, &Step { plane, rest, end })| {
-            let start = if i == 0 { 0 } else { self.steps[i - 1].end };
-            Layer { plane, rest, pieces: &self.pieces[start..end] }
-        })
+    /// The pieces of a layer, by their numbers in the set.
+    pub(crate) fn pieces(&self, layer: &Layer) -> &[u32] {
+        &self.pieces[layer.range.clone()]
     }
 
     fn push(&mut self, plane: PlaneId, rest: Side, pieces: &[u32]) {
+        let start = self.pieces.len();
         self.pieces.extend_from_slice(pieces);
-        self.steps.push(Step { plane, rest, end: self.pieces.len() });
+        self.layers.push(Layer { plane, rest, range: start..self.pieces.len() });
     }
 }
 
@@ -61,7 +52,7 @@ impl Peeled {
 ///
 /// To take such a piece first never costs a fragment: a tree of the whole set, with the piece and
 /// its plane left out, is one of the rest, with no more fragments. A set in convex position comes
-/// apart entirely.
+/// apart entirely if all places are tried.
 ///
 /// Exact: only what the sketch calls certain is believed, and the kernel decides on what is near a
 /// plane. A tree of boxes around the pieces tells for all but the neighbours of a piece on which
@@ -72,14 +63,14 @@ pub(super) struct Peeler {
     boxes: Boxes,
     /// For each group of the sketch, which of its pieces are left: a bit each.
     left: Vec<u8>,
-    /// What keeps the piece at hand from being taken: a piece in front of its plane and one behind,
-    /// or twice one across.
+    /// Why the current piece cannot be taken: a piece in front of its plane and one behind, or twice
+    /// one across.
     witnesses: [u32; 2],
-    /// Groups that held a witness lately: those at the rim of the set, which are asked first.
-    rim: [usize; RIM],
-    /// Pieces that are not certainly on one side of the plane at hand.
+    /// Groups asked first, because they kept other pieces from being taken.
+    asked_first: [usize; ASKED_FIRST],
+    /// Pieces that are not certainly on one side of the current plane.
     near: Vec<u32>,
-    /// Boxes still to be looked at.
+    /// Boxes still to be compared.
     stack: Vec<Node>,
     /// Pieces that are taken together.
     own: Vec<u32>,
@@ -89,14 +80,17 @@ pub(super) struct Peeler {
 const FRONT: usize = 0;
 const BACK: usize = 1;
 
-/// How many groups are remembered.
-const RIM: usize = 4;
+/// How many groups are asked first. More: time for those that know nothing; fewer: more walks down
+/// the tree of boxes.
+const ASKED_FIRST: usize = 4;
 
-const NOBODY: u32 = u32::MAX;
+/// The place of a witness that is not found yet.
+const NO_PIECE: u32 = u32::MAX;
 
 impl Peeler {
-    /// Searches a set of which the sketch holds all pieces, in groups that are near one another
-    /// (see [`arrange`]), for those at some places; gives what was found, if anything.
+    /// Searches a set of which the sketch holds all pieces for those at some places; gives what was
+    /// found, if anything. If there are more groups than `tuning.groups_per_box`, groups must be near
+    /// one another (see [`arrange`]), or the boxes tell nothing.
     pub(super) fn search<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
@@ -106,15 +100,15 @@ impl Peeler {
         watch: &Watch<'_>,
     ) -> Option<Peeled> {
         let groups = sketch.groups();
-        self.boxes.fill(sketch, tuning.leaf);
+        self.boxes.fill(sketch, tuning.groups_per_box);
         self.left.clear();
         self.left.extend((0..groups).map(|group| sketch.lanes(group)));
-        self.rim = std::array::from_fn(|i| i.min(groups - 1));
+        self.asked_first = std::array::from_fn(|i| i.min(groups - 1));
         let (peeled, left) = (Peeled::default(), sketch.len());
         let mut search = Search { lists: self, set, sketch, watch, peeled, left };
         search.pass(places);
         let peeled = search.peeled;
-        (peeled.len() > 0).then_some(peeled)
+        (!peeled.layers.is_empty()).then_some(peeled)
     }
 }
 
@@ -141,36 +135,36 @@ impl<K: Kernel> Search<'_, '_, K> {
             }
             let number = self.sketch.number(p);
             let plane = self.sketch.plane(self.set, number);
-            let (looks, may_be_free) = self.look(p, &plane);
-            if self.watch.work(looks).is_err() {
+            let (work, may_be_taken) = self.look(p, &plane);
+            if self.watch.work(work).is_err() {
                 break;
             }
-            if may_be_free {
+            if may_be_taken {
                 self.left -= self.take(p, self.set.own_plane(number));
             }
         }
     }
 
-    /// Whether something keeps the piece at hand from being taken.
+    /// Whether something keeps the current piece from being taken.
     fn is_held(&self) -> bool {
-        !self.lists.witnesses.contains(&NOBODY)
+        !self.lists.witnesses.contains(&NO_PIECE)
     }
 
     fn is_left(&self, p: usize) -> bool {
         self.lists.left[p / LANES] >> (p % LANES) & 1 == 1
     }
 
-    /// Holds the others against a piece's plane until there are some on both sides. Says how many
-    /// looks that took, and whether there may be none on one side.
+    /// Compares the others with a piece's plane until there are some on both sides. Gives how many
+    /// comparisons that took, and whether there may be none on one side.
     fn look(&mut self, p: usize, plane: &SketchPlane) -> (usize, bool) {
-        self.lists.witnesses = [NOBODY; 2];
-        let mut looks = 0;
-        for i in 0..RIM {
-            looks += LANES;
-            self.see(p, plane, self.lists.rim[i]);
+        self.lists.witnesses = [NO_PIECE; 2];
+        let mut work = 0;
+        for i in 0..ASKED_FIRST {
+            work += LANES;
+            self.see(p, plane, self.lists.asked_first[i]);
             if self.is_held() {
-                self.lists.rim.swap(0, i);
-                return (looks, false);
+                self.lists.asked_first.swap(0, i);
+                return (work, false);
             }
         }
         // What is near is gathered below, where every group is looked at once.
@@ -178,12 +172,12 @@ impl<K: Kernel> Search<'_, '_, K> {
         self.lists.stack.clear();
         self.lists.stack.push(Node { index: 0, groups: 0..self.sketch.groups() });
         while let Some(node) = self.lists.stack.pop() {
-            looks += LANES;
+            work += LANES;
             if let Some(around) = self.lists.boxes.around.get(node.index)
                 && let Some(side) = self.sketch.side_of_box(plane, around)
             {
                 let seen = &mut self.lists.witnesses[side];
-                if *seen == NOBODY
+                if *seen == NO_PIECE
                     && let Some(group) =
                         node.groups.clone().find(|&group| self.lists.left[group] > 0)
                 {
@@ -197,20 +191,20 @@ impl<K: Kernel> Search<'_, '_, K> {
                     if self.lists.left[group] == 0 {
                         continue;
                     }
-                    looks += LANES;
+                    work += LANES;
                     self.see(p, plane, group);
                     if self.is_held() {
-                        self.lists.rim.rotate_right(1);
-                        self.lists.rim[0] = group;
-                        return (looks, false);
+                        self.lists.asked_first.rotate_right(1);
+                        self.lists.asked_first[0] = group;
+                        return (work, false);
                     }
                 }
             }
             if self.is_held() {
-                return (looks, false);
+                return (work, false);
             }
         }
-        (looks, true)
+        (work, true)
     }
 
     /// Notes which pieces of a group, among those left, are witnesses against taking piece `p`, and
@@ -253,13 +247,13 @@ impl<K: Kernel> Search<'_, '_, K> {
             if matches!(side, Side::Back | Side::Spanning) {
                 held[BACK] = q;
             }
-            if !held.contains(&NOBODY) {
+            if !held.contains(&NO_PIECE) {
                 return 0;
             }
         }
         let rest = match *held {
-            [NOBODY, _] => Side::Back,
-            [_, NOBODY] => Side::Front,
+            [NO_PIECE, _] => Side::Back,
+            [_, NO_PIECE] => Side::Front,
             _ => return 0,
         };
         for q in &mut *own {
@@ -273,7 +267,7 @@ impl<K: Kernel> Search<'_, '_, K> {
 
 /// The pieces of a large set in an order in which groups, and ranges of groups, are near one
 /// another: by halving the longest side of their box again and again.
-pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, leaf: usize) -> Vec<usize> {
+pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, groups_per_box: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..set.len()).collect();
     let middle = |piece: usize, axis: usize| {
         let live = &set.pieces[piece];
@@ -282,7 +276,7 @@ pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, leaf: usize) -> Vec<usize> {
     let all = 0..set.len().div_ceil(LANES);
     let mut stack = vec![all];
     while let Some(groups) = stack.pop() {
-        let Some([low, high]) = halves(&groups, leaf) else { continue };
+        let Some([low, high]) = halves(&groups, groups_per_box) else { continue };
         let part = &mut order[groups.start * LANES..set.len().min(groups.end * LANES)];
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for &piece in part.iter() {
@@ -307,7 +301,7 @@ pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, leaf: usize) -> Vec<usize> {
 struct Boxes {
     around: Vec<SketchBox>,
     /// The most groups in a leaf.
-    leaf: usize,
+    groups_per_box: usize,
 }
 
 /// A node of the tree.
@@ -318,10 +312,10 @@ struct Node {
 }
 
 impl Boxes {
-    fn fill(&mut self, sketch: &Sketch, leaf: usize) {
-        self.leaf = leaf;
+    fn fill(&mut self, sketch: &Sketch, groups_per_box: usize) {
+        self.groups_per_box = groups_per_box;
         self.around.clear();
-        if sketch.groups() <= leaf {
+        if sketch.groups() <= groups_per_box {
             return;
         }
         let mut stack = vec![Node { index: 0, groups: 0..sketch.groups() }];
@@ -335,14 +329,14 @@ impl Boxes {
     }
 
     fn children(&self, node: &Node) -> Option<[Node; 2]> {
-        let [low, high] = halves(&node.groups, self.leaf)?;
+        let [low, high] = halves(&node.groups, self.groups_per_box)?;
         let index = 2 * node.index;
         Some([Node { index: index + 1, groups: low }, Node { index: index + 2, groups: high }])
     }
 }
 
-/// The ranges of a node's children, if it has any.
-fn halves(groups: &Range<usize>, leaf: usize) -> Option<[Range<usize>; 2]> {
+/// The ranges of a node's children, if it has more than `most` groups.
+fn halves(groups: &Range<usize>, most: usize) -> Option<[Range<usize>; 2]> {
     let middle = groups.start + groups.len() / 2;
-    (groups.len() > leaf).then_some([groups.start..middle, middle..groups.end])
+    (groups.len() > most).then_some([groups.start..middle, middle..groups.end])
 }

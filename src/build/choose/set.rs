@@ -4,9 +4,9 @@ use glam::{DVec3, Vec3};
 
 use crate::build::live::Live;
 use crate::exact::{Faces, Kernel, PlaneId, Side, Vertex};
-use crate::parallel;
+use crate::parallel_map;
 
-/// So many normals are computed by one thread at a time.
+/// Normals that one thread computes at a time. More: threads idle; fewer: time to hand them out.
 const PART: usize = 4096;
 
 /// The unit normals of all faces, rounded: enough to choose planes by.
@@ -18,7 +18,7 @@ impl Normals {
         let normal = |face| faces.plane(PlaneId::face(face)).normal_f64().normalize().as_vec3();
         let n = faces.len();
         let parts = (0..n).step_by(PART).map(|start| start as u32..n.min(start + PART) as u32);
-        let parts = parallel::map(parts.collect(), |part| part.map(normal).collect::<Vec<_>>());
+        let parts = parallel_map::map(parts.collect(), |part| part.map(normal).collect::<Vec<_>>());
         Self(parts.concat())
     }
 }

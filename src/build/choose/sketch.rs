@@ -11,13 +11,12 @@ use super::cost::Counts;
 use super::set::Set;
 use crate::exact::Kernel;
 
-/// So many pieces are held against a plane at once.
+/// Pieces compared with a plane at once.
 pub(super) const LANES: usize = 4;
 
 /// Pieces of a set, moved to its middle and rounded to `f32`.
 ///
-/// What is decided by it is only which plane is taken, but for what it calls certain: that is so in
-/// exact arithmetic too, beyond the tolerance.
+/// Used to rank planes, which may err. What it calls certain holds exactly, beyond the tolerance.
 #[derive(Debug, Default)]
 pub(super) struct Sketch {
     middle: DVec3,
@@ -205,7 +204,7 @@ impl Sketch {
     #[inline]
     pub(super) fn count(&self, plane: &SketchPlane, groups: Range<usize>) -> Counts {
         let plane = Splat::new(plane, self.slack);
-        // Numbers below 2²⁴ are exact in `f32`; no set is held against a plane that has more.
+        // Sums above 2²⁴ are rounded in `f32`; they only rank planes.
         let (mut front, mut back, mut both) = (Vec4::ZERO, Vec4::ZERO, Vec4::ZERO);
         let mut start = groups.start.checked_sub(1).map_or(0, |before| self.ends[before] as usize);
         for (&end, &lanes) in self.ends[groups.clone()].iter().zip(&self.lanes[groups]) {

@@ -3,8 +3,12 @@
 use glam::{DQuat, DVec3, EulerRot};
 
 use super::set::{Normals, Set};
+use super::tuning::Tuning;
+use super::{Choice, Chooser};
 use crate::BspTree;
+use crate::build::Heuristic;
 use crate::build::live::Live;
+use crate::build::progress::Watch;
 use crate::exact::{Exact, Faces, Kernel, PlaneId, Side, split};
 use crate::random::SplitMix64;
 
@@ -94,5 +98,31 @@ fn what_lies_in_one_plane_is_one_node() {
         let polygons = grid(side, |_| 0.0);
         let tree = BspTree::build(&polygons).unwrap();
         assert_eq!((tree.len(), tree.stats().nodes), (polygons.len(), 1), "{side}");
+    }
+}
+
+/// The sides of a turned prism: in convex position, and no free plane parts them.
+fn prism(sides: usize) -> Vec<[DVec3; 4]> {
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+    let corner = |i: usize, z: f64| {
+        let angle = std::f64::consts::TAU * i as f64 / sides as f64;
+        turn * DVec3::new(angle.cos(), angle.sin(), z)
+    };
+    (0..sides)
+        .map(|i| [corner(i, 0.0), corner(i + 1, 0.0), corner(i + 1, 3.0), corner(i, 3.0)])
+        .collect()
+}
+
+/// The largest pieces are tried too, but have no place among the first of the sketch.
+#[test]
+fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
+    let tuning = Tuning { own_planes: 5, uneven: 2, reward: 0.0, ..Tuning::DEFAULT };
+    let watch = Watch::default();
+    for sides in 8..14 {
+        let fixture = Fixture::new(&prism(sides), 1e-9);
+        let mut chooser = Chooser::new(Heuristic::Auto, &tuning, &watch);
+        let choice = chooser.choose(&fixture.set(), false);
+        let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
+        assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
     }
 }

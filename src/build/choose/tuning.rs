@@ -3,47 +3,51 @@
 /// What decides how planes are chosen, in numbers. `benches/ABLATION.md` says what each is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
-    /// In sets of fewer pieces only those free planes are sought that cut nothing, as sorting finds
-    /// them. Larger: sets without such a plane are cut by own planes alone; smaller: time to count.
+    /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
+    /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
     pub clean_below: usize,
-    /// Sets of fewer pieces are small: pieces at the rim are taken off them one by one, and more own
-    /// planes are tried. Larger: few fragments less, for time and deep trees; smaller: scans, whose
-    /// surfaces no free plane follows, are cut more.
+    /// Sets of fewer pieces try more own planes, and pieces that need no cut are peeled off them.
+    /// Larger: slightly fewer fragments, but more time and deeper trees; smaller: more fragments on
+    /// scans, whose surfaces no free plane follows.
     pub small: usize,
-    /// How many own planes are tried in a small set. Larger: time; smaller: more fragments.
+    /// Own planes tried in a small set. More: time; fewer: more fragments.
     pub own_planes: usize,
-    /// How many own planes are tried in a large set. As above.
+    /// Own planes tried in a large set. More: time; fewer: more fragments.
     pub few_own_planes: usize,
-    /// A large set is searched for pieces at its rim if so many of its own planes that are tried
-    /// have all of a sample on one side. Larger: large convex sets are cut; smaller: searches in
-    /// vain.
-    pub at_rim: usize,
-    /// A plane that cuts nothing and leaves at least one in so many pieces on either side is good
-    /// enough. Smaller: others are searched for what is hardly better; larger: unbalanced trees.
+    /// How many of the largest pieces are candidates besides the sample. Fewer: a large wall outside
+    /// the sample is cut again and again; more: time.
+    pub largest: usize,
+    /// A large set is searched for peelable pieces if at least this many of its tried own planes have
+    /// the whole first sample on one side. More: large convex sets are cut; fewer: searches that find
+    /// nothing.
+    pub one_sided_needed: usize,
+    /// A plane that cuts nothing is taken at once if each side keeps at least 1/`uneven` of the
+    /// pieces. Larger: unbalanced trees; smaller: a longer search for little gain.
     pub uneven: usize,
-    /// How many pieces own planes are held against first. Smaller: good planes are not recognised;
-    /// larger: time.
-    pub looks: usize,
-    /// Each round holds the own planes that are left against so many times as many pieces, and
-    /// leaves one in so many of them. Smaller: time; larger: the best are dropped by chance.
+    /// Pieces in the first sample that own planes are compared with. More: time; fewer: good planes
+    /// are dropped by chance.
+    pub first_sample: usize,
+    /// Each round keeps 1/`rate` of the own planes and compares them with `rate` times as many
+    /// pieces. Larger: the best are dropped by chance; smaller: time.
     pub rate: usize,
-    /// What is taken off the cost of the plane of a polygon that fills the set's bounding box, per
-    /// polygon of the set, and once more for each time that these were cut in the mean; less for a
-    /// polygon that fills less of it. What is not taken early is cut again by every wall on it.
-    /// Larger: depth spent on polygons that nothing would have cut; smaller: large polygons cut.
+    /// Subtracted from the cost of a polygon's plane, per piece of the set, scaled by the share of the
+    /// bounding box that the polygon fills and by 1 + the mean number of cuts per piece. (A wall that
+    /// is not taken early is cut again by every plane through it.) Larger: depth wasted on polygons
+    /// that nothing would cut; smaller: large polygons are cut.
     pub reward: f64,
-    /// An own plane that cuts nothing is taken in a large set only if it leaves one in so many
-    /// pieces on either side, or takes as many off: those at the rim would make a list of the set,
-    /// one search for each. Larger: lists; smaller: such planes passed over.
-    pub rim_share: usize,
-    /// Values that a bin of the search for free planes is to hold in the mean. Larger: more to sort
-    /// in the bins that are looked into; smaller: more bins to bound.
+    /// In a large set, an own plane that cuts nothing is taken only if both sides, or the plane
+    /// itself, get at least 1/`least_share` of the pieces. Otherwise planes at the rim would take off
+    /// one piece a search. Larger: long lists; smaller: good planes are rejected.
+    pub least_share: usize,
+    /// Mean number of pieces per bin of the free-plane search. More: more to sort; fewer: more bins to
+    /// bound.
     pub per_bin: usize,
-    /// The most bins. Larger: their counters leave the cache; smaller: more to sort in each.
+    /// The most bins. More: the counters no longer fit the cache; fewer: more to sort in each.
     pub most_bins: usize,
-    /// The most groups in a leaf of its tree of boxes. Larger: groups looked at one by one; smaller:
-    /// boxes, and time to make them for small sets.
-    pub leaf: usize,
+    /// The most groups of four pieces per box of the peeling search. More: groups are tested one by
+    /// one; fewer: more boxes to build, which tell nothing in small sets (of fewer than `small`
+    /// pieces): their groups are not near one another.
+    pub groups_per_box: usize,
 }
 
 impl Tuning {
@@ -53,14 +57,15 @@ impl Tuning {
         small: 256,
         own_planes: 96,
         few_own_planes: 16,
-        at_rim: 12,
+        largest: 2,
+        one_sided_needed: 12,
         uneven: 4,
-        looks: 16,
+        first_sample: 16,
         rate: 4,
         reward: 0.35,
-        rim_share: 8,
+        least_share: 8,
         per_bin: 2,
         most_bins: 1024,
-        leaf: 64,
+        groups_per_box: 64,
     };
 }

@@ -3,7 +3,7 @@
 use glam::Vec4;
 
 use crate::exact::{Faces, LATTICE_LIMIT};
-use crate::parallel;
+use crate::parallel_map;
 use crate::tree::node::Node;
 
 /// How many planes stand together, and how many signs are in a word.
@@ -33,7 +33,7 @@ impl Planes {
             }
             group
         };
-        let parts = parallel::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
+        let parts = parallel_map::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
             nodes.chunks(GROUP).map(group).collect::<Vec<_>>()
         });
         Self(parts.concat())

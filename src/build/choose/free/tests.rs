@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Cost, work};
+use super::super::cost::{Candidate, Cost, work};
 use super::super::set::{Normals, Set};
 use super::super::tuning::Tuning;
-use super::{FreePlane, Sweep};
+use super::Sweep;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Faces};
+use crate::exact::{Exact, Faces, PlaneKind};
 use crate::random::SplitMix64;
 
 /// The least cost of all planes perpendicular to an axis through a corner, by looking at every
@@ -45,7 +45,10 @@ fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
     let clean = Sweep::default().clean(&set, &Tuning::DEFAULT);
     assert_eq!(clean.is_some(), !best.cuts, "{name}: {clean:?}, {best:?}");
-    let cost_of = |plane: &FreePlane| at(&pieces, plane.axis, plane.coordinate, faces.tolerance());
+    let cost_of = |found: &Candidate| {
+        let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
+        at(&pieces, axis, faces.corner(corner)[axis], faces.tolerance())
+    };
     assert!(clean.is_none_or(|clean| !cost_of(&clean).cuts), "{name}: {clean:?} cuts");
     assert!(found.is_none_or(|found| cost_of(&found) == found.cost), "{name}: {found:?}");
     let found = found.map_or(Cost::MOST, |plane| plane.cost);

@@ -2,27 +2,32 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Cost, work};
+use super::super::cost::{Candidate, Cost, work};
+use super::super::sample::Sample;
 use super::super::set::Set;
-use super::super::sketch::Sketch;
 use super::super::tests::{Fixture, triangles};
 use super::super::tuning::Tuning;
-use super::{Candidate, Contest, Terms};
-use crate::exact::{Exact, Side};
+use super::{Contest, Terms};
+use crate::exact::{Exact, PlaneKind, Side};
 use crate::random::SplitMix64;
 
-/// Every plane is held against every piece.
-const ALL: Tuning = Tuning { own_planes: usize::MAX, looks: usize::MAX >> 1, ..Tuning::DEFAULT };
+/// Every plane is compared with every piece.
+const ALL: Tuning =
+    Tuning { own_planes: usize::MAX, first_sample: usize::MAX >> 1, ..Tuning::DEFAULT };
 
 fn best(set: &Set<'_, Exact>, tuning: &Tuning) -> Candidate {
-    let (mut sketch, mut contest) = (Sketch::default(), Contest::default());
-    let mut rest = std::iter::empty();
-    sketch.reset(set);
-    sketch.extend(set, 0..set.len());
-    contest.enter(set, &sketch, tuning.own_planes);
+    let (mut sample, mut contest) = (Sample::default(), Contest::default());
+    sample.sketch.reset(set);
+    sample.sketch.extend(set, 0..set.len());
     let terms = Terms::small(set, tuning);
-    contest.begin(set, &mut sketch, &mut rest, &terms, tuning);
-    contest.best(set, &mut sketch, &mut rest, &terms, tuning).unwrap()
+    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
+    contest.best(set, &mut sample, &terms, tuning).unwrap()
+}
+
+/// The whole face whose plane a candidate is.
+fn piece(found: &Candidate) -> usize {
+    let PlaneKind::Face(face) = found.plane.kind() else { panic!("{found:?}") };
+    face as usize
 }
 
 fn cost(set: &Set<'_, Exact>, own: usize) -> Cost {
@@ -39,7 +44,7 @@ fn cost(set: &Set<'_, Exact>, own: usize) -> Cost {
 }
 
 #[test]
-fn the_least_cost_wins_where_all_are_held_against_all() {
+fn the_least_cost_wins_where_all_are_compared_with_all() {
     let mut random = SplitMix64::new(1);
     for n in [2, 3, 5, 16, 17, 60] {
         for size in [0.1, 0.5, 2.0] {
@@ -50,7 +55,7 @@ fn the_least_cost_wins_where_all_are_held_against_all() {
             let least = costs.iter().copied().min_by(Cost::cmp).unwrap();
             assert!((found.cost.amount - least.amount).abs() < 1e-9, "{n} of {size}: {found:?}");
             assert_eq!(found.cost.cuts, least.cuts, "{n} of {size}");
-            assert!((costs[found.piece].amount - least.amount).abs() < 1e-9, "{n} of {size}");
+            assert!((costs[piece(&found)].amount - least.amount).abs() < 1e-9, "{n} of {size}");
         }
     }
 }
@@ -61,12 +66,12 @@ fn of_equals_the_earliest_wins() {
         |z: f64| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, z));
     let fixture = Fixture::new(&[0.0, 1.0, 3.0, 2.0].map(square), 0.0);
     // The second and the last are in the middle.
-    assert_eq!(best(&fixture.set(), &ALL).piece, 1);
+    assert_eq!(piece(&best(&fixture.set(), &ALL)), 1);
     let fixture = Fixture::new(&[0.0, 1.0].map(square), 0.0);
-    assert_eq!(best(&fixture.set(), &ALL).piece, 0);
+    assert_eq!(piece(&best(&fixture.set(), &ALL)), 0);
 }
 
-/// To hold few planes against few pieces finds nearly as good ones.
+/// Comparing few planes with few pieces finds nearly as good ones.
 #[test]
 fn halving_finds_a_good_plane() {
     let mut random = SplitMix64::new(2);
@@ -74,8 +79,8 @@ fn halving_finds_a_good_plane() {
         let fixture = Fixture::new(&triangles(&mut random, n, 0.5), 0.0);
         let set = fixture.set();
         let (found, least) = (best(&set, &Tuning::DEFAULT), best(&set, &ALL));
-        let exact = cost(&set, found.piece);
-        assert!((found.cost.amount - exact.amount).abs() < 1e-9, "held against all in the end");
+        let exact = cost(&set, piece(&found));
+        assert!((found.cost.amount - exact.amount).abs() < 1e-9, "compared with all in the end");
         assert!(exact.amount <= 1.2 * least.cost.amount, "{n}: {exact:?}, {least:?}");
     }
 }

@@ -14,7 +14,7 @@ use crate::random::SplitMix64;
 fn peel(set: &Set<'_, Exact>, tuning: &Tuning) -> Option<Peeled> {
     let mut sketch = Sketch::default();
     sketch.reset(set);
-    sketch.extend(set, arrange(set, tuning.leaf).into_iter());
+    sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
     Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
 }
 
@@ -22,10 +22,12 @@ fn peel(set: &Set<'_, Exact>, tuning: &Tuning) -> Option<Peeled> {
 /// all those on its plane; gives which pieces are left.
 fn assert_layers(name: &str, set: &Set<'_, Exact>, peeled: Option<&Peeled>) -> Vec<bool> {
     let mut left = vec![true; set.len()];
-    for (i, layer) in peeled.into_iter().flat_map(Peeled::layers).enumerate() {
-        assert!(!layer.pieces.is_empty(), "{name}: nothing in layer {i}");
+    let layers =
+        peeled.into_iter().flat_map(|peeled| peeled.layers().iter().map(move |l| (peeled, l)));
+    for (i, (peeled, layer)) in layers.enumerate() {
+        assert!(!peeled.pieces(layer).is_empty(), "{name}: nothing in layer {i}");
         let splitter = set.splitter(layer.plane);
-        for &piece in layer.pieces {
+        for &piece in peeled.pieces(layer) {
             assert!(left[piece as usize], "{name}: {piece} is taken twice");
             assert_eq!(set.classify(&splitter, piece as usize), Side::Coplanar, "{name}: {i}");
             left[piece as usize] = false;
@@ -59,10 +61,10 @@ fn brute_force(set: &Set<'_, Exact>, order: &[usize]) -> Vec<bool> {
 fn assert_like_brute_force(name: &str, fixture: &Fixture) -> usize {
     let set = fixture.set();
     let mut taken = 0;
-    for leaf in [1, 2, 64] {
-        let expected = brute_force(&set, &arrange(&set, leaf));
-        let name = format!("{name}, leaves of {leaf}");
-        let peeled = peel(&set, &Tuning { leaf, ..Tuning::DEFAULT });
+    for groups_per_box in [1, 2, 64] {
+        let expected = brute_force(&set, &arrange(&set, groups_per_box));
+        let name = format!("{name}, boxes of {groups_per_box}");
+        let peeled = peel(&set, &Tuning { groups_per_box, ..Tuning::DEFAULT });
         let left = assert_layers(&name, &set, peeled.as_ref());
         assert_eq!(left, expected, "{name}");
         taken = left.iter().filter(|&&is_left| !is_left).count();
@@ -141,9 +143,10 @@ fn pieces_in_one_plane_are_taken_together() {
     let set = fixture.set();
     let peeled = peel(&set, &Tuning::DEFAULT).unwrap();
     let left = assert_layers("a cube", &set, Some(&peeled));
-    assert!(peeled.len() <= 6 && !left.contains(&true), "{} steps", peeled.len());
-    for layer in peeled.layers() {
-        assert_eq!(layer.pieces.len(), 2 * 3 * 3);
+    let layers = peeled.layers();
+    assert!(layers.len() <= 6 && !left.contains(&true), "{} layers", layers.len());
+    for layer in layers {
+        assert_eq!(peeled.pieces(layer).len(), 2 * 3 * 3);
     }
 }
 
@@ -152,7 +155,7 @@ fn convex_sets_come_apart_whatever_their_size() {
     for rings in [3, 6, 20] {
         let fixture = Fixture::new(&sphere(rings), 1e-9);
         let set = fixture.set();
-        for tuning in [Tuning::DEFAULT, Tuning { leaf: 2, ..Tuning::DEFAULT }] {
+        for tuning in [Tuning::DEFAULT, Tuning { groups_per_box: 2, ..Tuning::DEFAULT }] {
             let peeled = peel(&set, &tuning);
             let left = assert_layers(&format!("{rings} rings"), &set, peeled.as_ref());
             assert!(left.iter().filter(|&&is_left| is_left).count() <= 1, "{rings} rings");
@@ -160,14 +163,14 @@ fn convex_sets_come_apart_whatever_their_size() {
     }
 }
 
-/// More than a leaf of boxes, with and without what can be taken.
+/// More than one box, with and without what can be taken.
 #[test]
 fn large_sets_are_peeled_as_by_brute_force() {
     let mut random = SplitMix64::new(2);
     let mut polygons = sphere(9);
     polygons.extend(triangles(&mut random, 60, 0.1).iter().map(|p| p.map(|c| c * 0.4)));
     let fixture = Fixture::new(&polygons, 1e-9);
-    assert!(fixture.pieces.len() > 4 * Tuning::DEFAULT.leaf);
+    assert!(fixture.pieces.len() > 4 * Tuning::DEFAULT.groups_per_box);
     let taken = assert_like_brute_force("a sphere around a heap", &fixture);
     assert!(taken >= sphere(9).len(), "{taken}");
 }

@@ -7,7 +7,7 @@ use binspace::glam::DVec3;
 /// How many polygons the copies have together, about: below and above every size at which the
 /// builder goes another way. The large ones are rare, as they take long.
 const SIZES: [usize; 16] =
-    [1, 40, 120, 190, 200, 210, 210, 250, 250, 390, 410, 500, 700, 1_100, 2_100, 5_000];
+    [1, 40, 63, 64, 65, 120, 190, 255, 256, 257, 400, 700, 1_100, 2_047, 2_100, 5_000];
 
 /// Quarter turns and reflections: where each axis goes, and which of them are reversed. Exact.
 #[derive(Clone, Copy, Debug)]

@@ -12,7 +12,7 @@ pub(crate) fn map<T: Send, U: Send>(items: Vec<T>, function: impl Fn(T) -> U + S
     items.into_par_iter().map(&function).collect()
 }
 
-/// Maps a function over items; the results are in the order of the items.
+/// As above, one after the other.
 #[cfg(not(feature = "parallel"))]
 pub(crate) fn map<T, U>(items: Vec<T>, function: impl Fn(T) -> U) -> Vec<U> {
     items.into_iter().map(function).collect()

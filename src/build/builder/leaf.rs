@@ -1,0 +1,22 @@
+//! Which sets are leaves, and how their pieces are stored.
+
+use super::state::Builder;
+use crate::Error;
+use crate::build::live::Live;
+use crate::exact::Kernel;
+
+/// Whether a set is small enough to need no plane.
+pub(super) fn is_leaf(pieces: &[Live]) -> bool {
+    pieces.len() <= 1
+}
+
+impl<K: Kernel> Builder<'_, K> {
+    /// Appends a piece to the output as a fragment.
+    pub(super) fn store(&mut self, live: Live) -> Result<(), Error> {
+        let kernel = self.shared.kernel;
+        let vertices = live.piece(&self.arena).cut.unwrap_or_default();
+        self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)))?;
+        self.shared.watch.finish(live.cuts);
+        Ok(())
+    }
+}

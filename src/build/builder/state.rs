@@ -1,0 +1,117 @@
+//! What a job works on.
+
+use std::ops::Range;
+
+use crate::Error;
+use crate::build::assemble::Output;
+use crate::build::budget::Budget;
+use crate::build::choose::{Chooser, Normals, Tuning};
+use crate::build::job::Job;
+use crate::build::live::Live;
+use crate::build::options::BuildOptions;
+use crate::build::progress::Watch;
+use crate::exact::{Faces, Kernel, Side};
+
+/// The smallest arena, in vertices, that is compacted. Smaller: time to copy; larger: memory.
+pub(super) const COMPACT: usize = 1 << 13;
+
+/// What all jobs of a build share.
+pub(in crate::build) struct Shared<'a, K> {
+    pub(super) kernel: K,
+    pub(super) faces: &'a Faces,
+    pub(super) normals: Normals,
+    pub(super) options: &'a BuildOptions,
+    tuning: &'a Tuning,
+    pub(super) watch: &'a Watch<'a>,
+    pub(super) budget: Budget,
+}
+
+impl<'a, K> Shared<'a, K> {
+    /// An error if there are more faces than the budget allows fragments.
+    pub(in crate::build) fn new(
+        kernel: K,
+        faces: &'a Faces,
+        options: &'a BuildOptions,
+        tuning: &'a Tuning,
+        watch: &'a Watch<'a>,
+    ) -> Result<Self, Error> {
+        let normals = Normals::new(faces);
+        let budget = Budget::new(options, faces.len())?;
+        Ok(Self { kernel, faces, normals, options, tuning, watch, budget })
+    }
+}
+
+/// A set of pieces that is still to be split: a range of the stack of pieces.
+pub(super) struct Pending {
+    pub(super) range: Range<usize>,
+    /// The length of the arena that it needs.
+    pub(super) arena: usize,
+    pub(super) depth: usize,
+    /// Whether peeling has just been tried on this set. Then a small set is split by a plane first.
+    pub(super) is_peeled: bool,
+    /// The job that builds it, if that is not this one.
+    pub(super) job: Option<usize>,
+}
+
+impl Pending {
+    pub(super) fn new(range: Range<usize>, arena: usize, depth: usize) -> Self {
+        Self { range, arena, depth, is_peeled: false, job: None }
+    }
+}
+
+/// One job's state.
+pub(super) struct Builder<'a, K: Kernel> {
+    pub(super) shared: &'a Shared<'a, K>,
+    pub(super) chooser: Chooser<'a>,
+    /// A stack of the sets still to be split, the next one on top.
+    pub(super) pieces: Vec<Live>,
+    /// The vertices of cut pieces, in the order of the cuts. Those of sets that are built are
+    /// truncated from the end.
+    pub(super) arena: Vec<K::Vertex>,
+    pub(super) pending: Vec<Pending>,
+    /// The length at which the arena is next compacted.
+    pub(super) compact_at: usize,
+    pub(super) output: Output<K::Stored>,
+    pub(super) scratch: Scratch<K::Vertex>,
+}
+
+impl<'a, K: Kernel> Builder<'a, K> {
+    pub(super) fn new(shared: &'a Shared<'a, K>, job: Job<K::Vertex>) -> Self {
+        let Job { pieces, arena, depth } = job;
+        Self {
+            shared,
+            chooser: Chooser::new(shared.options.heuristic, shared.tuning, shared.watch),
+            pending: vec![Pending::new(0..pieces.len(), arena.len(), depth)],
+            pieces,
+            arena,
+            compact_at: COMPACT,
+            output: Output::default(),
+            scratch: Scratch::default(),
+        }
+    }
+}
+
+/// Buffers that are reused for every set.
+pub(super) struct Scratch<V> {
+    pub(super) own: Vec<Live>,
+    pub(super) front: Vec<Live>,
+    pub(super) spanning: Vec<Live>,
+    pub(super) sides: Vec<Side>,
+    pub(super) outline: Vec<V>,
+    pub(super) front_part: Vec<V>,
+    pub(super) back_part: Vec<V>,
+}
+
+impl<V> Default for Scratch<V> {
+    fn default() -> Self {
+        Self {
+            own: vec![],
+            front: vec![],
+            spanning: vec![],
+            sides: vec![],
+            outline: vec![],
+            front_part: vec![],
+            back_part: vec![],
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! What is passed to another thread, and when.
+
+use super::live::Live;
+
+/// Where both sides of a plane have at least this many pieces, one side becomes a job of its own.
+/// Smaller: more copying; larger: threads wait for each other at the end.
+const JOB: usize = 1024;
+
+/// A set of pieces with their vertices, to be built into a subtree.
+pub(super) struct Job<V> {
+    pub(super) pieces: Vec<Live>,
+    pub(super) arena: Vec<V>,
+    /// How many nodes lie above it.
+    pub(super) depth: usize,
+}
+
+/// Whether one side of a plane becomes a job of its own, by the numbers of pieces on both sides: only
+/// where both are large is there work for another thread.
+pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {
+    back.min(front) >= JOB
+}
