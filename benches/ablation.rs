@@ -75,7 +75,7 @@ const CHANGES: [Change; 41] = changes! {
     least_share: "off" => MOST, "½" => 4, "×2" => 16;
     per_bin: "½" => 1, "×2" => 4;
     most_bins: "⅛" => 128, "½" => 512, "×2" => 2048, "×8" => 8192;
-    groups_per_box: "½" => 32, "×2" => 128, "all" => MOST;
+    groups_per_box: "½" => 32, "×2" => 128, "all" => 1 << 30;
 };
 
 fn main() {
