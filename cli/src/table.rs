@@ -1,6 +1,9 @@
 //! Tables whose rows are written as they come.
 
 /// A table: a column of names, and columns of figures to the right of it.
+///
+/// Its widths are fixed before the first row, since rows appear as they are measured, over seconds
+/// or minutes. Crates for tables lay out a table when it is whole; the report's are, by `tabled`.
 #[derive(Debug)]
 pub(crate) struct Table {
     columns: Vec<(&'static str, usize)>,

@@ -103,7 +103,7 @@ impl<const N: usize> Int<N> {
     }
 
     /// The nearest `f64`, ties to even; infinite beyond its range.
-    pub(crate) fn to_f64(&self) -> f64 {
+    pub(crate) fn to_f64(self) -> f64 {
         let magnitude = self.magnitude();
         let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else {
             return 0.0;

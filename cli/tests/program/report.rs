@@ -41,6 +41,8 @@ fn the_exact_rows_are_zero_and_others_are_not() {
     }
     let text = fs::read_to_string(folder.path("out/new/report.md")).unwrap();
     assert!(!text.contains("Not complete"), "{text}");
+    // Cells without what fills them up.
+    let text = text.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
     for part in ["| bsp exact | 0 | 0 | 0 | 0 |", "### boxes", "## scene.obj", "speed.svg"] {
         assert!(text.contains(part), "{part}");
     }

@@ -23,8 +23,8 @@ impl BspTree {
             }
             // This makes the walk end whatever the sizes say, because each node takes fragments or
             // divides them. It also bounds the number of nodes, for which order buffers have room.
-            let has_front = self.nodes[visit.node].front_len > 0;
-            if visit.own.is_empty() && !(has_front && !visit.behind.is_empty()) {
+            let has_empty_side = visit.in_front.is_empty() || visit.behind.is_empty();
+            if visit.own.is_empty() && has_empty_side {
                 return fault(visit.node, Fault::IdlePlane);
             }
             visits.push(visit);

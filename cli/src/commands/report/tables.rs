@@ -1,10 +1,16 @@
 //! Tables, as Markdown and as plain text.
 
+use tabled::builder::Builder;
+use tabled::grid::config::Offset;
+use tabled::settings::formatting::AlignmentStrategy;
+use tabled::settings::object::{Columns, Object, Rows};
+use tabled::settings::style::LineChar;
+use tabled::settings::{Alignment, Padding, Style};
+
 use super::figures::{Figures, Row, Section};
-use crate::table;
 use crate::units::{bytes, time};
 
-/// A table of text.
+/// A table of text: a column of names, and columns of figures to the right of it.
 pub(super) struct Table {
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
@@ -20,35 +26,36 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// With bars, as Markdown has it; figures to the right.
+    /// Names to the left, figures to the right.
+    fn aligned(&self, titles: Vec<String>) -> tabled::Table {
+        let mut builder = Builder::from_iter(self.rows.iter().cloned());
+        builder.insert_record(0, titles);
+        let mut table = builder.build();
+        table.with(Alignment::right()).modify(Columns::first(), Alignment::left());
+        table
+    }
+
+    /// As Markdown.
     pub(super) fn markdown(&self) -> String {
-        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-        let rule = format!("|---|{}\n", "---:|".repeat(self.columns.len().saturating_sub(1)));
-        let rows = self.rows.iter().map(|row| line(row));
-        line(&self.columns) + &rule + &rows.collect::<String>()
+        let mut table = self.aligned(self.columns.clone());
+        // In the rule above the first row.
+        let colon = LineChar::horizontal(':', Offset::End(0));
+        table.with(Style::markdown()).modify(Rows::new(1..2).intersect(Columns::new(1..)), colon);
+        format!("{table}\n")
     }
 
     /// In columns, for a terminal: titles above each other if they are of several words.
     pub(super) fn plain(&self) -> String {
         // A stroke stays with the word before it.
-        let titles: Vec<String> =
-            self.columns.iter().map(|title| title.replace(" / ", "/ ")).collect();
-        let words: Vec<Vec<&str>> = titles.iter().map(|title| title.split(' ').collect()).collect();
-        let height = words.iter().map(Vec::len).max().unwrap_or(0);
-        let mut lines: Vec<Vec<String>> = (0..height)
-            .map(|i| {
-                let cell = |title: &Vec<&str>| {
-                    (i + title.len()).checked_sub(height).map_or("", |k| title[k]).to_owned()
-                };
-                words.iter().map(cell).collect()
-            })
-            .collect();
-        lines.extend(self.rows.iter().cloned());
-        let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
-        let columns: Vec<_> = (0..self.columns.len()).map(|k| ("", width(k))).collect();
-        let table = table::Table::new(&columns);
-        let text = |line: &Vec<String>| table.row(line).trim_end().to_owned();
-        lines.iter().map(text).collect::<Vec<_>>().join("\n")
+        let title = |title: &String| title.replace(" / ", "/ ").replace(' ', "\n");
+        let mut table = self.aligned(self.columns.iter().map(title).collect());
+        table
+            .with(Style::empty())
+            .with(AlignmentStrategy::PerLine)
+            .with(Padding::new(2, 0, 0, 0))
+            .modify(Columns::first(), Padding::zero())
+            .modify(Rows::first(), Alignment::bottom());
+        table.to_string().lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
     }
 }
 
@@ -185,8 +192,10 @@ mod tests {
     fn a_table_is_written_in_two_ways() {
         let mut table = Table::new(&["method", "wrong pixels", "pieces / polygon"]);
         table.push(vec!["bsp".into(), "0".into(), "1".into()]);
-        let markdown =
-            "| method | wrong pixels | pieces / polygon |\n|---|---:|---:|\n| bsp | 0 | 1 |\n";
+        let markdown = "\
+            | method | wrong pixels | pieces / polygon |\n\
+            |--------|-------------:|-----------------:|\n\
+            | bsp    |            0 |                1 |\n";
         assert_eq!(table.markdown(), markdown);
         let plain = "         wrong  pieces/\nmethod  pixels  polygon\nbsp          0        1";
         assert_eq!(table.plain(), plain);
