@@ -131,3 +131,54 @@ impl fmt::Debug for Watch<'_> {
         f.debug_struct("Watch").field("total", &self.total).finish_non_exhaustive()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{ControlFlow, Mutex, Progress, Watch, one_at_a_time};
+    use crate::BuildOptions;
+
+    #[test]
+    fn who_has_cancelled_is_not_asked_again() {
+        let calls = Mutex::new(0);
+        let callback = one_at_a_time(|_| {
+            *calls.lock().unwrap() += 1;
+            ControlFlow::Break(())
+        });
+        let watch = Watch::new(&callback);
+        assert!(watch.work(1).is_ok() && watch.expect(5).is_err());
+        assert!(watch.work(1).is_err() && watch.expect(5).is_err() && watch.end().is_err());
+        assert_eq!(*calls.lock().unwrap(), 1);
+    }
+
+    #[test]
+    fn pieces_too_small_to_count_are_done_in_the_end() {
+        let heard = Mutex::new(vec![]);
+        let callback = one_at_a_time(|progress| {
+            heard.lock().unwrap().push(progress);
+            ControlFlow::Continue(())
+        });
+        let watch = Watch::new(&callback);
+        watch.expect(2).unwrap();
+        [0, 1, 2, 200].into_iter().for_each(|cuts| watch.finish(cuts));
+        watch.expect(2).unwrap();
+        watch.end().unwrap();
+        let expected = [0, 1, 2].map(|done| Progress { done, total: 2 });
+        assert_eq!(*heard.lock().unwrap(), expected);
+    }
+
+    #[test]
+    fn in_the_end_a_polygon_counts_as_the_faces_that_it_became() {
+        let corner = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
+        let polygon = corner.map(|[x, y]| [x, y, 0.0]);
+        let mut last = None;
+        let tree = BuildOptions::DEFAULT.build_with_progress([polygon], |progress| {
+            last = Some(progress);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(tree.unwrap().len(), 4);
+        assert_eq!(last, Some(Progress { done: 4, total: 4 }));
+        // And against the budget, before any is cut.
+        let build = |most| BuildOptions::DEFAULT.with_max_fragments(most).build([polygon]);
+        assert!(build(4).is_ok() && build(3).unwrap_err().is_over_budget());
+    }
+}
