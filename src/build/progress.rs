@@ -135,7 +135,7 @@ impl fmt::Debug for Watch<'_> {
 #[cfg(test)]
 mod tests {
     use super::{ControlFlow, Mutex, Progress, Watch, one_at_a_time};
-    use crate::BuildOptions;
+    use crate::{BuildOptions, Heuristic};
 
     #[test]
     fn who_has_cancelled_is_not_asked_again() {
@@ -164,6 +164,22 @@ mod tests {
         watch.end().unwrap();
         let expected = [0, 1, 2].map(|done| Progress { done, total: 2 });
         assert_eq!(*heard.lock().unwrap(), expected);
+    }
+
+    /// By the planes of the first ones, layers become a list of nodes, and each has all the rest to
+    /// look at.
+    #[test]
+    fn a_pass_over_a_set_is_work_though_it_cuts_nothing() {
+        let layers = (0..2000)
+            .map(|z| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x, y, f64::from(z)]));
+        let mut calls = 0;
+        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+        let tree = options.build_with_progress(layers, |_| {
+            calls += 1;
+            ControlFlow::Continue(())
+        });
+        assert_eq!(tree.unwrap().stats().nodes, 1999);
+        assert!(calls >= 1999 * 1000 / super::PULSE, "{calls}");
     }
 
     #[test]
