@@ -73,7 +73,7 @@ fn a_polygon_says_its_precision() {
     assert_eq!(single.map(Vec3::from).to_vec().precision(), expected);
     let double = single.map(|point| point.map(f64::from));
     assert_eq!(double.precision(), 4.0 * f64::EPSILON * 3.0);
-    assert_eq!((&double[..]).precision(), double.precision());
+    assert_eq!(double[..].precision(), double.precision());
 }
 
 /// Two squares of side 1, the second so much higher, from a type that claims a precision.

@@ -5,7 +5,7 @@ mod support;
 
 use binspace::Preparation;
 use binspace::glam::{DMat3, DVec3};
-use binspace::internals::{Faces, LATTICE_LIMIT};
+use binspace::internals::{DEFAULT_TOLERANCE, Faces, LATTICE_LIMIT};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
 use support::checks::{area, assert_convex_and_planar, face_area};
@@ -84,6 +84,18 @@ fn a_tolerance_that_is_no_length_is_an_error() {
     }
     for good in [0.0, -0.0, 1e300, f64::INFINITY, f64::from_bits(1)] {
         assert!(Faces::new([l_shape()], Some(good)).is_ok());
+    }
+}
+
+/// Not of the diagonal of the bounding box.
+#[test]
+fn the_default_tolerance_is_a_share_of_the_longest_side() {
+    for (share, triangulated) in [(0.9, 0), (1.1, 1), (1.6, 1)] {
+        let height = share * DEFAULT_TOLERANCE;
+        let quad = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, height], [0.0, 1.0, 0.0]];
+        let long = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 0.0, 0.5]];
+        let (_, report) = prepare(&[quad.map(DVec3::from).into(), long.map(DVec3::from).into()]);
+        assert_eq!(report.triangulated, triangulated, "{share}");
     }
 }
 
@@ -263,11 +275,13 @@ fn a_tolerance_beyond_the_largest_counts_as_that() {
     assert_eq!(faces.lattice().length_to_world(faces.tolerance()), 1.0 / 128.0);
 }
 
-/// A corner in the middle of a straight side is one of a triangle, or is left out; either way the
+/// Corners in the middle of a straight side are those of triangles, or are left out; either way the
 /// side is still the polygon's.
 #[test]
-fn an_outline_with_a_corner_in_the_middle_of_a_side_stays_closed() {
-    let arrow = flat(&[[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [1.0, 1.0], [0.0, 4.0], [0.0, 2.0]]);
+fn an_outline_with_corners_in_the_middle_of_a_side_stays_closed() {
+    let side = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]];
+    let other = [[1.0, 1.0], [0.0, 4.0], [0.0, 3.0], [0.0, 2.0], [0.0, 1.0]];
+    let arrow = flat(&[side, other].concat());
     for start in 0..arrow.len() {
         let mut polygon = arrow.clone();
         polygon.rotate_left(start);

@@ -131,3 +131,70 @@ impl fmt::Debug for Watch<'_> {
         f.debug_struct("Watch").field("total", &self.total).finish_non_exhaustive()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{ControlFlow, Mutex, Progress, Watch, one_at_a_time};
+    use crate::{BuildOptions, Heuristic};
+
+    #[test]
+    fn who_has_cancelled_is_not_asked_again() {
+        let calls = Mutex::new(0);
+        let callback = one_at_a_time(|_| {
+            *calls.lock().unwrap() += 1;
+            ControlFlow::Break(())
+        });
+        let watch = Watch::new(&callback);
+        assert!(watch.work(1).is_ok() && watch.expect(5).is_err());
+        assert!(watch.work(1).is_err() && watch.expect(5).is_err() && watch.end().is_err());
+        assert_eq!(*calls.lock().unwrap(), 1);
+    }
+
+    #[test]
+    fn pieces_too_small_to_count_are_done_in_the_end() {
+        let heard = Mutex::new(vec![]);
+        let callback = one_at_a_time(|progress| {
+            heard.lock().unwrap().push(progress);
+            ControlFlow::Continue(())
+        });
+        let watch = Watch::new(&callback);
+        watch.expect(2).unwrap();
+        [0, 1, 2, 200].into_iter().for_each(|cuts| watch.finish(cuts));
+        watch.expect(2).unwrap();
+        watch.end().unwrap();
+        let expected = [0, 1, 2].map(|done| Progress { done, total: 2 });
+        assert_eq!(*heard.lock().unwrap(), expected);
+    }
+
+    /// By the planes of the first ones, layers become a list of nodes, and each has all the rest to
+    /// look at.
+    #[test]
+    fn a_pass_over_a_set_is_work_though_it_cuts_nothing() {
+        let layers = (0..2000)
+            .map(|z| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x, y, f64::from(z)]));
+        let mut calls = 0;
+        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+        let tree = options.build_with_progress(layers, |_| {
+            calls += 1;
+            ControlFlow::Continue(())
+        });
+        assert_eq!(tree.unwrap().stats().nodes, 1999);
+        assert!(calls >= 1999 * 1000 / super::PULSE, "{calls}");
+    }
+
+    #[test]
+    fn in_the_end_a_polygon_counts_as_the_faces_that_it_became() {
+        let corner = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
+        let polygon = corner.map(|[x, y]| [x, y, 0.0]);
+        let mut last = None;
+        let tree = BuildOptions::DEFAULT.build_with_progress([polygon], |progress| {
+            last = Some(progress);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(tree.unwrap().len(), 4);
+        assert_eq!(last, Some(Progress { done: 4, total: 4 }));
+        // And against the budget, before any is cut.
+        let build = |most| BuildOptions::DEFAULT.with_max_fragments(most).build([polygon]);
+        assert!(build(4).is_ok() && build(3).unwrap_err().is_over_budget());
+    }
+}

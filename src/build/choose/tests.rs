@@ -125,3 +125,54 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
         assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
     }
 }
+
+#[test]
+fn a_sample_is_spread_over_the_set() {
+    let fixture = Fixture::new(&triangles(&mut SplitMix64::new(1), 10, 0.1), 0.0);
+    let sample = |count| fixture.set().sample(count).collect::<Vec<_>>();
+    assert_eq!(sample(4), [0, 2, 5, 7]);
+    assert!((10..12).all(|count| sample(count).into_iter().eq(0..10)));
+}
+
+fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> PlaneId {
+    let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
+    match Chooser::new(heuristic, &Tuning::DEFAULT, &watch).choose(&fixture.set(), false) {
+        Choice::Split(plane) => plane,
+        Choice::Peel(_) => panic!("own planes alone are chosen"),
+    }
+}
+
+/// What one plane cuts comes late in the set, behind more pieces than are looked at in one go.
+#[test]
+fn own_planes_are_held_against_all_of_a_large_set() {
+    const HALF: u32 = 600;
+    let top = f64::from(2 * HALF);
+    let layer = |i: u32| {
+        let z = f64::from(i);
+        let at = if i >= HALF {
+            DVec3::new(0.0, 5.0, z)
+        } else if i == 1 {
+            DVec3::new(5.0, 0.0, z)
+        } else {
+            DVec3::new(5.0, 5.0, z)
+        };
+        [DVec3::new(-1.0, -1.0, 0.0), DVec3::X, DVec3::Y].map(|corner| at + corner)
+    };
+    let wall =
+        |x: f64, y: f64| [DVec3::new(x, y, -1.0), DVec3::new(y, x, -1.0), DVec3::new(y, x, top)];
+    let mut polygons: Vec<_> = (0..2 * HALF).map(layer).collect();
+    // In the plane x = 0, and in the plane y = 0.
+    polygons[0] = wall(0.0, 7.0).map(|corner| corner.with_x(0.0));
+    polygons[4] = wall(0.0, 7.0).map(|corner| corner.with_y(0.0));
+    polygons[0][1].y = 9.0;
+    polygons[4][1].x = 9.0;
+    assert_eq!(chosen(Heuristic::FewestSplits, &polygons), PlaneId::face(4));
+}
+
+#[test]
+fn of_equal_scores_the_earliest_wins() {
+    let layers = [0.0, 1.0].map(|z| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p.with_z(z)));
+    for heuristic in [Heuristic::FewestSplits, Heuristic::Balanced] {
+        assert_eq!(chosen(heuristic, &layers), PlaneId::face(0), "{heuristic}");
+    }
+}

@@ -6,7 +6,7 @@ use super::faces;
 use crate::exact::{Faces, Line, PlaneId};
 use crate::raster::{
     Comparison, Image, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare,
-    depth_map, difference, picture, zbuffer,
+    depth_error, depth_map, difference, is_open, picture, zbuffer,
 };
 use crate::view::Camera;
 
@@ -201,4 +201,61 @@ fn a_vertex_on_an_edge_belongs_to_the_face_as_the_edge_does() {
     assert_eq!(show(&left), "AAA... AAAA.. AAAAA. AAAAA. AAAAA. AAAA..");
     let below = [Line::edge(0), Line::edge(1), Line::cut(lower, true)];
     assert_eq!(show(&below), "...... ...... ...... ...... ...... ....A.");
+}
+
+/// Two faces that are far apart along a ray may still be near: what one of them is steep to.
+#[test]
+fn either_of_two_faces_may_be_near_the_plane_of_the_other() {
+    for (above, order) in [(0.1, [1, 0]), (-0.1, [0, 1])] {
+        let flat = square([0.0, 0.0], [6.0, 6.0], 0.0);
+        let lift = |p: DVec3| p.with_z(10.0 * (p.x - 2.5) + above);
+        let steep = flat.iter().map(|&p| lift(p)).collect();
+        let faces = faces(&[flat, steep], Some(0.01));
+        let rays = rays(&faces);
+        let (painted, truth) = (paint(&rays, &faces, whole(&order)), zbuffer(&rays, &faces));
+        let result = compare(&rays, &faces, &painted, truth.image());
+        // In column 2; on one side of it, the order is the right one.
+        assert_eq!((result.contested, result.verdicts[2]), (6, Verdict::Contested), "{above}");
+        assert!(result.wrong_order == 12 || result.wrong_order == 18, "{above}");
+    }
+}
+
+#[test]
+fn without_a_tolerance_no_order_is_open() {
+    let [a, b] = [0.0, 1e-15].map(|z| square([0.0, 0.0], [6.0, 6.0], z));
+    for (tolerance, expected) in [(0.0, false), (1e-9, true)] {
+        let faces = faces(&[a.clone(), b.clone()], Some(tolerance));
+        let open = is_open(&rays(&faces), &faces, PlaneId::face(0), [1, 0], [2, 2]);
+        assert_eq!(open, expected, "{tolerance}");
+    }
+}
+
+/// Painted by mistake where its ray misses it, a face has no depth there.
+#[test]
+fn faces_that_are_not_met_have_no_depth_error() {
+    let near = square([0.0, 0.0], [3.0, 6.0], 0.0);
+    let far = square([0.0, 0.0], [6.0, 6.0], -3.0);
+    let faces = faces(&[near, far], None);
+    let (rays, pixels) = (rays(&faces), (SIZE[0] * SIZE[1]) as usize);
+    let truth = zbuffer(&rays, &faces);
+    for (painted, expected) in [(0, 0), (1, 18)] {
+        let painted = Image::from_faces(SIZE, vec![painted; pixels], 0);
+        let comparison = compare(&rays, &faces, &painted, truth.image());
+        let error = depth_error(&rays, &faces, &painted, truth.image(), &comparison);
+        assert_eq!((comparison.wrong_order, error.pixels), (18, expected));
+    }
+}
+
+/// So near that the rounding of its corners would put the eye behind it.
+#[test]
+fn an_eye_a_few_units_before_a_face_sees_nothing_else() {
+    let faces = faces(&[square([0.0, 0.0], [6.0, 6.0], 0.0)], None);
+    let unit = faces.lattice().length_to_world(1.0);
+    for height in [1.0, 2.0, 3.0, 5.0, 9.0, 17.0] {
+        let eye = DVec3::new(3.0, 2.5, height * unit);
+        let target = DVec3::new(3.0, 2.5, -1.0);
+        let camera = Camera::perspective_by_slope(eye, target, DVec3::Y, 1.0, SIZE).unwrap();
+        let image = zbuffer(&Rays::new(&camera, &faces).unwrap(), &faces).into_image();
+        assert_eq!(image.covered(), 36, "{height} units");
+    }
 }

@@ -4,11 +4,12 @@ use glam::DVec3;
 
 use super::super::cost::{Candidate, Cost, work};
 use super::super::set::{Normals, Set};
+use super::super::tests::Fixture;
 use super::super::tuning::Tuning;
 use super::Sweep;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Faces, PlaneKind};
+use crate::exact::{Exact, Faces, PlaneId, PlaneKind, Side};
 use crate::random::SplitMix64;
 
 /// The least cost of all planes perpendicular to an axis through a corner, by looking at every
@@ -102,4 +103,92 @@ fn crowds_are_searched_like_others() {
     polygons.truncate(CROWD);
     polygons.push([DVec3::NEG_ONE, DVec3::X, DVec3::ONE]);
     assert_best("a crowd", &polygons, 0.0);
+}
+
+/// A triangle that reaches so far along an axis, and from −1 to 1 along the others.
+fn reaching([begin, end]: [f64; 2], axis: usize) -> [DVec3; 3] {
+    let middle = 0.5 * (begin + end);
+    [[begin, -1.0, -1.0], [middle, 1.0, -1.0], [end, 1.0, 1.0]].map(|mut p| {
+        p.rotate_right(axis);
+        DVec3::from_array(p)
+    })
+}
+
+fn axis_of(found: &Candidate) -> usize {
+    let PlaneKind::Axis(axis, _) = found.plane.kind() else { panic!("{found:?}") };
+    axis
+}
+
+/// Two heaps that reach into one another, but no further than the tolerance.
+#[test]
+fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
+    const TOLERANCE: f64 = 1e-3;
+    for axis in 0..3 {
+        let of = |ends: [f64; 2], begins: [f64; 2]| {
+            let low = ends.map(|end| reaching([-1.0, end], axis));
+            let high = begins.map(|begin| reaching([begin, 1.0], axis));
+            [low, high].concat()
+        };
+        let even = Cost { cuts: false, amount: 2.0 * work(2) };
+        // In all by less than the tolerance.
+        let fixture = Fixture::new(&of([4e-4, 4e-4], [-4e-4, -4e-4]), TOLERANCE);
+        let clean = Sweep::default().clean(&fixture.set(), &Tuning::DEFAULT);
+        assert_eq!(clean.map(|clean| (axis_of(&clean), clean.cost)), Some((axis, even)));
+        // On either side of a plane by less than that.
+        let fixture = Fixture::new(&of([7e-4, 0.0], [-7e-4, 0.0]), TOLERANCE);
+        let found = Sweep::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
+        assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((axis, even)));
+    }
+}
+
+#[test]
+fn a_tolerance_may_be_wider_than_bins() {
+    let mut random = SplitMix64::new(4);
+    let fixture = Fixture::new(&triangles(&mut random, 3000, 1e-3, 1.0), 0.01);
+    let found = Sweep::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
+    assert!(found.is_some());
+}
+
+/// Of pieces that were cut, too: where they end at a cut, there is no corner to name a plane by.
+#[test]
+fn planes_go_through_the_corners_that_name_them() {
+    let mut random = SplitMix64::new(5);
+    let mut named = 0;
+    for round in 0..300 {
+        let count = 4 + round % 12;
+        let mut fixture = Fixture::new(&triangles(&mut random, count, 0.4, 1.0), 0.0);
+        fixture.keep(PlaneId::face(0), Side::Front);
+        if fixture.pieces.len() < 2 {
+            continue;
+        }
+        let set = fixture.set();
+        let clean = Sweep::default().clean(&set, &Tuning::DEFAULT);
+        let best = Sweep::default().best(&set, &Tuning::DEFAULT, &Watch::default());
+        for found in [clean, best].into_iter().flatten() {
+            let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
+            let coordinate = fixture.faces.corner(corner)[axis];
+            assert_eq!(at(&fixture.pieces, axis, coordinate, 0.0), found.cost, "{round}");
+            named += 1;
+        }
+    }
+    assert!(named > 300, "{named}");
+}
+
+/// Of planes that cut nothing, the one that divides best, unless another is good enough.
+#[test]
+fn the_best_of_the_planes_that_cut_nothing_is_found() {
+    let mut random = SplitMix64::new(6);
+    for count in [2, 3, 5, 8, 13, 40, 60] {
+        for size in [0.003, 0.02, 0.1] {
+            let fixture = Fixture::new(&triangles(&mut random, count, size, 1.0), 0.0);
+            let Some(clean) = Sweep::default().clean(&fixture.set(), &Tuning::DEFAULT) else {
+                continue;
+            };
+            let costs = [0, 1, 2].map(|axis| least(&fixture.pieces, axis, 0.0));
+            let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
+            let good_enough = clean.cost.divides_evenly(count, Tuning::DEFAULT.uneven);
+            let name = format!("{count} of {size}: {clean:?}, not one of {costs:?}");
+            assert!(clean.cost == best || good_enough && costs.contains(&clean.cost), "{name}");
+        }
+    }
 }

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Candidate, Cost, work};
+use super::super::cost::{Candidate, Cost, Counts, work};
 use super::super::sample::Sample;
 use super::super::set::Set;
 use super::super::tests::{Fixture, triangles};
 use super::super::tuning::Tuning;
-use super::{Contest, Terms};
+use super::{Contest, Shares, Terms};
 use crate::exact::{Exact, PlaneKind, Side};
 use crate::random::SplitMix64;
 
@@ -82,5 +82,118 @@ fn halving_finds_a_good_plane() {
         let exact = cost(&set, piece(&found));
         assert!((found.cost.amount - exact.amount).abs() < 1e-9, "compared with all in the end");
         assert!(exact.amount <= 1.2 * least.cost.amount, "{n}: {exact:?}, {least:?}");
+    }
+}
+
+/// A contest in which all candidates are compared with the first sample.
+fn begun(set: &Set<'_, Exact>, tuning: &Tuning) -> Contest {
+    let (mut sample, mut contest) = (Sample::default(), Contest::default());
+    sample.sketch.reset(set);
+    sample.sketch.extend(set, 0..set.len());
+    let terms = Terms::small(set, tuning);
+    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
+    contest
+}
+
+#[test]
+fn halving_keeps_the_best_in_their_order() {
+    let mut random = SplitMix64::new(3);
+    for n in [5, 60, 121] {
+        let fixture = Fixture::new(&triangles(&mut random, n, 0.5), 0.0);
+        let mut contest = begun(&fixture.set(), &Tuning::DEFAULT);
+        let field = contest.field.clone();
+        let mut best: Vec<usize> = (0..field.len()).collect();
+        best.sort_by(|&a, &b| field[a].cost.cmp(&field[b].cost));
+        best.truncate(field.len().div_ceil(4));
+        best.sort_unstable();
+        contest.halve(4);
+        let expected = best.into_iter().map(|place| field[place].piece);
+        assert!(contest.field.iter().map(|c| c.piece).eq(expected), "{n}");
+    }
+}
+
+#[test]
+fn the_largest_are_candidates_wherever_they_stand() {
+    let mut random = SplitMix64::new(4);
+    for n in [20, 50] {
+        let mut polygons = triangles(&mut random, n, 0.1);
+        let [large, larger] = [n - 3, n / 2].map(|piece| piece.max(9));
+        for (piece, size) in [(large, 2.0), (larger, 3.0)] {
+            polygons[piece] = polygons[piece].map(|p| p * size / 0.1);
+        }
+        let fixture = Fixture::new(&polygons, 0.0);
+        let set = fixture.set();
+        let shares = Shares::of(&set);
+        let mut order: Vec<_> = (0..n).collect();
+        order.sort_by(|&a, &b| shares.get(&set.pieces[b]).total_cmp(&shares.get(&set.pieces[a])));
+        let contest = begun(&set, &Tuning { own_planes: 8, ..Tuning::DEFAULT });
+        let entered: Vec<_> = contest.field.iter().map(|c| c.piece).collect();
+        let expected: Vec<_> =
+            (0..8).chain(order[..Tuning::DEFAULT.largest].iter().copied()).collect();
+        assert_eq!(entered, expected, "{n}");
+    }
+}
+
+#[test]
+fn one_sided_are_those_with_all_others_on_one_side() {
+    let mut random = SplitMix64::new(5);
+    let mut found = 0;
+    for n in [2, 5, 16] {
+        for size in [0.1, 0.5] {
+            let fixture = Fixture::new(&triangles(&mut random, n, size), 0.0);
+            let set = fixture.set();
+            let is_one_sided = |&own: &usize| {
+                let splitter = set.splitter(set.own_plane(own));
+                let sides: Vec<_> = (0..n).map(|piece| set.classify(&splitter, piece)).collect();
+                [Side::Front, Side::Back]
+                    .iter()
+                    .any(|side| sides.iter().all(|other| [*side, Side::Coplanar].contains(other)))
+            };
+            let expected: Vec<_> = (0..n).filter(is_one_sided).collect();
+            let contest = begun(&set, &ALL);
+            assert_eq!(contest.one_sided_places().collect::<Vec<_>>(), expected, "{n} of {size}");
+            found += expected.len();
+        }
+    }
+    assert!(found > 10, "{found}");
+}
+
+#[test]
+fn a_large_set_passes_over_planes_that_take_little_off() {
+    let terms = Terms { reward: 0.0, pieces: 100.0, least: Some(10.0) };
+    let is_passed_over = |terms: &Terms, [front, back, splits]: [u32; 3]| {
+        terms.cost(&Counts { front, back, splits }, 0.0).amount.is_infinite()
+    };
+    for (counts, expected) in [
+        ([99, 0, 0], true),
+        ([0, 99, 0], true),
+        ([91, 9, 0], true),
+        ([90, 10, 0], false),
+        ([10, 90, 0], false),
+        // Many are on the plane.
+        ([90, 0, 0], false),
+        ([0, 90, 0], false),
+        ([45, 45, 0], false),
+        // It cuts something.
+        ([98, 0, 1], false),
+    ] {
+        assert_eq!(is_passed_over(&terms, counts), expected, "{counts:?}");
+        // The tenth of a set, of which a tenth of all counts.
+        let few = Terms { pieces: 1000.0, least: Some(100.0), ..terms }.of_sample(100, 1000);
+        assert_eq!(is_passed_over(&few, counts), expected, "{counts:?} of a sample");
+    }
+}
+
+/// Half of a set, and half of each count: all costs are less by the same factor.
+#[test]
+fn costs_of_samples_compare_as_those_of_all() {
+    let terms = Terms { reward: 300.0, pieces: 400.0, least: None };
+    let half = terms.of_sample(200, 400);
+    for (front, back, splits, share) in [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)] {
+        let all = terms.cost(&Counts { front, back, splits }, share);
+        let [front, back, splits] = [front, back, splits].map(|count| count / 2);
+        let sample = half.cost(&Counts { front, back, splits }, share);
+        let expected = all.amount * work(200) / work(400);
+        assert!((sample.amount - expected).abs() < 1e-9, "{sample:?}, not {expected}");
     }
 }

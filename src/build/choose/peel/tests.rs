@@ -174,3 +174,42 @@ fn large_sets_are_peeled_as_by_brute_force() {
     let taken = assert_like_brute_force("a sphere around a heap", &fixture);
     assert!(taken >= sphere(9).len(), "{taken}");
 }
+
+/// The boxes of what is taken are empty, and what is left may be in boxes alone.
+#[test]
+fn a_pile_is_taken_off_from_one_end() {
+    let mut random = SplitMix64::new(3);
+    let pile: Vec<_> = (0..100)
+        .map(|i| {
+            let at = random.point(-0.1, 0.1) + DVec3::Z;
+            [DVec3::X, DVec3::Y, DVec3::NEG_ONE].map(|p| (p + at).with_z(f64::from(i)))
+        })
+        .collect();
+    let turned: Vec<_> = pile.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    for polygons in [pile, turned] {
+        let taken = assert_like_brute_force("a pile", &Fixture::new(&polygons, 0.0));
+        assert!(taken >= 99, "{taken}");
+    }
+}
+
+/// A set with boxes, and then another without.
+#[test]
+fn nothing_is_left_of_the_search_before() {
+    let mut random = SplitMix64::new(4);
+    let mut polygons: Vec<_> = sphere(9).iter().map(|p| p.map(|c| c * 0.01)).collect();
+    let small = polygons.len();
+    polygons.extend(triangles(&mut random, 40, 0.3));
+    let mut fixture = Fixture::new(&polygons, 0.0);
+    let others = fixture.pieces.split_off(small);
+    let (mut peeler, tuning) = (Peeler::default(), &Tuning::DEFAULT);
+    for pieces in [fixture.pieces.clone(), others] {
+        fixture.pieces = pieces;
+        let (set, mut sketch) = (fixture.set(), Sketch::default());
+        sketch.reset(&set);
+        let order = arrange(&set, tuning.groups_per_box);
+        sketch.extend(&set, order.iter().copied());
+        let peeled = peeler.search(&set, &sketch, 0..set.len(), tuning, &Watch::default());
+        let left = assert_layers("one after the other", &set, peeled.as_ref());
+        assert_eq!(left, brute_force(&set, &order));
+    }
+}

@@ -179,3 +179,22 @@ fn counts_are_those_of_a_plain_loop() {
         assert_eq!(last.count_ones() as usize, (n - 1) % LANES + 1, "{n}");
     }
 }
+
+/// A wall that is much longer than it is high: its length alone decides how much is rounded.
+#[test]
+fn rounding_makes_nothing_certain_in_a_flat_box() {
+    let mut random = SplitMix64::new(6);
+    for round in 0..20 {
+        let mut along = || random.range(1.0, 4.0) * 1e12;
+        let along = DVec3::new(along(), along(), 0.0).round();
+        let mut at = || {
+            let [i, j] = [(); 2].map(|()| (random.next() % 201) as f64 - 100.0);
+            along * i + DVec3::Z * 1e6 * j
+        };
+        let polygons: Vec<_> = (0..60)
+            .map(|_| [(); 3].map(|()| at()))
+            .filter(|[a, b, c]| (b - a).cross(c - a) != DVec3::ZERO)
+            .collect();
+        assert_certain(&format!("wall {round}"), &Fixture::new(&polygons, 0.0));
+    }
+}
