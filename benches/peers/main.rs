@@ -15,12 +15,13 @@ mod growth;
 mod kernels;
 mod order;
 mod plane_split;
+mod rulings;
 mod threads;
 
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 7] = [
+const SECTIONS: [Section; 8] = [
     ("order", order::run),
     ("build", build::run),
     ("threads", threads::run),
@@ -28,6 +29,7 @@ const SECTIONS: [Section; 7] = [
     ("fragments", fragments::run),
     ("plane-split", plane_split::run),
     ("exactness", kernels::run),
+    ("rulings", rulings::run),
 ];
 
 fn main() {

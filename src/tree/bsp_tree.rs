@@ -56,6 +56,7 @@ use crate::faces::Preparation;
 /// | [`visit_front_to_back`](Self::visit_front_to_back), stops when you break | O(n) at most | O(depth) |
 ///
 /// The list takes 2 to 5 ns a fragment on one thread, and is the fastest.
+/// [`same_order`](Self::same_order) tells whether an order is needed at all when the eye has moved.
 ///
 /// # Drawing a frame
 ///

@@ -9,7 +9,7 @@ use crate::BspTree;
 use crate::build::Heuristic;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Faces, Kernel, PlaneId, Side, split};
+use crate::exact::{Exact, Faces, Kernel, PlaneId, PlaneKind, Side, split};
 use crate::random::SplitMix64;
 
 /// A set of pieces with all that it refers to.
@@ -174,5 +174,24 @@ fn of_equal_scores_the_earliest_wins() {
     let layers = [0.0, 1.0].map(|z| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p.with_z(z)));
     for heuristic in [Heuristic::FewestSplits, Heuristic::Balanced] {
         assert_eq!(chosen(heuristic, &layers), PlaneId::face(0), "{heuristic}");
+    }
+}
+
+/// Whatever planes would divide the set more evenly.
+#[test]
+fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
+    let mut random = SplitMix64::new(7);
+    for n in [300, 800] {
+        let mut polygons = triangles(&mut random, n, 0.03);
+        let apart = polygons[0].map(|corner| corner.with_x(5.0 + corner.x));
+        polygons.push(apart);
+        let fixture = Fixture::new(&polygons, 0.0);
+        let plane = chosen(Heuristic::Auto, &polygons);
+        let PlaneKind::Axis(0, corner) = plane.kind() else { panic!("{n}: {plane:?}") };
+        let set = fixture.set();
+        let at = fixture.faces.corner(corner)[0];
+        let others = &set.pieces[..n];
+        let is_between = others.iter().all(|piece| piece.max[0] <= at);
+        assert!(is_between && set.pieces[n].min[0] >= at, "{n}: {plane:?}");
     }
 }
