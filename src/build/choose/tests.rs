@@ -187,11 +187,9 @@ fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
         polygons.push(apart);
         let fixture = Fixture::new(&polygons, 0.0);
         let plane = chosen(Heuristic::Auto, &polygons);
-        let PlaneKind::Axis(0, corner) = plane.kind() else { panic!("{n}: {plane:?}") };
-        let set = fixture.set();
-        let at = fixture.faces.corner(corner)[0];
-        let others = &set.pieces[..n];
-        let is_between = others.iter().all(|piece| piece.max[0] <= at);
-        assert!(is_between && set.pieces[n].min[0] >= at, "{n}: {plane:?}");
+        let PlaneKind::Axis(axis, corner) = plane.kind() else { panic!("{n}: {plane:?}") };
+        let at = fixture.faces.corner(corner)[axis];
+        let is_uncut = |piece: &Live| piece.max[axis] <= at || piece.min[axis] >= at;
+        assert!(fixture.pieces.iter().all(is_uncut), "{n}: {plane:?}");
     }
 }
