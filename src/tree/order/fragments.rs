@@ -13,7 +13,7 @@ use crate::viewpoint::Viewpoint;
 #[derive(Clone, Debug)]
 enum Part {
     Run(Range<u32>),
-    Subtree { node: usize, fragments: Range<u32> },
+    Subtree { node: u32, fragments: Range<u32> },
 }
 
 /// The fragments of a tree in the order of a viewpoint: [`BspTree::back_to_front`] and
@@ -51,11 +51,12 @@ impl<'t> Ordered<'t> {
     }
 
     /// The parts of a subtree, back to front.
-    fn open(&self, index: usize, fragments: Range<u32>) -> [Part; 3] {
+    fn open(&self, index: u32, fragments: Range<u32>) -> [Part; 3] {
+        let index = index as usize;
         let node = &self.tree.nodes[index];
         let Ranges { own, front, back } = node.ranges(fragments);
         let part = |child: Option<usize>, fragments| match child {
-            Some(node) => Part::Subtree { node, fragments },
+            Some(node) => Part::Subtree { node: node as u32, fragments },
             None => Part::Run(fragments),
         };
         let own = Part::Run(own);
