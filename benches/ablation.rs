@@ -62,12 +62,11 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 41] = changes! {
+const CHANGES: [Change; 38] = changes! {
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
     few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
-    largest: "0" => 0, "½" => 1, "×2" => 4;
     one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
     uneven: "never" => 1, "½" => 2, "×2" => 8;
     first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;

@@ -2,10 +2,13 @@
 //! epsilon.
 
 use binspace::internals::{Exact, Faces};
-use binspace::{BuildOptions, Heuristic};
+use binspace::{BuildOptions, Heuristic, Tolerance};
 use binspace_evidence::{Float, KernelTree};
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, check, rulings, scene, time};
+
+/// The epsilon, and the tolerance of the exact kernel, as a share of the extent.
+const EPSILON: f64 = 1e-9;
 
 const SAMPLED: Heuristic = Heuristic::Sampled { candidates: 16 };
 
@@ -52,11 +55,14 @@ pub(crate) fn run() {
             None => scene(name),
         };
         let Some(scene) = found else { continue };
-        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        // The same for both, on scenes from files too.
+        let tolerance = Tolerance::Relative(EPSILON);
+        let options =
+            BuildOptions::DEFAULT.with_heuristic(heuristic).with_relative_tolerance(EPSILON);
         let (mut exact, mut epsilon) = (Duration::MAX, Duration::MAX);
         let mut pieces = [0; 2];
         for round in 0..if scene.len() > 100_000 { 2 } else { 7 } {
-            let prepared = || Faces::new(scene.polygons(), None).expect("finite").0;
+            let prepared = || Faces::new(scene.polygons(), tolerance).expect("finite").0;
             let begin = Instant::now();
             let tree = KernelTree::build(Exact, &options, prepared()).expect("within budget");
             exact = exact.min(begin.elapsed());
@@ -65,7 +71,7 @@ pub(crate) fn run() {
                 check(&options.build(scene.polygons()).expect("within budget"), &scene);
             }
             let begin = Instant::now();
-            let float = Float::<f64>::new(1e-9);
+            let float = Float::<f64>::new(EPSILON);
             let tree = KernelTree::build(float, &options, prepared()).expect("within budget");
             epsilon = epsilon.min(begin.elapsed());
             pieces[1] = tree.len();

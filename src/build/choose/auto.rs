@@ -73,11 +73,16 @@ impl<'a> Auto<'a> {
         {
             return Choice::Split(own.plane);
         }
-        let mut places = self.contest.one_sided_places().peekable();
+        let places = self.contest.one_sided();
         if !is_peeled
-            && places.peek().is_some()
-            && let Some(peeled) =
-                self.peeler.search(set, &self.sample.sketch, places, tuning, self.watch)
+            && !places.is_empty()
+            && let Some(peeled) = self.peeler.search(
+                set,
+                &self.sample.sketch,
+                places.iter().copied(),
+                tuning,
+                self.watch,
+            )
         {
             return Choice::Peel(peeled);
         }
@@ -87,7 +92,7 @@ impl<'a> Auto<'a> {
     fn best_of_large<K: Kernel>(&mut self, set: &Set<'_, K>, free: Option<Candidate>) -> Choice {
         let (tuning, terms) = (self.tuning, Terms::large(set, self.tuning));
         self.begin_large(set, &terms);
-        if self.contest.one_sided() >= tuning.one_sided_needed {
+        if self.contest.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
             sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());

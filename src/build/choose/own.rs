@@ -97,43 +97,24 @@ impl Shares {
         // The largest product of two of the three.
         (x * y).max(y * z).max(z * x)
     }
-
-    /// Fills `top` with the `count` pieces that fill most of the box, and their shares.
-    fn largest(&self, pieces: &[Live], count: usize, top: &mut Vec<(f64, usize)>) {
-        top.clear();
-        // What the next one has to exceed.
-        let mut least = if count > 0 { 0.0 } else { f64::INFINITY };
-        for (i, piece) in pieces.iter().enumerate() {
-            let share = self.get(piece);
-            if share > least {
-                top.truncate(count - 1);
-                top.push((share, i));
-                top.sort_by(|a, b| b.0.total_cmp(&a.0));
-                least = if top.len() < count { 0.0 } else { top[count - 1].0 };
-            }
-        }
-    }
 }
 
 /// Compares candidates with more and more pieces, and keeps the best of them (successive halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
 pub(super) struct Contest {
     field: Vec<Entrant>,
-    /// The largest pieces, with their shares of the box.
-    largest: Vec<(f64, usize)>,
-    /// How many of the field were taken from the sketch: they have the same places in both.
-    sketched: usize,
     /// How many groups of the sketch they were compared with.
     seen: usize,
     /// The costs of the field, by their places in it.
     ranks: Vec<(Cost, u32)>,
-    /// Places in the field of those that had all pieces of the first sample on one side.
+    /// Places of those that had all pieces of the first sample on one side: the same in the field,
+    /// as it began, and in the sketch.
     one_sided: Vec<usize>,
 }
 
 impl Contest {
-    /// Replaces the field by the first `count` pieces of the sample and the largest pieces of the set,
-    /// and compares them with the first sample.
+    /// Replaces the field by the first `count` pieces of the sample, and compares them with the first
+    /// sample.
     pub(super) fn begin<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
@@ -143,13 +124,9 @@ impl Contest {
         tuning: &Tuning,
     ) {
         let shares = Shares::of(set);
-        let largest = if set.len() > count { tuning.largest } else { 0 };
-        shares.largest(set.pieces, largest, &mut self.largest);
         let sketch = &sample.sketch;
         self.seen = 0;
-        self.sketched = count.min(sketch.len());
-        let first = (0..self.sketched).map(|place| sketch.number(place));
-        let pieces = first.chain(self.largest.iter().map(|&(_, piece)| piece));
+        let pieces = (0..count.min(sketch.len())).map(|place| sketch.number(place));
         self.field.clear();
         self.field.extend(pieces.map(|piece| Entrant {
             piece,
@@ -166,14 +143,10 @@ impl Contest {
         self.one_sided.extend(found.map(|(place, _)| place));
     }
 
-    /// How many candidates had all pieces of the first sample on one side of their planes.
-    pub(super) fn one_sided(&self) -> usize {
-        self.one_sided.len()
-    }
-
-    /// The places in the sketch of those among them that were taken from it.
-    pub(super) fn one_sided_places(&self) -> impl Iterator<Item = usize> {
-        self.one_sided.iter().copied().take_while(|&place| place < self.sketched)
+    /// The places in the sketch of the candidates that had all pieces of the first sample on one
+    /// side of their planes.
+    pub(super) fn one_sided(&self) -> &[usize] {
+        &self.one_sided
     }
 
     /// The best plane of the field, by more and more of the set; the earliest of equals.

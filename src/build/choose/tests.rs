@@ -112,7 +112,7 @@ fn prism(sides: usize) -> Vec<[DVec3; 4]> {
         .collect()
 }
 
-/// The largest pieces are tried too, but have no place among the first of the sketch.
+/// Those that were not tried are left.
 #[test]
 fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
     let tuning = Tuning { own_planes: 5, uneven: 2, reward: 0.0, ..Tuning::DEFAULT };

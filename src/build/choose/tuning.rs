@@ -14,9 +14,6 @@ pub struct Tuning {
     pub own_planes: usize,
     /// Own planes tried in a large set. More: time; fewer: more fragments.
     pub few_own_planes: usize,
-    /// How many of the largest pieces are candidates besides the sample. Fewer: a large wall outside
-    /// the sample is cut again and again; more: time.
-    pub largest: usize,
     /// A large set is searched for peelable pieces if at least this many of its tried own planes have
     /// the whole first sample on one side. More: large convex sets are cut; fewer: searches that find
     /// nothing.
@@ -57,7 +54,6 @@ impl Tuning {
         small: 256,
         own_planes: 96,
         few_own_planes: 16,
-        largest: 2,
         one_sided_needed: 12,
         uneven: 4,
         first_sample: 16,

@@ -7,7 +7,7 @@ use super::super::sample::Sample;
 use super::super::set::Set;
 use super::super::tests::{Fixture, triangles};
 use super::super::tuning::Tuning;
-use super::{Contest, Shares, Terms};
+use super::{Contest, Terms};
 use crate::exact::{Exact, PlaneKind, Side};
 use crate::random::SplitMix64;
 
@@ -113,28 +113,6 @@ fn halving_keeps_the_best_in_their_order() {
 }
 
 #[test]
-fn the_largest_are_candidates_wherever_they_stand() {
-    let mut random = SplitMix64::new(4);
-    for n in [20, 50] {
-        let mut polygons = triangles(&mut random, n, 0.1);
-        let [large, larger] = [n - 3, n / 2].map(|piece| piece.max(9));
-        for (piece, size) in [(large, 2.0), (larger, 3.0)] {
-            polygons[piece] = polygons[piece].map(|p| p * size / 0.1);
-        }
-        let fixture = Fixture::new(&polygons, 0.0);
-        let set = fixture.set();
-        let shares = Shares::of(&set);
-        let mut order: Vec<_> = (0..n).collect();
-        order.sort_by(|&a, &b| shares.get(&set.pieces[b]).total_cmp(&shares.get(&set.pieces[a])));
-        let contest = begun(&set, &Tuning { own_planes: 8, ..Tuning::DEFAULT });
-        let entered: Vec<_> = contest.field.iter().map(|c| c.piece).collect();
-        let expected: Vec<_> =
-            (0..8).chain(order[..Tuning::DEFAULT.largest].iter().copied()).collect();
-        assert_eq!(entered, expected, "{n}");
-    }
-}
-
-#[test]
 fn one_sided_are_those_with_all_others_on_one_side() {
     let mut random = SplitMix64::new(5);
     let mut found = 0;
@@ -151,7 +129,7 @@ fn one_sided_are_those_with_all_others_on_one_side() {
             };
             let expected: Vec<_> = (0..n).filter(is_one_sided).collect();
             let contest = begun(&set, &ALL);
-            assert_eq!(contest.one_sided_places().collect::<Vec<_>>(), expected, "{n} of {size}");
+            assert_eq!(contest.one_sided(), expected, "{n} of {size}");
             found += expected.len();
         }
     }
