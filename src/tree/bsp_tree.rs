@@ -55,7 +55,7 @@ use crate::faces::Preparation;
 /// | [`back_to_front`](Self::back_to_front), an iterator, from both ends | O(n) if read to its end | O(depth) |
 /// | [`visit_front_to_back`](Self::visit_front_to_back), stops when you break | O(n) at most | O(depth) |
 ///
-/// The list takes 2 to 5 ns a fragment on one thread, and is the fastest.
+/// The list takes 1.5 to 4 ns a fragment on one thread, and is the fastest.
 /// [`same_order`](Self::same_order) tells whether an order is needed at all when the eye has moved.
 ///
 /// # Drawing a frame
@@ -161,15 +161,15 @@ use crate::faces::Preparation;
 ///
 /// # Building
 ///
-/// Time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 2 to 5 µs a
-/// face where little is cut, and up to 17 µs where much is. The worst case is n², where each plane
+/// Time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.5 to 3 µs a
+/// face where little is cut, and up to 12 µs where much is. The worst case is n², where each plane
 /// that cuts nothing takes only a few polygons off the rest, as in nested shells or the sides of a
 /// cone.
 ///
 /// Modelled scenes and scans have 1.0 to 2.3 fragments a face; triangles at random that cross each
-/// other have many more (1000 of them about 14 each, and more the more there are).
+/// other have many more (1000 of them about 12 each, and more the more there are).
 /// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to
-/// 150 bytes a fragment ([`bytes`](Self::bytes)), and up to 2.2 times that while it is built.
+/// 150 bytes a fragment ([`bytes`](Self::bytes)), and up to 2.9 times that while it is built.
 ///
 /// Nothing recurses over the data: a chain of a million polygons needs no more stack than one. The
 /// same input and options give the same tree, bit for bit, with any number of threads.
