@@ -30,8 +30,11 @@ struct Entrant {
 pub(super) struct Terms {
     /// What a polygon that fills the box is worth.
     reward: f64,
-    /// Whether a plane that cuts nothing is preferred to all that cut.
-    clean_first: bool,
+    /// How many pieces there are.
+    pieces: f64,
+    /// In a large set, a plane that cuts nothing is passed over unless both sides, or the plane
+    /// itself, get at least this many pieces.
+    least: Option<f64>,
 }
 
 impl Terms {
@@ -40,26 +43,36 @@ impl Terms {
         let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
         let pieces = set.len() as f64;
         let mean = cuts as f64 / pieces;
-        Self { reward: tuning.reward * (1.0 + mean) * pieces, clean_first: true }
+        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
     }
 
     /// Of a large set. Whether a plane cuts is left out: the first rounds see a sample, in which many
     /// planes cut nothing that cut much of the set.
     pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        Self { clean_first: false, ..Self::small(set, tuning) }
+        let least = Some((set.len() / tuning.least_share) as f64);
+        Self { least, ..Self::small(set, tuning) }
     }
 
     /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
     /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
     fn of_sample(&self, looked: usize, all: usize) -> Self {
-        Self { reward: self.reward * work(looked) / work(all), ..*self }
+        let ratio = looked as f64 / all as f64;
+        Self {
+            reward: self.reward * work(looked) / work(all),
+            pieces: looked as f64,
+            least: self.least.map(|least| least * ratio),
+        }
     }
 
     #[inline]
     fn cost(&self, counts: &Counts, share: f64) -> Cost {
         let cost = Cost::of(counts);
-        let cuts = self.clean_first && cost.cuts;
-        Cost { cuts, amount: cost.amount - self.reward * share }
+        let amount = cost.amount - self.reward * share;
+        let Some(least) = self.least else { return Cost { amount, ..cost } };
+        let [front, back] = [counts.front, counts.back].map(f64::from);
+        let on = self.pieces - front - back;
+        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;
+        Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
     }
 }
 

@@ -32,6 +32,10 @@ pub struct Tuning {
     /// is not taken early is cut again by every plane through it.) Larger: depth wasted on polygons
     /// that nothing would cut; smaller: large polygons are cut.
     pub reward: f64,
+    /// In a large set, an own plane that cuts nothing is taken only if both sides, or the plane
+    /// itself, get at least 1/`least_share` of the pieces. Otherwise planes at the rim would take off
+    /// one piece a search. Larger: long lists; smaller: good planes are rejected.
+    pub least_share: usize,
     /// Mean number of pieces per bin of the free-plane search. More: more to sort; fewer: more bins to
     /// bound.
     pub per_bin: usize,
@@ -55,6 +59,7 @@ impl Tuning {
         first_sample: 16,
         rate: 4,
         reward: 0.35,
+        least_share: 8,
         per_bin: 2,
         most_bins: 1024,
         groups_per_box: 64,
