@@ -15,7 +15,7 @@ use binspace::scene::Scene;
 use std::time::{Duration, Instant};
 use support::{Table, check, print_head, random_quads, scene, small_triangles};
 
-const BUILTIN: [&str; 12] = [
+const BUILTIN: [&str; 13] = [
     "crossing:100",
     "layers:100",
     "teapot:8",
@@ -27,6 +27,7 @@ const BUILTIN: [&str; 12] = [
     "random:260",
     "random:500",
     "random:1000",
+    "random:5000",
     "chain:2000",
 ];
 const TURNED: [&str; 6] =
