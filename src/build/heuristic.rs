@@ -49,9 +49,9 @@ pub enum Heuristic {
     /// The best of both kinds of planes by one cost. The default: the fewest fragments on most
     /// scenes.
     ///
-    /// The candidates are free planes and the planes of a sample of the polygons, the largest
-    /// among them. The cost of a plane estimates the work left on both sides, n^1.25 for n polygons in
-    /// front and n^1.25 for n behind, where a polygon that the plane cuts counts on both. A free
+    /// The candidates are free planes and the planes of a sample of the polygons. The cost of a
+    /// plane estimates the work left on both sides, n^1.25 for n polygons in front and n^1.25 for n
+    /// behind, where a polygon that the plane cuts counts on both. A free
     /// plane that cuts nothing is taken at once. In sets of 256 polygons or more, an own plane that
     /// cuts nothing has no other advantage; in smaller sets it is preferred to every plane that cuts,
     /// and sets below 64 try no free plane that cuts. The plane of a large polygon gets a reward,
