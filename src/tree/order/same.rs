@@ -9,8 +9,7 @@ impl BspTree {
     /// what was sorted or uploaded for one need not be for the other. (Orders may be the same even
     /// if a plane lies between.)
     ///
-    /// It stops at the first plane between the two; O(nodes) if there is none, which takes less time
-    /// than an order.
+    /// It stops at the first plane between the two; O(nodes) if there is none. Nothing is allocated.
     ///
     /// ```
     /// use binspace::{BspTree, Viewpoint};
