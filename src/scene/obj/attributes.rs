@@ -63,23 +63,22 @@ impl Found {
             number.flatten()
         };
         let (uv, normal) = (next(self.uvs.len()), next(self.normals.len()));
-        self.corners.push([Some(vertex as u32 - 1), uv, normal]);
+        // A number that is too large names no vertex, which is an error of its own.
+        self.corners.push([u32::try_from(vertex - 1).ok(), uv, normal]);
     }
 
     /// The attributes of each corner.
-    pub(super) fn finish(mut self) -> (Attributes, usize) {
-        let mut faults = self.faults;
-        let mut lost = |numbers: &dyn Fn(&[Option<u32>; 3]) -> Option<u32>, count: usize| {
-            let is_lost = |corner: &&_| numbers(corner).is_some_and(|n| n as usize >= count);
-            faults += self.corners.iter().filter(is_lost).count();
+    pub(super) fn finish(self) -> (Attributes, usize) {
+        let lost = |place: usize, count: usize| {
+            let is_lost =
+                |corner: &&[Option<u32>; 3]| corner[place].is_some_and(|n| n as usize >= count);
+            self.corners.iter().filter(is_lost).count()
         };
-        lost(&|corner| corner[1], self.uvs.len());
-        lost(&|corner| corner[2], self.normals.len());
-        let corners = std::mem::take(&mut self.corners);
+        let faults = self.faults + lost(1, self.uvs.len()) + lost(2, self.normals.len());
         let attributes = Attributes {
-            uvs: of_corners(&corners, 1, &self.uvs),
-            normals: of_corners(&corners, 2, &self.normals),
-            colors: of_corners(&corners, 0, &self.colors),
+            uvs: of_corners(&self.corners, 1, &self.uvs),
+            normals: of_corners(&self.corners, 2, &self.normals),
+            colors: of_corners(&self.corners, 0, &self.colors),
         };
         (attributes, faults)
     }
