@@ -32,9 +32,11 @@ pub(super) fn area_of(corners: &[[f64; 3]]) -> Area {
     parts.fold([0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }
 
-/// The axis along which an area is seen best.
-pub(super) fn main_axis(area: Area) -> usize {
-    (0..3).max_by_key(|&axis| area[axis].unsigned_abs()).unwrap_or(0)
+/// The axis along which an area is seen best, or several that are equally good but for rounding.
+pub(super) fn main_axes(area: Area) -> Vec<usize> {
+    let size = area.map(|component| component.unsigned_abs());
+    let largest = size.into_iter().max().unwrap_or(0);
+    (0..3).filter(|&axis| largest - size[axis] <= largest >> 40).collect()
 }
 
 /// Each point that a simple polygon goes around lies in one of its faces, and no other point does:
@@ -46,7 +48,7 @@ pub(super) fn winds_once(
     dice: &mut Dice,
 ) -> Verdict {
     let outline: Vec<[f64; 3]> = given.corners.iter().map(|&c| faces.lattice().snap(c)).collect();
-    let drop = main_axis(area_of(&outline));
+    let drop = main_axes(area_of(&outline))[0];
     for _ in 0..POINTS {
         let face = range.start + dice.below(range.len()) as u32;
         let corner = |dice: &mut Dice| {

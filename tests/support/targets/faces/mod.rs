@@ -13,7 +13,7 @@ use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{BuildOptions, Preparation};
-use flat::{Area, area_of, cross, main_axis};
+use flat::{Area, area_of, cross, main_axes};
 use outline::Outline;
 use std::ops::ControlFlow;
 
@@ -219,15 +219,15 @@ impl Made<'_> {
     /// were rounded or moved.
     fn has_the_area(&self) -> Verdict {
         let whole = area_of(&self.snapped());
-        let drop = main_axis(whole);
+        let axes = main_axes(whole);
         let mut sum: Area = [0; 3];
         for face in self.range.clone() {
             let own = area_of(self.faces.corners(face));
-            // Corners on a line but for rounding may make a triangle that is seen edge-on.
+            // Corners on a line but for rounding may make a triangle that is seen edge-on, or that
+            // faces the other way along another axis than the one it was made along.
             let least = i128::from(self.given.kind == Kind::Whole);
-            ensure(own[drop].signum() * whole[drop].signum() >= least, || {
-                format!("face {face} faces the other way")
-            })?;
+            let faces_as = |&axis: &usize| own[axis].signum() * whole[axis].signum() >= least;
+            ensure(axes.iter().any(faces_as), || format!("face {face} faces the other way"))?;
             sum = std::array::from_fn(|i| sum[i] + own[i]);
         }
         let is_same = match self.given.kind {
