@@ -53,11 +53,12 @@ impl Lattice {
     }
 
     /// The lattice point nearest to a point of the scene's bounding box.
+    #[inline]
     pub fn snap(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
         // The difference of two integers is exact if an f64 can hold it. Adding 0 turns −0 into 0.
         std::array::from_fn(|axis| {
-            self.steps.times(world[axis] - self.far[axis]).round() - self.origin[axis] + 0.0
+            nearest(self.steps.times(world[axis] - self.far[axis])) - self.origin[axis] + 0.0
         })
     }
 
@@ -70,16 +71,11 @@ impl Lattice {
     }
 
     /// The world position of a point given in lattice units, rounded to `f64`; may be far out.
+    #[inline]
     pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|axis| {
-            let whole = lattice[axis].floor();
-            let steps = if whole.abs() < 1e30 {
-                (whole as i128 + self.origin[axis] as i128) as f64 + (lattice[axis] - whole)
-            } else {
-                lattice[axis] + self.origin[axis]
-            };
+            let world = self.steps.divides(lattice[axis] + self.origin[axis]) + self.far[axis];
             // Clamped, so that rounding does not make a corner at the end of f64's range infinite.
-            let world = self.steps.divides(steps) + self.far[axis];
             world.clamp(f64::MIN, f64::MAX)
         }))
     }
@@ -93,6 +89,15 @@ impl Lattice {
     pub fn length_to_world(&self, length: f64) -> f64 {
         self.steps.divides(length)
     }
+}
+
+/// The nearest integer, ties to even where that is decided here: `f64::round` calls a function on
+/// processors without an instruction for it.
+#[inline]
+fn nearest(value: f64) -> f64 {
+    /// Where the spacing of `f64` is 1.
+    const SHIFT: f64 = 1.5 * (1u64 << 52) as f64;
+    if value.abs() < LIMIT { value + SHIFT - SHIFT } else { value.round() }
 }
 
 /// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.

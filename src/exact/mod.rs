@@ -3,7 +3,8 @@
 //! | file | decides |
 //! |---|---|
 //! | `lattice` | how corners are rounded to the grid |
-//! | `vertex` | on which side of a plane a vertex lies, in integers, and where it is, rounded |
+//! | `vertex` | on which side of a plane a vertex lies, in integers |
+//! | `position` | where a vertex is, rounded |
 //! | `filter` | the same side by rounded distances, where they are certain |
 //! | `tolerance` | where a piece lies against a plane |
 //! | `split` | how a piece is cut |
@@ -19,6 +20,7 @@ mod kernel;
 pub(crate) mod label;
 mod lattice;
 mod plane;
+mod position;
 mod split;
 mod tolerance;
 pub(crate) mod vertex;

@@ -1,5 +1,4 @@
-//! Vertices of pieces: on which side of a plane each lies, decided in integers, and its position,
-//! rounded.
+//! Vertices of pieces: on which side of a plane each lies, decided in integers.
 //!
 //! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
 //! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
@@ -25,6 +24,7 @@ use super::Int;
 use super::faces::Faces;
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
 use super::plane::{Plane, cross, relative_to};
+use super::position::ratio;
 
 /// A vertex as a combination of lattice points. The sum of the weights is not zero; it and the
 /// weights may have either sign.
@@ -35,6 +35,18 @@ pub(crate) enum Weights {
     Edge([[f64; 3]; 2], [Int<3>; 2]),
     /// A point of the plane of three corners.
     Inside([[f64; 3]; 3], [Int<5>; 3]),
+}
+
+/// What defines a vertex.
+pub(super) enum Definition {
+    /// A corner.
+    Corner([f64; 3]),
+    /// A corner moved along an axis onto the plane of a triangle.
+    Moved { corner: [f64; 3], triangle: [[f64; 3]; 3], axis: usize },
+    /// Where a plane meets the line through two lattice points.
+    Edge([[f64; 3]; 2], Plane),
+    /// Where two planes meet that of a triangle.
+    Meeting([[f64; 3]; 3], [Plane; 2]),
 }
 
 impl Faces {
@@ -106,35 +118,6 @@ impl Faces {
         Some([corners[k as usize], corners[(k as usize + 1) % corners.len()]])
     }
 
-    /// The rounded position of a vertex in lattice units. Each coordinate is within three roundings
-    /// of the exact one, and exact along an axis if a plane perpendicular to that axis defines the
-    /// vertex. All pieces, of any face, that define the vertex by the same points and planes get
-    /// the same bits.
-    pub(crate) fn position(&self, face: u32, vertex: Symbol) -> [f64; 3] {
-        if let SymbolKind::Corner(k) = vertex.kind() {
-            return self.corners(face)[k as usize];
-        }
-        let mut position = match self.weights(face, vertex) {
-            Weights::Corner(point) => point,
-            Weights::Edge(points, weights) => ratio(&points, &weights.map(|w| w.resize())),
-            Weights::Inside(points, weights) => ratio(&points, &weights),
-        };
-        let mut pin = |plane: PlaneId| {
-            if let PlaneKind::Axis(axis, corner) = plane.kind() {
-                position[axis] = self.corner(corner)[axis];
-            }
-        };
-        match vertex.kind() {
-            SymbolKind::Corner(_) => {}
-            SymbolKind::OnEdge(_, plane) => pin(plane),
-            SymbolKind::Inside(g, h) => {
-                pin(g);
-                pin(h);
-            }
-        }
-        position
-    }
-
     /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
     /// and its weight. The weights sum to 1.
     pub(crate) fn barycentric(&self, face: u32, vertex: Symbol) -> SmallVec<[(u32, f64); 3]> {
@@ -165,6 +148,20 @@ impl Faces {
 
     /// A vertex as a combination of corners of its face.
     pub(crate) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
+        match self.definition(face, vertex) {
+            Definition::Corner(point) => Weights::Corner(point),
+            Definition::Moved { corner, triangle, axis } => {
+                let area = |p, q| Int::from(cross(corner, p, q)[axis]);
+                let [a, b, c] = triangle;
+                Weights::Inside(triangle, [area(b, c), area(c, a), area(a, b)])
+            }
+            Definition::Edge([a, b], plane) => Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)]),
+            Definition::Meeting(triangle, [g, h]) => meeting(triangle, &g, &h),
+        }
+    }
+
+    /// What defines a vertex: lattice points and planes.
+    pub(super) fn definition(&self, face: u32, vertex: Symbol) -> Definition {
         let record = &self.faces[face as usize];
         let corners = self.corners(face);
         let triangle = record.frame.triangle().map(|k| corners[k as usize]);
@@ -181,22 +178,17 @@ impl Faces {
         };
         match (vertex.kind(), record.frame.drop_axis()) {
             (SymbolKind::Corner(k), Some(axis)) if !stays(k) => {
-                let point = corners[k as usize];
-                let area = |p, q| Int::from(cross(point, p, q)[axis]);
-                let [a, b, c] = triangle;
-                Weights::Inside(triangle, [area(b, c), area(c, a), area(a, b)])
+                Definition::Moved { corner: corners[k as usize], triangle, axis }
             }
-            (SymbolKind::Corner(k), _) => Weights::Corner(corners[k as usize]),
+            (SymbolKind::Corner(k), _) => Definition::Corner(corners[k as usize]),
             (SymbolKind::OnEdge(k, plane), Some(axis)) if !(stays(k) && stays(k + 1)) => {
                 let [a, b] = edge(k);
-                meeting(triangle, &Plane::upright(a, b, axis), &self.plane(plane))
+                Definition::Meeting(triangle, [Plane::upright(a, b, axis), self.plane(plane)])
             }
-            (SymbolKind::OnEdge(k, plane), _) => {
-                let plane = self.plane(plane);
-                let [a, b] = edge(k);
-                Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)])
+            (SymbolKind::OnEdge(k, plane), _) => Definition::Edge(edge(k), self.plane(plane)),
+            (SymbolKind::Inside(g, h), _) => {
+                Definition::Meeting(triangle, [self.plane(g), self.plane(h)])
             }
-            (SymbolKind::Inside(g, h), _) => meeting(triangle, &self.plane(g), &self.plane(h)),
         }
     }
 }
@@ -211,18 +203,6 @@ fn meeting(triangle: [[f64; 3]; 3], g: &Plane, h: &Plane) -> Weights {
         g[j].times::<3, 5>(&h[k]) - g[k].times::<3, 5>(&h[j])
     });
     Weights::Inside(triangle, weights)
-}
-
-/// The weighted mean of lattice points, rounded.
-fn ratio<const K: usize>(points: &[[f64; 3]; K], weights: &[Int<5>; K]) -> [f64; 3] {
-    let total = weights.iter().fold(Int::<5>::ZERO, |sum, &w| sum + w).to_f64();
-    std::array::from_fn(|axis| {
-        let terms = points.iter().zip(weights);
-        let sum = terms.fold(Int::<6>::ZERO, |sum, (point, weight)| {
-            sum + weight.times::<1, 6>(&Int::from(point[axis] as i64))
-        });
-        sum.to_f64() / total
-    })
 }
 
 /// Each corner's share of the sum of weights.
