@@ -5,6 +5,7 @@
 //! | | |
 //! |---|---|
 //! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built |
+//! | [`FrameBuilder`] | trees built anew every frame |
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Partition`] | what it consists of |
@@ -47,7 +48,7 @@ mod verify;
 pub mod view;
 mod viewpoint;
 
-pub use build::{BuildOptions, Heuristic, ParseHeuristicError, Progress};
+pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError, Progress};
 pub use error::Error;
 #[cfg(feature = "raster")]
 pub use exact::Faces;

@@ -40,6 +40,22 @@ impl<S: Copy> Output<S> {
         Ok(())
     }
 
+    /// Appends the positions of the last fragment's vertices.
+    pub(super) fn push_positions(
+        &mut self,
+        positions: impl ExactSizeIterator<Item = [f64; 3]>,
+    ) -> Result<(), Error> {
+        reserve(&mut self.parts.positions, positions.len())?;
+        self.parts.positions.extend(positions);
+        Ok(())
+    }
+
+    /// Forgets all.
+    pub(super) fn clear(&mut self) {
+        self.parts.clear();
+        self.gaps.clear();
+    }
+
     /// Appends a node.
     pub(super) fn push_node(&mut self, node: RawNode) -> Result<(), Error> {
         reserve(&mut self.parts.nodes, 1)?;
@@ -63,6 +79,8 @@ impl<S: Copy> Output<S> {
                 .map(|record| Record { vertices: record.vertices + shift, ..*record }),
         );
         self.parts.vertices.extend_from_slice(&other.parts.vertices[from.vertices..to.vertices]);
+        let positions = other.parts.positions.get(from.vertices..to.vertices);
+        self.parts.positions.extend_from_slice(positions.unwrap_or_default());
     }
 }
 
@@ -77,6 +95,7 @@ pub(super) fn assemble<S: Copy>(mut outputs: Vec<Output<S>>) -> Result<Parts<S>,
     reserve(&mut whole.parts.nodes, sum(|output| output.parts.nodes.len()))?;
     reserve(&mut whole.parts.records, sum(|output| output.parts.records.len()))?;
     reserve(&mut whole.parts.vertices, sum(|output| output.parts.vertices.len()))?;
+    reserve(&mut whole.parts.positions, sum(|output| output.parts.positions.len()))?;
     let start = |job| (Gap { nodes: 0, records: 0, vertices: 0, job }, 0);
     // The outputs that are copied in part: from where to go on, and which gap comes next. A stack
     // rather than recursion, because jobs can be nested deeply.

@@ -12,17 +12,18 @@ use super::job::Job;
 use crate::Error;
 use crate::exact::{Kernel, PlaneId};
 use leaf::is_leaf;
-pub(super) use state::Shared;
 use state::{Builder, Pending};
+pub(super) use state::{Memory, Shared};
 
 /// Builds the subtree of a job. Large sets are passed to `hand_over`, which returns the number of the
 /// job that will build them.
 pub(super) fn build<'a, K: Kernel>(
     shared: &'a Shared<'a, K>,
     job: Job<K::Vertex>,
+    memory: &mut Memory<K>,
     mut hand_over: impl FnMut(Job<K::Vertex>) -> usize,
 ) -> Result<Output<K::Stored>, Error> {
-    let mut builder = Builder::new(shared, job);
+    let mut builder = Builder::new(shared, job, memory);
     while let Some(pending) = builder.pending.pop() {
         if let Some(job) = pending.job {
             builder.output.continue_in(job);
@@ -35,7 +36,7 @@ pub(super) fn build<'a, K: Kernel>(
             builder.compact()?;
         }
     }
-    Ok(builder.output)
+    Ok(builder.end(memory))
 }
 
 impl<K: Kernel> Builder<'_, K> {
@@ -59,9 +60,9 @@ impl<K: Kernel> Builder<'_, K> {
             plane
         } else {
             let count = set.len();
-            let Shared { kernel, faces, normals, .. } = self.shared;
+            let Shared { kernel, faces, normals, rules, .. } = self.shared;
             let set = Set::new(kernel, faces, normals, set, &self.arena);
-            let plane = match self.chooser.choose(&set, pending.is_peeled) {
+            let plane = match self.chooser.choose(rules, &set, pending.is_peeled) {
                 Choice::Split(plane) => plane,
                 Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),
             };

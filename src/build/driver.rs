@@ -1,10 +1,11 @@
 //! From polygons to a tree, step by step: preparation, jobs, assembly, the finished tree.
 
+use std::mem::take;
 use std::ops::ControlFlow;
 
 use super::assemble::assemble;
-use super::builder::Shared;
-use super::choose::Tuning;
+use super::builder::{Memory, Shared};
+use super::choose::{Normals, Tuning};
 use super::job::Job;
 use super::jobs;
 use super::live::Live;
@@ -12,11 +13,12 @@ use super::options::BuildOptions;
 use super::progress::{Progress, Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::{Exact, Faces, Kernel};
-use crate::faces::{Listener, Preparation};
+use crate::faces::{Listener, Preparation, Preparer};
 use crate::input::Polygon;
 use crate::memory::reserve;
 use crate::tree::BspTree;
-use crate::tree::parts::Parts;
+use crate::tree::node::Sizes;
+use crate::tree::parts::{Parts, RawNode};
 
 impl BspTree {
     /// Builds a tree with the default options.
@@ -92,12 +94,58 @@ fn tree<P: Polygon>(
     polygons: impl IntoIterator<Item = P>,
     watch: &Watch<'_>,
 ) -> Result<BspTree, Error> {
-    let (faces, preparation) =
-        Faces::prepare(polygons, options.tolerance, options.max_fragments, watch)?;
+    let mut faces = Faces::default();
+    let preparation = Preparer::default().prepare(
+        &mut faces,
+        polygons,
+        options.tolerance,
+        options.max_fragments,
+        watch,
+    )?;
+    faces.shrink_to_fit();
     watch.expect(faces.len())?;
     let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
     watch.end()?;
     Ok(BspTree::new(faces, preparation, parts))
+}
+
+/// What trees are built in, kept for the next.
+#[derive(Default)]
+pub(super) struct Workshop {
+    preparer: Preparer,
+    normals: Normals,
+    memory: Memory<Exact>,
+    nodes: Vec<RawNode>,
+    sizes: Vec<Sizes>,
+}
+
+impl Workshop {
+    /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
+    /// layout that makes many orders fast. After an error the tree is empty.
+    pub(super) fn rebuild<P: Polygon>(
+        &mut self,
+        tree: &mut BspTree,
+        options: &BuildOptions,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<(), Error> {
+        let Self { preparer, normals, memory, nodes, sizes } = self;
+        let (mut faces, parts) = tree.take_parts();
+        memory.output.parts = Parts { nodes: take(nodes), ..parts };
+        let watch = Watch::default();
+        let preparation = preparer.prepare(
+            &mut faces,
+            polygons,
+            options.tolerance,
+            options.max_fragments,
+            &watch,
+        )?;
+        let tuning = &Tuning::DEFAULT;
+        normals.fill(&faces);
+        let shared = Shared::new(Exact, (&faces, &*normals), options, tuning, &watch)?;
+        let parts = divide_all(&shared.with_positions(), &faces, memory)?;
+        *nodes = tree.refill(faces, preparation, parts, sizes);
+        Ok(())
+    }
 }
 
 /// Builds a tree of prepared faces. Their tolerance counts, not that of the options.
@@ -149,9 +197,21 @@ fn watched_parts<K: Kernel>(
     faces: &Faces,
     watch: &Watch<'_>,
 ) -> Result<Parts<K::Stored>, Error> {
-    let mut live: Vec<Live> = Vec::new();
-    reserve(&mut live, faces.len())?;
-    live.extend((0..faces.len() as u32).map(|face| Live::whole(faces, face)));
-    let shared = Shared::new(kernel, faces, options, tuning, watch)?;
-    assemble(jobs::run(&shared, Job { pieces: live, arena: Vec::new(), depth: 0 })?)
+    let normals = Normals::of(faces);
+    let shared = Shared::new(kernel, (faces, &normals), options, tuning, watch)?;
+    divide_all(&shared, faces, &mut Memory::default())
+}
+
+/// Divides the set of all faces, down to the leaves.
+fn divide_all<K: Kernel>(
+    shared: &Shared<'_, K>,
+    faces: &Faces,
+    memory: &mut Memory<K>,
+) -> Result<Parts<K::Stored>, Error> {
+    let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
+    pieces.clear();
+    arena.clear();
+    reserve(&mut pieces, faces.len())?;
+    pieces.extend((0..faces.len() as u32).map(|face| Live::whole(faces, face)));
+    assemble(jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)?)
 }

@@ -14,6 +14,14 @@ pub(super) struct Job<V> {
     pub(super) depth: usize,
 }
 
+impl<V> Job<V> {
+    /// Whether it is too small to hand any set over: neither side of a plane has more pieces.
+    #[cfg(feature = "parallel")]
+    pub(super) fn is_the_last(&self) -> bool {
+        self.pieces.len() < JOB
+    }
+}
+
 /// Whether one side of a plane becomes a job of its own, by the numbers of pieces on both sides: only
 /// where both are large is there work for another thread.
 pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {

@@ -1,7 +1,9 @@
 //! Subtrees built in parallel.
 
+use std::collections::VecDeque;
+
 use super::assemble::Output;
-use super::builder::{Shared, build};
+use super::builder::{Memory, Shared, build};
 use super::job::Job;
 use crate::Error;
 use crate::exact::Kernel;
@@ -17,25 +19,33 @@ const ALONE: usize = 2048;
 pub(super) fn run<K: Kernel>(
     shared: &Shared<'_, K>,
     job: Job<K::Vertex>,
+    memory: &mut Memory<K>,
 ) -> Result<Vec<Output<K::Stored>>, Error> {
     use std::sync::Mutex;
 
     type Slot<T> = Option<Result<T, Error>>;
 
-    fn work<'s, K: Kernel>(
-        scope: &rayon::Scope<'s>,
+    struct Work<'s, K: Kernel> {
         shared: &'s Shared<'s, K>,
         slots: &'s Mutex<Vec<Slot<Output<K::Stored>>>>,
-        number: usize,
-        job: Job<K::Vertex>,
-    ) {
-        let output = build(shared, job, |job| {
-            let number = push(slots, None);
-            scope.spawn(move |scope| work(scope, shared, slots, number, job));
-            number
-        });
-        let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        slots[number] = Some(output);
+    }
+
+    impl<'s, K: Kernel> Work<'s, K> {
+        fn run(
+            &'s self,
+            scope: &rayon::Scope<'s>,
+            number: usize,
+            job: Job<K::Vertex>,
+            memory: &mut Memory<K>,
+        ) {
+            let output = build(self.shared, job, memory, |job| {
+                let number = push(self.slots, None);
+                scope.spawn(move |scope| self.run(scope, number, job, &mut Memory::default()));
+                number
+            });
+            let mut slots = self.slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            slots[number] = Some(output);
+        }
     }
 
     fn push<T>(slots: &Mutex<Vec<T>>, slot: T) -> usize {
@@ -44,32 +54,40 @@ pub(super) fn run<K: Kernel>(
         slots.len() - 1
     }
 
+    if job.is_the_last() {
+        return in_turn(shared, job, memory);
+    }
     let slots = Mutex::new(vec![None]);
+    let work = Work { shared, slots: &slots };
     if job.pieces.len() < ALONE {
-        rayon::in_place_scope(|scope| work(scope, shared, &slots, 0, job));
+        rayon::in_place_scope(|scope| work.run(scope, 0, job, memory));
     } else {
-        rayon::scope(|scope| work(scope, shared, &slots, 0, job));
+        rayon::scope(|scope| work.run(scope, 0, job, memory));
     }
     let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     // The scope has waited for every job, so every slot is filled.
     slots.into_iter().flatten().collect()
 }
 
-/// As above, one after the other.
 #[cfg(not(feature = "parallel"))]
-pub(super) fn run<K: Kernel>(
+pub(super) use in_turn as run;
+
+/// As above, one after the other.
+pub(super) fn in_turn<K: Kernel>(
     shared: &Shared<'_, K>,
     job: Job<K::Vertex>,
+    memory: &mut Memory<K>,
 ) -> Result<Vec<Output<K::Stored>>, Error> {
-    let mut jobs = std::collections::VecDeque::from([job]);
-    let mut outputs = Vec::new();
-    while let Some(job) = jobs.pop_front() {
+    let mut jobs = VecDeque::new();
+    let (mut next, mut outputs) = (Some(job), Vec::new());
+    while let Some(job) = next {
         let done = outputs.len() + 1;
-        let output = build(shared, job, |job| {
+        let output = build(shared, job, memory, |job| {
             jobs.push_back(job);
             done + jobs.len() - 1
         })?;
         outputs.push(output);
+        next = jobs.pop_front();
     }
     Ok(outputs)
 }

@@ -5,6 +5,7 @@ mod budget;
 mod builder;
 pub(crate) mod choose;
 pub(crate) mod driver;
+mod frame_builder;
 mod heuristic;
 mod job;
 mod jobs;
@@ -12,6 +13,7 @@ pub(crate) mod live;
 mod options;
 pub(crate) mod progress;
 
+pub use frame_builder::FrameBuilder;
 pub use heuristic::{Heuristic, ParseHeuristicError};
 pub use options::BuildOptions;
 pub use progress::Progress;

@@ -9,7 +9,7 @@ use super::Lattice;
 /// becomes one face; any other becomes triangles. A corner that does not lie exactly on the plane
 /// of its face's reference triangle is *defined* to lie on it, moved along the axis in which the
 /// plane is least steep. Stored is the lattice point nearest to the moved corner.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Faces {
     pub(crate) lattice: Lattice,
     pub(crate) tolerance: f64,

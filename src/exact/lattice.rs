@@ -16,7 +16,7 @@ const FAR: f64 = (1u128 << 110) as f64;
 /// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an
 /// `f64`, and so is the difference of two. The grid's spacing is a power of two, so scenes given in
 /// `f32`, on integers, or far from the origin are usually not moved at all.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Lattice coordinate = world coordinate · steps − origin.
     steps: PowerOfTwo,
@@ -112,6 +112,13 @@ fn exponent_of(value: f64) -> i32 {
 struct PowerOfTwo {
     factors: [f64; 2],
     inverses: [f64; 2],
+}
+
+impl Default for PowerOfTwo {
+    /// One.
+    fn default() -> Self {
+        Self::new(0)
+    }
 }
 
 impl PowerOfTwo {

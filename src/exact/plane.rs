@@ -45,9 +45,15 @@ impl Plane {
         Self { normal, point: point.map(|c| c as i64) }
     }
 
-    /// The normal, each component rounded.
+    /// The normal, each component rounded, some of them twice.
+    #[inline]
     pub(crate) fn normal_f64(&self) -> DVec3 {
-        DVec3::from_array(self.normal.map(|c| c as f64))
+        // By parts, because a conversion of 128 bits calls a function.
+        let [x, y, z] = self.normal.map(|c| {
+            let (high, low) = ((c >> 62) as i64, (c & ((1 << 62) - 1)) as i64);
+            high as f64 * (1u64 << 62) as f64 + low as f64
+        });
+        DVec3::new(x, y, z)
     }
 
     /// The scalar product of the normal and a point of the plane, rounded.

@@ -8,10 +8,15 @@ use crate::memory::reserve;
 /// The polygons seen, each with a hash of its corners that does not depend on their order.
 #[derive(Debug, Default)]
 pub(super) struct Outlines {
-    seen: Vec<(u64, u32)>,
+    pub(super) seen: Vec<(u64, u32)>,
 }
 
 impl Outlines {
+    /// Forgets all polygons.
+    pub(super) fn clear(&mut self) {
+        self.seen.clear();
+    }
+
     /// Adds a polygon by its corners on the lattice.
     pub(super) fn add(&mut self, polygon: usize, corners: impl Iterator<Item = [f64; 3]>) {
         let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(integers(corner))));
@@ -28,7 +33,7 @@ impl Outlines {
     /// Counts the polygons that have the same corners as an earlier one, in the same cyclic order
     /// or its reverse. Exact, in O(n log n); `corners` must return the corners of a polygon again.
     pub(super) fn duplicates(
-        mut self,
+        &mut self,
         mut corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
     ) -> Result<usize, Error> {
         self.seen.sort_unstable();

@@ -6,4 +6,5 @@ mod prepare;
 mod triangulate;
 
 pub(crate) use listener::Listener;
+pub(crate) use prepare::Preparer;
 pub use prepare::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation, Tolerance};

@@ -4,8 +4,10 @@ mod collect;
 mod planar;
 mod tolerance;
 
+use collect::Collected;
 pub use collect::MAX_CORNERS;
-use collect::{Collected, collect};
+use std::ops::Range;
+
 use glam::DVec3;
 use smallvec::SmallVec;
 use tolerance::Ground;
@@ -96,123 +98,132 @@ impl Faces {
         polygons: impl IntoIterator<Item = P>,
         tolerance: impl Into<Tolerance>,
     ) -> Result<(Self, Preparation), Error> {
-        Self::prepare(polygons, tolerance.into(), usize::MAX, &Unheard)
-    }
-
-    /// Like [`new`](Self::new), with a limit on the number of polygons, and with a listener.
-    pub(crate) fn prepare<P: Polygon>(
-        polygons: impl IntoIterator<Item = P>,
-        tolerance: Tolerance,
-        limit: usize,
-        listener: &dyn Listener,
-    ) -> Result<(Self, Preparation), Error> {
-        tolerance.check()?;
-        let input = collect(polygons, limit, listener)?;
-        let [min, max] = input.bounds();
-        let lattice = Lattice::new(min, max);
-        let ground = Ground::new(lattice, [min, max], tolerance, input.precision);
-        let Part { mut faces, mut report, outlines } = prepare_all(&input, &ground, listener)?;
-        let mut builder = Builder::new(&ground);
-        report.duplicates = outlines.duplicates(|polygon| {
-            listener.work(input.polygon(polygon).len())?;
-            builder.keep_distinct(input.polygon(polygon))?;
-            Ok(builder.kept.iter().map(|&(corner, _)| corner).collect())
-        })?;
-        faces.corners.shrink_to_fit();
-        faces.numbers.shrink_to_fit();
-        faces.numbered.shrink_to_fit();
-        faces.faces.shrink_to_fit();
-        for length in [&mut report.flattened_by, &mut report.bent_by] {
-            *length = lattice.length_to_world(*length);
-        }
+        let mut faces = Self::default();
+        let report = Preparer::default().prepare(
+            &mut faces,
+            polygons,
+            tolerance.into(),
+            usize::MAX,
+            &Unheard,
+        )?;
+        faces.shrink_to_fit();
         Ok((faces, report))
     }
 }
 
-/// Prepares all polygons, in parts, and puts the parts together in input order.
-fn prepare_all(input: &Collected, ground: &Ground, listener: &dyn Listener) -> Result<Part, Error> {
-    let mut whole = Part::new(ground);
-    reserve(&mut whole.faces.corners, input.corner_count())?;
-    reserve(&mut whole.faces.faces, input.len())?;
-    for start in (0..input.len()).step_by(AT_ONCE) {
-        listener.read(input.len())?;
-        let end = input.len().min(start + AT_ONCE);
-        let ranges = (start..end).step_by(PART).map(|start| start..end.min(start + PART));
-        let parts = parallel_map::map(ranges.collect(), |range| {
-            let polygons = range.map(|polygon| (polygon, input.polygon(polygon)));
-            Part::of(ground, polygons, listener)
-        });
-        for part in parts {
-            whole.append(part?)?;
-        }
-    }
-    Ok(whole)
-}
-
-/// The faces of some consecutive polygons.
-struct Part {
-    faces: Faces,
-    report: Preparation,
+/// Prepares polygons; its lists are kept to be used again.
+#[derive(Debug, Default)]
+pub(crate) struct Preparer {
+    input: Collected,
+    builder: Builder,
     outlines: Outlines,
 }
 
-impl Part {
-    fn new(ground: &Ground) -> Self {
-        let faces = Builder::new(ground).faces;
-        Self { faces, report: Preparation::default(), outlines: Outlines::default() }
-    }
-
-    fn of<'a>(
-        ground: &Ground,
-        polygons: impl Iterator<Item = (usize, &'a [DVec3])>,
+impl Preparer {
+    /// Replaces faces by those of some polygons, as [`Faces::new`] does, with a limit on the number of
+    /// polygons, and with a listener. After an error there is no face.
+    pub(crate) fn prepare<P: Polygon>(
+        &mut self,
+        faces: &mut Faces,
+        polygons: impl IntoIterator<Item = P>,
+        tolerance: Tolerance,
+        limit: usize,
         listener: &dyn Listener,
-    ) -> Result<Self, Error> {
-        let mut builder = Builder::new(ground);
-        let (mut report, mut outlines) = (Preparation::default(), Outlines::default());
-        for (polygon, points) in polygons {
-            report.polygons += 1;
-            match builder.add(polygon, points, listener)? {
-                Outcome::Whole { off } => {
-                    report.flattened += usize::from(off > 0.0);
-                    report.flattened_by = report.flattened_by.max(off);
-                }
-                Outcome::Triangulated { crosses_itself, off } => {
-                    report.triangulated += 1;
-                    report.crossing += usize::from(crosses_itself);
-                    if off > 0.0 && off <= ground.rounding {
-                        report.bent += 1;
-                        report.bent_by = report.bent_by.max(off);
-                    }
-                }
-                Outcome::Dropped => {
-                    report.dropped += 1;
-                    continue;
-                }
-            }
-            outlines.add(polygon, builder.kept.iter().map(|&(corner, _)| corner));
+    ) -> Result<Preparation, Error> {
+        let mut kept = std::mem::take(faces);
+        kept.clear();
+        tolerance.check()?;
+        self.input.read(polygons, limit, listener)?;
+        let [min, max] = self.input.bounds();
+        let lattice = Lattice::new(min, max);
+        let ground = Ground::new(lattice, [min, max], tolerance, self.input.precision);
+        self.builder.faces = kept;
+        self.builder.faces.lattice = lattice;
+        self.builder.faces.tolerance = ground.tolerance;
+        self.outlines.clear();
+        let mut report = self.prepare_all(&ground, listener)?;
+        let (input, builder) = (&self.input, &mut self.builder);
+        report.duplicates = self.outlines.duplicates(|polygon| {
+            listener.work(input.polygon(polygon).len())?;
+            builder.keep_distinct(input.polygon(polygon))?;
+            Ok(builder.kept.iter().map(|&(corner, _)| corner).collect())
+        })?;
+        for length in [&mut report.flattened_by, &mut report.bent_by] {
+            *length = lattice.length_to_world(*length);
         }
-        Ok(Self { faces: builder.faces, report, outlines })
+        *faces = std::mem::take(&mut self.builder.faces);
+        Ok(report)
     }
 
+    /// Prepares all polygons: few on this thread, more in parts, which are put together in input
+    /// order.
+    fn prepare_all(
+        &mut self,
+        ground: &Ground,
+        listener: &dyn Listener,
+    ) -> Result<Preparation, Error> {
+        let Self { input, builder, outlines } = self;
+        reserve(&mut builder.faces.corners, input.corner_count())?;
+        reserve(&mut builder.faces.faces, input.len())?;
+        if input.len() <= PART {
+            listener.read(input.len())?;
+            return builder.add_all(ground, input, 0..input.len(), outlines, listener);
+        }
+        let mut report = Preparation::default();
+        for start in (0..input.len()).step_by(AT_ONCE) {
+            listener.read(input.len())?;
+            let end = input.len().min(start + AT_ONCE);
+            let ranges = (start..end).step_by(PART).map(|start| start..end.min(start + PART));
+            let parts = parallel_map::map(ranges.collect(), |range| {
+                let (mut part, mut outlines) = (Builder::new(ground), Outlines::default());
+                let report = part.add_all(ground, input, range, &mut outlines, listener)?;
+                Ok::<_, Error>((part.faces, report, outlines))
+            });
+            for part in parts {
+                let (faces, part_report, part_outlines) = part?;
+                builder.faces.append(faces)?;
+                report.add(&part_report);
+                outlines.append(part_outlines)?;
+            }
+        }
+        Ok(report)
+    }
+}
+
+impl Faces {
+    fn clear(&mut self) {
+        self.corners.clear();
+        self.numbers.clear();
+        self.numbered.clear();
+        self.faces.clear();
+    }
+
+    /// Gives memory back that is not needed.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.corners.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.numbered.shrink_to_fit();
+        self.faces.shrink_to_fit();
+    }
+
+    /// Adds the faces of the polygons that follow.
     fn append(&mut self, next: Self) -> Result<(), Error> {
-        let (corners, numbers) = (self.faces.corners.len(), self.faces.numbers.len() as u32);
-        if corners + next.faces.corners.len() >= MAX_LABELS {
+        let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
+        if corners + next.corners.len() >= MAX_LABELS {
             return Err(Error::too_many_corners(MAX_LABELS));
         }
-        let first = self.faces.faces.len() as u32;
-        let whole = &mut self.faces;
-        reserve(&mut whole.numbered, next.faces.numbered.len())?;
-        reserve(&mut whole.numbers, next.faces.numbers.len())?;
-        let numbered = next.faces.numbered.iter();
-        self.faces.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
-        self.faces.numbers.extend(next.faces.numbers);
-        reserve(&mut self.faces.corners, next.faces.corners.len())?;
-        self.faces.corners.extend(next.faces.corners);
-        reserve(&mut self.faces.faces, next.faces.faces.len())?;
+        let first = self.faces.len() as u32;
+        reserve(&mut self.numbered, next.numbered.len())?;
+        reserve(&mut self.numbers, next.numbers.len())?;
+        let numbered = next.numbered.iter();
+        self.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
+        self.numbers.extend(next.numbers);
+        reserve(&mut self.corners, next.corners.len())?;
+        self.corners.extend(next.corners);
+        reserve(&mut self.faces, next.faces.len())?;
         let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
-        self.faces.faces.extend(next.faces.faces.into_iter().map(moved));
-        self.report.add(&next.report);
-        self.outlines.append(next.outlines)
+        self.faces.extend(next.faces.into_iter().map(moved));
+        Ok(())
     }
 }
 
@@ -230,6 +241,8 @@ enum Outcome {
     Dropped,
 }
 
+/// Makes faces of polygons, one after the other.
+#[derive(Debug, Default)]
 struct Builder {
     faces: Faces,
     /// The corners of the current polygon on the lattice, each with its number. Of equal corners in
@@ -242,15 +255,45 @@ struct Builder {
 
 impl Builder {
     fn new(ground: &Ground) -> Self {
-        let faces = Faces {
-            lattice: ground.lattice,
-            tolerance: ground.tolerance,
-            corners: vec![],
-            numbers: vec![],
-            numbered: vec![],
-            faces: vec![],
-        };
-        Self { faces, kept: vec![], runs: vec![] }
+        let Ground { lattice, tolerance, .. } = *ground;
+        let faces = Faces { lattice, tolerance, ..Faces::default() };
+        Self { faces, ..Self::default() }
+    }
+
+    /// Adds a range of the input's polygons.
+    fn add_all(
+        &mut self,
+        ground: &Ground,
+        input: &Collected,
+        polygons: Range<usize>,
+        outlines: &mut Outlines,
+        listener: &dyn Listener,
+    ) -> Result<Preparation, Error> {
+        let mut report = Preparation::default();
+        reserve(&mut outlines.seen, polygons.len())?;
+        for polygon in polygons {
+            report.polygons += 1;
+            match self.add(polygon, input.polygon(polygon), listener)? {
+                Outcome::Whole { off } => {
+                    report.flattened += usize::from(off > 0.0);
+                    report.flattened_by = report.flattened_by.max(off);
+                }
+                Outcome::Triangulated { crosses_itself, off } => {
+                    report.triangulated += 1;
+                    report.crossing += usize::from(crosses_itself);
+                    if off > 0.0 && off <= ground.rounding {
+                        report.bent += 1;
+                        report.bent_by = report.bent_by.max(off);
+                    }
+                }
+                Outcome::Dropped => {
+                    report.dropped += 1;
+                    continue;
+                }
+            }
+            outlines.add(polygon, self.kept.iter().map(|&(corner, _)| corner));
+        }
+        Ok(report)
     }
 
     fn add(
@@ -265,17 +308,18 @@ impl Builder {
             return Ok(Outcome::Dropped);
         };
         if self.kept.len() == 3 {
-            self.push(polygon, &[0, 1, 2], Frame::TRIANGLE)?;
+            self.push(polygon, 0..3, Frame::TRIANGLE)?;
             return Ok(Outcome::Whole { off: 0.0 });
         }
-        let convex = self.is_convex(second, third);
-        let off = if convex { self.off_plane(second, third) } else { 0.0 };
+        let plane = Plane::through([0, second, third].map(|k| self.kept[k].0));
+        let convex = self.is_convex(&plane);
+        let off = if convex { self.off_plane(&plane, [0, second, third]) } else { 0.0 };
         if convex && self.kept.len() <= Frame::MAX_CORNERS && off <= self.faces.tolerance {
-            let all: Vec<usize> = (0..self.kept.len()).collect();
-            self.push(polygon, &all, self.frame(second, third, off > 0.0))?;
+            let moved_along = (off > 0.0).then(|| plane.main_axis());
+            self.push(polygon, 0..self.kept.len(), Frame::new(second, third, moved_along))?;
             return Ok(Outcome::Whole { off });
         }
-        let crosses_itself = self.triangulate(polygon, convex, [second, third], listener)?;
+        let crosses_itself = self.triangulate(polygon, convex, &plane, listener)?;
         Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
             crosses_itself,
             off,
@@ -288,17 +332,16 @@ impl Builder {
         &mut self,
         polygon: usize,
         convex: bool,
-        [second, third]: [usize; 2],
+        plane: &Plane,
         listener: &dyn Listener,
     ) -> Result<Option<bool>, Error> {
         let mut corners: Vec<[f64; 3]> = Vec::new();
         reserve(&mut corners, self.kept.len())?;
         corners.extend(self.kept.iter().map(|&(point, _)| point));
-        let plane = Plane::through([0, second, third].map(|k| corners[k]));
         let found = if convex {
             triangulate::convex(&corners)
         } else {
-            triangulate::any(&corners, &plane, &|steps| listener.work(steps))?
+            triangulate::any(&corners, plane, &|steps| listener.work(steps))?
         };
         self.find_runs()?;
         let before = self.faces.len();
@@ -309,7 +352,7 @@ impl Builder {
             let triple = triple.map(|k| k as usize);
             let [p, q, r] = triple.map(|k| corners[k]);
             if cross(p, q, r) != [0; 3] {
-                self.push(polygon, &triple, Frame::TRIANGLE)?;
+                self.push(polygon, triple.into_iter(), Frame::TRIANGLE)?;
             }
         }
         Ok((self.faces.len() > before).then_some(found.crosses_itself))
@@ -334,31 +377,49 @@ impl Builder {
     }
 
     /// Adds a face made of some of the polygon's kept corners, in order around it.
-    fn push(&mut self, polygon: usize, kept: &[usize], frame: Frame) -> Result<(), Error> {
-        let numbers: SmallVec<[u32; 8]> = (0..kept.len())
-            .map(|k| {
-                let is_outline = self.is_outline(kept[k], kept[(k + 1) % kept.len()]);
-                self.kept[kept[k]].1 | if is_outline { 0 } else { INNER }
-            })
-            .collect();
+    fn push(
+        &mut self,
+        polygon: usize,
+        kept: impl ExactSizeIterator<Item = usize> + Clone,
+        frame: Frame,
+    ) -> Result<(), Error> {
         let faces = &mut self.faces;
         let start = faces.corners.len();
         if start + kept.len() >= MAX_LABELS {
             return Err(Error::too_many_corners(MAX_LABELS));
         }
-        if numbers.iter().enumerate().any(|(k, &number)| number != k as u32) {
-            reserve(&mut faces.numbered, 1)?;
-            reserve(&mut faces.numbers, kept.len())?;
-            faces.numbered.push((faces.faces.len() as u32, faces.numbers.len() as u32));
-            faces.numbers.extend(numbers);
-        }
         reserve(&mut faces.corners, kept.len())?;
         reserve(&mut faces.faces, 1)?;
-        faces.corners.extend(kept.iter().map(|&k| self.kept[k].0));
+        faces.corners.extend(kept.clone().map(|k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
+        self.number_last(kept)?;
         if let Some(axis) = frame.drop_axis() {
-            faces.flatten_last(axis);
+            self.faces.flatten_last(axis);
         }
+        Ok(())
+    }
+
+    /// Numbers the corners of the last face, if they are not the first of the polygon in order, with
+    /// its edges for edges.
+    fn number_last(
+        &mut self,
+        kept: impl ExactSizeIterator<Item = usize> + Clone,
+    ) -> Result<(), Error> {
+        let Some(first) = kept.clone().next() else { return Ok(()) };
+        let number = |(from, to): (usize, usize)| {
+            self.kept[from].1 | if self.is_outline(from, to) { 0 } else { INNER }
+        };
+        let ends = kept.clone().skip(1).chain([first]);
+        let numbers = kept.clone().zip(ends).map(number);
+        if (0..).zip(numbers.clone()).all(|(k, number)| number == k) {
+            return Ok(());
+        }
+        let numbers: SmallVec<[u32; 8]> = numbers.collect();
+        let faces = &mut self.faces;
+        reserve(&mut faces.numbered, 1)?;
+        reserve(&mut faces.numbers, kept.len())?;
+        faces.numbered.push((faces.faces.len() as u32 - 1, faces.numbers.len() as u32));
+        faces.numbers.extend(numbers);
         Ok(())
     }
 }

@@ -20,5 +20,11 @@ pub fn parts_of_tree(tree: &BspTree) -> Parts<ExactStored> {
             back: child(tree.nodes[visit.node].back_is_node(), visit.behind.len() as u32),
         });
     }
-    Parts { nodes, records: tree.records.clone(), vertices: tree.vertices.clone(), cuts: tree.cuts }
+    Parts {
+        nodes,
+        records: tree.records.clone(),
+        vertices: tree.vertices.clone(),
+        positions: tree.positions.clone(),
+        cuts: tree.cuts,
+    }
 }

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::node::{Node, finish};
+use super::node::{Node, Sizes, finish};
 use super::order::layout::Schedule;
 use super::order::planes::Planes;
-use super::parts::{Parts, Record};
+use super::parts::{Parts, RawNode, Record};
 use crate::exact::{ExactStored, Faces};
 use crate::faces::Preparation;
 
@@ -191,23 +191,69 @@ pub struct BspTree {
     pub(super) preparation: Preparation,
     pub(super) nodes: Vec<Node>,
     pub(super) planes: Planes,
-    pub(super) schedule: Schedule,
+    /// None in a tree for one view.
+    pub(super) schedule: Option<Schedule>,
     pub(super) records: Vec<Record>,
     pub(super) vertices: Vec<ExactStored>,
+    /// Rounded positions of the vertices, in lattice units; only in a tree for one view.
+    pub(super) positions: Vec<[f64; 3]>,
     /// How many times the builder cut a piece in two.
     pub(super) cuts: usize,
 }
 
 impl BspTree {
+    /// A tree of nothing.
+    pub(crate) fn empty() -> Self {
+        Self {
+            faces: Faces::default(),
+            preparation: Preparation::default(),
+            nodes: vec![],
+            planes: Planes::default(),
+            schedule: None,
+            records: vec![],
+            vertices: vec![],
+            positions: vec![],
+            cuts: 0,
+        }
+    }
+
+    /// Empties the tree, and gives its lists back.
+    pub(crate) fn take_parts(&mut self) -> (Faces, Parts<ExactStored>) {
+        let Self { faces, nodes, planes, records, vertices, positions, .. } =
+            std::mem::replace(self, Self::empty());
+        (self.nodes, self.planes) = (nodes, planes);
+        self.nodes.clear();
+        self.planes.clear();
+        (faces, Parts { nodes: vec![], records, vertices, positions, cuts: 0 })
+    }
+
+    /// Replaces what the tree consists of, and gives back the list that the builder wrote its nodes
+    /// into. `sizes` is working space.
+    pub(crate) fn refill(
+        &mut self,
+        faces: Faces,
+        preparation: Preparation,
+        parts: Parts<ExactStored>,
+        sizes: &mut Vec<Sizes>,
+    ) -> Vec<RawNode> {
+        finish(&parts.nodes, sizes, &mut self.nodes);
+        self.planes.fill(&faces, &self.nodes);
+        (self.faces, self.preparation) = (faces, preparation);
+        let Parts { nodes, records, vertices, positions, cuts } = parts;
+        (self.records, self.vertices, self.positions) = (records, vertices, positions);
+        self.cuts = cuts;
+        nodes
+    }
+
+    /// A tree for many orders.
     pub(crate) fn new(faces: Faces, preparation: Preparation, parts: Parts<ExactStored>) -> Self {
-        let nodes = finish(&parts.nodes);
-        drop(parts.nodes);
-        let planes = Planes::new(&faces, &nodes);
-        let schedule = Schedule::new(&nodes, parts.records.len() as u32);
-        let (mut records, mut vertices, cuts) = (parts.records, parts.vertices, parts.cuts);
-        records.shrink_to_fit();
-        vertices.shrink_to_fit();
-        Self { faces, preparation, nodes, planes, schedule, records, vertices, cuts }
+        let mut tree = Self::empty();
+        drop(tree.refill(faces, preparation, parts, &mut Vec::new()));
+        tree.nodes.shrink_to_fit();
+        tree.records.shrink_to_fit();
+        tree.vertices.shrink_to_fit();
+        tree.schedule = Some(Schedule::new(&tree.nodes, tree.records.len() as u32));
+        tree
     }
 
     /// How many fragments there are.

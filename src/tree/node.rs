@@ -74,12 +74,17 @@ pub(super) struct Ranges {
     pub(super) back: Range<u32>,
 }
 
-/// Computes the sizes of all subtrees.
-pub(super) fn finish(raw: &[RawNode]) -> Vec<Node> {
-    // The fragments and nodes of the subtree at each node. Children come after their parents, so
-    // their sizes are known if nodes are read from the last to the first.
-    let mut sizes = vec![(0u32, 0u32); raw.len()];
-    let mut nodes = Vec::with_capacity(raw.len());
+/// The fragments and nodes of a subtree.
+pub(crate) type Sizes = (u32, u32);
+
+/// Computes the sizes of all subtrees, and replaces a list of nodes.
+pub(super) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<Node>) {
+    // Children come after their parents, so their sizes are known if nodes are read from the last to
+    // the first.
+    sizes.clear();
+    sizes.resize(raw.len(), (0, 0));
+    nodes.clear();
+    nodes.reserve_exact(raw.len());
     for (i, node) in raw.iter().enumerate().rev() {
         let (front_len, front_nodes) = match node.front {
             Child::Leaf(len) => (len, 0),
@@ -95,5 +100,4 @@ pub(super) fn finish(raw: &[RawNode]) -> Vec<Node> {
         nodes.push(Node { plane: node.plane, own, front_len, front_nodes });
     }
     nodes.reverse();
-    nodes
 }

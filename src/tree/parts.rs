@@ -44,12 +44,25 @@ pub struct Parts<S> {
     pub records: Vec<Record>,
     /// The vertices of all fragments that are not whole faces.
     pub vertices: Vec<S>,
+    /// Their rounded positions, in lattice units; none if they are not kept.
+    pub positions: Vec<[f64; 3]>,
     /// How many times a piece was cut in two.
     pub cuts: usize,
 }
 
+impl<S> Parts<S> {
+    /// Forgets all.
+    pub(crate) fn clear(&mut self) {
+        self.nodes.clear();
+        self.records.clear();
+        self.vertices.clear();
+        self.positions.clear();
+        self.cuts = 0;
+    }
+}
+
 impl<S> Default for Parts<S> {
     fn default() -> Self {
-        Self { nodes: vec![], records: vec![], vertices: vec![], cuts: 0 }
+        Self { nodes: vec![], records: vec![], vertices: vec![], positions: vec![], cuts: 0 }
     }
 }

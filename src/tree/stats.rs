@@ -107,8 +107,9 @@ impl BspTree {
             + self.faces.bytes()
             + size_of_val(&*self.nodes)
             + self.planes.bytes()
-            + self.schedule.bytes()
+            + self.schedule.as_ref().map_or(0, |schedule| schedule.bytes())
             + size_of_val(&*self.records)
             + size_of_val(&*self.vertices)
+            + size_of_val(&*self.positions)
     }
 }

@@ -9,9 +9,10 @@ mod tests;
 
 use std::fmt;
 
-use super::BspTree;
 use super::order::layout::Schedule;
 use super::order::planes::Planes;
+use super::{BspTree, Fragment};
+use crate::exact::{Exact, Kernel};
 use fault::Fault;
 
 /// What is wrong with a tree, and at which node.
@@ -40,7 +41,8 @@ impl BspTree {
     /// - the fragments of each face cover it exactly once: glued back together along the cuts, from
     ///   the leaves up, they give the face with all of its corners, and the number of cuts is
     ///   [`Stats::splits`](crate::Stats::splits);
-    /// - the data from which orders are written matches the nodes.
+    /// - the data from which orders are written matches the nodes, and positions that are kept match
+    ///   the vertices.
     ///
     /// All of this is decided exactly. A tree that the library built is always valid; this is for
     /// tests and fuzzers.
@@ -59,12 +61,32 @@ impl BspTree {
     }
 
     fn check_layout(&self) -> Result<(), Invalid> {
-        if self.planes != Planes::new(&self.faces, &self.nodes) {
+        let mut planes = Planes::default();
+        planes.fill(&self.faces, &self.nodes);
+        if self.planes != planes {
             return Err(Invalid { node: 0, what: Fault::RoundedPlanes });
         }
-        if self.schedule != Schedule::new(&self.nodes, self.records.len() as u32) {
+        if let Some(schedule) = &self.schedule
+            && *schedule != Schedule::new(&self.nodes, self.records.len() as u32)
+        {
             return Err(Invalid { node: 0, what: Fault::Schedule });
         }
-        Ok(())
+        self.check_positions()
+    }
+
+    /// Positions that are kept are those of the vertices.
+    fn check_positions(&self) -> Result<(), Invalid> {
+        let fault = Err(Invalid { node: 0, what: Fault::Positions });
+        if !self.positions.is_empty() && self.positions.len() != self.vertices.len() {
+            return fault;
+        }
+        let mut kept = self.positions.iter();
+        let is_wrong = |fragment: Fragment<'_>| {
+            let stored = fragment.stored().iter().zip(&mut kept);
+            stored.into_iter().any(|(stored, &position)| {
+                self.faces.position(fragment.face(), Exact::symbol(stored)) != position
+            })
+        };
+        if self.fragments().any(is_wrong) { fault } else { Ok(()) }
     }
 }

@@ -3,6 +3,7 @@
 
 mod cases;
 mod faults;
+mod frames;
 mod input;
 mod order;
 mod picture;

@@ -3,7 +3,7 @@
 use super::state::Builder;
 use crate::Error;
 use crate::build::live::Live;
-use crate::exact::Kernel;
+use crate::exact::{Kernel, Vertex};
 
 /// Whether a set is small enough to need no plane.
 pub(super) fn is_leaf(pieces: &[Live]) -> bool {
@@ -16,6 +16,9 @@ impl<K: Kernel> Builder<'_, K> {
         let kernel = self.shared.kernel;
         let vertices = live.piece(&self.arena).cut.unwrap_or_default();
         self.output.push(live.face, vertices.iter().map(|vertex| kernel.store(vertex)))?;
+        if self.shared.keeps_positions {
+            self.output.push_positions(vertices.iter().map(K::Vertex::position))?;
+        }
         self.shared.watch.finish(live.cuts);
         Ok(())
     }

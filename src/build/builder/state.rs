@@ -1,11 +1,12 @@
 //! What a job works on.
 
+use std::mem::take;
 use std::ops::Range;
 
 use crate::Error;
 use crate::build::assemble::Output;
 use crate::build::budget::Budget;
-use crate::build::choose::{Chooser, Normals, Tuning};
+use crate::build::choose::{Chooser, Normals, Rules, Tuning};
 use crate::build::job::Job;
 use crate::build::live::Live;
 use crate::build::options::BuildOptions;
@@ -19,25 +20,32 @@ pub(super) const COMPACT: usize = 1 << 13;
 pub(in crate::build) struct Shared<'a, K> {
     pub(super) kernel: K,
     pub(super) faces: &'a Faces,
-    pub(super) normals: Normals,
+    pub(super) normals: &'a Normals,
     pub(super) options: &'a BuildOptions,
-    tuning: &'a Tuning,
+    pub(super) rules: Rules<'a>,
     pub(super) watch: &'a Watch<'a>,
     pub(super) budget: Budget,
+    /// Whether the rounded positions of vertices go into the output.
+    pub(super) keeps_positions: bool,
 }
 
 impl<'a, K> Shared<'a, K> {
     /// An error if there are more faces than the budget allows fragments.
     pub(in crate::build) fn new(
         kernel: K,
-        faces: &'a Faces,
+        (faces, normals): (&'a Faces, &'a Normals),
         options: &'a BuildOptions,
         tuning: &'a Tuning,
         watch: &'a Watch<'a>,
     ) -> Result<Self, Error> {
-        let normals = Normals::new(faces);
         let budget = Budget::new(options, faces.len())?;
-        Ok(Self { kernel, faces, normals, options, tuning, watch, budget })
+        let rules = Rules { heuristic: options.heuristic, tuning, watch };
+        Ok(Self { kernel, faces, normals, options, rules, watch, budget, keeps_positions: false })
+    }
+
+    /// The same, with positions in the output.
+    pub(in crate::build) fn with_positions(self) -> Self {
+        Self { keeps_positions: true, ..self }
     }
 }
 
@@ -62,7 +70,7 @@ impl Pending {
 /// One job's state.
 pub(super) struct Builder<'a, K: Kernel> {
     pub(super) shared: &'a Shared<'a, K>,
-    pub(super) chooser: Chooser<'a>,
+    pub(super) chooser: Chooser,
     /// A stack of the sets still to be split, the next one on top.
     pub(super) pieces: Vec<Live>,
     /// The vertices of cut pieces, in the order of the cuts. Those of sets that are built are
@@ -76,17 +84,49 @@ pub(super) struct Builder<'a, K: Kernel> {
 }
 
 impl<'a, K: Kernel> Builder<'a, K> {
-    pub(super) fn new(shared: &'a Shared<'a, K>, job: Job<K::Vertex>) -> Self {
+    pub(super) fn new(
+        shared: &'a Shared<'a, K>,
+        job: Job<K::Vertex>,
+        memory: &mut Memory<K>,
+    ) -> Self {
         let Job { pieces, arena, depth } = job;
+        let Memory { chooser, pending, output, scratch, .. } = take(memory);
+        let mut builder =
+            Self { shared, chooser, pending, pieces, arena, compact_at: COMPACT, output, scratch };
+        builder.output.clear();
+        builder.pending.clear();
+        let root = Pending::new(0..builder.pieces.len(), builder.arena.len(), depth);
+        builder.pending.push(root);
+        builder
+    }
+
+    /// Gives its lists back, apart from the output.
+    pub(super) fn end(self, memory: &mut Memory<K>) -> Output<K::Stored> {
+        let Self { chooser, pending, pieces, arena, scratch, output, .. } = self;
+        *memory = Memory { chooser, pending, pieces, arena, scratch, output: Output::default() };
+        output
+    }
+}
+
+/// The lists of a job, kept to be used again.
+pub(in crate::build) struct Memory<K: Kernel> {
+    chooser: Chooser,
+    pending: Vec<Pending>,
+    pub(in crate::build) pieces: Vec<Live>,
+    pub(in crate::build) arena: Vec<K::Vertex>,
+    scratch: Scratch<K::Vertex>,
+    pub(in crate::build) output: Output<K::Stored>,
+}
+
+impl<K: Kernel> Default for Memory<K> {
+    fn default() -> Self {
         Self {
-            shared,
-            chooser: Chooser::new(shared.options.heuristic, shared.tuning, shared.watch),
-            pending: vec![Pending::new(0..pieces.len(), arena.len(), depth)],
-            pieces,
-            arena,
-            compact_at: COMPACT,
-            output: Output::default(),
+            chooser: Chooser::default(),
+            pending: vec![],
+            pieces: vec![],
+            arena: vec![],
             scratch: Scratch::default(),
+            output: Output::default(),
         }
     }
 }

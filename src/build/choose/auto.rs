@@ -1,5 +1,6 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
+use super::Rules;
 use super::choice::Choice;
 use super::cost::{Candidate, Cost};
 use super::free::Sweep;
@@ -9,62 +10,56 @@ use super::sample::Sample;
 use super::set::Set;
 use super::sketch::{LANES, Sketch};
 use super::tuning::Tuning;
-use crate::build::progress::Watch;
 use crate::exact::{Kernel, PlaneId, Side};
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
-#[derive(Debug)]
-pub(super) struct Auto<'a> {
-    tuning: &'a Tuning,
-    watch: &'a Watch<'a>,
+#[derive(Debug, Default)]
+pub(super) struct Auto {
     sweep: Sweep,
     sample: Sample,
     contest: Contest,
     peeler: Peeler,
 }
 
-impl<'a> Auto<'a> {
-    pub(super) fn new(tuning: &'a Tuning, watch: &'a Watch<'a>) -> Self {
-        Self {
-            tuning,
-            watch,
-            sweep: Sweep::default(),
-            sample: Sample::default(),
-            contest: Contest::default(),
-            peeler: Peeler::default(),
-        }
-    }
-
+impl Auto {
     /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
-    pub(super) fn choose<K: Kernel>(&mut self, set: &Set<'_, K>, is_peeled: bool) -> Choice {
+    pub(super) fn choose<K: Kernel>(
+        &mut self,
+        rules: &Rules<'_>,
+        set: &Set<'_, K>,
+        is_peeled: bool,
+    ) -> Choice {
+        let Rules { tuning, watch, .. } = *rules;
         self.sample.sketch.reset(set);
         if let Some(plane) = common_plane(set, &self.sample.sketch) {
             return Choice::Split(plane);
         }
-        let free = if set.len() < self.tuning.clean_below {
-            self.sweep.clean(set, self.tuning)
+        let free = if set.len() < tuning.clean_below {
+            self.sweep.clean(set, tuning)
         } else {
-            self.sweep.best(set, self.tuning, self.watch)
+            self.sweep.best(set, tuning, watch)
         };
         if let Some(free) = free
             && !free.cost.cuts
         {
             return Choice::Split(free.plane);
         }
-        if set.len() < self.tuning.small {
-            self.best_of_small(set, free, is_peeled)
+        if set.len() < tuning.small {
+            self.best_of_small(rules, set, free, is_peeled)
         } else {
-            self.best_of_large(set, free)
+            self.best_of_large(rules, set, free)
         }
     }
 
     fn best_of_small<K: Kernel>(
         &mut self,
+        rules: &Rules<'_>,
         set: &Set<'_, K>,
         free: Option<Candidate>,
         is_peeled: bool,
     ) -> Choice {
-        let (tuning, terms) = (self.tuning, Terms::small(set, self.tuning));
+        let Rules { tuning, watch, .. } = *rules;
+        let terms = Terms::small(set, tuning);
         self.sample.restart(set, set.len());
         self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
         let own = self.contest.best(set, &mut self.sample, &terms, tuning);
@@ -76,32 +71,32 @@ impl<'a> Auto<'a> {
         let places = self.contest.one_sided();
         if !is_peeled
             && !places.is_empty()
-            && let Some(peeled) = self.peeler.search(
-                set,
-                &self.sample.sketch,
-                places.iter().copied(),
-                tuning,
-                self.watch,
-            )
+            && let Some(peeled) =
+                self.peeler.search(set, &self.sample.sketch, places.iter().copied(), tuning, watch)
         {
             return Choice::Peel(peeled);
         }
         better(set, own, free)
     }
 
-    fn best_of_large<K: Kernel>(&mut self, set: &Set<'_, K>, free: Option<Candidate>) -> Choice {
-        let (tuning, terms) = (self.tuning, Terms::large(set, self.tuning));
-        self.begin_large(set, &terms);
+    fn best_of_large<K: Kernel>(
+        &mut self,
+        rules: &Rules<'_>,
+        set: &Set<'_, K>,
+        free: Option<Candidate>,
+    ) -> Choice {
+        let Rules { tuning, watch, .. } = *rules;
+        let terms = Terms::large(set, tuning);
+        self.begin_large(set, &terms, tuning);
         if self.contest.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
             sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
-            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, self.watch)
-            {
+            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch) {
                 return Choice::Peel(peeled);
             }
             // The sketch has another order now, in which the first are no sample.
-            self.begin_large(set, &terms);
+            self.begin_large(set, &terms, tuning);
         }
         let own = self.contest.best(set, &mut self.sample, &terms, tuning);
         // Own planes of large sets are compared by amount alone, so the free plane is too.
@@ -110,10 +105,10 @@ impl<'a> Auto<'a> {
     }
 
     /// Compares own planes of a large set with a first sample of it.
-    fn begin_large<K: Kernel>(&mut self, set: &Set<'_, K>, terms: &Terms) {
-        let count = self.tuning.few_own_planes;
+    fn begin_large<K: Kernel>(&mut self, set: &Set<'_, K>, terms: &Terms, tuning: &Tuning) {
+        let count = tuning.few_own_planes;
         self.sample.restart(set, count.next_multiple_of(LANES));
-        self.contest.begin(set, &mut self.sample, count, terms, self.tuning);
+        self.contest.begin(set, &mut self.sample, count, terms, tuning);
     }
 }
 

@@ -30,29 +30,34 @@ pub use tuning::Tuning;
 /// that grows with the square of the set; fewer: planes that cut more.
 const MOST_CANDIDATES: usize = 256;
 
-/// Chooses the splitters of one tree; its lists are kept to be used again.
-#[derive(Debug)]
-pub(super) struct Chooser<'a> {
-    heuristic: Heuristic,
+/// By what planes are chosen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules<'a> {
+    pub(super) heuristic: Heuristic,
+    pub(super) tuning: &'a Tuning,
     /// Once a build is cancelled, any plane is chosen, quickly.
-    watch: &'a Watch<'a>,
-    tuning: &'a Tuning,
-    sweep: Sweep,
-    scored: Scored,
-    auto: Auto<'a>,
+    pub(super) watch: &'a Watch<'a>,
 }
 
-impl<'a> Chooser<'a> {
-    pub(super) fn new(heuristic: Heuristic, tuning: &'a Tuning, watch: &'a Watch<'a>) -> Self {
-        let (sweep, scored) = (Sweep::default(), Scored::default());
-        Self { heuristic, watch, tuning, sweep, scored, auto: Auto::new(tuning, watch) }
-    }
+/// Chooses splitters; its lists are kept to be used again.
+#[derive(Debug, Default)]
+pub(super) struct Chooser {
+    sweep: Sweep,
+    scored: Scored,
+    auto: Auto,
+}
 
+impl Chooser {
     /// Chooses what to do with a set of at least one piece. `is_peeled`: peeling has just been tried
     /// on it. Not every plane chosen makes progress; the builder checks.
-    pub(super) fn choose<K: Kernel>(&mut self, set: &Set<'_, K>, is_peeled: bool) -> Choice {
+    pub(super) fn choose<K: Kernel>(
+        &mut self,
+        rules: &Rules<'_>,
+        set: &Set<'_, K>,
+        is_peeled: bool,
+    ) -> Choice {
         let lowest = || (0..set.len()).min_by_key(|&piece| set.pieces[piece].face).unwrap_or(0);
-        Choice::Split(match self.heuristic {
+        Choice::Split(match rules.heuristic {
             Heuristic::First => set.own_plane(lowest()),
             Heuristic::Random { seed } => {
                 let lowest = u64::from(set.pieces[lowest()].face);
@@ -60,38 +65,39 @@ impl<'a> Chooser<'a> {
                 set.own_plane((random % set.len() as u64) as usize)
             }
             Heuristic::FewestSplits => {
-                self.scored.best(set, MOST_CANDIDATES, self.watch, |counts, _| {
+                self.scored.best(set, MOST_CANDIDATES, rules.watch, |counts, _| {
                     (f64::from(counts.splits), f64::from(counts.imbalance()))
                 })
             }
             Heuristic::Balanced => {
-                self.scored.best(set, MOST_CANDIDATES, self.watch, |counts, _| {
+                self.scored.best(set, MOST_CANDIDATES, rules.watch, |counts, _| {
                     (f64::from(counts.imbalance()), f64::from(counts.splits))
                 })
             }
             Heuristic::Weighted { splits, balance, axial } => {
-                self.weighted(set, MOST_CANDIDATES, [splits, balance, axial])
+                self.weighted(rules, set, MOST_CANDIDATES, [splits, balance, axial])
             }
             Heuristic::Sampled { candidates } => {
-                self.weighted(set, candidates as usize, DEFAULT_WEIGHTS)
+                self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)
             }
             Heuristic::FreePlanes => {
-                let free = self.sweep.best(set, self.tuning, self.watch);
+                let free = self.sweep.best(set, rules.tuning, rules.watch);
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
-            Heuristic::Auto => return self.auto.choose(set, is_peeled),
+            Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
         })
     }
 
     /// The own plane of least weighted sum.
     fn weighted<K: Kernel>(
         &mut self,
+        rules: &Rules<'_>,
         set: &Set<'_, K>,
         candidates: usize,
         [splits, balance, axial]: [f64; 3],
     ) -> PlaneId {
         let bonus = axial * set.len() as f64;
-        self.scored.best(set, candidates, self.watch, |counts, is_axial| {
+        self.scored.best(set, candidates, rules.watch, |counts, is_axial| {
             let reward = if is_axial { bonus } else { 0.0 };
             let imbalance = f64::from(counts.imbalance());
             (splits * f64::from(counts.splits) + balance * imbalance - reward, 0.0)

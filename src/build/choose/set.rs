@@ -10,16 +10,28 @@ use crate::parallel_map;
 const PART: usize = 4096;
 
 /// The unit normals of all faces, rounded: enough to choose planes by.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Normals(Vec<Vec3>);
 
 impl Normals {
-    pub(crate) fn new(faces: &Faces) -> Self {
+    pub(crate) fn of(faces: &Faces) -> Self {
+        let mut normals = Self::default();
+        normals.fill(faces);
+        normals
+    }
+
+    /// Replaces the normals by those of other faces.
+    pub(crate) fn fill(&mut self, faces: &Faces) {
         let normal = |face| faces.plane(PlaneId::face(face)).normal_f64().normalize().as_vec3();
         let n = faces.len();
+        self.0.clear();
+        if n <= PART {
+            self.0.extend((0..n as u32).map(normal));
+            return;
+        }
         let parts = (0..n).step_by(PART).map(|start| start as u32..n.min(start + PART) as u32);
         let parts = parallel_map::map(parts.collect(), |part| part.map(normal).collect::<Vec<_>>());
-        Self(parts.concat())
+        self.0 = parts.concat();
     }
 }
 

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, EulerRot};
 
 use super::set::{Normals, Set};
 use super::tuning::Tuning;
-use super::{Choice, Chooser};
+use super::{Choice, Chooser, Rules};
 use crate::BspTree;
 use crate::build::Heuristic;
 use crate::build::live::Live;
@@ -24,7 +24,7 @@ impl Fixture {
     pub(super) fn new<const N: usize>(polygons: &[[DVec3; N]], tolerance: f64) -> Self {
         let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
         let pieces = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
-        Self { normals: Normals::new(&faces), faces, pieces, arena: vec![] }
+        Self { normals: Normals::of(&faces), faces, pieces, arena: vec![] }
     }
 
     pub(super) fn set(&self) -> Set<'_, Exact> {
@@ -119,8 +119,9 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
     let watch = Watch::default();
     for sides in 8..14 {
         let fixture = Fixture::new(&prism(sides), 1e-9);
-        let mut chooser = Chooser::new(Heuristic::Auto, &tuning, &watch);
-        let choice = chooser.choose(&fixture.set(), false);
+        let rules = Rules { heuristic: Heuristic::Auto, tuning: &tuning, watch: &watch };
+        let mut chooser = Chooser::default();
+        let choice = chooser.choose(&rules, &fixture.set(), false);
         let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
         assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
     }
@@ -136,7 +137,8 @@ fn a_sample_is_spread_over_the_set() {
 
 fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> PlaneId {
     let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
-    match Chooser::new(heuristic, &Tuning::DEFAULT, &watch).choose(&fixture.set(), false) {
+    let rules = Rules { heuristic, tuning: &Tuning::DEFAULT, watch: &watch };
+    match Chooser::default().choose(&rules, &fixture.set(), false) {
         Choice::Split(plane) => plane,
         Choice::Peel(_) => panic!("own planes alone are chosen"),
     }

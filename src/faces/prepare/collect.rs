@@ -25,6 +25,7 @@ const POLYGONS_AT_ONCE: usize = 1 << 10;
 const CORNERS_AT_ONCE: usize = 1 << 12;
 
 /// All corners, and where those of each polygon end.
+#[derive(Debug, Default)]
 pub(super) struct Collected {
     points: Vec<DVec3>,
     ends: Vec<u32>,
@@ -55,41 +56,44 @@ impl Collected {
     }
 }
 
-/// Reads all polygons; more than `limit` is an error.
-pub(super) fn collect<P: Polygon>(
-    polygons: impl IntoIterator<Item = P>,
-    limit: usize,
-    listener: &dyn Listener,
-) -> Result<Collected, Error> {
-    let polygons = polygons.into_iter();
-    let too_many = || {
-        if limit <= MAX_LABELS {
-            Error::polygons(limit)
-        } else {
-            Error::too_many_polygons(MAX_LABELS)
-        }
-    };
-    let limit = limit.min(MAX_LABELS);
-    let expected = polygons.size_hint().0;
-    if expected > limit {
-        return Err(too_many());
-    }
-    let mut all = Collected { points: vec![], ends: vec![], precision: 0.0 };
-    reserve(&mut all.points, 3 * expected.min(TRUSTED))?;
-    reserve(&mut all.ends, expected.min(TRUSTED))?;
-    for (index, polygon) in polygons.enumerate() {
-        if index == limit {
+impl Collected {
+    /// Reads all polygons, and forgets those before; more than `limit` is an error.
+    pub(super) fn read<P: Polygon>(
+        &mut self,
+        polygons: impl IntoIterator<Item = P>,
+        limit: usize,
+        listener: &dyn Listener,
+    ) -> Result<(), Error> {
+        let polygons = polygons.into_iter();
+        let too_many = || {
+            if limit <= MAX_LABELS {
+                Error::polygons(limit)
+            } else {
+                Error::too_many_polygons(MAX_LABELS)
+            }
+        };
+        let limit = limit.min(MAX_LABELS);
+        let expected = polygons.size_hint().0;
+        if expected > limit {
             return Err(too_many());
         }
-        if index % POLYGONS_AT_ONCE == 0 {
-            listener.read(index)?;
+        self.points.clear();
+        self.ends.clear();
+        self.precision = 0.0;
+        reserve(&mut self.points, 3 * expected.min(TRUSTED))?;
+        reserve(&mut self.ends, expected.min(TRUSTED))?;
+        for (index, polygon) in polygons.enumerate() {
+            if index == limit {
+                return Err(too_many());
+            }
+            if index % POLYGONS_AT_ONCE == 0 {
+                listener.read(index)?;
+            }
+            self.add(index, &polygon, listener)?;
         }
-        all.add(index, &polygon, listener)?;
+        Ok(())
     }
-    Ok(all)
-}
 
-impl Collected {
     fn add<P: Polygon>(
         &mut self,
         index: usize,

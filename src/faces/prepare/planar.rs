@@ -5,7 +5,6 @@ use glam::DVec3;
 
 use super::Builder;
 use crate::Error;
-use crate::exact::faces::Frame;
 use crate::exact::{Plane, cross};
 use crate::memory::reserve;
 
@@ -27,27 +26,18 @@ impl Builder {
 
     /// How far the corner furthest from the plane of three corners is off it, in lattice units,
     /// rounded; 0 only if every corner is exactly on it.
-    pub(super) fn off_plane(&self, second: usize, third: usize) -> f64 {
-        let plane = self.plane(second, third);
-        let values = self.kept.iter().map(|(point, _)| plane.at(point).to_f64().abs());
-        values.fold(0.0, f64::max) / plane.normal_f64().length()
-    }
-
-    /// The frame of a planar polygon, with or without corners that are moved onto its plane.
-    pub(super) fn frame(&self, second: usize, third: usize, is_moved: bool) -> Frame {
-        let axis = is_moved.then(|| self.plane(second, third).main_axis());
-        Frame::new(second, third, axis)
-    }
-
-    fn plane(&self, second: usize, third: usize) -> Plane {
-        Plane::through([0, second, third].map(|k| self.kept[k].0))
+    pub(super) fn off_plane(&self, plane: &Plane, three: [usize; 3]) -> f64 {
+        let others = (0..self.kept.len()).filter(|k| !three.contains(k));
+        let off = others.map(|k| plane.at(&self.kept[k].0)).filter(|off| off.sign().is_ne());
+        let furthest = off.map(|off| off.to_f64().abs()).fold(0.0, f64::max);
+        if furthest > 0.0 { furthest / plane.normal_f64().length() } else { 0.0 }
     }
 
     /// Whether the polygon is convex and winds once, seen along the axis in which its plane is
-    /// least steep. Exact.
-    pub(super) fn is_convex(&self, second: usize, third: usize) -> bool {
+    /// least steep: of three of its corners. Exact.
+    pub(super) fn is_convex(&self, plane: &Plane) -> bool {
         let at = |k: usize| self.kept[k % self.kept.len()].0;
-        let drop = self.plane(second, third).main_axis();
+        let drop = plane.main_axis();
         let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
         let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
         let mut rises = 0;

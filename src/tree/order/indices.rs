@@ -25,7 +25,10 @@ impl BspTree {
     /// written to its final place.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         let view = View::new(self, viewpoint);
-        write_order(&self.schedule, self.records.len(), self.planes.words(), order, |signs| {
+        let Some(schedule) = &self.schedule else {
+            return write_from_nodes(self, &view, order);
+        };
+        write_order(schedule, self.records.len(), self.planes.words(), order, |signs| {
             view.write_signs(self, signs);
         });
     }
@@ -36,6 +39,45 @@ impl BspTree {
         self.back_to_front_into(viewpoint, order);
         order.reverse();
     }
+}
+
+/// Writes an order from the nodes themselves, for a tree without a schedule.
+fn write_from_nodes(tree: &BspTree, view: &View, order: &mut Vec<u32>) {
+    let fragments = tree.records.len();
+    order.resize(fragments + 2 * tree.nodes.len(), 0);
+    // Where the subtree at each node begins in the order, and how many fragments it has.
+    let (numbers, subtrees) = order.split_at_mut(fragments);
+    if tree.nodes.is_empty() {
+        numbers.iter_mut().zip(0..).for_each(|(place, number)| *place = number);
+    } else {
+        subtrees[..2].copy_from_slice(&[0, fragments as u32]);
+    }
+    // Fragments are numbered in the order in which nodes are met here.
+    let mut next = 0;
+    let mut write = |begin: u32, len: u32| {
+        let places = &mut numbers[begin as usize..][..len as usize];
+        places.iter_mut().zip(next..).for_each(|(place, number)| *place = number);
+        next += len;
+    };
+    for (i, node) in tree.nodes.iter().enumerate() {
+        let [begin, all] = [subtrees[2 * i], subtrees[2 * i + 1]];
+        let (own, front) = (node.own(), node.front_len);
+        let back = all - own - front;
+        let (to_own, to_front, to_back) = if view.is_in_front(tree, i) {
+            (begin + back, begin + back + own, begin)
+        } else {
+            (begin + front, begin, begin + front + own)
+        };
+        write(to_own, own);
+        let sides = [(node.front_node(i), to_front, front), (node.back_node(i), to_back, back)];
+        for (child, begin, len) in sides {
+            match child {
+                Some(child) => subtrees[2 * child..][..2].copy_from_slice(&[begin, len]),
+                None => write(begin, len),
+            }
+        }
+    }
+    order.truncate(fragments);
 }
 
 /// Writes an order in three passes over the tree's memory: on which side of each node the eye is,

@@ -20,7 +20,12 @@ const PART: usize = 1024;
 pub(in crate::tree) struct Planes(pub(super) Vec<[Vec4; 4]>);
 
 impl Planes {
-    pub(in crate::tree) fn new(faces: &Faces, nodes: &[Node]) -> Self {
+    pub(in crate::tree) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Replaces the planes by those of a tree's nodes.
+    pub(in crate::tree) fn fill(&mut self, faces: &Faces, nodes: &[Node]) {
         let group = |nodes: &[Node]| {
             let mut group = [Vec4::ZERO; 4];
             for (i, node) in nodes.iter().enumerate() {
@@ -33,10 +38,15 @@ impl Planes {
             }
             group
         };
+        self.0.clear();
+        if nodes.len() <= PART * GROUP {
+            self.0.extend(nodes.chunks(GROUP).map(group));
+            return;
+        }
         let parts = parallel_map::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
             nodes.chunks(GROUP).map(group).collect::<Vec<_>>()
         });
-        Self(parts.concat())
+        self.0 = parts.concat();
     }
 
     /// How many words the signs of all planes take, and one more to read past the end.

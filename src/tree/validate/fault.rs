@@ -21,6 +21,7 @@ pub(super) enum Fault {
     Splits { counted: usize, found: usize },
     RoundedPlanes,
     Schedule,
+    Positions,
 }
 
 /// A face whose pieces do not cover it once.
@@ -63,6 +64,7 @@ impl fmt::Display for Fault {
             }
             Self::RoundedPlanes => f.write_str("the rounded planes are not those of the nodes"),
             Self::Schedule => f.write_str("the layout for orders does not match the nodes"),
+            Self::Positions => f.write_str("the positions are not those of the vertices"),
         }
     }
 }

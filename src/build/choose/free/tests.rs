@@ -39,7 +39,7 @@ fn at(pieces: &[Live], axis: usize, c: f64, tolerance: f64) -> Cost {
 fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
     let pieces: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
-    let (normals, watch) = (Normals::new(&faces), Watch::default());
+    let (normals, watch) = (Normals::of(&faces), Watch::default());
     let set = Set::new(&Exact, &faces, &normals, &pieces, &[]);
     let found = Sweep::default().best(&set, &Tuning::DEFAULT, &watch);
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));

@@ -53,7 +53,9 @@ impl Tree {
     fn nodes(&self) -> Vec<Node> {
         let mut nodes = Vec::new();
         self.lay(&mut nodes);
-        finish(&nodes)
+        let mut finished = Vec::new();
+        finish(&nodes, &mut Vec::new(), &mut finished);
+        finished
     }
 
     /// The order, from the first node and fragment that are not yet counted on: what is on the far

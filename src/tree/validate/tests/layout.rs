@@ -2,7 +2,6 @@
 
 use super::{trees, verdict};
 use crate::tree::BspTree;
-use crate::tree::order::planes::Planes;
 
 const SCHEDULE: &str = "the layout for orders does not match the nodes";
 const ROUNDED: &str = "the rounded planes are not those of the nodes";
@@ -23,19 +22,29 @@ fn assert_all(fault: &str, edit: impl Fn(&mut BspTree) -> Option<()>) -> usize {
 #[test]
 fn a_change_of_a_branch_is_found() {
     let broken = [
-        assert_all(SCHEDULE, |tree| tree.schedule.branches.pop().map(drop)),
-        assert_all(SCHEDULE, |tree| tree.schedule.branches.last_mut().map(|b| b.node += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.branches.last_mut().map(|b| b.own ^= 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.branches.first_mut().map(|b| b.front += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.branches.first_mut().map(|b| b.back += 1)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.branches.pop().map(drop)),
         assert_all(SCHEDULE, |tree| {
-            let branch = tree.schedule.branches.first_mut()?;
+            tree.schedule.as_mut()?.branches.last_mut().map(|b| b.node += 1)
+        }),
+        assert_all(SCHEDULE, |tree| {
+            tree.schedule.as_mut()?.branches.last_mut().map(|b| b.own ^= 1)
+        }),
+        assert_all(SCHEDULE, |tree| {
+            tree.schedule.as_mut()?.branches.first_mut().map(|b| b.front += 1)
+        }),
+        assert_all(SCHEDULE, |tree| {
+            tree.schedule.as_mut()?.branches.first_mut().map(|b| b.back += 1)
+        }),
+        assert_all(SCHEDULE, |tree| {
+            let branch = tree.schedule.as_mut()?.branches.first_mut()?;
             branch.front_part ^= branch.back_part ^ 7;
             Some(())
         }),
-        assert_all(SCHEDULE, |tree| tree.schedule.branches.first_mut().map(|b| b.back_part += 1)),
         assert_all(SCHEDULE, |tree| {
-            let branches = &mut tree.schedule.branches;
+            tree.schedule.as_mut()?.branches.first_mut().map(|b| b.back_part += 1)
+        }),
+        assert_all(SCHEDULE, |tree| {
+            let branches = &mut tree.schedule.as_mut()?.branches;
             branches.iter_mut().find(|b| b.own > 0).map(|b| b.own_first += 1)
         }),
     ];
@@ -45,13 +54,17 @@ fn a_change_of_a_branch_is_found() {
 #[test]
 fn a_change_of_a_twig_or_a_run_or_a_permutation_is_found() {
     let twigs = [
-        assert_all(SCHEDULE, |tree| tree.schedule.twigs.pop().map(drop)),
-        assert_all(SCHEDULE, |tree| tree.schedule.twigs.first_mut().map(|t| t.node += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.twigs.last_mut().map(|t| t.first += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.twigs.last_mut().map(|t| t.row ^= 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.permutations.last_mut().map(|p| p[5] ^= 1)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.pop().map(drop)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.first_mut().map(|t| t.node += 1)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.last_mut().map(|t| t.first += 1)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.last_mut().map(|t| t.row ^= 1)),
         assert_all(SCHEDULE, |tree| {
-            let [first, .., last] = &mut tree.schedule.permutations[..] else { return None };
+            tree.schedule.as_mut()?.permutations.last_mut().map(|p| p[5] ^= 1)
+        }),
+        assert_all(SCHEDULE, |tree| {
+            let [first, .., last] = &mut tree.schedule.as_mut()?.permutations[..] else {
+                return None;
+            };
             let distinct = first != last;
             std::mem::swap(first, last);
             distinct.then_some(())
@@ -59,9 +72,9 @@ fn a_change_of_a_twig_or_a_run_or_a_permutation_is_found() {
     ];
     assert!(twigs.iter().all(|&broken| broken >= 15), "{twigs:?}");
     let runs = [
-        assert_all(SCHEDULE, |tree| tree.schedule.runs.pop().map(drop)),
-        assert_all(SCHEDULE, |tree| tree.schedule.runs.first_mut().map(|r| r.first += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.runs.last_mut().map(|r| r.len -= 1)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.runs.pop().map(drop)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.runs.first_mut().map(|r| r.first += 1)),
+        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.runs.last_mut().map(|r| r.len -= 1)),
     ];
     assert!(runs.iter().all(|&broken| broken >= 2), "{runs:?}");
 }
@@ -73,12 +86,12 @@ fn rounded_planes_of_other_nodes_are_found() {
         let distinct = first.plane != last.plane;
         let mut nodes = tree.nodes.clone();
         nodes.reverse();
-        tree.planes = Planes::new(&tree.faces, &nodes);
+        tree.planes.fill(&tree.faces, &nodes);
         distinct.then_some(())
     });
     let missing = assert_all(ROUNDED, |tree| {
         let enough = tree.nodes.len() > 4;
-        tree.planes = Planes::new(&tree.faces, &tree.nodes[4.min(tree.nodes.len())..]);
+        tree.planes.fill(&tree.faces, &tree.nodes[4.min(tree.nodes.len())..]);
         enough.then_some(())
     });
     assert!(swapped >= 20 && missing >= 20, "{swapped} {missing}");

@@ -14,7 +14,9 @@ fn with_own(node: &Node, own: u32, back_is_node: bool) -> Node {
     let back = if back_is_node { Child::Node } else { Child::Leaf(0) };
     let raw = RawNode { plane: node.plane, own, front: Child::Leaf(0), back };
     let last = RawNode { back: Child::Leaf(0), ..raw };
-    with_front(&finish(&[raw, last])[0], node.front_len, node.front_nodes)
+    let mut nodes = Vec::new();
+    finish(&[raw, last], &mut Vec::new(), &mut nodes);
+    with_front(&nodes[0], node.front_len, node.front_nodes)
 }
 
 /// The same node with other numbers of fragments and nodes in front.

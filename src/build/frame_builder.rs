@@ -1,0 +1,78 @@
+//! Trees that are built anew every frame.
+
+use std::fmt;
+
+use super::driver::Workshop;
+use super::options::BuildOptions;
+use crate::error::Error;
+use crate::input::Polygon;
+use crate::tree::BspTree;
+
+/// Builds a tree for every frame, in memory that it keeps.
+///
+/// Take it where polygons move every frame and each tree is drawn once or twice, as in a compositor
+/// of layers. Its trees have the same fragments as those of [`BspTree::build`], with the same numbers
+/// and orders, but are made for one view: the rounded positions of cut vertices are stored rather
+/// than computed at each reading, and the layout from which
+/// [`back_to_front_into`](BspTree::back_to_front_into) writes order after order is left out, so that
+/// an order takes a few times longer. Once its lists have grown to the size of a scene, a build
+/// allocates little or nothing.
+///
+/// ```
+/// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};
+///
+/// let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+/// let mut order = Vec::new();
+/// for frame in 0..3 {
+///     let z = f64::from(frame);
+///     let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+///     let tree = builder.build([layer(z), layer(1.5)])?;
+///     tree.back_to_front_into(Viewpoint::direction([0.0, 0.0, -1.0]), &mut order);
+///     for &number in &order {
+///         let fragment = tree.fragment(number);
+///         let outline = fragment.vertices(); // of polygon `fragment.polygon()`
+///         # assert_eq!(outline.len(), 4);
+///     }
+///     assert_eq!(order, if frame < 2 { [0, 1] } else { [1, 0] });
+/// }
+/// # Ok::<(), binspace::Error>(())
+/// ```
+pub struct FrameBuilder {
+    options: BuildOptions,
+    workshop: Workshop,
+    tree: BspTree,
+}
+
+impl FrameBuilder {
+    /// A builder with these options. Its tree is empty so far.
+    pub fn new(options: BuildOptions) -> Self {
+        Self { options, workshop: Workshop::default(), tree: BspTree::empty() }
+    }
+
+    /// Builds a tree of polygons in place of the last one.
+    ///
+    /// # Errors
+    ///
+    /// As for [`BuildOptions::build`]. The tree is empty then.
+    pub fn build<P: Polygon>(
+        &mut self,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<&BspTree, Error> {
+        self.workshop.rebuild(&mut self.tree, &self.options, polygons)?;
+        Ok(&self.tree)
+    }
+
+    /// The last tree that was built.
+    pub fn tree(&self) -> &BspTree {
+        &self.tree
+    }
+}
+
+impl fmt::Debug for FrameBuilder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FrameBuilder")
+            .field("options", &self.options)
+            .field("tree", &self.tree)
+            .finish_non_exhaustive()
+    }
+}

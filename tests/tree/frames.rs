@@ -1,0 +1,92 @@
+//! One builder, scene after scene, against trees that are built alone.
+
+use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Viewpoint};
+use proptest::prelude::*;
+
+use crate::support::dice::Dice;
+use crate::support::hard;
+use crate::support::rays::Rays;
+use crate::support::tally::tally;
+use crate::support::{orders, views};
+use crate::{fail, heuristic, options, shoot};
+
+fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {
+    let vertices: Vec<_> = fragment.vertices().map(|v| v.to_array().map(f64::to_bits)).collect();
+    let edges: Vec<_> = fragment.edges().collect();
+    (fragment.index(), fragment.polygon(), fragment.is_whole(), vertices, edges)
+}
+
+fn assert_same(one: &BspTree, other: &BspTree, viewpoint: Viewpoint) {
+    assert_eq!(one.len(), other.len());
+    assert!(one.fragments().map(|f| of(&f)).eq(other.fragments().map(|f| of(&f))));
+    let order = |tree: &BspTree| {
+        let mut order = vec![7; 3];
+        tree.back_to_front_into(viewpoint, &mut order);
+        order
+    };
+    assert_eq!(order(one), order(other));
+}
+
+#[test]
+fn a_frame_has_the_tree_that_is_built_alone() {
+    let scenes = (prop::collection::vec(hard::scene(), 1..5), heuristic(), any::<u64>());
+    let [frames, cut] =
+        tally(file!(), 128, scenes, |counts: &mut [usize; 2], (scenes, by, seed)| {
+            let mut dice = Dice(seed);
+            // Options belong to the builder, so its scenes have one tolerance.
+            let options = options(&scenes[0], by);
+            let mut builder = FrameBuilder::new(options);
+            for scene in &scenes {
+                let alone =
+                    options.build(&scene.polygons).map_err(|error| fail(error.to_string()))?;
+                let tree =
+                    builder.build(&scene.polygons).map_err(|error| fail(error.to_string()))?;
+                tree.validate().map_err(|invalid| fail(invalid.to_string()))?;
+                prop_assert_eq!(tree.preparation(), alone.preparation());
+                if !tree.is_empty() {
+                    let view = views::some_view(tree.faces(), &Rays::new(tree), &mut dice);
+                    assert_same(tree, &alone, view.viewpoint);
+                    orders::check(tree, view.viewpoint).map_err(fail)?;
+                    shoot(tree, dice.roll())?;
+                }
+                counts[0] += 1;
+                counts[1] += usize::from(tree.len() > tree.faces().len());
+            }
+            Ok(())
+        });
+    assert!(frames > 200 && cut > 60, "{frames} frames, {cut} of them with cuts");
+}
+
+#[test]
+fn after_an_error_the_tree_is_empty_and_the_builder_goes_on() -> Result<(), Error> {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let upright = [[0.5, -1.0, -9.0], [0.5, 2.0, -9.0], [0.5, 2.0, 9.0], [0.5, -1.0, 9.0]];
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_max_fragments(5));
+    for _ in 0..3 {
+        assert_eq!(builder.build([square(0.0), square(1.0), upright])?.len(), 5);
+        let many = (0..6).map(|i| square(f64::from(i)));
+        let over = [many.clone().collect::<Vec<_>>(), vec![square(f64::NAN)]];
+        // Too many polygons, not finite, and more pieces than polygons.
+        for polygons in
+            over.into_iter().chain([vec![square(0.0), square(1.0), square(2.0), upright]])
+        {
+            assert!(builder.build(polygons).is_err());
+            assert!(builder.tree().is_empty());
+            assert!(builder.tree().back_to_front(Viewpoint::eye([0.0; 3])).next().is_none());
+        }
+    }
+    Ok(())
+}
+
+/// More polygons than one thread prepares, sets that are passed to other threads.
+#[test]
+fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    for scene in [binspace::scene::terrain(9000, 1), binspace::scene::random_triangles(300, 2)] {
+        let alone = BspTree::build(scene.polygons())?;
+        let tree = builder.build(scene.polygons())?;
+        assert_same(tree, &alone, Viewpoint::eye([0.3, 0.2, 4.0]));
+        tree.validate()?;
+    }
+    Ok(())
+}
