@@ -1,7 +1,7 @@
 //! Frames of a compositor: every frame builds, orders and reads every outline, on one thread, against
 //! `plane-split`, which WebRender uses for CSS 3D layers.
 
-use binspace::{BspTree, Viewpoint};
+use binspace::{BuildOptions, FrameBuilder, Viewpoint};
 use euclid::default::Point3D;
 use plane_split::BspSplitter;
 use rayon::ThreadPoolBuilder;
@@ -49,9 +49,10 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     let mut order = Vec::new();
     let (mut ours, mut theirs) = (Duration::MAX, Duration::MAX);
     let mut splitter = BspSplitter::<usize>::new();
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     // In turns, so that a slow moment of the machine meets both.
     for _ in 0..4 {
-        ours = ours.min(best_of(3, || our_frame(outlines, &mut order)).0);
+        ours = ours.min(best_of(3, || our_frame(outlines, &mut builder, &mut order)).0);
         theirs = theirs.min(best_of(3, || their_frame(outlines, &mut splitter)).0);
     }
     let (of_ours, of_theirs) = (our_pieces(outlines), their_pieces(outlines));
@@ -77,8 +78,8 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
 }
 
 /// Builds, orders, reads; the sum of what is read, so that it is not left out.
-fn our_frame(outlines: &[Outline], order: &mut Vec<u32>) -> f64 {
-    let tree = BspTree::build(outlines).expect("within budget");
+fn our_frame(outlines: &[Outline], builder: &mut FrameBuilder, order: &mut Vec<u32>) -> f64 {
+    let tree = builder.build(outlines).expect("within budget");
     tree.back_to_front_into(Viewpoint::direction([0.0, 0.0, -1.0]), order);
     let vertices = order.iter().flat_map(|&number| tree.fragment(number).vertices());
     vertices.map(|vertex| vertex.x + vertex.y + vertex.z).sum()
@@ -105,7 +106,8 @@ struct Painted {
 }
 
 fn our_pieces(outlines: &[Outline]) -> Vec<Painted> {
-    let tree = BspTree::build(outlines).expect("within budget");
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    let tree = builder.build(outlines).expect("within budget");
     assert_eq!(tree.validate(), Ok(()));
     let order = tree.back_to_front(Viewpoint::direction([0.0, 0.0, -1.0]));
     let painted = |fragment: binspace::Fragment<'_>| Painted {

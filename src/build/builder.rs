@@ -5,6 +5,7 @@ mod divide;
 mod emit;
 mod leaf;
 mod state;
+mod table;
 
 use super::assemble::Output;
 use super::choose::{Choice, Set};
@@ -51,6 +52,9 @@ impl<K: Kernel> Builder<'_, K> {
         let depth = pending.depth + 1;
         if !set.is_empty() {
             self.shared.budget.check_depth(depth)?;
+        }
+        if !is_leaf(set) && self.shared.rules.is_small(set.len()) {
+            return self.divide_small(start, pending.depth);
         }
         let plane = if is_leaf(set) {
             // Only the root can be a leaf here: other leaves were stored with their parents.

@@ -30,9 +30,8 @@ impl Live {
         live
     }
 
-    /// A part of a piece that was cut; its vertices are those of the arena from `start` on.
-    pub(super) fn cut<K: Kernel>(whole: &Self, arena: &[K::Vertex], start: usize) -> Self {
-        let vertices = &arena[start..];
+    /// A part of a piece that was cut, by its vertices, and where these begin in the arena.
+    pub(super) fn cut<K: Kernel>(whole: &Self, vertices: &[K::Vertex], start: usize) -> Self {
         let mut live = Self::empty(whole.face, start as u32, vertices.len() as u32);
         live.cuts = whole.cuts.saturating_add(1);
         for vertex in vertices {
@@ -57,8 +56,9 @@ impl Live {
 
     fn include(&mut self, p: [f64; 3]) {
         for (axis, &c) in p.iter().enumerate() {
-            self.min[axis] = self.min[axis].min(c);
-            self.max[axis] = self.max[axis].max(c);
+            // Not `min` and `max`, which take more instructions because of NaN.
+            self.min[axis] = if c < self.min[axis] { c } else { self.min[axis] };
+            self.max[axis] = if c > self.max[axis] { c } else { self.max[axis] };
         }
     }
 

@@ -10,7 +10,6 @@
 //! | `split` | how a piece is cut |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
 
-mod drift;
 pub(crate) mod exact_kernel;
 mod eye;
 pub(crate) mod faces;

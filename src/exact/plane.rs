@@ -16,6 +16,11 @@ pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
     })
 }
 
+/// Components of a normal are divided into parts of so many bits, whose products with differences of
+/// coordinates fit 128 bits, three of them added.
+pub(super) const PART: u32 = 56;
+pub(super) const LOW_PART: i128 = (1 << PART) - 1;
+
 /// A plane in integers: a normal and a lattice point on it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
@@ -84,12 +89,19 @@ impl Plane {
         self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
     }
 
-    /// The scalar product of the normal and a direction of components below 2⁶³.
+    /// The scalar product of the normal and a direction of components below 2⁶².
     #[inline]
     pub(crate) fn along(&self, direction: [i64; 3]) -> Int<3> {
-        let term =
-            |i: usize| Int::<2>::from(self.normal[i]).times::<1, 3>(&Int::<1>::from(direction[i]));
-        term(0) + term(1) + term(2)
+        // Components of the normal are below 2¹⁰⁸, so their parts and products fit 64 and 128 bits.
+        let (mut high, mut low) = (0i128, 0i128);
+        for (component, step) in self.normal.iter().zip(direction) {
+            high += i128::from((component >> PART) as i64) * i128::from(step);
+            low += i128::from((component & LOW_PART) as i64) * i128::from(step);
+        }
+        high += low >> PART;
+        let (low, high_bits) = ((low & LOW_PART) as u64, high as u128);
+        let last = (high >> (128 - PART)) as u64;
+        Int::from_limbs([low | (high_bits << PART) as u64, (high_bits >> (64 - PART)) as u64, last])
     }
 }
 

@@ -8,7 +8,7 @@
 use super::Int;
 use super::faces::Faces;
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
-use super::plane::Plane;
+use super::plane::{LOW_PART, PART, Plane};
 use super::vertex::{Definition, Weights};
 
 #[cfg(test)]
@@ -67,7 +67,7 @@ impl Faces {
 }
 
 /// The weighted mean of lattice points, rounded.
-pub(super) fn ratio<const K: usize>(points: &[[f64; 3]; K], weights: &[Int<5>; K]) -> [f64; 3] {
+fn ratio<const K: usize>(points: &[[f64; 3]; K], weights: &[Int<5>; K]) -> [f64; 3] {
     let total = weights.iter().fold(Int::<5>::ZERO, |sum, &w| sum + w).to_f64();
     std::array::from_fn(|axis| {
         let terms = points.iter().zip(weights);
@@ -138,11 +138,6 @@ struct Leading<const K: usize> {
     values: [i128; K],
     dropped: u32,
 }
-
-/// Components of a normal are divided into parts of so many bits, whose products with differences of
-/// coordinates fit 128.
-const PART: u32 = 56;
-const LOW_PART: i128 = (1 << PART) - 1;
 
 impl<const K: usize> Leading<K> {
     /// A plane at some lattice points: up to 162 bits, see `vertex`.

@@ -19,9 +19,10 @@ pub(super) fn classify(
     }
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut see = |position| {
+        // Not `min` and `max`, which take more instructions because of NaN.
         let s = splitter.distance(position);
-        low = low.min(s);
-        high = high.max(s);
+        low = if s < low { s } else { low };
+        high = if s > high { s } else { high };
     };
     match piece.cut {
         None => faces.corners(piece.face).iter().for_each(|&corner| see(corner)),

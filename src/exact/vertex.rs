@@ -24,7 +24,6 @@ use super::Int;
 use super::faces::Faces;
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
 use super::plane::{Plane, cross, relative_to};
-use super::position::ratio;
 
 /// A vertex as a combination of lattice points. The sum of the weights is not zero; it and the
 /// weights may have either sign.
@@ -51,19 +50,28 @@ pub(super) enum Definition {
 
 impl Faces {
     /// Moves the corners of the last face along `axis` to the lattice points nearest to its plane.
-    pub(crate) fn flatten_last(&mut self, axis: usize) {
+    pub(crate) fn flatten_last(&mut self, axis: usize, plane: &Plane) {
         let face = self.faces.len() as u32 - 1;
+        let triangle = self.faces[face as usize].frame.triangle();
+        let slope = plane.normal()[axis];
         for (k, corner) in self.corner_range(face).enumerate() {
-            let symbol = Symbol::corner(k as u32);
-            if let Weights::Inside(points, weights) = self.weights(face, symbol) {
-                let mut nearest = self.corners[corner];
-                nearest[axis] = ratio(&points, &weights)[axis].round();
-                // `ratio` and `round` both round, so this may be the next but one: correct it.
-                if let Some(off) = self.drift(face, symbol, nearest) {
-                    nearest[axis] -= off[axis].round();
-                }
-                self.corners[corner] = nearest;
+            if triangle.contains(&(k as u32)) {
+                continue;
             }
+            let off = plane.at(&self.corners[corner]);
+            if off.sign().is_eq() {
+                continue;
+            }
+            // The plane is off / slope steps away. Both are rounded here, and the quotient, but it is
+            // below 2⁴⁵, so the nearest integer is this or the next.
+            let steps = (off.to_f64() / slope as f64).round();
+            let rest = off - Int::<2>::from(slope).times::<1, 3>(&Int::from(steps as i64));
+            let slope: Int<3> = slope.into();
+            let (rest, up) = if rest.sign() == slope.sign() { (rest, 1.0) } else { (-rest, -1.0) };
+            // Now of one sign, or no rest.
+            let excess = rest + rest - slope;
+            let is_next = excess.sign() == slope.sign() && rest.sign().is_ne();
+            self.corners[corner][axis] -= if is_next { steps + up } else { steps };
         }
     }
 

@@ -304,19 +304,21 @@ impl Builder {
     ) -> Result<Outcome, Error> {
         listener.work(points.len() / STEP_CORNERS)?;
         self.keep_distinct(points)?;
-        let Some([second, third]) = self.widest_triangle() else {
+        let Some(([second, third], plane)) = self.widest_triangle() else {
             return Ok(Outcome::Dropped);
         };
         if self.kept.len() == 3 {
             self.push(polygon, 0..3, Frame::TRIANGLE)?;
             return Ok(Outcome::Whole { off: 0.0 });
         }
-        let plane = Plane::through([0, second, third].map(|k| self.kept[k].0));
         let convex = self.is_convex(&plane);
         let off = if convex { self.off_plane(&plane, [0, second, third]) } else { 0.0 };
         if convex && self.kept.len() <= Frame::MAX_CORNERS && off <= self.faces.tolerance {
-            let moved_along = (off > 0.0).then(|| plane.main_axis());
-            self.push(polygon, 0..self.kept.len(), Frame::new(second, third, moved_along))?;
+            let axis = (off > 0.0).then(|| plane.main_axis());
+            self.push(polygon, 0..self.kept.len(), Frame::new(second, third, axis))?;
+            if let Some(axis) = axis {
+                self.faces.flatten_last(axis, &plane);
+            }
             return Ok(Outcome::Whole { off });
         }
         let crosses_itself = self.triangulate(polygon, convex, &plane, listener)?;
@@ -392,11 +394,7 @@ impl Builder {
         reserve(&mut faces.faces, 1)?;
         faces.corners.extend(kept.clone().map(|k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
-        self.number_last(kept)?;
-        if let Some(axis) = frame.drop_axis() {
-            self.faces.flatten_last(axis);
-        }
-        Ok(())
+        self.number_last(kept)
     }
 
     /// Numbers the corners of the last face, if they are not the first of the polygon in order, with

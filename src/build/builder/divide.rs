@@ -73,43 +73,51 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// Cuts the pieces in `scratch.spanning`, and adds their parts to both sides.
     fn cut_spanning(&mut self, plane: PlaneId) -> Result<(), Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let splitter = kernel.splitter(faces, plane);
-        let scratch = &mut self.scratch;
-        for live in &scratch.spanning {
-            self.shared.watch.work(CUT)?;
-            // Copied, because the parts are appended to the arena that the piece's vertices are in.
-            scratch.outline.clear();
-            match live.piece(&self.arena).cut {
-                Some(vertices) => scratch.outline.extend_from_slice(vertices),
-                None => {
-                    let corners = 0..faces.corners(live.face).len() as u32;
-                    scratch.outline.extend(corners.map(|k| kernel.corner(faces, live.face, k)));
-                }
-            }
-            scratch.front_part.clear();
-            scratch.back_part.clear();
-            split(
-                &kernel,
-                faces,
-                &splitter,
-                live.face,
-                &scratch.outline,
-                &mut scratch.front_part,
-                &mut scratch.back_part,
-            );
-            self.output.parts.cuts += 1;
-            for (part, list) in
-                [(&scratch.back_part, &mut self.pieces), (&scratch.front_part, &mut scratch.front)]
-            {
-                // The piece's own vertices stay behind as garbage until the arena is compacted.
-                let start = self.arena.len();
-                reserve(&mut self.arena, part.len())?;
-                self.arena.extend_from_slice(part);
-                reserve(list, 1)?;
-                list.push(Live::cut::<K>(live, &self.arena, start));
-            }
+        let splitter = self.shared.kernel.splitter(self.shared.faces, plane);
+        for i in 0..self.scratch.spanning.len() {
+            let whole = self.scratch.spanning[i];
+            let [front, back] = self.cut(&whole, &splitter)?;
+            reserve(&mut self.pieces, 1)?;
+            self.pieces.push(back);
+            reserve(&mut self.scratch.front, 1)?;
+            self.scratch.front.push(front);
         }
         Ok(())
+    }
+
+    /// Cuts a piece, and gives the parts in front and behind.
+    pub(super) fn cut(&mut self, live: &Live, splitter: &K::Splitter) -> Result<[Live; 2], Error> {
+        self.shared.watch.work(CUT)?;
+        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
+        let scratch = &mut self.scratch;
+        // Copied, because the parts are appended to the arena that the piece's vertices are in.
+        scratch.outline.clear();
+        match live.piece(&self.arena).cut {
+            Some(vertices) => scratch.outline.extend_from_slice(vertices),
+            None => {
+                let corners = 0..faces.corners(live.face).len() as u32;
+                scratch.outline.extend(corners.map(|k| kernel.corner(faces, live.face, k)));
+            }
+        }
+        scratch.front_part.clear();
+        scratch.back_part.clear();
+        split(
+            &kernel,
+            faces,
+            splitter,
+            live.face,
+            &scratch.outline,
+            &mut scratch.front_part,
+            &mut scratch.back_part,
+        );
+        self.output.parts.cuts += 1;
+        // The piece's own vertices stay behind as garbage until the arena is compacted.
+        let front = self.arena.len();
+        reserve(&mut self.arena, scratch.front_part.len() + scratch.back_part.len())?;
+        self.arena.extend_from_slice(&scratch.front_part);
+        let back = self.arena.len();
+        self.arena.extend_from_slice(&scratch.back_part);
+        let vertices = [&self.arena[front..back], &self.arena[back..]];
+        Ok([Live::cut::<K>(live, vertices[0], front), Live::cut::<K>(live, vertices[1], back)])
     }
 }

@@ -10,6 +10,11 @@ pub(super) fn is_leaf(pieces: &[Live]) -> bool {
     pieces.len() <= 1
 }
 
+/// As above, of a set of slots.
+pub(super) fn is_small_leaf(set: u64) -> bool {
+    set.count_ones() <= 1
+}
+
 impl<K: Kernel> Builder<'_, K> {
     /// Appends a piece to the output as a fragment.
     pub(super) fn store(&mut self, live: Live) -> Result<(), Error> {

@@ -3,6 +3,7 @@
 use std::mem::take;
 use std::ops::Range;
 
+use super::table::Table;
 use crate::Error;
 use crate::build::assemble::Output;
 use crate::build::budget::Budget;
@@ -81,6 +82,7 @@ pub(super) struct Builder<'a, K: Kernel> {
     pub(super) compact_at: usize,
     pub(super) output: Output<K::Stored>,
     pub(super) scratch: Scratch<K::Vertex>,
+    pub(super) table: Table<K>,
 }
 
 impl<'a, K: Kernel> Builder<'a, K> {
@@ -90,9 +92,18 @@ impl<'a, K: Kernel> Builder<'a, K> {
         memory: &mut Memory<K>,
     ) -> Self {
         let Job { pieces, arena, depth } = job;
-        let Memory { chooser, pending, output, scratch, .. } = take(memory);
-        let mut builder =
-            Self { shared, chooser, pending, pieces, arena, compact_at: COMPACT, output, scratch };
+        let Memory { chooser, pending, output, scratch, table, .. } = take(memory);
+        let mut builder = Self {
+            shared,
+            chooser,
+            pending,
+            pieces,
+            arena,
+            compact_at: COMPACT,
+            output,
+            scratch,
+            table,
+        };
         builder.output.clear();
         builder.pending.clear();
         let root = Pending::new(0..builder.pieces.len(), builder.arena.len(), depth);
@@ -102,8 +113,9 @@ impl<'a, K: Kernel> Builder<'a, K> {
 
     /// Gives its lists back, apart from the output.
     pub(super) fn end(self, memory: &mut Memory<K>) -> Output<K::Stored> {
-        let Self { chooser, pending, pieces, arena, scratch, output, .. } = self;
-        *memory = Memory { chooser, pending, pieces, arena, scratch, output: Output::default() };
+        let Self { chooser, pending, pieces, arena, scratch, table, output, .. } = self;
+        *memory =
+            Memory { chooser, pending, pieces, arena, scratch, table, output: Output::default() };
         output
     }
 }
@@ -115,6 +127,7 @@ pub(in crate::build) struct Memory<K: Kernel> {
     pub(in crate::build) pieces: Vec<Live>,
     pub(in crate::build) arena: Vec<K::Vertex>,
     scratch: Scratch<K::Vertex>,
+    table: Table<K>,
     pub(in crate::build) output: Output<K::Stored>,
 }
 
@@ -126,6 +139,7 @@ impl<K: Kernel> Default for Memory<K> {
             pieces: vec![],
             arena: vec![],
             scratch: Scratch::default(),
+            table: Table::default(),
             output: Output::default(),
         }
     }

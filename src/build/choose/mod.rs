@@ -21,6 +21,7 @@ use crate::random::mix;
 use auto::Auto;
 pub(super) use choice::Choice;
 use free::Sweep;
+pub(super) use own::Best;
 pub(super) use peel::Peeled;
 use scored::Scored;
 pub(super) use set::{Normals, Set};
@@ -37,6 +38,13 @@ pub(super) struct Rules<'a> {
     pub(super) tuning: &'a Tuning,
     /// Once a build is cancelled, any plane is chosen, quickly.
     pub(super) watch: &'a Watch<'a>,
+}
+
+impl Rules<'_> {
+    /// Whether a set is divided from a table of all pieces against all planes.
+    pub(super) fn is_small(&self, pieces: usize) -> bool {
+        self.heuristic == Heuristic::Auto && pieces <= self.tuning.table
+    }
 }
 
 /// Chooses splitters; its lists are kept to be used again.
@@ -86,6 +94,15 @@ impl Chooser {
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
         })
+    }
+
+    /// A free plane that cuts nothing.
+    pub(super) fn clean<K: Kernel>(
+        &mut self,
+        rules: &Rules<'_>,
+        set: &Set<'_, K>,
+    ) -> Option<PlaneId> {
+        self.sweep.clean(set, rules.tuning).map(|free| free.plane)
     }
 
     /// The own plane of least weighted sum.

@@ -40,8 +40,12 @@ pub(super) struct Terms {
 impl Terms {
     /// Of a small set: what cuts nothing is preferred.
     pub(super) fn small<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
-        let pieces = set.len() as f64;
+        Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
+    }
+
+    /// Of so many pieces, cut so many times together.
+    fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
+        let pieces = pieces as f64;
         let mean = cuts as f64 / pieces;
         Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
     }
@@ -84,8 +88,8 @@ struct Shares {
 }
 
 impl Shares {
-    fn of<K: Kernel>(set: &Set<'_, K>) -> Self {
-        Self { per_unit: set.size().map(|size| (size > 0.0).then(|| 1.0 / size)) }
+    fn of(size: [f64; 3]) -> Self {
+        Self { per_unit: size.map(|size| (size > 0.0).then(|| 1.0 / size)) }
     }
 
     #[inline]
@@ -96,6 +100,67 @@ impl Shares {
         });
         // The largest product of two of the three.
         (x * y).max(y * z).max(z * x)
+    }
+}
+
+/// The best of the planes of a small set, of which all is known.
+#[derive(Debug)]
+pub(in crate::build) struct Best {
+    terms: Terms,
+    shares: Shares,
+    cost: Cost,
+    row: usize,
+    is_good: bool,
+    uneven: usize,
+}
+
+impl Best {
+    pub(in crate::build) fn new<'a>(
+        pieces: impl Iterator<Item = &'a Live>,
+        tuning: &Tuning,
+    ) -> Self {
+        let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let (mut count, mut cuts) = (0, 0);
+        for piece in pieces {
+            count += 1;
+            cuts += usize::from(piece.cuts);
+            for axis in 0..3 {
+                let (low, high) = (piece.min[axis], piece.max[axis]);
+                min[axis] = if low < min[axis] { low } else { min[axis] };
+                max[axis] = if high > max[axis] { high } else { max[axis] };
+            }
+        }
+        let size = std::array::from_fn(|axis| max[axis] - min[axis]);
+        let terms = Terms::of(count, cuts, tuning);
+        let shares = Shares::of(size);
+        Self { terms, shares, cost: Cost::MOST, row: 0, is_good: false, uneven: tuning.uneven }
+    }
+
+    /// Compares the plane of a piece, by how many pieces reach in front of it, behind it, and both.
+    pub(in crate::build) fn see(&mut self, row: usize, piece: &Live, reach: [u32; 3]) {
+        let [front, back, splits] = reach;
+        let counts = Counts { front: front - splits, back: back - splits, splits };
+        let cost = self.terms.cost(&counts, self.shares.get(piece));
+        if cost.is_less(&self.cost) {
+            (self.cost, self.row) = (cost, row);
+            let pieces = self.terms.pieces as usize;
+            self.is_good = Cost::of(&counts).divides_evenly(pieces, self.uneven);
+        }
+    }
+
+    /// Whether the best plane cuts nothing, and leaves enough on both sides.
+    pub(in crate::build) fn is_good(&self) -> bool {
+        self.is_good
+    }
+
+    /// The row of the best plane.
+    pub(in crate::build) fn row(&self) -> usize {
+        self.row
+    }
+
+    /// Whether it cuts any piece.
+    pub(in crate::build) fn cuts(&self) -> bool {
+        self.cost.cuts
     }
 }
 
@@ -123,7 +188,7 @@ impl Contest {
         terms: &Terms,
         tuning: &Tuning,
     ) {
-        let shares = Shares::of(set);
+        let shares = Shares::of(set.size());
         let sketch = &sample.sketch;
         self.seen = 0;
         let pieces = (0..count.min(sketch.len())).map(|place| sketch.number(place));

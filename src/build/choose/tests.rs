@@ -49,7 +49,7 @@ impl Fixture {
                 split(&Exact, &self.faces, &splitter, live.face, &outline, &mut front, &mut back);
                 let start = self.arena.len();
                 self.arena.extend(if kept == Side::Front { front } else { back });
-                self.pieces.push(Live::cut::<Exact>(&live, &self.arena, start));
+                self.pieces.push(Live::cut::<Exact>(&live, &self.arena[start..], start));
             }
         }
     }

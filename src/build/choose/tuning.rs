@@ -3,6 +3,10 @@
 /// What decides how planes are chosen, in numbers. `benches/ABLATION.md` says what each is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
+    /// Sets of at most so many pieces, 32 at most, are divided down to the leaves from a table of
+    /// where each piece lies against each plane. Larger: the table takes longer than it saves;
+    /// smaller: planes are chosen anew for every set.
+    pub table: usize,
     /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
     /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
     pub clean_below: usize,
@@ -50,6 +54,7 @@ pub struct Tuning {
 impl Tuning {
     /// What the library builds with.
     pub const DEFAULT: Self = Self {
+        table: 32,
         clean_below: 64,
         small: 256,
         own_planes: 96,

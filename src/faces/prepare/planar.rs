@@ -9,19 +9,29 @@ use crate::exact::{Plane, cross};
 use crate::memory::reserve;
 
 impl Builder {
-    /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
-    pub(super) fn widest_triangle(&self) -> Option<[usize; 2]> {
+    /// Two corners that span a large triangle with corner 0, and its plane, which faces as the three
+    /// run; `None` if all corners lie on one line.
+    pub(super) fn widest_triangle(&self) -> Option<([usize; 2], Plane)> {
         let point = |k: usize| DVec3::from(self.kept[k].0);
         let (origin, n) = (self.kept.first().map(|_| point(0))?, self.kept.len());
-        let distance = |&k: &usize| point(k).distance_squared(origin);
-        let far = (1..n).max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let largest = |size: &dyn Fn(usize) -> f64, skipped: usize| {
+            let others = (1..n).filter(|&k| k != skipped);
+            // The last of equals.
+            others.fold(None, |best, k| match (best, size(k)) {
+                (Some((_, most)), size) if size < most => best,
+                (_, size) => Some((k, size)),
+            })
+        };
+        let (far, _) = largest(&|k| point(k).distance_squared(origin), 0)?;
         let arm = point(far) - origin;
-        let area = |&k: &usize| arm.cross(point(k) - origin).length_squared();
-        let exact = |k: usize| cross(self.kept[0].0, self.kept[far].0, self.kept[k].0) != [0; 3];
-        let best = (1..n).filter(|&k| k != far).max_by(|a, b| area(a).total_cmp(&area(b)))?;
+        let (best, _) = largest(&|k| arm.cross(point(k) - origin).length_squared(), far)?;
+        let exact = |third: usize| {
+            let (low, high) = (far.min(third), far.max(third));
+            let plane = Plane::through([0, low, high].map(|k| self.kept[k].0));
+            (plane.normal() != [0; 3]).then_some(([low, high], plane))
+        };
         // In a nearly straight polygon the rounded areas may choose a corner exactly on the line.
-        let third = if exact(best) { best } else { (1..n).find(|&k| exact(k))? };
-        Some([far.min(third), far.max(third)])
+        exact(best).or_else(|| (1..n).find_map(exact))
     }
 
     /// How far the corner furthest from the plane of three corners is off it, in lattice units,

@@ -73,7 +73,7 @@ fn in_plane(tree: &BspTree, place: DVec3, is_far: bool, nudge: f64) -> Viewpoint
 }
 
 #[test]
-fn a_bound_of_a_third_would_put_eyes_on_the_wrong_side() {
+fn a_bound_of_a_quarter_would_put_eyes_on_the_wrong_side() {
     let (mut numbers, mut worst, mut wrong) = (Numbers(1), [0f64; 2], 0);
     for _ in 0..300 {
         let tree = tree(&mut numbers);
@@ -97,6 +97,6 @@ fn a_bound_of_a_third_would_put_eyes_on_the_wrong_side() {
     }
     assert!(wrong > 20_000, "{wrong}");
     let shares = worst.map(|worst| worst / f64::from(ERROR));
-    assert!(shares[0] > 1.0 / 3.0 && shares[1] > 0.25, "{shares:?}");
+    assert!(shares.iter().all(|&share| share > 0.25), "{shares:?}");
     assert!(shares.iter().all(|&share| share < 1.0), "{shares:?}");
 }
