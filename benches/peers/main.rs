@@ -11,6 +11,7 @@
 
 mod build;
 mod fragments;
+mod frames;
 mod growth;
 mod kernels;
 mod order;
@@ -21,13 +22,14 @@ mod threads;
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 8] = [
+const SECTIONS: [Section; 9] = [
     ("order", order::run),
     ("build", build::run),
     ("threads", threads::run),
     ("growth", growth::run),
     ("fragments", fragments::run),
     ("plane-split", plane_split::run),
+    ("frames", frames::run),
     ("exactness", kernels::run),
     ("rulings", rulings::run),
 ];

@@ -2,6 +2,8 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
 
+pub mod pages;
+
 use binspace::glam::DVec3;
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
