@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 use smallvec::SmallVec;
 
 use super::layer::Layer;
-use super::piece::LayerVertex;
+use super::vertex::{Corner, LayerVertex};
 
 /// The least w as a share of the largest. Larger: near parts of layers without depth are missing.
 /// Smaller: w has no digits left where the depth does not limit it.
@@ -15,14 +15,6 @@ const EDGE_ON: f64 = 8.0;
 /// How many roundings of a matrix a corner may be off its plane; see `Polygon::precision`.
 /// Smaller: cards that matrices put into one plane cut each other; larger: thin layers are merged.
 const STEPS: f64 = 4.0;
-
-/// A corner of a clipped layer.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
-    pub(super) vertex: LayerVertex,
-    /// Which edge of the rectangle begins here, if clipping did not make it.
-    pub(super) edge: Option<u8>,
-}
 
 /// A point of the layer's plane on the way through the clipper.
 #[derive(Clone, Copy)]

@@ -79,7 +79,9 @@ mod clip;
 mod layer;
 mod page;
 mod piece;
+mod vertex;
 
 pub use layer::Layer;
 pub use page::Layers;
-pub use piece::{LayerPiece, LayerVertex};
+pub use piece::LayerPiece;
+pub use vertex::LayerVertex;

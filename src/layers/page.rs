@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::clip::{Corner, clip};
+use super::clip::{MOST_CORNERS, clip};
 use super::layer::Layer;
 use super::piece::LayerPiece;
+use super::vertex::Corner;
 use crate::Error;
 use crate::build::BuildOptions;
 use crate::input::Polygon;
@@ -132,7 +133,7 @@ impl Layers {
                 return Err(Error::layer(layer));
             }
             reserve(&mut self.outlines, 1)?;
-            reserve(&mut self.corners, super::clip::MOST_CORNERS)?;
+            reserve(&mut self.corners, MOST_CORNERS)?;
             let corners = self.corners.len();
             if let Some(precision) = clip(from, limits, &mut self.corners) {
                 coarsest = coarsest.max(precision);

@@ -1,9 +1,9 @@
 //! What a page is painted by.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::DVec2;
 
-use super::clip::Corner;
 use super::layer::Layer;
+use super::vertex::{Corner, LayerVertex, interpolated};
 use crate::tree::Fragment;
 
 /// A convex piece of a layer, or all that is seen of it.
@@ -15,30 +15,6 @@ pub struct LayerPiece<'p> {
     pub(super) outline: &'p [Corner],
     pub(super) fragment: Fragment<'p>,
     pub(super) is_whole: bool,
-}
-
-/// A corner of a piece.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LayerVertex {
-    /// Its place on the screen, and its depth: (x/w, y/w, z/w).
-    pub position: DVec3,
-    /// The w that it was divided by; positive.
-    pub w: f64,
-    /// Its place (u, v) in the layer's own rectangle.
-    pub local: DVec2,
-}
-
-impl LayerVertex {
-    /// (x, y, z, w), for a graphics card that divides by w itself.
-    pub fn homogeneous(&self) -> DVec4 {
-        (self.position * self.w).extend(self.w)
-    }
-
-    /// (u/w, v/w, 1/w). All three are linear over the piece on the screen, which u and v are not:
-    /// interpolate them and divide the first two by the third.
-    pub fn perspective(&self) -> DVec3 {
-        self.local.extend(1.0) / self.w
-    }
 }
 
 impl<'p> LayerPiece<'p> {
@@ -95,21 +71,4 @@ impl<'p> LayerPiece<'p> {
         let is_near = at.clamp(bounds[0] - slack, bounds[1] + slack) == at;
         is_near && (low >= -slack || high <= slack)
     }
-}
-
-/// The vertex at a point of the screen, by its weights over corners.
-fn interpolated(
-    layer: &Layer,
-    outline: &[Corner],
-    position: DVec3,
-    weights: &[(u32, f64)],
-) -> LayerVertex {
-    let corner = |k: u32| outline[k as usize].vertex;
-    // As shares of one corner's w, so that no w is too small or too large.
-    let unit = weights.first().map_or(1.0, |&(k, _)| corner(k).w);
-    let term =
-        |&(k, weight): &(u32, f64)| corner(k).local.extend(1.0) * (weight * (unit / corner(k).w));
-    let sum: DVec3 = weights.iter().map(term).sum();
-    let local = layer.clamp(sum.truncate() / sum.z);
-    LayerVertex { position, w: unit / sum.z, local }
 }

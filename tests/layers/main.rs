@@ -7,7 +7,7 @@ mod oracle;
 mod order;
 mod outline;
 #[path = "../../benches/support/pages.rs"]
-#[allow(dead_code, reason = "made for benches too")]
+#[allow(dead_code, unreachable_pub, reason = "made for benches too")]
 mod pages;
 mod planes;
 #[path = "../support/mod.rs"]

@@ -3,7 +3,7 @@
 use super::Rect;
 use crate::support::rational::{Rational, exact, sign};
 use binspace::glam::DMat4;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
 pub(crate) type Point2 = [Rational; 2];
 
@@ -99,8 +99,7 @@ pub(crate) fn area(outline: &[Point2]) -> Rational {
     outline.iter().zip(next).map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0]).sum()
 }
 
-/// How far a point is inside a convex outline of either orientation, times the length of an edge, at
-/// least; negative outside.
+/// Whether a point is inside a convex outline of either orientation, and not on it.
 pub(crate) fn covers(outline: &[Point2], at: &Point2) -> bool {
     let next = outline.iter().cycle().skip(1);
     let sides: Vec<Rational> = outline
@@ -113,8 +112,4 @@ pub(crate) fn covers(outline: &[Point2], at: &Point2) -> bool {
 
 pub(crate) fn number(value: &Rational) -> f64 {
     value.to_f64().expect("in range")
-}
-
-pub(crate) fn half() -> Rational {
-    Rational::one() / (Rational::one() + Rational::one())
 }

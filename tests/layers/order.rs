@@ -88,7 +88,7 @@ fn pages_are_painted_by_depth() {
     let mut dice = Dice(21);
     for page in Page::ALL {
         let mut tally = Tally::default();
-        for (count, seed) in [(12, 1), (12, 2), (30, 3), (30, 4), (100, 5)] {
+        for (count, seed) in [(12, 1), (12, 2), (30, 3), (30, 4), (60, 5)] {
             let count = if page == Page::Crossing { count.min(30) } else { count };
             let layers: Vec<Given> =
                 page.layers(count, seed).into_iter().map(Given::from).collect();
@@ -100,7 +100,7 @@ fn pages_are_painted_by_depth() {
                 Page::Carousel | Page::Crossing => assert!(drawn.len() > drawn.visible()),
                 Page::Cubes => assert_eq!(drawn.visible(), count),
             }
-            judge(&layers, &drawn, 60, &mut dice, &mut tally);
+            judge(&layers, &drawn, 75, &mut dice, &mut tally);
         }
         let Tally { compared, coplanar, hits } = tally;
         assert!(compared > 100 && hits > 80, "{page:?} {tally:?}");
@@ -111,11 +111,11 @@ fn pages_are_painted_by_depth() {
 #[test]
 fn layers_that_reach_behind_the_eye_are_painted_by_depth() {
     let (mut dice, mut tally) = (Dice(22), Tally::default());
-    for _ in 0..25 {
-        let layers: Vec<Given> = (0..8).map(|_| wild(&mut dice)).collect();
+    for _ in 0..30 {
+        let layers: Vec<Given> = (0..20).map(|_| wild(&mut dice)).collect();
         judge(&layers, &page_of(&layers), 30, &mut dice, &mut tally);
     }
-    assert!(tally.compared > 400 && tally.hits > 300, "{tally:?}");
+    assert!(tally.compared > 300 && tally.hits > 300, "{tally:?}");
 }
 
 #[test]

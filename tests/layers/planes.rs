@@ -91,11 +91,12 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
                 page = page.unclipped();
             }
             page.update(&[wall, at(0.002), at(0.0), at(0.001)]).unwrap();
-            // The wall may cut them.
+            // The wall may cut them, and have all on one side of it come first.
             let mut cards: Vec<usize> =
                 order(&page).into_iter().filter(|&layer| layer > 0).collect();
             cards.dedup();
-            assert_eq!(cards, [2, 3, 1], "{tilt} {unclipped}");
+            let is_right = cards.chunks(3).all(|side| side == [2, 3, 1]);
+            assert!(is_right, "{tilt} {unclipped} {cards:?}");
         }
     }
 }
