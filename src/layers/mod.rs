@@ -68,6 +68,16 @@
 //! A layer's number is its index in the list, whatever became of others. Layers in one plane come in
 //! the order of the list.
 //!
+//! # Why to clip
+//!
+//! Near the eye's plane divided coordinates have no bound, and the default tolerance of a
+//! [`BspTree`](crate::BspTree) is a share of the scene's extent. Pages of 30 layers above a floor that
+//! reaches behind the eye, divided where w ≥ 10⁻⁹ and given to a tree as they are, are painted in a
+//! wrong order at 67 to 97 % of the points where layers lie over each other; with w ≥ 10⁻⁶ one of four
+//! pages is still wrong (at 42 %). Clipped as above, or with the tolerance of this module and not
+//! clipped to the viewport, none is. (Bench `peers`, section `clipping`.) Clipping to the viewport
+//! also leaves fewer layers to cut, as many of a long page are not on the screen.
+//!
 //! # Tolerance
 //!
 //! Layers nearer to a common plane than the tolerance count as coplanar. It follows the matrices: how

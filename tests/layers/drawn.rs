@@ -101,3 +101,15 @@ fn a_floor_that_reaches_behind_the_eye_is_clipped() {
     assert_eq!(piece.edges().filter(Option::is_none).count(), 3);
     assert!(piece.is_whole());
 }
+
+/// The floor again: above its horizon, 540 pixels down, only its mirror image behind the eye would be.
+#[test]
+fn a_plane_is_seen_on_one_side_of_its_horizon() {
+    let lying = DMat4::from_translation(dvec3(0.0, 500.0, 0.0)) * DMat4::from_rotation_x(1.5707963);
+    let floor = Layer::new([[-1e4, -1e4], [1e4, 1e4]], camera() * lying);
+    let [u, v] = floor.local([960.0, 1040.0]).unwrap();
+    assert!(u.abs() < 1e-6 && v.abs() < 1e-3, "{u} {v}");
+    assert_eq!(floor.local([960.0, 100.0]), None);
+    let edge_on = camera() * DMat4::from_rotation_y(0.0) * DMat4::from_scale(dvec3(0.0, 1.0, 1.0));
+    assert_eq!(Layer::new(CARD, edge_on).local([100.0, 100.0]), None);
+}
