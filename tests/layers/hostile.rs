@@ -92,6 +92,8 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
         ("a point", Layer::new(CARD, at(0.0, 0.0, 0.0) * DMat4::from_scale(dvec3(0.0, 0.0, 1.0)))),
         ("w of zeros", Layer::new(CARD, DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0, 0.0)))),
         ("w negative", Layer::new(CARD, camera() * -1.0)),
+        ("beyond the depth", Layer::new(CARD, DMat4::from_translation(dvec3(500.0, 500.0, 3e9)))),
+        ("beyond it behind", Layer::new(CARD, DMat4::from_translation(dvec3(500.0, 500.0, -3e9)))),
         ("tiny", Layer::new(CARD, camera() * 1e-318)),
     ];
     for k in [1.0, -1.0, 3.0] {

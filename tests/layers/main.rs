@@ -85,6 +85,10 @@ fn an_unchanged_frame_is_not_worked_on() {
         assert!(!page.update(changed).unwrap());
         assert_eq!(page.visible(), changed.len());
     }
+    // Another clip makes another page.
+    let mut unclipped = page.unclipped();
+    assert!(unclipped.is_empty() && unclipped.back_to_front().next().is_none());
+    assert!(unclipped.update(&layers).unwrap() && !unclipped.update(&layers).unwrap());
     // A page of none is a page.
     let mut none = Layers::new(VIEWPORT);
     assert!(none.update(&[]).unwrap() && !none.update(&[]).unwrap());

@@ -2,7 +2,7 @@
 
 use super::Rect;
 use crate::support::rational::{Rational, exact, sign};
-use binspace::glam::DMat4;
+use binspace::glam::{DMat4, DVec2};
 use num_traits::{Signed, ToPrimitive, Zero};
 
 pub(crate) type Point2 = [Rational; 2];
@@ -100,7 +100,14 @@ pub(crate) fn area(outline: &[Point2]) -> Rational {
 }
 
 /// Whether a point is inside a convex outline of either orientation, and not on it.
-pub(crate) fn covers(outline: &[Point2], at: &Point2) -> bool {
+pub(crate) fn covers(outline: &[DVec2], rounded: DVec2, at: &Point2) -> bool {
+    // Whether it is in the bounding box is decided exactly by the numbers as they are.
+    let [low, high] =
+        [DVec2::min, DVec2::max].map(|of| outline.iter().copied().reduce(of).unwrap());
+    if rounded.clamp(low, high) != rounded {
+        return false;
+    }
+    let outline: Vec<Point2> = outline.iter().map(|p| p.to_array().map(exact)).collect();
     let next = outline.iter().cycle().skip(1);
     let sides: Vec<Rational> = outline
         .iter()

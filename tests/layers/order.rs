@@ -1,10 +1,11 @@
 //! The order of pages, judged at points of the screen by the exact depths of the layers given.
 
-use super::oracle::{Point2, covers, number};
+use super::oracle::{Point2, Truth, covers, number};
 use super::pages::{Page, SCREEN};
 use super::support::dice::Dice;
 use super::support::rational::{Rational, exact};
 use super::{Given, page_of, wild};
+use binspace::glam::DVec2;
 use binspace::layers::Layers;
 use num_traits::Signed;
 
@@ -20,8 +21,7 @@ struct Tally {
 }
 
 /// A layer's depth and place at a point that it covers; an error if the point is too near its edge.
-fn depth(given: &Given, at: &Point2) -> Result<Option<(Point2, Rational)>, ()> {
-    let truth = given.truth();
+fn depth(truth: &Truth, at: &Point2) -> Result<Option<(Point2, Rational)>, ()> {
     let Some((local, depth)) = truth.seen_at(at) else { return Ok(None) };
     match truth.inside(&local) {
         inside if inside > MARGIN => Ok(Some((local, depth))),
@@ -31,12 +31,10 @@ fn depth(given: &Given, at: &Point2) -> Result<Option<(Point2, Rational)>, ()> {
 }
 
 fn judge(given: &[Given], page: &Layers, points: usize, dice: &mut Dice, tally: &mut Tally) {
-    let outlines: Vec<(usize, Vec<Point2>)> = page
+    let truths: Vec<Truth> = given.iter().map(Given::truth).collect();
+    let outlines: Vec<(usize, Vec<DVec2>)> = page
         .back_to_front()
-        .map(|piece| {
-            let corner = |p: binspace::glam::DVec3| [exact(p.x), exact(p.y)];
-            (piece.layer(), piece.vertices().map(|v| corner(v.position)).collect())
-        })
+        .map(|piece| (piece.layer(), piece.vertices().map(|v| v.position.truncate()).collect()))
         .collect();
     assert_eq!(outlines.len(), page.len());
     'points: for _ in 0..points {
@@ -45,13 +43,13 @@ fn judge(given: &[Given], page: &Layers, points: usize, dice: &mut Dice, tally: 
         let screen = SCREEN.map(|side| side * (0.5 + scale * (dice.share() - 0.5)));
         let at = screen.map(exact);
         let mut depths = Vec::new();
-        for layer in given {
-            let Ok(depth) = depth(layer, &at) else { continue 'points };
+        for truth in &truths {
+            let Ok(depth) = depth(truth, &at) else { continue 'points };
             depths.push(depth);
         }
         let painted: Vec<usize> = outlines
             .iter()
-            .filter(|(_, outline)| covers(outline, &at))
+            .filter(|(_, outline)| covers(outline, screen.into(), &at))
             .map(|&(layer, _)| layer)
             .collect();
         // Each layer once; fewer only if the point is on a cut.
@@ -100,10 +98,10 @@ fn pages_are_painted_by_depth() {
                 Page::Carousel | Page::Crossing => assert!(drawn.len() > drawn.visible()),
                 Page::Cubes => assert_eq!(drawn.visible(), count),
             }
-            judge(&layers, &drawn, 75, &mut dice, &mut tally);
+            judge(&layers, &drawn, 45, &mut dice, &mut tally);
         }
         let Tally { compared, coplanar, hits } = tally;
-        assert!(compared > 100 && hits > 80, "{page:?} {tally:?}");
+        assert!(compared > 50 && hits > 50, "{page:?} {tally:?}");
         assert!(coplanar > 10 || page != Page::Stack, "{coplanar}");
     }
 }
@@ -111,11 +109,11 @@ fn pages_are_painted_by_depth() {
 #[test]
 fn layers_that_reach_behind_the_eye_are_painted_by_depth() {
     let (mut dice, mut tally) = (Dice(22), Tally::default());
-    for _ in 0..30 {
+    for _ in 0..20 {
         let layers: Vec<Given> = (0..20).map(|_| wild(&mut dice)).collect();
         judge(&layers, &page_of(&layers), 30, &mut dice, &mut tally);
     }
-    assert!(tally.compared > 300 && tally.hits > 300, "{tally:?}");
+    assert!(tally.compared > 200 && tally.hits > 200, "{tally:?}");
 }
 
 #[test]

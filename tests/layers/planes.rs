@@ -91,6 +91,10 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
                 page = page.unclipped();
             }
             page.update(&[wall, at(0.002), at(0.0), at(0.001)]).unwrap();
+            let reach = 1920.0 * f64::from(1 << 20);
+            for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
+                assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
+            }
             // The wall may cut them, and have all on one side of it come first.
             let mut cards: Vec<usize> =
                 order(&page).into_iter().filter(|&layer| layer > 0).collect();
