@@ -6,9 +6,6 @@ use smallvec::SmallVec;
 use super::layer::Layer;
 use super::vertex::{Corner, LayerVertex};
 
-/// The least w as a share of the largest. Larger: near parts of layers without depth are missing.
-/// Smaller: w has no digits left where the depth does not limit it.
-const LEAST_W: f64 = 1.0 / (1u64 << 40) as f64;
 /// A layer counts as seen along its edge if its area on the screen is less than so many roundings of
 /// its matrix. Smaller: cards turned by a rounded right angle cut others; larger: thin cards vanish.
 const EDGE_ON: f64 = 8.0;
@@ -23,8 +20,8 @@ struct Point {
     edge: Option<u8>,
 }
 
-/// Seven half planes clip four corners to eleven at most.
-pub(super) const MOST_CORNERS: usize = 11;
+/// Six half planes clip four corners to ten at most.
+pub(super) const MOST_CORNERS: usize = 10;
 
 type Points = SmallVec<[Point; MOST_CORNERS]>;
 
@@ -85,10 +82,9 @@ fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
 /// The part of the rectangle inside the box; `None` if there is none.
 fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Option<Points> {
     let corners = layer.corners();
-    let furthest = corners.iter().map(|corner| w.dot(corner.extend(1.0))).fold(0.0, f64::max);
     let [low, high] = limits;
+    // Two opposite sides together keep w from being negative.
     let sides = [
-        w - DVec3::Z * (furthest * LEAST_W),
         x - w * low.x,
         w * high.x - x,
         y - w * low.y,
@@ -101,7 +97,7 @@ fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Optio
     for side in sides {
         points = keep_inside(points, side);
     }
-    (furthest > 0.0 && points.len() >= 3).then_some(points)
+    (points.len() >= 3).then_some(points)
 }
 
 /// The part of a convex polygon where side · (u, v, 1) is not negative (Sutherland & Hodgman 1974).

@@ -51,11 +51,11 @@
 //! |---|---|
 //! | x, y | the viewport; or, if [`unclipped`](Layers::unclipped), 2²⁰ of its longer side around it |
 //! | depth z/w | 2²⁰ longer sides of the viewport to the front and to the back |
-//! | w | at least 2⁻⁴⁰ of that of the layer's furthest corner |
 //!
-//! The limit of depth is the near plane. With the perspective d of CSS, it is where w, the distance
-//! from the eye as a share of d, is d / (2²⁰ longer sides); there a layer appears a million times
-//! enlarged. So a part that it removes is seen exactly along its edge.
+//! What is in the box has a positive w. The limit of depth is the near plane. With the perspective d
+//! of CSS it is where w, the distance from the eye as a share of d, is d / (2²⁰ longer sides). There
+//! a layer appears about a million times enlarged: only one that nearly passes through the eye, and so
+//! is seen along its edge, comes as near as that inside the viewport.
 //!
 //! | layer | becomes |
 //! |---|---|
@@ -63,7 +63,7 @@
 //! | behind the eye, beside the viewport | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
 //! | a matrix that makes a line or a point of it; a layer seen along its edge, up to the rounding of the matrix | no piece |
-//! | any other | a convex polygon of at most eleven corners, in as many pieces as other layers cut it |
+//! | any other | a convex polygon of at most ten corners, in as many pieces as other layers cut it |
 //!
 //! A layer's number is its index in the list, whatever became of others. Layers in one plane come in
 //! the order of the list.

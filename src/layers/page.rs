@@ -92,11 +92,9 @@ impl Layers {
         if self.tree.is_some() && self.layers == layers {
             return Ok(false);
         }
-        let result = self.replace(layers);
-        if result.is_err() {
-            self.clear();
-        }
-        result.map(|()| true)
+        // The page is empty until its tree is there, so after an error as well.
+        self.clear();
+        self.replace(layers).map(|()| true)
     }
 
     fn clear(&mut self) {
@@ -108,7 +106,6 @@ impl Layers {
     }
 
     fn replace(&mut self, layers: &[Layer]) -> Result<(), Error> {
-        self.clear();
         if !self.limits().iter().all(|corner| corner.is_finite()) {
             return Err(Error::viewport());
         }

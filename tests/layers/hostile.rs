@@ -107,6 +107,11 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
     for (name, layer) in vanished {
         assert_eq!(pieces(layer), 0, "{name}");
     }
+    // What touches the viewport from outside is clipped to a line.
+    let mut page = Layers::new(VIEWPORT);
+    let beside = [[[-90.0, 50.0], [0.0, 90.0]], [[1920.0, 50.0], [1999.0, 90.0]]];
+    page.update(&beside.map(|rect| Layer::new(rect, DMat4::IDENTITY))).unwrap();
+    assert_eq!((page.len(), page.visible(), page.is_empty()), (0, 0, true));
     // A little beside, it is seen, and so is a card that is thin on the screen.
     let thin = at(1.0, 0.0, -100.0) * DMat4::from_rotation_y(quarter);
     assert!(pieces(Layer::new(CARD, thin)) >= 1);

@@ -77,7 +77,7 @@ fn an_unchanged_frame_is_not_worked_on() {
     assert_eq!(page.back_to_front().map(|piece| piece.layer()).collect::<Vec<_>>(), first);
     // Any number that differs is a change; so are one layer more or less and another order.
     let mut moved = layers.clone();
-    let mut matrix = DMat4::from(pages::Page::Carousel.layers(12, 3)[7].matrix);
+    let mut matrix = pages::Page::Carousel.layers(12, 3)[7].matrix;
     matrix.w_axis.x += 1e-9;
     moved[7] = Layer::new([[-1.0; 2], [1.0; 2]], matrix);
     for changed in [&moved[..], &layers[..11], &layers, &[], &layers] {

@@ -105,6 +105,20 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
     }
 }
 
+/// Nor does one of `f32`, whose rounding near the eye is many pixels: it sets the tolerance, but to a
+/// hundredth of a pixel at most.
+#[test]
+fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart() {
+    let card = [[-100.0, -60.0], [100.0, 60.0]];
+    let at = |z: f64| Layer::new(card, camera() * DMat4::from_translation(dvec3(0.0, 0.0, z)));
+    let wall = camera() * DMat4::from_rotation_y(1.5);
+    let wall = Layer::from_f32([[-3000.0, 100.0], [3000.0, 200.0]], wall.as_mat4());
+    let mut page = Layers::new(VIEWPORT).unclipped();
+    page.update(&[wall, at(0.2), at(0.0), at(0.1)]).unwrap();
+    let cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
+    assert_eq!(cards[..3], [2, 3, 1], "{cards:?}");
+}
+
 #[test]
 fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
     let mut dice = Dice(43);
