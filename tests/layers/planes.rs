@@ -139,4 +139,10 @@ fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
         }
     }
     assert!(compared > 100, "{compared}");
+    // What is beside the screen is there, whole.
+    let beside = Layer::new([[-900.0, 50.0], [-100.0, 90.0]], DMat4::IDENTITY);
+    let mut page = Layers::new(VIEWPORT).unclipped();
+    page.update(&[beside]).unwrap();
+    let corners = page.back_to_front().flat_map(|piece| piece.vertices());
+    assert!(corners.map(|corner| corner.position.x).eq([-900.0, -100.0, -100.0, -900.0]));
 }
