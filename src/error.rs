@@ -10,16 +10,39 @@ pub struct Error {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
-    NonFinite { polygon: usize },
-    PolygonCorners { polygon: usize, limit: usize },
-    TooManyCorners { limit: usize },
-    TooManyPolygons { limit: usize },
+    NonFinite {
+        polygon: usize,
+    },
+    PolygonCorners {
+        polygon: usize,
+        limit: usize,
+    },
+    TooManyCorners {
+        limit: usize,
+    },
+    TooManyPolygons {
+        limit: usize,
+    },
     OutOfMemory,
-    Tolerance { value: f64 },
-    Polygons { limit: usize },
-    Fragments { limit: usize },
-    Depth { limit: usize },
+    Tolerance {
+        value: f64,
+    },
+    Polygons {
+        limit: usize,
+    },
+    Fragments {
+        limit: usize,
+    },
+    Depth {
+        limit: usize,
+    },
     Cancelled,
+    #[cfg(feature = "layers")]
+    Layer {
+        layer: usize,
+    },
+    #[cfg(feature = "layers")]
+    Viewport,
 }
 
 impl Error {
@@ -63,10 +86,22 @@ impl Error {
         Self { kind: Kind::Cancelled }
     }
 
-    /// The index of the polygon to blame, in the order in which the polygons were given.
+    #[cfg(feature = "layers")]
+    pub(crate) const fn layer(layer: usize) -> Self {
+        Self { kind: Kind::Layer { layer } }
+    }
+
+    #[cfg(feature = "layers")]
+    pub(crate) const fn viewport() -> Self {
+        Self { kind: Kind::Viewport }
+    }
+
+    /// The index of the polygon (or layer) to blame, in the order in which the polygons were given.
     pub const fn polygon(&self) -> Option<usize> {
         match self.kind {
             Kind::NonFinite { polygon } | Kind::PolygonCorners { polygon, .. } => Some(polygon),
+            #[cfg(feature = "layers")]
+            Kind::Layer { layer } => Some(layer),
             _ => None,
         }
     }
@@ -129,6 +164,16 @@ impl fmt::Display for Error {
                  or choose another heuristic"
             ),
             Kind::Cancelled => f.write_str("the build was cancelled"),
+            #[cfg(feature = "layers")]
+            Kind::Layer { layer } => write!(
+                f,
+                "the rectangle or matrix of layer {layer} has a number that is NaN, infinite or \
+                 too large"
+            ),
+            #[cfg(feature = "layers")]
+            Kind::Viewport => {
+                f.write_str("the viewport has a number that is NaN, infinite or too large")
+            }
         }
     }
 }

@@ -24,6 +24,7 @@
 //! |---|---|---|
 //! | `parallel` | yes | building with rayon's threads; the tree is the same, bit for bit |
 //! | `raster` | no | modules `view` and `raster`: cameras, a painter and a z-buffer that decide every pixel exactly, and `verify`, which compares them |
+//! | `layers` | no | module `layers`: rectangles with 4×4 matrices, as in CSS 3D, clipped, cut and in paint order |
 //! | `scene` | no | module `scene`: polygons with colours, generated scenes |
 //! | `obj` | no | reading Wavefront OBJ files into a `Scene`; turns on `scene` |
 //!
@@ -34,6 +35,8 @@ mod error;
 mod exact;
 mod faces;
 mod input;
+#[cfg(feature = "layers")]
+pub mod layers;
 mod memory;
 mod parallel_map;
 mod random;

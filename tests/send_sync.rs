@@ -4,6 +4,7 @@ use binspace::internals::{
     Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Lattice, Line, Piece, PlaneId,
     PlaneKind, Side, Symbol, SymbolKind,
 };
+use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
 use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
@@ -24,6 +25,7 @@ macro_rules! assert_shared {
 
 // Trees, and what they hand out.
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Partition, Stats, Viewpoint,);
+assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers);
 
 // Building, and what can go wrong.
 assert_shared!(BuildOptions, Heuristic, Progress, Error, Invalid, ParseHeuristicError, CameraError,);

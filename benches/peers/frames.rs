@@ -56,8 +56,9 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
         theirs = theirs.min(best_of(3, || their_frame(outlines, &mut splitter)).0);
     }
     let (of_ours, of_theirs) = (our_pieces(outlines), their_pieces(outlines));
-    let (judged, our_faults) = judge(outlines, &of_ours);
-    let (_, their_faults) = judge(outlines, &of_theirs);
+    let depths = |at| outlines.iter().map(|outline| depth(outline, at)).collect();
+    let (judged, our_faults) = judge(depths, &of_ours);
+    let (_, their_faults) = judge(depths, &of_theirs);
     assert!(judged > 10, "{name}: {judged} points");
     assert_eq!(our_faults, 0, "{name}");
     let ratio = theirs.as_secs_f64() / ours.as_secs_f64();
@@ -100,9 +101,9 @@ fn their_polygon(outline: &Outline, index: usize) -> plane_split::Polygon<usize>
 }
 
 /// A piece as it is painted: its layer, and its corners on the screen.
-struct Painted {
-    layer: usize,
-    corners: Vec<[f64; 2]>,
+pub(crate) struct Painted {
+    pub(crate) layer: usize,
+    pub(crate) corners: Vec<[f64; 2]>,
 }
 
 fn our_pieces(outlines: &[Outline]) -> Vec<Painted> {
@@ -129,15 +130,18 @@ fn their_pieces(outlines: &[Outline]) -> Vec<Painted> {
     splitter.sort(euclid::vec3(0.0, 0.0, 1.0)).iter().map(painted).collect()
 }
 
-/// Paints at points of a grid: how many points at least two layers cover, and at how many of those
+/// Paints at points of a grid, given the depths of the layers there: how many points at least two layers cover, and at how many of those
 /// the layers come in another order than that of their depths.
-fn judge(outlines: &[Outline], pieces: &[Painted]) -> (usize, usize) {
+pub(crate) fn judge(
+    depths: impl Fn([f64; 2]) -> Vec<Option<f64>>,
+    pieces: &[Painted],
+) -> (usize, usize) {
     let (mut judged, mut wrong) = (0, 0);
     for k in 0..SAMPLES[0] * SAMPLES[1] {
         let share = |k: usize, count: usize| (k as f64 + 0.5137) / count as f64;
         let (across, down) = (k % SAMPLES[0], k / SAMPLES[0]);
         let at = [share(across, SAMPLES[0]) * SCREEN[0], share(down, SAMPLES[1]) * SCREEN[1]];
-        let depths: Vec<Option<f64>> = outlines.iter().map(|o| depth(o, at)).collect();
+        let depths = depths(at);
         let covering = depths.iter().flatten().count();
         let mut found: Vec<f64> = Vec::new();
         for piece in pieces.iter().filter(|piece| covers(&piece.corners, at, 0.0)) {

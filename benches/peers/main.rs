@@ -10,6 +10,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
 
 mod build;
+mod clipping;
 mod fragments;
 mod frames;
 mod growth;
@@ -22,7 +23,7 @@ mod threads;
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 9] = [
+const SECTIONS: [Section; 10] = [
     ("order", order::run),
     ("build", build::run),
     ("threads", threads::run),
@@ -30,6 +31,7 @@ const SECTIONS: [Section; 9] = [
     ("fragments", fragments::run),
     ("plane-split", plane_split::run),
     ("frames", frames::run),
+    ("clipping", clipping::run),
     ("exactness", kernels::run),
     ("rulings", rulings::run),
 ];

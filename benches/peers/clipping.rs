@@ -1,0 +1,107 @@
+//! What clipping to the viewport is for: pages with a floor that reaches behind the eye, where divided
+//! coordinates, and with them the scene's extent and its default tolerance, have no bound.
+
+use crate::frames::{Painted, judge};
+use binspace::glam::{DMat4, DVec3, dvec3};
+use binspace::layers::{Layer, Layers};
+use binspace::{BspTree, Viewpoint};
+use std::f64::consts::FRAC_PI_2;
+use std::time::Duration;
+use support::pages::{Page, PageLayer, SCREEN, camera};
+use support::{SEED, Table, best_of, time};
+
+const COUNT: usize = 30;
+/// Without clipping, a layer is cut off at such a w. Where w is 1, a pixel is a pixel.
+const NEAR: [f64; 3] = [1e-2, 1e-6, 1e-9];
+
+pub(crate) fn run() {
+    let table = Table::new(
+        "A floor that reaches behind the eye: clipped to the viewport or not",
+        &["page", "way", "pieces", "frame", "judged", "wrong"],
+    );
+    for page in Page::ALL {
+        let mut layers = page.layers(COUNT, SEED);
+        let floor = DMat4::from_translation(dvec3(0.0, 420.0, 0.0))
+            * DMat4::from_rotation_x(FRAC_PI_2 + 0.02);
+        layers.push(PageLayer { half: [4000.0, 4000.0], matrix: camera() * floor });
+        let name = format!("{}:{COUNT}", page.name());
+        let row = |way: String, (frame, pieces): (Duration, Vec<Painted>)| {
+            let (judged, wrong) = judge(|at| depths(&layers, at), &pieces);
+            let [pieces, judged, wrong] = [pieces.len(), judged, wrong].map(|n| n.to_string());
+            table.row(&[name.clone(), way, pieces, time(frame), judged, wrong]);
+        };
+        let viewport = [[0.0; 2], SCREEN];
+        row("clipped".to_owned(), by_layers(&layers, Layers::new(viewport)));
+        row("unclipped".to_owned(), by_layers(&layers, Layers::new(viewport).unclipped()));
+        for near in NEAR {
+            row(format!("w ≥ {near:e}, no more"), by_tree(&layers, near));
+        }
+    }
+}
+
+fn by_layers(layers: &[PageLayer], empty: Layers) -> (Duration, Vec<Painted>) {
+    let layers: Vec<Layer> = layers
+        .iter()
+        .map(|layer| Layer::new([layer.half.map(|side| -side), layer.half], layer.matrix))
+        .collect();
+    let (frame, page) = best_of(3, || {
+        let mut page = empty.clone();
+        page.update(&layers).expect("within budget");
+        page
+    });
+    let painted = |piece: binspace::layers::LayerPiece<'_>| Painted {
+        layer: piece.layer(),
+        corners: piece.vertices().map(|vertex| vertex.position.truncate().to_array()).collect(),
+    };
+    (frame, page.back_to_front().map(painted).collect())
+}
+
+/// What a program would do that knows only the tree, with its default tolerance.
+fn by_tree(layers: &[PageLayer], near: f64) -> (Duration, Vec<Painted>) {
+    let (frame, tree) = best_of(3, || {
+        BspTree::build(layers.iter().map(|layer| divided(layer, near))).expect("within budget")
+    });
+    let painted = |fragment: binspace::Fragment<'_>| Painted {
+        layer: fragment.polygon(),
+        corners: fragment.vertices().map(|vertex| [vertex.x, vertex.y]).collect(),
+    };
+    let order = tree.back_to_front(Viewpoint::direction([0.0, 0.0, -1.0]));
+    (frame, order.map(painted).collect())
+}
+
+/// A layer's corners after the division, where w is not below a limit.
+fn divided(layer: &PageLayer, near: f64) -> Vec<DVec3> {
+    let [x, y] = layer.half;
+    let corners = [[-x, -y], [x, -y], [x, y], [-x, y]];
+    let corners = corners.map(|[x, y]| layer.matrix * dvec3(x, y, 0.0).extend(1.0));
+    let mut kept = Vec::new();
+    for (i, &here) in corners.iter().enumerate() {
+        let next = corners[(i + 1) % 4];
+        if here.w >= near {
+            kept.push(here);
+        }
+        if (here.w >= near) != (next.w >= near) {
+            kept.push(here + (next - here) * ((near - here.w) / (next.w - here.w)));
+        }
+    }
+    kept.into_iter().map(|corner| corner.truncate() / corner.w).collect()
+}
+
+/// The depth of each layer that covers a point, by Cramer's rule; not too near to its edges.
+fn depths(layers: &[PageLayer], [x, y]: [f64; 2]) -> Vec<Option<f64>> {
+    let depth = |layer: &PageLayer| {
+        let row = |k: usize| {
+            let [u, v, one] = [0, 1, 3].map(|column: usize| layer.matrix.col(column)[k]);
+            dvec3(u, v, one)
+        };
+        let (a, b) = (row(0) - row(3) * x, row(1) - row(3) * y);
+        let determinant = a.x * b.y - a.y * b.x;
+        let u = (a.y * b.z - a.z * b.y) / determinant;
+        let v = (a.z * b.x - a.x * b.z) / determinant;
+        let at = dvec3(u, v, 1.0);
+        let is_inside = u.abs() < layer.half[0] - 0.01 && v.abs() < layer.half[1] - 0.01;
+        let w = row(3).dot(at);
+        (is_inside && w > 0.0).then(|| row(2).dot(at) / w)
+    };
+    layers.iter().map(depth).collect()
+}

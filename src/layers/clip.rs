@@ -1,0 +1,129 @@
+//! From a layer to its polygon on the screen.
+
+use glam::{DVec2, DVec3, DVec4};
+use smallvec::SmallVec;
+
+use super::layer::Layer;
+use super::vertex::{Corner, LayerVertex};
+
+/// A layer counts as seen along its edge if its area on the screen is less than so many roundings of
+/// its matrix. Smaller: cards turned by a rounded right angle cut others; larger: thin cards vanish.
+const EDGE_ON: f64 = 8.0;
+/// How many roundings of a matrix a corner may be off its plane; see `Polygon::precision`.
+/// Smaller: cards that matrices put into one plane cut each other; larger: thin layers are merged.
+const STEPS: f64 = 4.0;
+
+/// A point of the layer's plane on the way through the clipper.
+#[derive(Clone, Copy)]
+struct Point {
+    local: DVec2,
+    edge: Option<u8>,
+}
+
+/// Six half planes clip four corners to ten at most.
+pub(super) const MOST_CORNERS: usize = 10;
+
+type Points = SmallVec<[Point; MOST_CORNERS]>;
+
+/// Appends the corners of a layer's part in a box of the screen, and returns how far rounding may
+/// have moved them off their plane. `None`, and nothing appended, if nothing of it is seen.
+///
+/// The layer is clipped in its own plane, where every side of the box is a half plane. So all corners
+/// lie in one plane up to the rounding of their last computation, however they were clipped.
+pub(super) fn clip(layer: &Layer, limits: [DVec3; 2], corners: &mut Vec<Corner>) -> Option<f64> {
+    if layer.is_empty() {
+        return None;
+    }
+    let (rows, scale) = layer.scaled_rows();
+    let plane = plane(layer, rows)?;
+    let points = clipped(layer, rows, limits)?;
+    let mut precision = 0.0f64;
+    let begin = corners.len();
+    for Point { local, edge } in points {
+        let at = local.extend(1.0);
+        let [x, y, z, w] = rows.map(|row| row.dot(at));
+        // A w that rounding alone decides: the layer is in the eye's own plane.
+        if w <= 0.0 || !(w / scale).is_normal() {
+            corners.truncate(begin);
+            return None;
+        }
+        // Rounding may put a clipped point outside by a little.
+        let position = (DVec3::new(x, y, z) / w).clamp(limits[0], limits[1]);
+        precision = precision.max(plane.abs().dot(layer.rounding(rows, local)) / w);
+        let vertex = LayerVertex { position, w: w / scale, local };
+        corners.push(Corner { vertex, edge });
+    }
+    Some(STEPS * precision)
+}
+
+/// The plane of a layer in homogeneous coordinates, its normal of length 1; `None` if the layer is
+/// seen along its edge, or is no plane.
+fn plane(layer: &Layer, rows: [DVec3; 4]) -> Option<DVec4> {
+    let [x, y, z, w] = layer.centred(rows);
+    let terms = [rows[0], rows[1], rows[3]].map(|row| layer.terms(row));
+    // The area on the screen, and what its rounding may be.
+    let area = determinant([x, y, w]);
+    let is_seen = area.abs() > EDGE_ON * layer.step() * permanent(terms);
+    let plane =
+        DVec4::new(determinant([y, z, w]), determinant([z, x, w]), area, determinant([x, z, y]));
+    is_seen.then(|| plane / plane.truncate().length())
+}
+
+fn determinant([a, b, c]: [DVec3; 3]) -> f64 {
+    a.dot(b.cross(c))
+}
+
+/// The determinant with every sign positive: of absolute values, a bound on its terms' sum.
+fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
+    let sums = DVec3::new(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
+    a.dot(sums)
+}
+
+/// The part of the rectangle inside the box; `None` if there is none.
+fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Option<Points> {
+    let corners = layer.corners();
+    let [low, high] = limits;
+    // Two opposite sides together keep w from being negative.
+    let sides = [
+        x - w * low.x,
+        w * high.x - x,
+        y - w * low.y,
+        w * high.y - y,
+        z - w * low.z,
+        w * high.z - z,
+    ];
+    let start = (0..4).map(|k| Point { local: corners[k as usize], edge: Some(k) });
+    let mut points: Points = start.collect();
+    for side in sides {
+        points = keep_inside(points, side);
+    }
+    (points.len() >= 3).then_some(points)
+}
+
+/// The part of a convex polygon where side · (u, v, 1) is not negative (Sutherland & Hodgman 1974).
+fn keep_inside(points: Points, side: DVec3) -> Points {
+    let at: SmallVec<[f64; MOST_CORNERS]> =
+        points.iter().map(|p| side.dot(p.local.extend(1.0))).collect();
+    if at.iter().all(|&at| at >= 0.0) {
+        return points;
+    }
+    let mut kept = Points::new();
+    for (i, &here) in points.iter().enumerate() {
+        let k = if i + 1 < points.len() { i + 1 } else { 0 };
+        let (next, a, b) = (points[k], at[i], at[k]);
+        if a >= 0.0 {
+            kept.push(here);
+        }
+        if (a >= 0.0) != (b >= 0.0) {
+            // Weighted by the distances, not stepped from one end: either end gives the same point.
+            let local = here.local * (b / (b - a)) + next.local * (a / (a - b));
+            // Where the outline leaves the box, an edge begins that clipping makes.
+            let edge = if a >= 0.0 { None } else { here.edge };
+            kept.push(Point {
+                local: local.clamp(here.local.min(next.local), here.local.max(next.local)),
+                edge,
+            });
+        }
+    }
+    kept
+}

@@ -1,0 +1,122 @@
+//! A layer: a rectangle and where it is.
+
+use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
+
+/// A point counts as in the rectangle if it is outside by no more than this share of its sides.
+/// Smaller: points on an edge are missed by rounding; larger: an edge is hit before it is reached.
+const TOUCH: f64 = 1e-9;
+
+/// A rectangle in coordinates of its own, and a matrix that maps it to the screen.
+///
+/// Two layers are equal if their numbers are: an equal list of layers is an unchanged frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    low: DVec2,
+    high: DVec2,
+    /// What x, y, z and w are made of: coefficients of u, of v and of 1.
+    rows: [DVec3; 4],
+    /// The distance from 1 to the next number that the matrix could hold.
+    step: f64,
+}
+
+impl Layer {
+    /// The rectangle from `low` to `high`, in the layer's own coordinates (u, v), and a matrix from
+    /// (u, v, 0, 1) to homogeneous screen coordinates (x, y, z, w). Its z column is not used.
+    pub fn new([low, high]: [[f64; 2]; 2], matrix: DMat4) -> Self {
+        Self::with_step([low, high], matrix, f64::EPSILON)
+    }
+
+    /// Like [`new`](Self::new), with a matrix that was computed in `f32`: layers that it puts into
+    /// one plane up to its rounding count as coplanar.
+    pub fn from_f32([low, high]: [[f64; 2]; 2], matrix: Mat4) -> Self {
+        Self::with_step([low, high], matrix.as_dmat4(), f64::from(f32::EPSILON))
+    }
+
+    fn with_step([low, high]: [[f64; 2]; 2], matrix: DMat4, step: f64) -> Self {
+        let row = |k: usize| DVec3::new(matrix.x_axis[k], matrix.y_axis[k], matrix.w_axis[k]);
+        Self { low: low.into(), high: high.into(), rows: [0, 1, 2, 3].map(row), step }
+    }
+
+    /// The point (u, v) of the layer's plane that appears at a point of the screen: by this, a layer
+    /// is drawn pixel by pixel. It may be outside the layer's rectangle. `None` where the plane does
+    /// not appear or appears as a line.
+    ///
+    /// Where u and v run linearly over the screen, as without perspective, so does this; otherwise
+    /// u/w, v/w and 1/w do.
+    pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        let [of_x, of_y, _, of_w] = self.rows;
+        // Both are 0 at (u, v, 1): the point is where their lines meet.
+        let point = (of_x - of_w * x).cross(of_y - of_w * y);
+        let local = point.truncate() / point.z;
+        let is_seen = of_w.dot(local.extend(1.0)) > 0.0 && local.is_finite();
+        is_seen.then_some(local.to_array())
+    }
+
+    /// The corners (u, v) of the rectangle; edge k runs from corner k to the next.
+    pub(super) fn corners(&self) -> [DVec2; 4] {
+        let Self { low, high, .. } = *self;
+        [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
+    }
+
+    /// The point of the rectangle that appears at a point of the screen, if one does or nearly does.
+    pub(super) fn inside(&self, screen: DVec2) -> Option<DVec2> {
+        let local = DVec2::from(self.local(screen.to_array())?);
+        let inside = self.clamp(local);
+        let slack = (self.high - self.low) * TOUCH;
+        (local - inside).abs().cmple(slack).all().then_some(inside)
+    }
+
+    /// (u, v), moved into the rectangle if rounding put it outside.
+    pub(super) fn clamp(&self, local: DVec2) -> DVec2 {
+        local.clamp(self.low, self.high)
+    }
+
+    /// Whether its numbers are finite, and what it is made of as well.
+    pub(super) fn is_finite(&self) -> bool {
+        let numbers = self.low.is_finite() && self.high.is_finite();
+        numbers && self.rows.iter().all(|row| row.is_finite() && self.size_of(*row).is_finite())
+    }
+
+    /// Whether the rectangle has no area.
+    pub(super) fn is_empty(&self) -> bool {
+        !(self.low.x < self.high.x && self.low.y < self.high.y)
+    }
+
+    /// The most that the terms of a row add up to in the rectangle.
+    fn size_of(&self, row: DVec3) -> f64 {
+        let largest = self.low.abs().max(self.high.abs()).extend(1.0);
+        row.abs().dot(largest)
+    }
+
+    /// What (x, y, z, w) are made of, scaled by a power of two so that the largest is about 1: no
+    /// product overflows. Homogeneous coordinates mean the same at any scale. The scale comes last.
+    pub(super) fn scaled_rows(&self) -> ([DVec3; 4], f64) {
+        let largest = self.rows.iter().fold(0.0, |size: f64, &row| size.max(self.size_of(row)));
+        let exponent = largest.log2().floor().clamp(-1000.0, 1000.0);
+        let scale = (-exponent).exp2();
+        (self.rows.map(|row| row * scale), scale)
+    }
+
+    /// Bounds on the terms of a row that is centred.
+    pub(super) fn terms(&self, row: DVec3) -> DVec3 {
+        let half = self.high * 0.5 - self.low * 0.5;
+        (row.truncate().abs() * half).extend(self.size_of(row))
+    }
+
+    /// Rows with the middle of the rectangle as origin and its half sides as units.
+    pub(super) fn centred(&self, rows: [DVec3; 4]) -> [DVec3; 4] {
+        let (middle, half) = (self.low * 0.5 + self.high * 0.5, self.high * 0.5 - self.low * 0.5);
+        rows.map(|row| (row.truncate() * half).extend(row.dot(middle.extend(1.0))))
+    }
+
+    /// Bounds on the rounding of x, y, z and w in a point, made of rows as the matrix has them.
+    pub(super) fn rounding(&self, rows: [DVec3; 4], local: DVec2) -> DVec4 {
+        let largest = local.abs().extend(1.0);
+        DVec4::from_array(rows.map(|row| row.abs().dot(largest))) * self.step
+    }
+
+    /// The distance from 1 to the next number that the matrix could hold.
+    pub(super) fn step(&self) -> f64 {
+        self.step
+    }
+}

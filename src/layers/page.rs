@@ -1,0 +1,227 @@
+//! A page: the layers of a frame and their order.
+
+use glam::{DVec2, DVec3};
+
+use super::clip::{MOST_CORNERS, clip};
+use super::layer::Layer;
+use super::piece::LayerPiece;
+use super::vertex::Corner;
+use crate::Error;
+use crate::build::BuildOptions;
+use crate::input::Polygon;
+use crate::memory::reserve;
+use crate::tree::BspTree;
+use crate::viewpoint::Viewpoint;
+
+/// How far a page reaches in depth, and if it is not clipped to its viewport across as well, in
+/// sizes of the viewport. Larger: coordinates are rounded to more than the least tolerance. Smaller:
+/// layers that pass near the eye lose a part that is seen.
+const REACH: f64 = (1 << 20) as f64;
+/// The least and the largest tolerance, as shares of the viewport's size; as
+/// [`Tolerance::Default`](crate::Tolerance::Default) has them of the extent. Smaller: cards meant to
+/// be in one plane cut each other; larger: thin layers are merged, or, for one layer of few digits,
+/// those of the whole page.
+const TOLERANCES: [f64; 2] = [1e-9, 1e-5];
+/// A point counts as in a piece if it is outside by no more than this share of the viewport's size.
+/// Smaller: points fall through between pieces; larger: an edge is hit before it is reached.
+const TOUCH: f64 = 1e-9;
+
+/// The layers of a page, cut and in paint order, from frame to frame.
+///
+/// Give every frame's layers to [`update`](Self::update). It does nothing if they are those of the
+/// last frame, and takes the time of a [`BspTree`] of as many polygons if not. Then read the pieces.
+/// [The module](super) has an example and says what becomes of every layer.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    viewport: [DVec2; 2],
+    is_clipped: bool,
+    /// The last frame, if `tree` is of one.
+    layers: Vec<Layer>,
+    /// What is seen of them.
+    outlines: Vec<Outline>,
+    /// The corners of all outlines.
+    corners: Vec<Corner>,
+    tree: Option<BspTree>,
+    /// The tree's fragments, back to front.
+    order: Vec<u32>,
+    visible: usize,
+}
+
+/// A layer as clipped, the input polygon of a tree.
+#[derive(Clone, Debug)]
+struct Outline {
+    layer: usize,
+    /// Where its corners begin; they end where the next outline's begin.
+    corners: usize,
+    pieces: usize,
+}
+
+impl Layers {
+    /// An empty page on a screen from the `low` to the `high` corner of its viewport.
+    pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
+        Self {
+            viewport: [low.into(), high.into()],
+            is_clipped: true,
+            layers: Vec::new(),
+            outlines: Vec::new(),
+            corners: Vec::new(),
+            tree: None,
+            order: Vec::new(),
+            visible: 0,
+        }
+    }
+
+    /// An empty page that is not clipped to the viewport, for pages that are painted once and scrolled. What
+    /// is outside is cut as well, which takes time. The viewport still gives the scale.
+    #[must_use]
+    pub fn unclipped(mut self) -> Self {
+        self.clear();
+        self.is_clipped = false;
+        self
+    }
+
+    /// Takes the layers of a frame, and tells whether anything had to be done: not if they are equal
+    /// to the last frame's. Memory of the last frame is used again.
+    ///
+    /// # Errors
+    ///
+    /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the
+    /// error is the layer's index), the pieces would be more than a tree may have, or memory runs
+    /// out. Then the page has no pieces.
+    pub fn update(&mut self, layers: &[Layer]) -> Result<bool, Error> {
+        if self.tree.is_some() && self.layers == layers {
+            return Ok(false);
+        }
+        // The page is empty until its tree is there, so after an error as well.
+        self.clear();
+        self.replace(layers).map(|()| true)
+    }
+
+    fn clear(&mut self) {
+        self.layers.clear();
+        self.outlines.clear();
+        self.corners.clear();
+        self.order.clear();
+        (self.tree, self.visible) = (None, 0);
+    }
+
+    fn replace(&mut self, layers: &[Layer]) -> Result<(), Error> {
+        if !self.limits().iter().all(|corner| corner.is_finite()) {
+            return Err(Error::viewport());
+        }
+        reserve(&mut self.layers, layers.len())?;
+        self.layers.extend_from_slice(layers);
+        let precision = self.clip()?;
+        let [least, most] = TOLERANCES.map(|share| share * self.size());
+        let tree = self.build(precision.clamp(least, most))?;
+        tree.back_to_front_into(Viewpoint::Direction(DVec3::NEG_Z), &mut self.order);
+        for fragment in tree.fragments() {
+            self.outlines[fragment.polygon()].pieces += 1;
+        }
+        self.visible = self.outlines.iter().filter(|outline| outline.pieces > 0).count();
+        self.tree = Some(tree);
+        Ok(())
+    }
+
+    /// Clips all layers; the coarsest precision of any.
+    fn clip(&mut self) -> Result<f64, Error> {
+        let limits = self.limits();
+        let mut coarsest = 0.0f64;
+        for (layer, from) in self.layers.iter().enumerate() {
+            if !from.is_finite() {
+                return Err(Error::layer(layer));
+            }
+            reserve(&mut self.outlines, 1)?;
+            reserve(&mut self.corners, MOST_CORNERS)?;
+            let corners = self.corners.len();
+            if let Some(precision) = clip(from, limits, &mut self.corners) {
+                coarsest = coarsest.max(precision);
+                self.outlines.push(Outline { layer, corners, pieces: 0 });
+            }
+        }
+        Ok(coarsest)
+    }
+
+    /// The only place where a tree is built.
+    fn build(&self, tolerance: f64) -> Result<BspTree, Error> {
+        let polygons = (0..self.outlines.len()).map(|k| Clipped(self.corners_of(k)));
+        BuildOptions::DEFAULT.with_tolerance(tolerance).build(polygons)
+    }
+
+    fn corners_of(&self, outline: usize) -> &[Corner] {
+        let end = self.outlines.get(outline + 1).map_or(self.corners.len(), |next| next.corners);
+        &self.corners[self.outlines[outline].corners..end]
+    }
+
+    /// The viewport's longer side.
+    fn size(&self) -> f64 {
+        (self.viewport[1] - self.viewport[0]).max_element().max(0.0)
+    }
+
+    /// The box that layers are clipped to.
+    fn limits(&self) -> [DVec3; 2] {
+        let reach = REACH * self.size();
+        let [low, high] = self.viewport;
+        let across = if self.is_clipped { 0.0 } else { reach };
+        [(low - across).extend(-reach), (high + across).extend(reach)]
+    }
+
+    /// How many layers are seen, each as one piece or more.
+    pub fn visible(&self) -> usize {
+        self.visible
+    }
+
+    /// How many pieces there are. If they are as many as [visible](Self::visible) layers, no layer
+    /// is cut.
+    pub fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Whether nothing is seen.
+    pub fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
+    /// The pieces in paint order: none hides one that comes later. From its end, or by `rev()`, front
+    /// to back.
+    pub fn back_to_front(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = LayerPiece<'_>> + ExactSizeIterator + Clone {
+        self.order.iter().map(|&number| self.piece(number))
+    }
+
+    fn piece(&self, number: u32) -> LayerPiece<'_> {
+        let fragment = self.tree.as_ref().expect("the order is of a tree").fragment(number);
+        let index = fragment.polygon();
+        let &Outline { layer: number, pieces, .. } = &self.outlines[index];
+        LayerPiece {
+            number,
+            layer: &self.layers[number],
+            outline: self.corners_of(index),
+            fragment,
+            is_whole: pieces == 1,
+        }
+    }
+
+    /// The nearest layer at a point of the screen, by its index, and the point (u, v) of it that
+    /// appears there. O(pieces), in `f64`: within 10⁻⁹ of the viewport's longer side of an edge,
+    /// either side may answer.
+    pub fn hit(&self, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
+        let slack = TOUCH * self.size();
+        let at = DVec2::new(x, y);
+        self.back_to_front().rev().find_map(|piece| {
+            // Most pieces are ruled out by their layer, without computing a vertex.
+            let local = piece.layer.inside(at)?;
+            piece.covers(at, slack).then(|| (piece.number, local.to_array()))
+        })
+    }
+}
+
+/// A layer as clipped.
+struct Clipped<'p>(&'p [Corner]);
+
+impl Polygon for Clipped<'_> {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.0.iter().map(|corner| corner.vertex.position)
+    }
+}

@@ -1,0 +1,74 @@
+//! What a page is painted by.
+
+use glam::DVec2;
+
+use super::layer::Layer;
+use super::vertex::{Corner, LayerVertex, interpolated};
+use crate::tree::Fragment;
+
+/// A convex piece of a layer, or all that is seen of it.
+#[derive(Clone, Copy, Debug)]
+pub struct LayerPiece<'p> {
+    pub(super) number: usize,
+    pub(super) layer: &'p Layer,
+    /// The layer as clipped, of which the fragment is a piece.
+    pub(super) outline: &'p [Corner],
+    pub(super) fragment: Fragment<'p>,
+    pub(super) is_whole: bool,
+}
+
+impl<'p> LayerPiece<'p> {
+    /// The index of its layer in the list.
+    pub fn layer(&self) -> usize {
+        self.number
+    }
+
+    /// Whether no other layer cuts its layer: it is all that is seen of it.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// The vertices, in the layer's own orientation: as u runs towards v, clockwise on the screen if
+    /// the layer is seen from its front.
+    ///
+    /// Pieces of one layer that share a vertex get the same bits for its position. The place in the
+    /// layer is u = Σ λ u/w ÷ Σ λ/w, with the weights λ of the vertex over the corners on the screen.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = LayerVertex> + use<'p> {
+        let Self { layer, outline, fragment, .. } = *self;
+        fragment.vertices().zip(fragment.weights()).map(move |(position, weights)| {
+            if let [(corner, _)] = weights[..] {
+                return outline[corner as usize].vertex;
+            }
+            interpolated(layer, outline, position, &weights)
+        })
+    }
+
+    /// For each edge, from a vertex to the next: which edge of the layer's rectangle it lies on, or
+    /// `None` if a cut or clipping made it. Edges of the layer are those to smooth: where pieces of
+    /// one layer meet, smoothing would let the background through.
+    ///
+    /// Edge 0 runs from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back.
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
+        let outline = self.outline;
+        self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
+    }
+
+    /// Whether it covers a point of the screen, or comes as near to it as `slack`.
+    pub(super) fn covers(&self, at: DVec2, slack: f64) -> bool {
+        let mut vertices = self.vertices().map(|vertex| vertex.position.truncate());
+        let Some(first) = vertices.next() else { return false };
+        let (mut from, mut low, mut high) = (first, f64::INFINITY, f64::NEG_INFINITY);
+        let mut bounds = [first, first];
+        for to in vertices.chain([first]) {
+            let side = to - from;
+            // How far the point is to one side of the edge; nothing of an edge without length.
+            let off = side.perp_dot(at - from) / side.length();
+            (low, high) = (low.min(off), high.max(off));
+            bounds = [bounds[0].min(to), bounds[1].max(to)];
+            from = to;
+        }
+        // Pieces run either way around: the front or the back is seen.
+        let is_near = at.clamp(bounds[0] - slack, bounds[1] + slack) == at;
+        is_near && (low >= -slack || high <= slack)
+    }
+}

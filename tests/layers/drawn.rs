@@ -1,0 +1,116 @@
+//! The conventions, on examples drawn by hand.
+
+use super::{Rect, camera};
+use binspace::glam::{DMat4, DVec2, DVec3, dvec2, dvec3};
+use binspace::layers::{Layer, Layers};
+use std::f64::consts::FRAC_PI_2;
+
+/// Half sides 100 and 60.
+const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
+const SCREEN: Rect = [[0.0, 0.0], [1920.0, 1080.0]];
+
+fn page(layers: &[Layer]) -> Layers {
+    let mut page = Layers::new(SCREEN);
+    page.update(layers).unwrap();
+    page
+}
+
+fn order(page: &Layers) -> Vec<usize> {
+    page.back_to_front().map(|piece| piece.layer()).collect()
+}
+
+/// The eye is 1200 pixels in front of (960, 540). A card 600 in front of the screen appears twice as
+/// large, one 1200 behind it half.
+#[test]
+fn x_runs_right_y_down_and_z_towards_the_viewer() {
+    let at = |z: f64| Layer::new(CARD, camera() * DMat4::from_translation(dvec3(30.0, 15.0, z)));
+    let page = page(&[at(600.0), at(-1200.0), at(0.0)]);
+    assert_eq!(order(&page), [1, 2, 0]);
+    let corners = |k: usize| -> Vec<DVec2> {
+        page.back_to_front().nth(k).unwrap().vertices().map(|v| v.position.truncate()).collect()
+    };
+    // Clockwise from the top left, as (u, v) runs.
+    let expected = |x: f64, y: f64, w: f64, h: f64| {
+        let (low, high) =
+            (dvec2(960.0 + x - w, 540.0 + y - h), dvec2(960.0 + x + w, 540.0 + y + h));
+        [low, dvec2(high.x, low.y), high, dvec2(low.x, high.y)]
+    };
+    let near = |found: &[DVec2], wanted: [DVec2; 4]| {
+        found.len() == 4 && found.iter().zip(wanted).all(|(a, b)| (a - b).length() < 1e-9)
+    };
+    assert!(near(&corners(0), expected(15.0, 7.5, 50.0, 30.0)), "{:?}", corners(0));
+    assert!(near(&corners(1), expected(30.0, 15.0, 100.0, 60.0)));
+    assert!(near(&corners(2), expected(60.0, 30.0, 200.0, 120.0)));
+    let nearest = page.back_to_front().next_back().unwrap();
+    for (vertex, local) in nearest.vertices().zip([[-100.0, -60.0], [100.0, -60.0]]) {
+        assert_eq!((vertex.w, vertex.local.to_array()), (0.5, local));
+        // z/w = 600/0.5.
+        assert!((vertex.position.z - 1200.0).abs() < 1e-9);
+        let h = vertex.homogeneous();
+        assert!((h.w, h.z) == (0.5, 600.0) && (h.x / h.w - vertex.position.x).abs() < 1e-9);
+        assert_eq!(vertex.perspective(), DVec3::new(2.0 * local[0], 2.0 * local[1], 2.0));
+    }
+    assert_eq!(nearest.edges().collect::<Vec<_>>(), [Some(0), Some(1), Some(2), Some(3)]);
+    // The point right below and to the right of the card's middle is further along u and v.
+    let (layer, [u, v]) = page.hit([1030.0, 580.0]).unwrap();
+    assert!(layer == 0 && (u - 5.0).abs() < 1e-9 && (v - 5.0).abs() < 1e-9);
+    // Left of the nearest card there is nothing.
+    assert_eq!(page.hit([815.0, 540.0]), None);
+}
+
+/// Without perspective as well: a card turned by rotateY(60°) has its right side away from the viewer,
+/// so the flat one covers it there, and is covered on the left.
+#[test]
+fn a_card_turned_about_y_shows_its_left_half() {
+    let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
+    let turned = middle * DMat4::from_rotation_y(60f64.to_radians());
+    let page = page(&[Layer::new(CARD, middle), Layer::new(CARD, turned)]);
+    assert_eq!((page.len(), page.visible()), (3, 2));
+    let above = |x: f64| page.hit([x, 540.0]).unwrap();
+    assert_eq!([930.0, 955.0, 965.0, 990.0].map(|x| above(x).0), [1, 1, 0, 0]);
+    assert!((above(930.0).1[0] + 60.0).abs() < 1e-9);
+    for piece in page.back_to_front() {
+        let inner = piece.edges().filter(Option::is_none).count();
+        assert_eq!(inner, usize::from(!piece.is_whole()));
+    }
+}
+
+#[test]
+fn layers_in_one_plane_come_in_the_order_of_the_list_from_both_sides() {
+    for turn in [0.0, 0.3, 2.0, 3.1] {
+        let matrix = camera() * DMat4::from_rotation_y(turn);
+        let badge = [[20.0, -50.0], [90.0, 10.0]];
+        let page =
+            page(&[Layer::new(CARD, matrix), Layer::new(badge, matrix), Layer::new(CARD, matrix)]);
+        assert_eq!(order(&page), [0, 1, 2], "{turn}");
+    }
+}
+
+/// A floor 500 pixels below the eye from far behind the screen to far behind the eye: it fills the
+/// lower part of the screen, to its border.
+#[test]
+fn a_floor_that_reaches_behind_the_eye_is_clipped() {
+    let floor = [[-1e4, -1e4], [1e4, 1e4]];
+    let lying = DMat4::from_translation(dvec3(0.0, 500.0, 0.0)) * DMat4::from_rotation_x(FRAC_PI_2);
+    let page = page(&[Layer::new(floor, camera() * lying)]);
+    let piece = page.back_to_front().next().unwrap();
+    let ys: Vec<f64> = piece.vertices().map(|v| v.position.y).collect();
+    // Its far edge is 10 000 behind the screen: 500 · 1200/11 200 below the middle.
+    let top = ys.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!((top - 540.0 - 500.0 * 1200.0 / 11_200.0).abs() < 1e-3, "{top}");
+    assert!((ys.iter().copied().fold(0.0, f64::max) - 1080.0).abs() < 1e-9);
+    assert_eq!(piece.edges().filter(Option::is_none).count(), 3);
+    assert!(piece.is_whole());
+}
+
+/// The floor again: above its horizon, 540 pixels down, only its mirror image behind the eye would be.
+#[test]
+fn a_plane_is_seen_on_one_side_of_its_horizon() {
+    let lying = DMat4::from_translation(dvec3(0.0, 500.0, 0.0)) * DMat4::from_rotation_x(FRAC_PI_2);
+    let floor = Layer::new([[-1e4, -1e4], [1e4, 1e4]], camera() * lying);
+    let [u, v] = floor.local([960.0, 1040.0]).unwrap();
+    assert!(u.abs() < 1e-6 && v.abs() < 1e-3, "{u} {v}");
+    assert_eq!(floor.local([960.0, 100.0]), None);
+    let edge_on = camera() * DMat4::from_rotation_y(0.0) * DMat4::from_scale(dvec3(0.0, 1.0, 1.0));
+    assert_eq!(Layer::new(CARD, edge_on).local([100.0, 100.0]), None);
+}

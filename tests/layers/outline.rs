@@ -1,0 +1,163 @@
+//! What is seen of one layer, and where in it.
+
+use super::oracle::{Point2, area, number};
+use super::support::dice::Dice;
+use super::support::rational::exact;
+use super::{Given, VIEWPORT, page_of, pages, wild};
+use binspace::glam::DVec3;
+use binspace::layers::LayerVertex;
+use num_traits::{Signed, Zero};
+
+/// Twenty steps of `f64`, times what the terms of a coordinate add up to.
+const STEPS: f64 = 20.0 * f64::EPSILON;
+/// The box that layers are clipped to.
+const REACH: f64 = 1920.0 * (1u64 << 20) as f64;
+
+/// How far x/w, y/w and z/w may be off where the layer's point (u, v) appears: what its terms add up
+/// to, over w, in `STEPS`.
+fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
+    let terms = |k: usize| {
+        let [u, v, one] = [0, 1, 3].map(|column: usize| given.matrix.col(column)[k].abs());
+        u * vertex.local.x.abs() + v * vertex.local.y.abs() + one
+    };
+    let largest = vertex.position.abs().max_element().max(1.0);
+    STEPS * (terms(0).max(terms(1)).max(terms(2)) + largest * terms(3)) / vertex.w
+}
+
+#[test]
+fn what_is_seen_is_what_the_exact_clip_leaves() {
+    let mut dice = Dice(11);
+    let (mut seen, mut unseen, mut clipped) = (0, 0, 0);
+    for _ in 0..600 {
+        let given = wild(&mut dice);
+        let truth = given.truth();
+        let expected = truth.clipped([0.0, 0.0, -REACH], [VIEWPORT[1][0], VIEWPORT[1][1], REACH]);
+        let expected = number(&area(&expected)).abs();
+        let page = page_of(&[given]);
+        if page.is_empty() {
+            assert!(expected < 1e-6, "{expected}");
+            unseen += 1;
+            continue;
+        }
+        assert_eq!((page.len(), page.visible()), (1, 1));
+        let piece = page.back_to_front().next().unwrap();
+        assert!(piece.is_whole() && piece.layer() == 0);
+        let vertices: Vec<LayerVertex> = piece.vertices().collect();
+        for vertex in &vertices {
+            let local = vertex.local.to_array().map(exact);
+            assert!(truth.inside(&local) >= 0.0);
+            // It appears where it is said to.
+            let [x, y, z, w] = truth.homogeneous(&local);
+            assert!((number(&w) - vertex.w).abs() <= bound(&given, vertex) * vertex.w);
+            let off = DVec3::new(number(&(x / &w)), number(&(y / &w)), number(&(z / &w)))
+                - vertex.position;
+            assert!(off.abs().max_element() <= bound(&given, vertex), "{off} {vertex:?}");
+            // And inside the box.
+            let [low, high] = VIEWPORT.map(binspace::glam::DVec2::from);
+            let on_screen = vertex.position.truncate();
+            assert_eq!(on_screen.clamp(low, high), on_screen);
+        }
+        // In the rectangle, in the box, convex, and as large as what there is: it is what there is.
+        let outline: Vec<Point2> = vertices.iter().map(|v| v.local.to_array().map(exact)).collect();
+        let found = number(&area(&outline)).abs();
+        assert!((found - expected).abs() <= 1e-9 * expected + 1e-9, "{found} {expected}");
+        clipped += usize::from(vertices.len() > 4);
+        seen += 1;
+    }
+    assert!(seen > 300 && unseen > 50 && clipped > 60, "{seen} {unseen} {clipped}");
+}
+
+#[test]
+fn edges_of_the_rectangle_are_told_from_clips() {
+    let mut dice = Dice(12);
+    let (mut own, mut clips) = (0, 0);
+    for _ in 0..400 {
+        let given = wild(&mut dice);
+        let [[u0, v0], [u1, v1]] = given.rect;
+        let page = page_of(&[given]);
+        for piece in page.back_to_front() {
+            let locals: Vec<_> = piece.vertices().map(|vertex| vertex.local).collect();
+            assert_eq!(piece.edges().len(), locals.len());
+            for (k, edge) in piece.edges().enumerate() {
+                let [a, b] = [k, (k + 1) % locals.len()].map(|k| locals[k]);
+                // Points of an edge have the edge's own coordinate, bit for bit.
+                let lies_on = [
+                    a.y == v0 && b.y == v0,
+                    a.x == u1 && b.x == u1,
+                    a.y == v1 && b.y == v1,
+                    a.x == u0 && b.x == u0,
+                ];
+                assert_eq!(lies_on.iter().position(|&on| on).map(|k| k as u8), edge);
+                own += usize::from(edge.is_some());
+                clips += usize::from(edge.is_none());
+            }
+        }
+    }
+    assert!(own > 500 && clips > 200, "{own} {clips}");
+}
+
+/// At random points of random pieces, what a graphics card makes of the vertices is where the exact
+/// inverse of the matrix says. And what it would make of u and v alone is not.
+#[test]
+fn places_in_a_layer_are_right_after_the_division() {
+    let mut dice = Dice(13);
+    let (mut compared, mut cut, mut misled) = (0, 0, 0);
+    let mut scenes: Vec<Vec<Given>> =
+        (0..25).map(|_| (0..12).map(|_| wild(&mut dice)).collect()).collect();
+    for page in pages::Page::ALL {
+        scenes.push(page.layers(30, 5).into_iter().map(Given::from).collect());
+    }
+    for scene in scenes {
+        let page = page_of(&scene);
+        for piece in page.back_to_front() {
+            let given = scene[piece.layer()];
+            let vertices: Vec<LayerVertex> = piece.vertices().collect();
+            let k = 2 + dice.below(vertices.len() - 2);
+            let corners = [vertices[0], vertices[k - 1], vertices[k]];
+            let mut shares = [0; 3].map(|_| 0.02 + dice.share());
+            let sum: f64 = shares.iter().sum();
+            shares = shares.map(|share| share / sum);
+            let mix = |what: fn(&LayerVertex) -> DVec3| -> DVec3 {
+                corners.iter().zip(shares).map(|(corner, share)| what(corner) * share).sum()
+            };
+            let (at, perspective) = (mix(|v| v.position), mix(LayerVertex::perspective));
+            let drawn = perspective.truncate() / perspective.z;
+            let naive = mix(|v| v.local.extend(0.0)).truncate();
+            let truth = given.truth();
+            let Some((exactly, depth)) = truth.seen_at(&[exact(at.x), exact(at.y)]) else {
+                continue;
+            };
+            let [u, v] = [0, 1].map(|k: usize| number(&exactly[k]));
+            // Steep layers turn a rounding on the screen into more in the layer.
+            let [_, _, z, w] = truth.homogeneous(&exactly);
+            assert!(w.is_positive() && !z.is_zero());
+            let steep = steepness(&given, [u, v], number(&w));
+            let allowed = 1e-10 * (1.0 + steep) * 2000.0;
+            if allowed > 0.1 {
+                continue;
+            }
+            let off = (drawn - binspace::glam::dvec2(u, v)).abs().max_element();
+            assert!(off <= allowed, "{off} {allowed} {given:?}", given = given.matrix);
+            let by_layer = given.layer().local([at.x, at.y]).unwrap();
+            assert!((by_layer[0] - u).abs() <= allowed && (by_layer[1] - v).abs() <= allowed);
+            let depth_off = (number(&depth) - at.z).abs();
+            assert!(depth_off <= allowed * (1.0 + at.z.abs()), "{depth_off}");
+            compared += 1;
+            cut += usize::from(!piece.is_whole());
+            misled += usize::from((naive - drawn).abs().max_element() > 1.0);
+        }
+    }
+    assert!(compared > 1000 && cut > 800 && misled > 300, "{compared} {cut} {misled}");
+}
+
+/// How much u and v change for a change of one pixel, about.
+fn steepness(given: &Given, [u, v]: [f64; 2], w: f64) -> f64 {
+    let truth = |u: f64, v: f64| {
+        let h = given.matrix * binspace::glam::dvec4(u, v, 0.0, 1.0);
+        h.truncate().truncate() / h.w
+    };
+    let step = 1e-4 * w;
+    let here = truth(u, v);
+    let (a, b) = ((truth(u + step, v) - here) / step, (truth(u, v + step) - here) / step);
+    (a.length() + b.length()) / a.perp_dot(b).abs().max(1e-300)
+}

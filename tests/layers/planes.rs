@@ -1,0 +1,148 @@
+//! Layers that are meant to be in one plane, and layers that pass near the eye.
+
+use super::support::dice::Dice;
+use super::{VIEWPORT, camera, pages};
+use binspace::glam::{DMat4, Mat4, Quat, Vec3, dvec3, vec3};
+use binspace::layers::{Layer, Layers};
+
+fn order(page: &Layers) -> Vec<usize> {
+    page.back_to_front().map(|piece| piece.layer()).collect()
+}
+
+/// A page's camera as a program in `f32` makes it, product by product.
+fn single_camera() -> Mat4 {
+    let mut perspective = Mat4::IDENTITY;
+    perspective.z_axis.w = -1.0 / 1200.0;
+    Mat4::from_translation(vec3(960.0, 540.0, 0.0)) * perspective
+}
+
+/// Each card has a matrix of its own, the product of its place in a tilted plane and the plane's.
+#[test]
+fn forty_cards_put_into_one_tilted_plane_by_f32_matrices_stay_whole() {
+    let mut dice = Dice(41);
+    let mut rounded = 0;
+    for _ in 0..60 {
+        let mut turn = || 1.2 * (dice.share() as f32 - 0.5);
+        let tilt = Quat::from_rotation_x(turn()) * Quat::from_rotation_y(turn());
+        let plane = single_camera()
+            * Mat4::from_rotation_translation(tilt, vec3(0.3, -7.7, -210.4) * turn());
+        let layers: Vec<Layer> = (0..40)
+            .map(|_| {
+                let at = Vec3::new(dice.share() as f32, dice.share() as f32, 0.0) * 700.0 - 350.0;
+                let at = vec3(at.x, at.y, 0.0);
+                let turned = Mat4::from_rotation_z(dice.share() as f32);
+                let matrix = plane * Mat4::from_translation(at) * turned;
+                Layer::from_f32([[0.0, 0.0], [120.3, 80.7]], matrix)
+            })
+            .collect();
+        let mut page = Layers::new(VIEWPORT);
+        page.update(&layers).unwrap();
+        assert_eq!((page.len(), page.visible()), (40, 40));
+        assert_eq!(order(&page), (0..40).collect::<Vec<_>>());
+        // As `f64` matrices, the same numbers are not in one plane: the case shows something.
+        let exact: Vec<Layer> = layers
+            .iter()
+            .zip(0..)
+            .map(|(_, k)| {
+                let mut dice = Dice(k);
+                let at = dvec3(700.0 * dice.share() - 350.0, 700.0 * dice.share() - 350.0, 0.0);
+                let matrix = plane.as_dmat4() * DMat4::from_translation(at);
+                Layer::new([[0.0, 0.0], [120.3, 80.7]], matrix.as_mat4().as_dmat4())
+            })
+            .collect();
+        page.update(&exact).unwrap();
+        rounded += usize::from(page.len() > 40 || order(&page) != (0..40).collect::<Vec<_>>());
+    }
+    assert!(rounded > 50, "{rounded}");
+}
+
+#[test]
+fn cards_put_into_one_plane_by_f64_matrices_stay_whole() {
+    let mut dice = Dice(42);
+    for _ in 0..60 {
+        let tilt = DMat4::from_rotation_x(1.4 * dice.share() - 0.7)
+            * DMat4::from_rotation_y(1.4 * dice.share() - 0.7);
+        let layers: Vec<Layer> = (0..40)
+            .map(|_| {
+                let at = dvec3(700.0 * dice.share() - 350.0, 700.0 * dice.share() - 350.0, 0.0);
+                let turned = DMat4::from_rotation_z(dice.share());
+                let matrix = camera() * tilt * DMat4::from_translation(at) * turned;
+                Layer::new([[0.0, 0.0], [120.3, 80.7]], matrix)
+            })
+            .collect();
+        let mut page = Layers::new(VIEWPORT);
+        page.update(&layers).unwrap();
+        assert_eq!(order(&page), (0..40).collect::<Vec<_>>());
+    }
+}
+
+/// Layers a thousandth of a pixel apart keep their order beside one that passes through the eye.
+#[test]
+fn a_layer_through_the_eye_does_not_merge_thin_layers() {
+    let card = [[-100.0, -60.0], [100.0, 60.0]];
+    let at = |z: f64| Layer::new(card, camera() * DMat4::from_translation(dvec3(0.0, 0.0, z)));
+    for tilt in [0.0, 1e-9, 1e-6, 1e-3] {
+        // A wall along the line of sight, from far behind the screen to behind the eye.
+        let wall = DMat4::from_rotation_y(std::f64::consts::FRAC_PI_2 + tilt);
+        let wall = Layer::new([[-3000.0, 100.0], [3000.0, 200.0]], camera() * wall);
+        for unclipped in [false, true] {
+            let mut page = Layers::new(VIEWPORT);
+            if unclipped {
+                page = page.unclipped();
+            }
+            page.update(&[wall, at(0.002), at(0.0), at(0.001)]).unwrap();
+            let reach = 1920.0 * f64::from(1 << 20);
+            for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
+                assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
+            }
+            // The wall may cut them, and have all on one side of it come first.
+            let mut cards: Vec<usize> =
+                order(&page).into_iter().filter(|&layer| layer > 0).collect();
+            cards.dedup();
+            let is_right = cards.chunks(3).all(|side| side == [2, 3, 1]);
+            assert!(is_right, "{tilt} {unclipped} {cards:?}");
+        }
+    }
+}
+
+/// Nor does one of `f32`, whose rounding near the eye is many pixels: it sets the tolerance, but to a
+/// hundredth of a pixel at most.
+#[test]
+fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart() {
+    let card = [[-100.0, -60.0], [100.0, 60.0]];
+    let at = |z: f64| Layer::new(card, camera() * DMat4::from_translation(dvec3(0.0, 0.0, z)));
+    let wall = camera() * DMat4::from_rotation_y(1.5);
+    let wall = Layer::from_f32([[-3000.0, 100.0], [3000.0, 200.0]], wall.as_mat4());
+    let mut page = Layers::new(VIEWPORT).unclipped();
+    page.update(&[wall, at(0.2), at(0.0), at(0.1)]).unwrap();
+    let cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
+    assert_eq!(cards[..3], [2, 3, 1], "{cards:?}");
+}
+
+#[test]
+fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
+    let mut dice = Dice(43);
+    let mut compared = 0;
+    for page in pages::Page::ALL {
+        let layers: Vec<Layer> =
+            page.layers(30, 8).into_iter().map(|layer| super::Given::from(layer).layer()).collect();
+        let pages = [Layers::new(VIEWPORT), Layers::new(VIEWPORT).unclipped()];
+        let [clipped, unclipped] = pages.map(|mut page| {
+            page.update(&layers).unwrap();
+            page
+        });
+        for _ in 0..400 {
+            let at = [1920.0 * dice.share(), 1080.0 * dice.share()];
+            let [a, b] = [&clipped, &unclipped].map(|page| page.hit(at).map(|(layer, _)| layer));
+            assert_eq!(a, b);
+            compared += usize::from(a.is_some());
+        }
+    }
+    assert!(compared > 100, "{compared}");
+    // What is beside the screen is there, whole.
+    let beside = Layer::new([[-900.0, 50.0], [-100.0, 90.0]], DMat4::IDENTITY);
+    let mut page = Layers::new(VIEWPORT).unclipped();
+    page.update(&[beside]).unwrap();
+    let corners = page.back_to_front().flat_map(|piece| piece.vertices());
+    assert!(corners.map(|corner| corner.position.x).eq([-900.0, -100.0, -100.0, -900.0]));
+}
