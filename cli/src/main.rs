@@ -1,6 +1,7 @@
 //! The program `binspace`: orders, checks, measures and draws scenes of polygons.
 
 mod args;
+mod backs;
 mod camera;
 mod colours;
 mod commands;
@@ -14,13 +15,16 @@ mod memory;
 mod pictures;
 mod png_file;
 mod progress;
+mod samples;
 mod scene_arg;
 mod signals;
+mod standard_input;
 mod svg;
 mod table;
 mod terminal;
 mod unfinished;
 mod units;
+mod upright;
 mod values;
 
 use std::io::{self, Write};
