@@ -260,9 +260,9 @@ fn edges_and_weights_say_where_vertices_lie_on_the_polygon() {
             assert!((1..=3).contains(&pairs.len()), "{line}");
             let sum: f64 = pairs.iter().map(|&(_, weight)| weight).sum();
             assert!((sum - 1.0).abs() < 1e-12, "{line}");
-            for axis in 0..3 {
+            for (axis, coordinate) in vertex.into_iter().enumerate() {
                 let place: f64 = pairs.iter().map(|&(k, weight)| weight * corner(k)[axis]).sum();
-                assert!((place - vertex[axis]).abs() < 1e-12, "{line}");
+                assert!((place - coordinate).abs() < 1e-12, "{line}");
             }
             // Both ends of an edge of the polygon lie on it.
             let Some(k) = edges[i].as_u64() else {

@@ -161,7 +161,6 @@ fn what_cannot_be_written_is_said_at_once() {
         ("-o p.png --samples 2 --depth", "one value a pixel"),
         ("-o p.png --samples 2 --difference", "one value a pixel"),
         ("-o p.svg --samples 2", "--samples is for PNG"),
-        ("-o p.png --samples 16 --size 65536x1 --fov 0.001", "finer"),
         ("-o p.png --depth --z-buffer", "cannot be used with"),
         ("-o p.png --direction=0,0,1 --eye=0,0,1", "cannot be used with"),
         ("-o p.png --eye=0,0,0 --target=0,0,0", "looks nowhere"),
