@@ -5,6 +5,7 @@ mod backs;
 mod camera;
 mod colours;
 mod commands;
+mod cull;
 mod examples;
 mod failure;
 mod files;

@@ -4,8 +4,9 @@ use binspace::raster::{Rays, depth_map, difference, picture, zbuffer};
 use binspace::view::{Camera, CameraError};
 use binspace::{BspTree, Verification, paint_tree, paint_tree_in_colour, verify, verify_fronts};
 
-use crate::args::{Cull, KindArgs};
+use crate::args::KindArgs;
 use crate::colours::{BACKGROUND, Colours};
+use crate::cull::Cull;
 use crate::progress::Progress;
 use crate::samples::averaged;
 

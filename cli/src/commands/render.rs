@@ -7,9 +7,10 @@ use binspace::scene::Scene;
 
 use super::Outcome;
 use super::verify::unseen_faults;
-use crate::args::{Cull, Format, RenderArgs};
+use crate::args::{Format, RenderArgs};
 use crate::backs::note_backs;
 use crate::colours::Colours;
+use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
 use crate::pictures::{Drawing, Kind};

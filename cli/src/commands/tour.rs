@@ -10,9 +10,10 @@ use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Heuristic, check_orders, paint_tree};
 
 use super::Outcome;
-use crate::args::{Cull, TourArgs};
+use crate::args::TourArgs;
 use crate::camera::{self, FIELD_OF_VIEW};
 use crate::colours::{Colouring, Colours};
+use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
 use crate::measure;

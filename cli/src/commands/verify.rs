@@ -6,7 +6,8 @@ use binspace::view::{Camera, Projection};
 use binspace::{Verification, verify, verify_fronts};
 
 use super::Outcome;
-use crate::args::{Cull, VerifyArgs};
+use crate::args::VerifyArgs;
+use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::table::Table;
