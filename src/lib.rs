@@ -61,7 +61,7 @@ pub use input::{Point, Polygon};
 pub use tree::{BspTree, Fragment, Fragments, Invalid, Ordered, Partition, Partitions, Stats};
 #[cfg(feature = "raster")]
 pub use verify::{
-    OrderFault, Verification, check_orders, paint_tree, paint_tree_in_colour, verify,
+    OrderFault, Verification, check_orders, paint_tree, paint_tree_in_colour, verify, verify_fronts,
 };
 pub use viewpoint::Viewpoint;
 

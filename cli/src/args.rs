@@ -6,10 +6,12 @@ use std::path::PathBuf;
 use binspace::glam::DVec3;
 use binspace::{BuildOptions, Heuristic};
 use binspace_evidence::Family;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::colours::Colouring;
+use crate::cull::CullArgs;
 use crate::examples;
+use crate::samples;
 use crate::values::{self, Heuristics};
 
 /// Exact back-to-front orders of polygons from one BSP tree.
@@ -58,16 +60,17 @@ pub(crate) struct TourArgs {
 ///
 /// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the polygon of
 /// the i-th `f` line of the file, counted from 0, in the file's coordinates. Back to front: no
-/// fragment hides a later one.
+/// fragment hides a later one. With several eyes, the whole order of the first comes first, and
+/// each line begins with `"eye": k`, the number of its eye, counted from 0.
 #[derive(Args, Debug)]
 #[command(after_help = examples::ORDER)]
 #[command(group(clap::ArgGroup::new("viewpoint").required(true).args(["eye", "direction"])))]
 pub(crate) struct OrderArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// Position of the eye
+    /// Position of the eye; may be repeated, for an order of each
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub(crate) eye: Option<DVec3>,
+    pub(crate) eye: Vec<DVec3>,
     /// Direction of view, from infinitely far away
     #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
     #[arg(allow_hyphen_values = true)]
@@ -75,9 +78,19 @@ pub(crate) struct OrderArgs {
     /// List the nearest fragment first
     #[arg(long)]
     pub(crate) front_to_back: bool,
+    /// Add `"edges"`: for the edge from each vertex to the next the polygon's edge that it lies on,
+    /// by the number of the corner where that begins; null where a cut or triangulation made it
+    #[arg(long)]
+    pub(crate) edges: bool,
+    /// Add `"weights"`: for each vertex a list of [corner, weight], the polygon's corners that it
+    /// lies between, to interpolate what they have; the weights of a vertex sum to 1
+    #[arg(long)]
+    pub(crate) weights: bool,
+    #[command(flatten)]
+    pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
-    /// File to write, complete or not at all [default: standard output]
+    /// File to write, complete or not at all [default: standard output, as for -]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -101,6 +114,8 @@ pub(crate) struct VerifyArgs {
     pub(crate) size: [u32; 2],
     #[command(flatten)]
     pub(crate) up: UpArgs,
+    #[command(flatten)]
+    pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
 }
@@ -130,9 +145,12 @@ pub(crate) struct StatsArgs {
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// File to write: .png, or .svg for the fragments themselves, in order
+    /// File to write: .png, or .svg for the fragments themselves, in order; - for standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
+    /// Format to write [default: by the file's name; png for standard output]
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    pub(crate) format: Option<Format>,
     /// Position of the eye
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) eye: Option<DVec3>,
@@ -154,6 +172,14 @@ pub(crate) struct RenderArgs {
     /// Where the colours of polygons come from
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
     pub(crate) colours: Colouring,
+    /// Samples each way in a pixel of a PNG: with more than 1, edges are smooth
+    ///
+    /// Each of the N x N samples is decided exactly; a pixel has the mean of their light.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(samples::MOST)))]
+    pub(crate) samples: u32,
+    #[command(flatten)]
+    pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) kind: KindArgs,
     #[command(flatten)]
@@ -171,7 +197,7 @@ pub(crate) struct RenderArgs {
 #[derive(Args, Debug)]
 #[command(after_help = examples::REPORT)]
 pub(crate) struct ReportArgs {
-    /// OBJ files or built-in scenes to measure as well
+    /// OBJ files, - for one on standard input, or built-in scenes to measure as well
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<OsString>,
     /// Folder to write into; created if it does not exist
@@ -209,9 +235,18 @@ pub(crate) struct KindArgs {
     pub(crate) depth: bool,
 }
 
+/// The format of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Pixels
+    Png,
+    /// Fragments as paths, in order
+    Svg,
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct SceneArgs {
-    /// An OBJ file, or a built-in scene such as teapot or sphere:100000
+    /// An OBJ file, - for one on standard input, or a built-in scene such as sphere:100000
     ///
     /// A name that ends in .obj or contains a path separator is a file. Any other is a built-in
     /// scene, with an optional size after a colon, or, if there is none of that name, a file.

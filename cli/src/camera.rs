@@ -2,7 +2,7 @@
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use binspace::view::{Camera, CameraError, views};
+use binspace::view::{Camera, CameraError, Projection, views};
 
 use crate::args::RenderArgs;
 use crate::failure::Failure;
@@ -81,6 +81,14 @@ fn upright(
     let first = make(scene.up());
     let others = [DVec3::Y, DVec3::NEG_Z, DVec3::X];
     first.or_else(|error| others.into_iter().find_map(|up| make(up).ok()).ok_or(error))
+}
+
+/// Whether a camera is inside the box around a scene.
+pub(crate) fn is_inside(camera: &Camera, scene: &Scene) -> bool {
+    let Projection::Perspective { eye, .. } = *camera.projection() else {
+        return false;
+    };
+    scene.bounds().is_some_and(|(low, high)| eye.cmpge(low).all() && eye.cmple(high).all())
 }
 
 fn bounds(scene: &Scene) -> [DVec3; 2] {

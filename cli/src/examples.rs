@@ -16,6 +16,8 @@ pub(crate) const ORDER: &str = "\
 Examples:
   binspace order scene.obj --eye=0,2,10
   binspace order scene.obj --direction 0,0,-1 --front-to-back -o order.jsonl
+  binspace order scene.obj --eye=0,2,10 --eye=5,2,0 --edges --weights
+  gunzip -c scene.obj.gz | binspace order - --eye=0,2,10 --cull back
   binspace order teapot:16 --eye=9,-4,3 | head -1";
 
 pub(crate) const VERIFY: &str = "\
@@ -33,9 +35,12 @@ pub(crate) const RENDER: &str = "\
 Examples:
   binspace render teapot -o teapot.png
   binspace render scene.obj -o scene.svg --up z --size 1200x900
+  binspace render scene.obj -o smooth.png --samples 4
+  binspace render room.obj -o room.png --cull back
   binspace render cornell -o inside.png --eye=278,273,100 --target=278,200,559 --fov 70
   binspace render city:5000 -o map.svg --direction=1,1,-1
-  binspace render scene.obj -o difference.png --difference";
+  binspace render scene.obj -o difference.png --difference
+  binspace render - -o - --format svg < scene.obj > scene.svg";
 
 pub(crate) const REPORT: &str = "\
 Examples:

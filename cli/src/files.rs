@@ -1,7 +1,7 @@
 //! Files that are written completely or not at all.
 
 use std::fs::{self, File, OpenOptions, Permissions};
-use std::io::{self, BufWriter, IntoInnerError, StdoutLock, Write};
+use std::io::{self, BufWriter, IntoInnerError, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
@@ -36,12 +36,23 @@ enum Place {
     Later(Option<Permissions>),
 }
 
+/// What stands for standard input and standard output in place of a file's name.
+pub(crate) const STANDARD: &str = "-";
+
 impl Output {
     /// Output to a file, or to standard output without a name or for the name `-`.
     pub(crate) fn open(path: Option<&Path>) -> Result<Self, Failure> {
         match path {
-            Some(path) if path != Path::new("-") => NewFile::create(path).map(Self::File),
+            Some(path) if path != Path::new(STANDARD) => NewFile::create(path).map(Self::File),
             _ => Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock()))),
+        }
+    }
+
+    /// Whether a person would see what is written.
+    pub(crate) fn is_terminal(&self) -> bool {
+        match self {
+            Self::Standard(out) => out.get_ref().is_terminal(),
+            Self::File(file) => file.writer.get_ref().is_terminal(),
         }
     }
 
@@ -132,6 +143,10 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
 
 /// Makes a folder, and those above it, unless it is there.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    if path == Path::new(STANDARD) {
+        let problem = "it cannot hold several files: name a folder (./- if it is called so)";
+        return Err(Failure::about("standard output", problem));
+    }
     let made = fs::create_dir_all(path);
     made.map_err(|error| Failure::about(path.display(), format!("cannot be created: {error}")))
 }

@@ -1,9 +1,11 @@
 //! The program `binspace`: orders, checks, measures and draws scenes of polygons.
 
 mod args;
+mod backs;
 mod camera;
 mod colours;
 mod commands;
+mod cull;
 mod examples;
 mod failure;
 mod files;
@@ -14,13 +16,16 @@ mod memory;
 mod pictures;
 mod png_file;
 mod progress;
+mod samples;
 mod scene_arg;
 mod signals;
+mod standard_input;
 mod svg;
 mod table;
 mod terminal;
 mod unfinished;
 mod units;
+mod upright;
 mod values;
 
 use std::io::{self, Write};

@@ -1,10 +1,18 @@
 //! The pictures that can be drawn of a tree, as RGB pixels.
 
-use binspace::raster::{DepthImage, Image, depth_map, difference, picture};
-use binspace::{BspTree, Verification, Viewpoint, paint_tree_in_colour};
+use binspace::raster::{Rays, depth_map, difference, picture, zbuffer};
+use binspace::view::{Camera, CameraError};
+use binspace::{BspTree, Verification, paint_tree, paint_tree_in_colour, verify, verify_fronts};
 
 use crate::args::KindArgs;
 use crate::colours::{BACKGROUND, Colours};
+use crate::cull::Cull;
+use crate::progress::Progress;
+use crate::samples::averaged;
+
+/// How many samples are drawn at once. Larger: more memory, some 20 bytes each; smaller: more time,
+/// as all fragments are looked at for each part of a picture.
+const AT_ONCE: u64 = 1 << 23;
 
 /// The kinds of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +25,17 @@ pub(crate) enum Kind {
     Difference,
     /// The depth of every pixel.
     Depth,
+}
+
+/// A picture to draw.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drawing<'a> {
+    pub(crate) tree: &'a BspTree,
+    pub(crate) camera: &'a Camera,
+    pub(crate) colours: &'a Colours<'a>,
+    pub(crate) cull: Cull,
+    /// Samples each way in a pixel, of a painter's or a depth buffer's picture.
+    pub(crate) samples: u32,
 }
 
 impl Kind {
@@ -42,29 +61,64 @@ impl Kind {
             Self::Depth => "depth",
         }
     }
+}
 
-    /// Its pixels, seen from a viewpoint. Transparency shows only in the painter's picture.
-    pub(crate) fn pixels(
-        self,
-        tree: &BspTree,
-        viewpoint: Viewpoint,
-        seen: &Verification,
-        colours: &Colours<'_>,
-    ) -> Vec<u8> {
-        let show = |image: &Image| {
-            let colour = |polygon| colours.rgb(polygon);
-            picture(&seen.rays, tree.faces(), image, colour, BACKGROUND)
-        };
-        let truth: &DepthImage = &seen.truth;
-        match self {
-            Self::Painter if colours.are_translucent() => {
-                let look = |polygon| (colours.rgb(polygon), colours.opacity(polygon));
-                paint_tree_in_colour(tree, viewpoint, &seen.rays, look, BACKGROUND)
+impl Drawing<'_> {
+    /// Its pixels. Transparency shows only in the painter's picture. A difference comes with the
+    /// figures of what differs.
+    pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), CameraError> {
+        match kind {
+            Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),
+            Kind::Depth => {
+                let rays = self.culled(Rays::new(self.camera, self.tree.faces())?);
+                Ok((depth_map(&zbuffer(&rays, self.tree.faces())), None))
             }
-            Self::Painter => show(&seen.painted),
-            Self::ZBuffer => show(truth.image()),
-            Self::Difference => difference(&seen.comparison, &show(&seen.painted)),
-            Self::Depth => depth_map(truth),
+            Kind::Difference => {
+                let verify = if self.cull == Cull::Back { verify_fronts } else { verify };
+                let seen = verify(self.tree, self.camera)?;
+                let shown = picture(
+                    &seen.rays,
+                    self.tree.faces(),
+                    &seen.painted,
+                    |polygon| self.colours.rgb(polygon),
+                    BACKGROUND,
+                );
+                Ok((difference(&seen.comparison, &shown), Some(seen)))
+            }
         }
+    }
+
+    /// A picture with all its samples, some rows at a time.
+    fn in_parts(&self, kind: Kind) -> Result<Vec<u8>, CameraError> {
+        let rays = self.culled(Rays::sampled(self.camera, self.tree.faces(), self.samples)?);
+        let ([columns, rows], [width, _]) = (rays.size(), self.camera.size());
+        let at_once = (AT_ONCE / (u64::from(columns) * u64::from(self.samples))).max(1);
+        let step = at_once.min(u64::from(rows)) as u32 * self.samples;
+        let mut rgb = Vec::new();
+        let progress = Progress::steps("drawing: part", rows.div_ceil(step).into());
+        for start in (0..rows).step_by(step as usize) {
+            let part = self.part(kind, &rays.rows(start..start.saturating_add(step)));
+            rgb.extend(averaged(part, width as usize, self.samples as usize));
+            progress.step();
+        }
+        Ok(rgb)
+    }
+
+    /// The colours along some rays.
+    fn part(&self, kind: Kind, rays: &Rays) -> Vec<u8> {
+        let (tree, viewpoint) = (self.tree, self.camera.viewpoint());
+        let image = match kind {
+            Kind::ZBuffer => zbuffer(rays, tree.faces()).into_image(),
+            _ if self.colours.are_translucent() => {
+                let look = |polygon| (self.colours.rgb(polygon), self.colours.opacity(polygon));
+                return paint_tree_in_colour(tree, viewpoint, rays, look, BACKGROUND);
+            }
+            _ => paint_tree(tree, viewpoint, rays),
+        };
+        picture(rays, tree.faces(), &image, |polygon| self.colours.rgb(polygon), BACKGROUND)
+    }
+
+    fn culled(&self, rays: Rays) -> Rays {
+        if self.cull == Cull::Back { rays.with_front_faces_only() } else { rays }
     }
 }

@@ -1,4 +1,4 @@
-//! Loads a scene by its name on the command line: a file or a built-in scene.
+//! Loads a scene by its name on the command line: a file, standard input or a built-in scene.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -7,13 +7,16 @@ use binspace::scene::{Builtin, BuiltinSpec, Scene};
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
+use crate::files::STANDARD;
 use crate::memory;
 use crate::progress::Progress;
+use crate::standard_input;
 use crate::terminal::note;
 
 /// The scene that a name means.
 #[derive(Debug, PartialEq)]
 enum Source {
+    StandardInput,
     File(PathBuf),
     Builtin(BuiltinSpec),
 }
@@ -22,6 +25,7 @@ enum Source {
 pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
     let name = args.name.to_string_lossy();
     match source(&args.name)? {
+        Source::StandardInput => standard_input::scene(),
         Source::Builtin(spec) => {
             memory::check(&name, spec.polygons())?;
             let _progress = Progress::spinner(format!("generating {name}"));
@@ -47,6 +51,9 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
 }
 
 fn source(name: &OsStr) -> Result<Source, Failure> {
+    if name == STANDARD {
+        return Ok(Source::StandardInput);
+    }
     let path = Path::new(name);
     let file = || Ok(Source::File(path.to_owned()));
     let is_obj = path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("obj"));
@@ -78,7 +85,8 @@ mod tests {
         let builtin = |text: &str| Source::Builtin(text.parse().unwrap());
         assert_eq!(source("teapot:3".as_ref()).unwrap(), builtin("teapot:3"));
         assert_eq!(source("sphere".as_ref()).unwrap(), builtin("sphere"));
-        for text in ["teapot.obj", "./teapot", "a/teapot:3", "SPHERE.OBJ"] {
+        assert_eq!(source("-".as_ref()).unwrap(), Source::StandardInput);
+        for text in ["./-", "teapot.obj", "./teapot", "a/teapot:3", "SPHERE.OBJ"] {
             assert_eq!(source(text.as_ref()).unwrap(), Source::File(text.into()), "{text}");
         }
     }

@@ -2,27 +2,22 @@
 
 use std::io::{self, Write};
 
-use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::raster::brightness;
 use binspace::scene::Scene;
 use binspace::view::{Camera, Projection};
 
-use crate::colours::{BACKGROUND, Colours};
+use crate::colours::BACKGROUND;
+use crate::pictures::Drawing;
 
 /// The width of the outline that opaque fragments get in their own colour, in pixels. Smaller: the
 /// background shows through the seams between neighbours, as viewers blend each fragment with it;
 /// larger: thin fragments grow.
 const OUTLINE: f64 = 0.6;
 
-/// Writes the fragments of a tree as a camera sees them, back to front.
-pub(crate) fn write(
-    out: &mut dyn Write,
-    tree: &BspTree,
-    camera: &Camera,
-    scene: &Scene,
-    colours: &Colours<'_>,
-) -> io::Result<()> {
+/// Writes the fragments of a scene's tree as a camera sees them, back to front.
+pub(crate) fn write(out: &mut dyn Write, drawing: &Drawing<'_>, scene: &Scene) -> io::Result<()> {
+    let Drawing { tree, camera, colours, cull, .. } = *drawing;
     let [width, height] = camera.size();
     writeln!(
         out,
@@ -34,6 +29,9 @@ pub(crate) fn write(
     writeln!(out, "<g stroke-width=\"{OUTLINE}\" stroke-linejoin=\"round\">")?;
     let mut corners = Vec::new();
     for fragment in tree.back_to_front(camera.viewpoint()) {
+        if !cull.shows(&fragment, camera.viewpoint()) {
+            continue;
+        }
         corners.clear();
         corners.extend(fragment.vertices());
         let outline = camera.clip(&corners);
@@ -43,7 +41,8 @@ pub(crate) fn write(
         let polygon = fragment.polygon();
         let share = polygon_brightness(scene.polygon(polygon), camera);
         let fill = hex(colours.rgb(polygon).map(|c| (f64::from(c) * share).round() as u8));
-        let opacity = colours.opacity(polygon);
+        // Adding 0 turns -0 into 0.
+        let opacity = colours.opacity(polygon) + 0.0;
         // The outlines of translucent neighbours would show where they overlap.
         let paint = if opacity < 1.0 {
             format!("fill=\"{fill}\" fill-opacity=\"{opacity}\"")

@@ -121,6 +121,17 @@ impl Plane {
     }
 }
 
+impl Plane {
+    /// Which side of the plane an eye sees: `Greater` is the front, and `Equal` is neither. That is
+    /// the side on which the eye lies, but an eye at infinity along the plane sees it edge-on.
+    pub(crate) fn facing(&self, eye: &Eye) -> Ordering {
+        match eye.shift() {
+            Some(_) => self.at_eye(eye),
+            None => self.along(eye.integer()).sign(),
+        }
+    }
+}
+
 fn largest(v: [f64; 3]) -> f64 {
     v.into_iter().fold(0.0, |max, c| max.max(c.abs()))
 }

@@ -27,6 +27,9 @@ impl Rays {
     /// beyond one of the picture's sides.
     pub(super) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
         let [width, height] = self.size.map(f64::from);
+        // The picture's sides, in pixels from the middle of the picture of which it is a part.
+        let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
+        let sides = [[-0.5 * width, 0.5 * width], [top, top + height]];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (mut ahead, mut behind) = (true, true);
         // Whether all points so far are beyond the left, right, upper, lower side.
@@ -36,10 +39,10 @@ impl Rays {
             let (z, slack) = (at.z, error.z);
             ahead &= z > 4.0 * slack;
             behind &= z < -slack;
-            for (axis, half) in [0.5 * width, 0.5 * height].into_iter().enumerate() {
-                let (p, e) = (at[axis], error[axis] + (half + 1.0) * slack);
-                beyond[2 * axis] &= p + (half + 1.0) * z < -e;
-                beyond[2 * axis + 1] &= (half + 1.0) * z - p < -e;
+            for (axis, [first, last]) in sides.into_iter().enumerate() {
+                let (p, e) = (at[axis], error[axis] + (first.abs().max(last.abs()) + 1.0) * slack);
+                beyond[2 * axis] &= p - (first - 1.0) * z < -e;
+                beyond[2 * axis + 1] &= (last + 1.0) * z - p < -e;
                 let position = p / z;
                 let pad = (error[axis] + position.abs() * slack) / (z - slack) + MARGIN;
                 low[axis] = low[axis].min(position - pad);
@@ -52,9 +55,9 @@ impl Rays {
         if !ahead {
             return Some(Window { columns: 0..self.size[0], rows: 0..self.size[1] });
         }
-        // From the middle of the picture to the centre of pixel 0.
         let range = |axis: usize| {
-            let shift = 0.5 * f64::from(self.size[axis]) - 0.5;
+            // From the middle of the whole picture to the centre of pixel 0.
+            let shift = -sides[axis][0] - 0.5;
             let first = (low[axis] + shift).ceil().max(0.0) as u32;
             let last = (high[axis] + shift).floor().min(f64::from(self.size[axis]) - 1.0);
             if last < 0.0 { 0..0 } else { first..last as u32 + 1 }

@@ -1,5 +1,7 @@
 //! One integer ray for each pixel.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::exact::{Eye, Faces};
@@ -20,6 +22,9 @@ use crate::view::{Camera, CameraError, CameraProblem, Projection};
 #[derive(Clone, Debug)]
 pub struct Rays {
     pub(super) size: [u32; 2],
+    /// The height of the picture of which these are some rows, and how many rows are above them.
+    pub(super) whole_height: u32,
+    pub(super) above: u32,
     /// Whether faces seen from behind are left out.
     pub(super) front_only: bool,
     pub(super) pencil: Pencil,
@@ -73,18 +78,36 @@ impl Rays {
     /// one shows something as far from it as 2⁹ extents, or a pixel is finer than 2⁸ units of the
     /// scene's lattice or 2⁻⁴² radians.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, CameraError> {
+        Self::sampled(camera, faces, 1)
+    }
+
+    /// The rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a
+    /// picture that is as many times as wide and as high. A picture with several rays a pixel may
+    /// be larger than cameras allow; draw it by [`rows`](Self::rows).
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new), with pixels `samples` times finer; and if `samples` is 0, or the
+    /// picture's sides do not fit `u32`.
+    pub fn sampled(camera: &Camera, faces: &Faces, samples: u32) -> Result<Self, CameraError> {
+        let sides = camera.size().map(|side| side.checked_mul(samples).filter(|&side| side > 0));
+        let [Some(width), Some(height)] = sides else {
+            return Err(CameraProblem::Samples { samples }.into());
+        };
+        let size = [width, height];
         let lattice = faces.lattice();
         let eye = Eye::new(camera.viewpoint(), lattice);
-        let (forward, pixel) = (camera.forward(), camera.pixel_size());
+        let (forward, pixel) = (camera.forward(), camera.pixel_size() / f64::from(samples));
         match (camera.projection(), eye.shift()) {
             (Projection::Perspective { .. }, Some(shift)) if shift <= FURTHEST => {
-                let [x, y] = camera.size().map(|c| 0.5 * f64::from(c) * pixel);
+                let [x, y] = size.map(|c| 0.5 * f64::from(c) * pixel);
                 let reach = DVec3::new(x, y, 1.0).length();
                 // A power of two, so that simple views of simple scenes have simple rays.
                 let scale = (DIRECTION / reach).log2().floor().exp2();
                 let pencil = Pencil::From { eye: eye.integer(), shift };
                 let depth_unit = lattice.length_to_world(scale);
-                Self::build(camera, pencil, forward * scale, pixel * scale, depth_unit)
+                let (middle, step) = (forward * scale, pixel * scale);
+                Self::build(camera, size, pencil, middle, step, depth_unit)
             }
             (Projection::Parallel { centre, .. }, None) => {
                 let direction = eye.integer().map(|c| -c);
@@ -93,7 +116,8 @@ impl Rays {
                 let middle = centre - forward * centre.dot(forward);
                 let step = lattice.length_to_lattice(pixel);
                 let depth_unit = lattice.length_to_world(float(direction).length());
-                Self::build(camera, Pencil::Along { direction }, middle, step, depth_unit)
+                let pencil = Pencil::Along { direction };
+                Self::build(camera, size, pencil, middle, step, depth_unit)
             }
             _ => Err(CameraProblem::TooFar.into()),
         }
@@ -102,12 +126,13 @@ impl Rays {
     /// Rays with pixels of size `step`; `middle` is the parameter of the middle one.
     fn build(
         camera: &Camera,
+        size: [u32; 2],
         pencil: Pencil,
         middle: DVec3,
         step: f64,
         depth_unit: f64,
     ) -> Result<Self, CameraError> {
-        let [width, height] = camera.size().map(f64::from);
+        let [width, height] = size.map(f64::from);
         let (right, down) = (camera.right() * step, camera.up() * -step);
         let reach = middle.abs() + right.abs() * width + down.abs() * height;
         let fits = reach.max_element() < REGION;
@@ -122,7 +147,7 @@ impl Rays {
         // whatever the picture's size.
         let even = |v: DVec3| integer(v * 0.5).map(|c| 2 * c);
         let (right, down, middle) = (even(right), even(down), integer(middle));
-        let [columns, rows] = camera.size().map(|c| i64::from(c) - 1);
+        let [columns, rows] = size.map(|c| i64::from(c) - 1);
         let base =
             std::array::from_fn(|i| middle[i] - (right[i] / 2) * columns - (down[i] / 2) * rows);
         let third = match pencil {
@@ -130,8 +155,32 @@ impl Rays {
             Pencil::Along { direction } => direction,
         };
         let to_picture = inverse([right, down, third].map(float));
-        let (size, front_only) = (camera.size(), false);
-        Ok(Self { size, front_only, pencil, base, right, down, middle, to_picture, depth_unit })
+        Ok(Self {
+            size,
+            whole_height: size[1],
+            above: 0,
+            front_only: false,
+            pencil,
+            base,
+            right,
+            down,
+            middle,
+            to_picture,
+            depth_unit,
+        })
+    }
+
+    /// The same rays, of some rows of the picture only: row 0 of the result is the first of them.
+    /// So a large picture can be drawn in parts, each of little memory.
+    ///
+    /// Rows beyond the picture are left out.
+    #[must_use]
+    pub fn rows(&self, rows: Range<u32>) -> Self {
+        let end = rows.end.min(self.size[1]);
+        let start = rows.start.min(end);
+        let base = std::array::from_fn(|i| self.base[i] + i64::from(start) * self.down[i]);
+        let size = [self.size[0], end - start];
+        Self { size, base, above: self.above + start, ..self.clone() }
     }
 
     /// The same rays, restricted to meet only the fronts of faces: the sides from which their

@@ -38,8 +38,9 @@ use crate::faces::Preparation;
 /// tolerance, are triangulated first.
 ///
 /// A [`Fragment`](crate::Fragment) knows the index of its polygon in the input, its vertices, which of its edges are
-/// edges of the polygon, and the weights of each vertex over the polygon's corners. Fragments are
-/// numbered from 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
+/// edges of the polygon, the weights of each vertex over the polygon's corners, and which side of it
+/// [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from 0 to
+/// [`len`](Self::len) − 1. A number is valid for its own tree only.
 ///
 /// # Order
 ///

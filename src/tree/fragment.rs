@@ -12,9 +12,9 @@ use crate::exact::{Exact, ExactStored, Kernel, Line, Symbol, Vertex};
 /// A convex piece of a polygon, or the whole polygon.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<'t> {
-    tree: &'t BspTree,
+    pub(super) tree: &'t BspTree,
     index: u32,
-    face: u32,
+    pub(super) face: u32,
     stored: &'t [ExactStored],
     /// The rounded positions of the same, if they are kept.
     positions: &'t [[f64; 3]],

@@ -2,6 +2,7 @@
 
 pub(crate) mod apart;
 pub(crate) mod bsp_tree;
+mod facing;
 mod fragment;
 pub(crate) mod node;
 pub(crate) mod order;

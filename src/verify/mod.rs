@@ -76,13 +76,24 @@ impl Verification {
 ///
 /// If the camera does not fit the scene's grid; see [`Rays::new`].
 pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, CameraError> {
-    judge(tree, camera, Orders::of(tree, camera.viewpoint()))
+    let rays = Rays::new(camera, tree.faces())?;
+    Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
+}
+
+/// Like [`verify`], with the backs of faces left out: of the pictures, and of what counts as in
+/// front. For rooms seen from outside.
+///
+/// # Errors
+///
+/// As for [`verify`].
+pub fn verify_fronts(tree: &BspTree, camera: &Camera) -> Result<Verification, CameraError> {
+    let rays = Rays::new(camera, tree.faces())?.with_front_faces_only();
+    Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
 /// Like [`verify`], for orders that need not be the tree's.
-fn judge(tree: &BspTree, camera: &Camera, orders: Orders) -> Result<Verification, CameraError> {
+fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let faces = tree.faces();
-    let rays = Rays::new(camera, faces)?;
     let (far_first, near_first) = (orders.back_to_front(), orders.front_to_back());
     let mut layers = Layers::new(&rays);
     let painted = paint_list(tree, far_first, Order::BackToFront, &rays, Some(&mut layers));
@@ -104,7 +115,7 @@ fn judge(tree: &BspTree, camera: &Camera, orders: Orders) -> Result<Verification
     };
     let miscounted = layers.differences(&all);
     let orders = orders.check(tree.len());
-    Ok(Verification { rays, painted, truth, comparison, front_to_back, miscounted, orders })
+    Verification { rays, painted, truth, comparison, front_to_back, miscounted, orders }
 }
 
 /// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be that of the

@@ -16,6 +16,7 @@ pub(crate) enum Kind {
     FieldOfView,
     Height,
     Size { size: [u32; 2], max_side: u32, max_pixels: u64 },
+    Samples { samples: u32 },
     TooFar,
     TooNarrow,
     TooWide,
@@ -46,6 +47,10 @@ impl fmt::Display for CameraError {
                 f,
                 "a picture must have 1 to {max_side} pixels each way and at most {max_pixels} in all, not \
                  {width}x{height}"
+            ),
+            Kind::Samples { samples } => write!(
+                f,
+                "{samples} samples each way in a pixel are none, or more than 32-bit numbers count"
             ),
             Kind::TooFar => f.write_str("the eye is too far from the scene: use a parallel camera"),
             Kind::TooNarrow => f.write_str(

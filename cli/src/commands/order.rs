@@ -1,7 +1,10 @@
 //! `binspace order`: fragments in paint order, as JSON lines.
 
+use std::io::{self, Write};
+
 use binspace::glam::DVec3;
-use binspace::{Fragment, Viewpoint};
+use binspace::scene::Scene;
+use binspace::{BspTree, Fragment, Viewpoint};
 use serde::Serialize;
 
 use super::Outcome;
@@ -15,45 +18,82 @@ use crate::progress::Progress;
 pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
     let output = Output::open(args.output.as_deref())?;
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
-    let viewpoint = match (args.eye, args.direction) {
-        (Some(eye), _) => Viewpoint::Eye(eye),
-        (None, Some(direction)) => Viewpoint::Direction(direction),
-        (None, None) => return Err(Failure::Message("--eye or --direction is needed".to_owned())),
+    let viewpoints: Vec<Viewpoint> = match args.direction {
+        Some(direction) => vec![Viewpoint::Direction(direction)],
+        None => args.eye.iter().copied().map(Viewpoint::Eye).collect(),
     };
     let _progress = Progress::spinner("writing");
     output.write(|out| {
-        let mut fragments = if args.front_to_back {
-            tree.front_to_back(viewpoint)
-        } else {
-            tree.back_to_front(viewpoint)
-        };
-        fragments.try_for_each(|fragment| {
-            let line = Line::new(&fragment, scene.polygon(fragment.polygon()));
-            serde_json::to_writer(&mut *out, &line)?;
-            out.write_all(b"\n")
+        viewpoints.iter().enumerate().try_for_each(|(k, &viewpoint)| {
+            let eye = (viewpoints.len() > 1).then_some(k);
+            write_order(out, args, &scene, &tree, viewpoint, eye)
         })
     })?;
     Ok(Outcome::Done)
 }
 
+/// Writes the order of one viewpoint.
+fn write_order(
+    out: &mut dyn Write,
+    args: &OrderArgs,
+    scene: &Scene,
+    tree: &BspTree,
+    viewpoint: Viewpoint,
+    eye: Option<usize>,
+) -> io::Result<()> {
+    let mut fragments = if args.front_to_back {
+        tree.front_to_back(viewpoint)
+    } else {
+        tree.back_to_front(viewpoint)
+    };
+    fragments.try_for_each(|fragment| {
+        if !args.cull.cull.shows(&fragment, viewpoint) {
+            return Ok(());
+        }
+        let line = Line {
+            eye,
+            polygon: fragment.polygon(),
+            vertices: vertices(&fragment, scene.polygon(fragment.polygon())),
+            edges: args.edges.then(|| fragment.edges().collect()),
+            weights: args.weights.then(|| weights(&fragment)),
+        };
+        serde_json::to_writer(&mut *out, &line)?;
+        out.write_all(b"\n")
+    })
+}
+
 /// A line of the output.
 #[derive(Serialize)]
 struct Line {
+    /// The number of the eye, if there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    eye: Option<usize>,
     polygon: usize,
     vertices: Vec<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edges: Option<Vec<Option<u32>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    weights: Option<Vec<Vec<(u32, f64)>>>,
 }
 
-impl Line {
-    /// Corners are written as they were given, not rounded to the tree's grid.
-    fn new(fragment: &Fragment<'_>, polygon: &[DVec3]) -> Self {
-        let vertices = fragment.vertices().zip(fragment.weights()).map(|(vertex, weights)| {
-            let vertex = match weights[..] {
-                [(corner, _)] => polygon[corner as usize],
-                _ => vertex,
-            };
-            // Adding 0 turns −0 into 0, as not every JSON reader knows −0.
-            (vertex + 0.0).to_array()
-        });
-        Self { polygon: fragment.polygon(), vertices: vertices.collect() }
-    }
+/// The vertices; corners as they were given, not rounded to the tree's grid.
+fn vertices(fragment: &Fragment<'_>, polygon: &[DVec3]) -> Vec<[f64; 3]> {
+    let vertices = fragment.vertices().zip(fragment.weights()).map(|(vertex, weights)| {
+        let vertex = match weights[..] {
+            [(corner, _)] => polygon[corner as usize],
+            _ => vertex,
+        };
+        // Adding 0 turns −0 into 0, as not every JSON reader knows −0.
+        (vertex + 0.0).to_array()
+    });
+    vertices.collect()
+}
+
+/// For each vertex, corners of its polygon and their weights.
+fn weights(fragment: &Fragment<'_>) -> Vec<Vec<(u32, f64)>> {
+    let pairs = fragment.weights().map(|weights| {
+        let pairs = weights.into_iter().map(|(corner, weight)| (corner, weight + 0.0));
+        pairs.collect()
+    });
+    pairs.collect()
 }

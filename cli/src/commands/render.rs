@@ -2,53 +2,79 @@
 
 use std::path::Path;
 
+use binspace::Verification;
 use binspace::scene::Scene;
-use binspace::{Verification, verify};
 
 use super::Outcome;
 use super::verify::unseen_faults;
-use crate::args::RenderArgs;
+use crate::args::{Format, RenderArgs};
+use crate::backs::note_backs;
 use crate::colours::Colours;
+use crate::cull::Cull;
 use crate::failure::Failure;
-use crate::files::NewFile;
-use crate::pictures::Kind;
+use crate::files::{Output, STANDARD};
+use crate::pictures::{Drawing, Kind};
 use crate::progress::Progress;
 use crate::terminal::note;
 use crate::units::count;
+use crate::upright::note_z_up;
 use crate::{camera, job, png_file, svg};
-
-/// The format of an output file, by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Png,
-    Svg,
-}
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
-    let (format, kind) = (format(&args.output)?, Kind::asked(&args.kind));
-    if format == Format::Svg && kind != Kind::Painter {
-        let problem = format!("--{} cannot be drawn as SVG: name a .png file", kind.name());
-        return Err(Failure::about(args.output.display(), problem));
+    let (format, kind) = (format(args)?, Kind::asked(&args.kind));
+    check_kind(args, format, kind)?;
+    let output = Output::open(Some(&args.output))?;
+    if format == Format::Png && output.is_terminal() {
+        let problem = "a PNG is not for a terminal: pipe it, or name a file";
+        return Err(about_output(args, problem));
     }
-    let file = NewFile::create(&args.output)?;
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    note_z_up(&scene, &args.up);
     let camera = camera::asked(args, &scene)?;
     let colours = Colours::new(&scene, args.colours);
-    let progress = Progress::spinner("drawing");
+    let (cull, samples) = (args.cull.cull, args.samples);
+    if cull == Cull::None {
+        note_backs(&scene, &tree, &camera);
+    }
+    let drawing = Drawing { tree: &tree, camera: &camera, colours: &colours, cull, samples };
     match format {
-        Format::Svg => file.write(|out| svg::write(out, &tree, &camera, &scene, &colours))?,
+        Format::Svg => {
+            let _progress = Progress::spinner("drawing");
+            output.write(|out| svg::write(out, &drawing, &scene))?;
+        }
         Format::Png => {
-            let seen = verify(&tree, &camera).map_err(|error| camera::about(&scene, &error))?;
-            let pixels = kind.pixels(&tree, camera.viewpoint(), &seen, &colours);
-            file.write(|out| png_file::write(out, camera.size(), &pixels))?;
-            drop(progress);
-            if kind == Kind::Difference {
+            let drawn = drawing.draw(kind).map_err(|error| camera::about(&scene, &error));
+            let (pixels, seen) = drawn?;
+            output.write(|out| png_file::write(out, camera.size(), &pixels))?;
+            if let Some(seen) = seen {
                 return Ok(judge(&scene, &seen));
             }
         }
     }
     Ok(Outcome::Done)
+}
+
+/// An error if there is no such picture.
+fn check_kind(args: &RenderArgs, format: Format, kind: Kind) -> Result<(), Failure> {
+    let is_plain = matches!(kind, Kind::Painter | Kind::ZBuffer);
+    let problem = if format == Format::Svg && kind != Kind::Painter {
+        format!("--{} cannot be drawn as SVG: write a PNG", kind.name())
+    } else if format == Format::Svg && args.samples > 1 {
+        "--samples is for PNG: an SVG has no pixels".to_owned()
+    } else if !is_plain && args.samples > 1 {
+        format!("--samples cannot be used with --{}: it has one value a pixel", kind.name())
+    } else {
+        return Ok(());
+    };
+    Err(about_output(args, &problem))
+}
+
+fn about_output(args: &RenderArgs, problem: &str) -> Failure {
+    if args.output == Path::new(STANDARD) {
+        return Failure::about("standard output", problem);
+    }
+    Failure::about(args.output.display(), problem)
 }
 
 /// Says how many pixels of a picture are wrong, and whether it differs.
@@ -68,18 +94,31 @@ fn judge(scene: &Scene, seen: &Verification) -> Outcome {
     if seen.is_right() { Outcome::Done } else { Outcome::Differs }
 }
 
-fn format(path: &Path) -> Result<Format, Failure> {
+/// The format that is asked for, or that a name means.
+fn format(args: &RenderArgs) -> Result<Format, Failure> {
+    let path: &Path = &args.output;
     let extension = path.extension().map(|ext| ext.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("png") => Ok(Format::Png),
-        Some("svg") => Ok(Format::Svg),
-        _ => Err(Failure::about(path.display(), "name a file that ends in .png or .svg")),
+    let named = match extension.as_deref() {
+        Some("png") => Some(Format::Png),
+        Some("svg") => Some(Format::Svg),
+        _ if path == Path::new(STANDARD) => args.format.or(Some(Format::Png)),
+        _ => None,
+    };
+    match (named, args.format) {
+        (Some(named), Some(asked)) if named != asked => {
+            Err(about_output(args, "its name and --format are of different formats"))
+        }
+        (_, Some(format)) | (Some(format), None) => Ok(format),
+        (None, None) => {
+            Err(about_output(args, "name a file that ends in .png or .svg, or give --format"))
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use binspace::verify;
 
     #[test]
     fn a_difference_with_wrong_pixels_is_no_success() {

@@ -7,16 +7,17 @@ use std::path::Path;
 use binspace::raster::{DepthImage, Rays, compare, zbuffer};
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Heuristic, check_orders, paint_tree, verify};
+use binspace::{BspTree, BuildOptions, Heuristic, check_orders, paint_tree};
 
 use super::Outcome;
 use crate::args::TourArgs;
 use crate::camera::{self, FIELD_OF_VIEW};
 use crate::colours::{Colouring, Colours};
+use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
 use crate::measure;
-use crate::pictures::Kind;
+use crate::pictures::{Drawing, Kind};
 use crate::progress::Progress;
 use crate::table::Table;
 use crate::terminal::{BAD, GOOD, HEAD, say, styled};
@@ -188,14 +189,14 @@ fn write_pictures(
     camera: &Camera,
 ) -> Result<(), Failure> {
     let colours = Colours::new(scene, Colouring::Material);
-    let seen = verify(tree, camera).map_err(|error| camera::about(scene, &error))?;
+    let drawing = Drawing { tree, camera, colours: &colours, cull: Cull::None, samples: 1 };
     for kind in Kind::ALL {
-        let pixels = kind.pixels(tree, camera.viewpoint(), &seen, &colours);
+        let (pixels, _) = drawing.draw(kind).map_err(|error| camera::about(scene, &error))?;
         let file = NewFile::create(&folder.join(format!("{builtin}-{}.png", kind.name())))?;
         file.write(|out| png_file::write(out, camera.size(), &pixels))?;
     }
     let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
-    file.write(|out| svg::write(out, tree, camera, scene, &colours))
+    file.write(|out| svg::write(out, &drawing, scene))
 }
 
 #[cfg(test)]

@@ -2,22 +2,24 @@
 
 use binspace::glam::DVec3;
 use binspace::raster::Comparison;
-use binspace::scene::Scene;
 use binspace::view::{Camera, Projection};
-use binspace::{Verification, verify};
+use binspace::{Verification, verify, verify_fronts};
 
 use super::Outcome;
 use crate::args::VerifyArgs;
+use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::table::Table;
 use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use crate::units::count;
+use crate::upright::note_z_up;
 use crate::{camera, job};
 
 /// Runs the command.
 pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    note_z_up(&scene, &args.up);
     let (views, up) = (args.views as usize, args.up.up);
     let cameras = camera::around_and_inside(&scene, up, views, args.size, args.scene.seed)?;
     say(format!(
@@ -32,10 +34,11 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     let progress = Progress::steps("view", args.views.into());
     let mut total = Comparison::default();
     let mut all_right = true;
+    let verify = if args.cull.cull == Cull::Back { verify_fronts } else { verify };
     for (i, camera) in cameras.iter().enumerate() {
         let seen = verify(&tree, camera).map_err(|error| camera::about(&scene, &error))?;
         progress.step();
-        let place = if is_inside(camera, &scene) { "inside" } else { "around" };
+        let place = if camera::is_inside(camera, &scene) { "inside" } else { "around" };
         let line = row(&table, [&(i + 1).to_string(), place], &seen.comparison, seen.is_right());
         progress.suspend(|| say(line))?;
         for fault in unseen_faults(&seen) {
@@ -103,13 +106,6 @@ fn add(total: &mut Comparison, found: &Comparison) {
     total.spills += found.spills;
 }
 
-fn is_inside(camera: &Camera, scene: &Scene) -> bool {
-    let Projection::Perspective { eye, .. } = *camera.projection() else {
-        return false;
-    };
-    scene.bounds().is_some_and(|(low, high)| eye.cmpge(low).all() && eye.cmple(high).all())
-}
-
 /// The command that draws what is wrong in a view.
 fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
     let (eye, fov) = match *camera.projection() {
@@ -119,9 +115,10 @@ fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
     let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
     let limits = &args.build.limits;
     let tolerance = limits.tolerance.map_or(String::new(), |t| format!(" --tolerance={t:?}"));
+    let cull = if args.cull.cull == Cull::Back { " --cull=back" } else { "" };
     format!(
         "binspace render '{}' --difference -o difference.png --seed={} --heuristic='{}'{tolerance} \
-         --max-fragments={} --size={}x{} --fov={:?} --eye={} --target={} --up={}",
+         --max-fragments={}{cull} --size={}x{} --fov={:?} --eye={} --target={} --up={}",
         args.scene.name.to_string_lossy(),
         args.scene.seed,
         args.build.heuristic,
@@ -179,7 +176,8 @@ mod tests {
 
     #[test]
     fn the_command_that_shows_a_wrong_view_shows_that_view() {
-        let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7";
+        let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7 \
+                       --cull back";
         let Command::Verify(args) = parse(command) else { panic!("another command") };
         let scene = crate::scene_arg::load(&args.scene).unwrap();
         let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
@@ -189,6 +187,7 @@ mod tests {
             };
             assert_eq!(again.build.heuristic, args.build.heuristic);
             assert_eq!(again.build.limits.tolerance, Some(1e-7));
+            assert_eq!(again.cull.cull, Cull::Back);
             let camera = camera::asked(&again, &scene).unwrap();
             assert_eq!((camera.viewpoint(), camera.size()), (view.viewpoint(), view.size()));
             assert!((camera.forward() - view.forward()).length() < 1e-12);

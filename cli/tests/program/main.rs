@@ -1,14 +1,18 @@
 //! The program as its users run it: the real binary, its files, its exit status.
 
 mod bad_input;
+mod cull;
 mod help;
+mod notes;
 mod order;
 mod output;
+mod pipes;
 mod png_picture;
 mod real_scenes;
 mod render;
 mod report;
 mod run;
+mod samples;
 mod stats;
 mod tour;
 mod verify;

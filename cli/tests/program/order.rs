@@ -189,10 +189,104 @@ fn extreme_numbers_come_back_bit_for_bit() {
 #[test]
 fn there_is_no_negative_zero() {
     let folder = Folder::new("order_zero");
-    folder.write("s.obj", "v -0 -0.0 -0e9\nv 1 -0 0\nv 0 1 -0\nf 1 2 3\n");
+    folder.write("m.mtl", "newmtl glass\nKd -0 -0 -0\nd -0\n");
+    let text = "mtllib m.mtl\nusemtl glass\nv -0 -0.0 -0e9\nv 1 -0 0\nv 0 1 -0\nf 1 2 3\n";
+    folder.write("s.obj", text);
     let output = folder.run("order s.obj --direction=-0,0,-1").good();
     assert_eq!(parse(&output)[0].vertices.len(), 3);
     assert!(!output.contains('-'), "{output}");
+    for command in [
+        "order s.obj --eye=-0,-0,1 --eye=-0,-0,-1 --edges --weights",
+        "order s.obj --eye=-0,-0,1 --cull back --weights",
+        "render s.obj -o - --format svg --direction=-0,-0,-1 --target=-0,-0,-0",
+        "stats s.obj --json",
+    ] {
+        // No number is 0 with a sign; "-0.5" and "1e-05" are not meant.
+        let output = folder.run(command).good();
+        let numbers = output.split(|c: char| !(c.is_ascii_alphanumeric() || "-+.".contains(c)));
+        let zeros = numbers.filter(|word| word.starts_with('-') && word.parse() == Ok(0.0));
+        assert_eq!(zeros.count(), 0, "{command}: {output}");
+    }
+}
+
+#[test]
+fn several_eyes_have_an_order_each() {
+    let folder = Folder::new("order_eyes");
+    folder.write("s.obj", CROSSING);
+    let eyes = ["3,2,6", "-3,2,6", "0,0,-9"];
+    for options in ["", "--front-to-back", "--cull back"] {
+        let mut expected = String::new();
+        for (k, eye) in eyes.iter().enumerate() {
+            for line in folder.run(&format!("order s.obj --eye={eye} {options}")).good().lines() {
+                expected += &format!("{{\"eye\":{k},{}\n", &line[1..]);
+            }
+        }
+        let all = eyes.map(|eye| format!("--eye={eye}")).join(" ");
+        assert_eq!(folder.run(&format!("order s.obj {all} {options}")).good(), expected);
+    }
+    // The same eye twice is two eyes.
+    let output = folder.run("order s.obj --eye 3,2,6 --eye 3,2,6").good();
+    assert!(output.contains("\"eye\":0,") && output.contains("\"eye\":1,"), "{output}");
+    for problem in ["--eye=1,2,3 --direction=0,0,1", "--direction=0,0,1 --direction=0,1,0"] {
+        assert!(folder.run(&format!("order s.obj {problem}")).refused().contains("cannot be used"));
+    }
+    assert!(folder.run("order s.obj --eye=1,2,3 --eye=1,inf,3").refused().contains("finite"));
+}
+
+#[test]
+fn edges_and_weights_say_where_vertices_lie_on_the_polygon() {
+    let folder = Folder::new("order_attributes");
+    folder.write("s.obj", CROSSING);
+    let corners: Vec<Point> = CROSSING
+        .lines()
+        .filter_map(|line| line.strip_prefix("v "))
+        .map(|line| {
+            let numbers: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+            numbers.try_into().unwrap()
+        })
+        .collect();
+    let plain = parse(&folder.run("order s.obj --eye=3,2,6").good());
+    let output = folder.run("order s.obj --eye=3,2,6 --edges --weights").good();
+    let (mut of_polygon, mut of_cuts) = (0, 0);
+    for (line, plain) in output.lines().zip(&plain) {
+        let value: Value = serde_json::from_str(line).unwrap();
+        assert_eq!(value.as_object().unwrap().len(), 4, "{line}");
+        let corner = |k: usize| corners[4 * plain.polygon as usize + k % 4];
+        let (edges, weights) = (&value["edges"], &value["weights"]);
+        let n = plain.vertices.len();
+        assert_eq!([edges, weights].map(|list| list.as_array().unwrap().len()), [n, n]);
+        for (i, &vertex) in plain.vertices.iter().enumerate() {
+            let pairs: Vec<(usize, f64)> = serde_json::from_value(weights[i].clone()).unwrap();
+            assert!((1..=3).contains(&pairs.len()), "{line}");
+            let sum: f64 = pairs.iter().map(|&(_, weight)| weight).sum();
+            assert!((sum - 1.0).abs() < 1e-12, "{line}");
+            for (axis, coordinate) in vertex.into_iter().enumerate() {
+                let place: f64 = pairs.iter().map(|&(k, weight)| weight * corner(k)[axis]).sum();
+                assert!((place - coordinate).abs() < 1e-12, "{line}");
+            }
+            // Both ends of an edge of the polygon lie on it.
+            let Some(k) = edges[i].as_u64() else {
+                of_cuts += usize::from(edges[i].is_null());
+                continue;
+            };
+            let (a, b) = (corner(k as usize), corner(k as usize + 1));
+            for end in [vertex, plain.vertices[(i + 1) % n]] {
+                let off = cross(sub(b, a), sub(end, a));
+                assert!(dot(off, off) < 1e-24, "{line}");
+            }
+            of_polygon += 1;
+        }
+    }
+    assert!(of_polygon >= 12 && of_cuts >= 2, "{of_polygon} {of_cuts}: {output}");
+    let fields = |options: &str| {
+        let output = folder.run(&format!("order s.obj --eye=3,2,6 {options}")).good();
+        let value: Value = serde_json::from_str(output.lines().next().unwrap()).unwrap();
+        let mut names: Vec<String> = value.as_object().unwrap().keys().cloned().collect();
+        names.sort();
+        names
+    };
+    assert_eq!(fields("--edges"), ["edges", "polygon", "vertices"]);
+    assert_eq!(fields("--weights"), ["polygon", "vertices", "weights"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Reads PNG files.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::fs;
+use std::io::Cursor;
 use std::path::Path;
 
 /// A picture of RGB pixels.
@@ -13,7 +13,11 @@ pub(crate) struct Picture {
 
 impl Picture {
     pub(crate) fn read(path: &Path) -> Self {
-        let decoder = png::Decoder::new(BufReader::new(File::open(path).unwrap()));
+        Self::parse(&fs::read(path).unwrap())
+    }
+
+    pub(crate) fn parse(bytes: &[u8]) -> Self {
+        let decoder = png::Decoder::new(Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();
         let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut rgb).unwrap();

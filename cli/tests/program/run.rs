@@ -1,8 +1,10 @@
 //! Runs the program in a folder of the test's own.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::thread;
 
 /// Two squares that cross, and a third behind them: 0 and 1 must cut each other.
 pub(crate) const CROSSING: &str = "\
@@ -47,6 +49,22 @@ impl Folder {
         command
     }
 
+    /// Runs the program with a text on standard input; what it writes may be no text.
+    pub(crate) fn pipe(&self, arguments: &str, input: &str) -> Output {
+        let mut command = self.command(arguments);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let mut pipe = child.stdin.take().unwrap();
+        let input = input.to_owned();
+        let writer = thread::spawn(move || {
+            // A program that stops early does not read all of it.
+            let _ = pipe.write_all(input.as_bytes());
+        });
+        let output = child.wait_with_output().unwrap();
+        writer.join().unwrap();
+        output
+    }
+
     /// Runs the program with arguments separated by spaces.
     pub(crate) fn run(&self, arguments: &str) -> Run {
         Run::new(&self.command(arguments).output().unwrap())
@@ -62,7 +80,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    fn new(output: &Output) -> Self {
+    pub(crate) fn new(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
         Self { status: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
     }

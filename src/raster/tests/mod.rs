@@ -4,6 +4,7 @@ mod camera;
 mod hand;
 mod mesh;
 pub(crate) mod oracle;
+mod parts;
 mod signs;
 mod tiling;
 

@@ -1,6 +1,7 @@
 //! Orders with faults of every kind.
 
 use super::cameras;
+use crate::raster::Rays;
 use crate::scene::{self, Scene};
 use crate::tree::BspTree;
 use crate::verify::orders::Orders;
@@ -31,7 +32,7 @@ fn judged(
 ) -> Verification {
     let mut orders = orders(tree, camera);
     spoil(&mut orders.0[form]);
-    let judgement = judge(tree, camera, orders).unwrap();
+    let judgement = judge(tree, Rays::new(camera, tree.faces()).unwrap(), orders);
     assert!(!judgement.is_right() && judgement.orders.is_err());
     judgement
 }
@@ -144,7 +145,7 @@ fn orders_that_agree_on_what_is_wrong_show_as_wrong_pixels() {
     let camera = &cameras(&scene, 1)[0];
     let mut reversed = orders(&tree, camera);
     reversed.0.iter_mut().for_each(|list| list.reverse());
-    let judgement = judge(&tree, camera, reversed).unwrap();
+    let judgement = judge(&tree, Rays::new(camera, tree.faces()).unwrap(), reversed);
     assert_eq!(judgement.orders, Ok(()));
     assert!(judgement.comparison.wrong_order > 0 && !judgement.is_right());
     assert_eq!(judgement.comparison, judgement.front_to_back);

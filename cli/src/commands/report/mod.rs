@@ -28,7 +28,7 @@ use self::trial::Trial;
 use super::Outcome;
 use crate::args::{ReportArgs, SceneArgs};
 use crate::failure::Failure;
-use crate::files::{NewFile, make_folder};
+use crate::files::{NewFile, STANDARD, make_folder};
 use crate::job;
 use crate::progress::Progress;
 use crate::scene_arg;
@@ -67,6 +67,9 @@ pub(super) struct Report<'a> {
 
 /// Runs the command.
 pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
+    if args.scenes.iter().filter(|&name| name == STANDARD).count() > 1 {
+        return Err(Failure::about("standard input", "it can be read only once"));
+    }
     // Files first: what cannot be read should not cost minutes.
     let scenes = args.scenes.iter().map(|name| load(args, name)).collect::<Result<Vec<_>, _>>()?;
     make_folder(&args.output)?;

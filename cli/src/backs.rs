@@ -1,0 +1,51 @@
+//! Pictures that show the backs of most faces.
+
+use std::cmp::Ordering;
+
+use binspace::raster::{NONE, Rays};
+use binspace::scene::Scene;
+use binspace::view::Camera;
+use binspace::{BspTree, paint_tree};
+
+use crate::camera;
+use crate::terminal::note;
+
+/// The longer side, in pixels, of the small picture by which backs are counted.
+const SIDE: u32 = 128;
+/// Of this many pixels more than so many show backs. A surface that is open, or triangles at
+/// random, may show as many backs as fronts. Smaller: notes on those; larger: rooms are missed.
+const MOSTLY: [usize; 2] = [4, 3];
+
+/// Notes that a picture from outside a scene shows mostly backs of faces, as of a room whose walls
+/// hide it.
+pub(crate) fn note_backs(scene: &Scene, tree: &BspTree, camera: &Camera) {
+    if camera::is_inside(camera, scene) {
+        return;
+    }
+    let Some([backs, all]) = count(tree, camera) else { return };
+    if backs * MOSTLY[0] > all * MOSTLY[1] {
+        note(&format!(
+            "{}: {} % of what shows is backs of faces, as of rooms seen from outside (`--cull back` \
+             leaves them out) or of faces with clockwise corners",
+            scene.name(),
+            100 * backs / all,
+        ));
+    }
+}
+
+/// How many pixels of a small picture show a back, and how many show anything; `None` if there is
+/// no such picture.
+fn count(tree: &BspTree, camera: &Camera) -> Option<[usize; 2]> {
+    let [width, height] = camera.size().map(u64::from);
+    let longer = width.max(height).max(SIDE.into());
+    let size = [width, height].map(|side| (side * u64::from(SIDE) / longer).max(1) as u32);
+    let rays = Rays::new(&camera.with_size(size).ok()?, tree.faces()).ok()?;
+    let mut is_back = vec![false; tree.faces().len()];
+    for fragment in tree.fragments() {
+        is_back[fragment.face() as usize] = fragment.facing(camera.viewpoint()) == Ordering::Less;
+    }
+    let image = paint_tree(tree, camera.viewpoint(), &rays);
+    let shown = image.faces().iter().filter(|&&face| face != NONE);
+    let backs = shown.clone().filter(|&&face| is_back[face as usize]).count();
+    Some([backs, shown.count()])
+}

@@ -1,0 +1,28 @@
+//! Leaving out the backs of polygons.
+
+use binspace::{Fragment, Viewpoint};
+use clap::{Args, ValueEnum};
+
+/// Which sides of polygons are left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Cull {
+    /// Neither: polygons are seen from both sides
+    #[default]
+    None,
+    /// Backs: polygons are seen only where their corners run counter-clockwise
+    Back,
+}
+
+impl Cull {
+    /// Whether a fragment shows a side that is not left out.
+    pub(crate) fn shows(self, fragment: &Fragment<'_>, viewpoint: Viewpoint) -> bool {
+        self == Self::None || fragment.facing(viewpoint).is_gt()
+    }
+}
+
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct CullArgs {
+    /// Side of polygons to leave out; without the backs, rooms can be seen from outside
+    #[arg(long, value_name = "SIDE", value_enum, default_value_t)]
+    pub(crate) cull: Cull,
+}

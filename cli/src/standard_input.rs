@@ -1,0 +1,61 @@
+//! A scene on standard input.
+
+use std::io::{self, IsTerminal, Read};
+
+use binspace::scene::Scene;
+
+use crate::failure::Failure;
+use crate::memory;
+use crate::progress::Progress;
+use crate::terminal::note;
+
+/// What messages call it.
+const NAME: &str = "standard input";
+/// How many bytes are asked for at a time.
+const CHUNK: usize = 1 << 20;
+
+/// Reads an OBJ file from standard input, and notes what was left out.
+pub(crate) fn scene() -> Result<Scene, Failure> {
+    if io::stdin().is_terminal() {
+        note("reading an OBJ file from the terminal, up to an end of file (Ctrl-D)");
+    }
+    let progress = Progress::spinner(format!("reading {NAME}"));
+    let bytes = bytes()?;
+    memory::check_file(NAME, bytes.len() as u64)?;
+    let (scene, mut report) = Scene::from_obj(NAME, &bytes, |_| None)
+        .map_err(|error| Failure::Message(error.to_string()))?;
+    drop(progress);
+    memory::check(NAME, scene.len())?;
+    let mut libraries = std::mem::take(&mut report.missing_libraries);
+    libraries.append(&mut report.outside_libraries);
+    if !libraries.is_empty() {
+        // Without libraries no material is defined: one note is enough.
+        report.missing_materials.clear();
+        note(&format!(
+            "{NAME}: it has no folder to find material libraries in, so all is grey; name the file \
+             to have the colours of {}",
+            libraries.join(", ")
+        ));
+    }
+    // They are among the faces without area, which are named once the tree is built.
+    report.degenerate_faces = 0;
+    if !report.is_clean() {
+        note(&format!("{NAME}: {report}"));
+    }
+    Ok(scene)
+}
+
+/// All of standard input. Too little memory is an error.
+fn bytes() -> Result<Vec<u8>, Failure> {
+    let mut bytes: Vec<u8> = Vec::new();
+    let mut input = io::stdin().lock();
+    loop {
+        let problem = |_| Failure::about(NAME, "too little memory to read it");
+        bytes.try_reserve(CHUNK).map_err(problem)?;
+        // Fits the room that is there, so that reading itself asks for none.
+        let read = input.by_ref().take(CHUNK as u64).read_to_end(&mut bytes);
+        if read.map_err(|error| Failure::about(NAME, format!("cannot be read: {error}")))? == 0 {
+            return Ok(bytes);
+        }
+    }
+}
