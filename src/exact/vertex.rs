@@ -50,7 +50,10 @@ impl Faces {
                 if let Some(off) = self.drift(face, symbol, nearest) {
                     nearest[axis] -= off[axis].round();
                 }
-                self.corners[corner] = nearest;
+                if nearest != self.corners[corner] {
+                    self.moved.push((corner as u32, self.corners[corner]));
+                    self.corners[corner] = nearest;
+                }
             }
         }
     }

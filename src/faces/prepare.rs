@@ -122,6 +122,7 @@ impl Faces {
         faces.numbers.shrink_to_fit();
         faces.numbered.shrink_to_fit();
         faces.faces.shrink_to_fit();
+        faces.moved.shrink_to_fit();
         for length in [&mut report.flattened_by, &mut report.bent_by] {
             *length = lattice.length_to_world(*length);
         }
@@ -211,6 +212,9 @@ impl Part {
         reserve(&mut self.faces.faces, next.faces.faces.len())?;
         let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
         self.faces.faces.extend(next.faces.faces.into_iter().map(moved));
+        reserve(&mut self.faces.moved, next.faces.moved.len())?;
+        let moved = next.faces.moved.into_iter();
+        self.faces.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
         self.report.add(&next.report);
         self.outlines.append(next.outlines)
     }
@@ -249,6 +253,7 @@ impl Builder {
             numbers: vec![],
             numbered: vec![],
             faces: vec![],
+            moved: vec![],
         };
         Self { faces, kept: vec![], runs: vec![] }
     }
@@ -357,6 +362,7 @@ impl Builder {
         faces.corners.extend(kept.iter().map(|&k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
         if let Some(axis) = frame.drop_axis() {
+            reserve(&mut faces.moved, kept.len())?;
             faces.flatten_last(axis);
         }
         Ok(())
