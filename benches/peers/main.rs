@@ -13,16 +13,20 @@ mod build;
 mod fragments;
 mod growth;
 mod kernels;
+mod mesh;
 mod order;
 mod plane_split;
 mod rulings;
+mod same;
 mod threads;
 
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 8] = [
+const SECTIONS: [Section; 10] = [
     ("order", order::run),
+    ("mesh", mesh::run),
+    ("same-order", same::run),
     ("build", build::run),
     ("threads", threads::run),
     ("growth", growth::run),

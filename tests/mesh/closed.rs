@@ -2,7 +2,7 @@
 
 use super::{is_closed_once, open_edges};
 use crate::support::shapes::{cuboid, rotation};
-use binspace::glam::DVec3;
+use binspace::glam::{DVec3, vec3};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic, Tolerance};
 use std::path::Path;
@@ -61,13 +61,17 @@ fn closed_bodies_stay_closed() {
 /// A body in `f32`, whose quads are bent, among triangles at random that cut it.
 #[test]
 fn a_body_that_others_cut_stays_closed() {
-    let body: Vec<Vec<[f32; 3]>> = boxes(1)
+    let body: Vec<Vec<[f32; 3]>> = boxes(2)
         .into_iter()
+        .skip(6)
         .map(|side| side.into_iter().map(|p| p.as_vec3().to_array()).collect())
         .collect();
     let mut all = body.clone();
     all.extend(scene::random_triangles(300, 5).polygons().map(|triangle| {
-        triangle.iter().map(|p| (p.as_vec3() - 0.5).to_array()).collect::<Vec<_>>()
+        triangle
+            .iter()
+            .map(|p| (p.as_vec3() * 2.0 - vec3(1.9, 1.15, 1.98)).to_array())
+            .collect::<Vec<_>>()
     }));
     let tree = BspTree::build(&all).unwrap();
     assert!(tree.preparation().flattened > 0, "no corner is moved");

@@ -87,7 +87,9 @@ fn fragments_keep_their_vertices() {
                 let found = own.iter().map(|&v| mesh.vertex(v)).find(|v| {
                     // Triangles of one polygon may name the ends of their common edge in turn.
                     let is_same = |&(k, w): &(u32, f64)| {
-                        weights.iter().any(|&(other, weight)| other == k && (weight - w).abs() < 1e-9)
+                        weights
+                            .iter()
+                            .any(|&(other, weight)| other == k && (weight - w).abs() < 1e-9)
                     };
                     v.position.distance(position) < 1e-12
                         && v.weights.len() == weights.len()
