@@ -20,7 +20,7 @@ use std::io::BufWriter;
 
 const SIZE: [usize; 2] = [960, 600];
 const FRAMES: usize = 240;
-const TARGET: DVec3 = dvec3(0.0, 0.0, 0.75);
+const TARGET: DVec3 = dvec3(0.1, 0.0, 0.5);
 
 struct Polygon {
     corners: Vec<DVec3>,
@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// A walk past the scene.
 fn eye(frame: usize) -> DVec3 {
     let angle = -1.9 + 0.7 * frame as f64 / FRAMES as f64;
-    dvec3(5.4 * angle.cos(), 5.4 * angle.sin(), 2.5)
+    dvec3(6.2 * angle.cos(), 6.2 * angle.sin(), 2.9)
 }
 
 /// A floor of tiles, three pillars, panes of glass that cross each other and the pillars, and a
@@ -151,11 +151,12 @@ fn scene() -> Vec<Polygon> {
     scene
 }
 
-/// A polygon's colour, lit from above.
+/// A polygon's colour, lit from above; glass as it is.
 fn lit(polygon: &Polygon) -> [f32; 3] {
     let [a, b, c] = [0, 1, 2].map(|k| polygon.corners[k * (polygon.corners.len() - 1) / 2]);
     let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
-    let light = 0.55 + 0.45 * normal.dot(dvec3(0.4, -0.5, 0.77)).abs();
+    let light: f64 = 0.55 + 0.45 * normal.dot(dvec3(0.4, -0.5, 0.77)).abs();
+    let light = if polygon.opacity < 1.0 { 1.0 } else { light };
     polygon.color.map(|channel| channel * light as f32)
 }
 

@@ -71,7 +71,7 @@ fn check(tree: &BspTree, polygons: &[Vec<DVec3>], seen: &mut Seen) -> Result<(),
         let outline: Vec<Point> =
             fragment.symbols().map(|symbol| face.resolve(tree.faces(), symbol)).collect();
         let whole = rational::area(&outline);
-        let mut sum = whole.clone().map(|c| &c - &c);
+        let mut sum = [0.0; 3].map(rational::exact);
         let triangles = &mesh.triangles().indices()[mesh.triangles().range(fragment.index())];
         if triangles.iter().any(|&vertex| place(vertex).is_none()) {
             continue;

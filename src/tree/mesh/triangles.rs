@@ -17,7 +17,10 @@ use crate::viewpoint::Viewpoint;
 pub struct Triangles {
     /// Where each fragment's indices begin, and the end of the last.
     starts: Vec<u32>,
+    /// [`CHUNK`] more than there are.
     indices: Vec<u32>,
+    /// How many triangles each fragment has, if all have as many.
+    each: Option<u32>,
 }
 
 impl Triangles {
@@ -31,9 +34,12 @@ impl Triangles {
             sum = sum.checked_add(length).ok_or(Error::too_many_indices())?;
             starts.push(sum);
         }
-        reserve(&mut indices, sum as usize)?;
-        indices.resize(sum as usize, 0);
-        Ok(Self { starts, indices })
+        reserve(&mut indices, sum as usize + CHUNK)?;
+        indices.resize(sum as usize + CHUNK, 0);
+        let mut lengths = starts.windows(2).map(|ends| ends[1] - ends[0]);
+        let first = lengths.next().unwrap_or(0);
+        let each = lengths.all(|length| length == first).then_some(first / 3);
+        Ok(Self { starts, indices, each })
     }
 
     /// The indices of a fragment, to be filled in.
@@ -55,7 +61,7 @@ impl Triangles {
 
     /// All indices in the order of the fragments' numbers, for what is drawn in any order.
     pub fn indices(&self) -> &[u32] {
-        &self.indices
+        &self.indices[..self.indices.len() - CHUNK]
     }
 
     /// Which of [`indices`](Self::indices) a fragment has, given its number.
@@ -93,7 +99,7 @@ impl Triangles {
         order: &mut Vec<u32>,
         indices: &mut [u32],
     ) -> Result<usize, Error> {
-        let (count, fragments) = (self.indices.len(), self.starts.len() - 1);
+        let (count, fragments) = (self.indices().len(), self.starts.len() - 1);
         if tree.len() != fragments {
             return Err(Error::other_tree(tree.len(), fragments));
         }
@@ -105,15 +111,67 @@ impl Triangles {
     }
 
     /// Writes the indices of fragments one after the other.
-    fn write(&self, order: &[u32], mut places: &mut [u32]) {
+    fn write(&self, order: &[u32], places: &mut [u32]) {
+        match self.each {
+            Some(1) => self.write_equal::<3>(order, places),
+            Some(2) => self.write_equal::<6>(order, places),
+            _ => self.write_staged(order, places),
+        }
+    }
+
+    /// If each fragment has N indices, the place of a fragment's is known without looking.
+    fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
+        let (all, places) = (self.indices.as_chunks::<N>().0, places.as_chunks_mut::<N>().0);
+        for (&fragment, place) in order.iter().zip(places) {
+            *place = all[fragment as usize];
+        }
+    }
+
+    /// Each fragment's indices are copied into a small buffer, always [`CHUNK`] of them, and those
+    /// too many are written over by the next fragment's. That is faster than a branch on how many
+    /// there are, which no processor can predict; but the caller's memory must be written once.
+    fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
+        let mut stage = [0_u32; STAGE + CHUNK];
+        let mut filled = 0;
         for &fragment in order {
-            let Range { start, end } = self.range(fragment);
-            // Most fragments have one triangle or two: calling `memcpy` for each takes longer.
-            for triangle in self.indices[start..end].as_chunks::<3>().0 {
-                let Some((place, rest)) = places.split_first_chunk_mut::<3>() else { return };
-                *place = *triangle;
-                places = rest;
+            let fragment = fragment as usize;
+            let (start, end) = (self.starts[fragment] as usize, self.starts[fragment + 1] as usize);
+            // Behind the last fragment's indices there is room to read so many.
+            let from = self.indices[start..].first_chunk::<CHUNK>();
+            let to = stage[filled..].first_chunk_mut::<CHUNK>();
+            let (Some(from), Some(to)) = (from, to) else { continue };
+            *to = *from;
+            let rest = if end - start <= CHUNK {
+                filled += end - start;
+                &[]
+            } else {
+                filled += CHUNK;
+                &self.indices[start + CHUNK..end]
+            };
+            if filled >= STAGE || !rest.is_empty() {
+                places = put(places, &stage[..filled]);
+                places = put(places, rest);
+                filled = 0;
             }
         }
+        put(places, &stage[..filled]);
+    }
+}
+
+/// How many indices are copied at once: four triangles. Smaller: more fragments are copied piece by
+/// piece; larger: more is copied in vain.
+const CHUNK: usize = 12;
+/// How many indices are gathered before they are written, 4 kB. Smaller: more calls; larger: the
+/// buffer leaves the processor's nearest cache.
+const STAGE: usize = 1024;
+
+/// Writes some indices to the first places, and returns the other places.
+fn put<'p>(places: &'p mut [u32], indices: &[u32]) -> &'p mut [u32] {
+    match places.split_at_mut_checked(indices.len()) {
+        Some((first, rest)) => {
+            first.copy_from_slice(indices);
+            rest
+        }
+        None => &mut [],
     }
 }
