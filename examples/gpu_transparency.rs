@@ -15,6 +15,7 @@
 use binspace::glam::{DVec3, Vec3, dvec3};
 use binspace::{BspTree, Viewpoint};
 use std::error::Error;
+use std::f64::consts::{PI, TAU};
 use std::fs::File;
 use std::io::BufWriter;
 
@@ -140,8 +141,10 @@ fn scene() -> Vec<Polygon> {
     let (rings, sides) = (8, 16);
     let on_ball = |i: usize, k: usize| {
         let (down, around) = (i as f64 / rings as f64, (k % sides) as f64 / sides as f64);
-        let (height, radius) = ((down * 3.1416).cos(), (down * 3.1416).sin().max(0.0));
-        let turn = around * std::f64::consts::TAU;
+        let (tilt, turn) = (down * PI, around * TAU);
+        // At the poles the sine is not quite zero; the corners there must be equal.
+        let radius = if i.is_multiple_of(rings) { 0.0 } else { tilt.sin() };
+        let height = tilt.cos();
         dvec3(0.75, -0.35, 0.95) + 0.55 * dvec3(radius * turn.cos(), radius * turn.sin(), height)
     };
     for (i, k) in (0..rings).flat_map(|i| (0..sides).map(move |k| (i, k))) {
