@@ -21,7 +21,7 @@ use std::io::BufWriter;
 
 const SIZE: [usize; 2] = [960, 600];
 const FRAMES: usize = 240;
-const TARGET: DVec3 = dvec3(0.1, 0.0, 0.5);
+const TARGET: DVec3 = dvec3(0.1, 0.0, 0.25);
 
 struct Polygon {
     corners: Vec<DVec3>,
@@ -200,7 +200,7 @@ impl Target {
     /// Steps to the right and down, and nearness: 1 / depth, which is linear on the screen.
     fn project(&self, position: DVec3) -> (i64, i64, f64) {
         let [x, y, z] = self.axes.map(|axis| axis.dot(position - self.eye));
-        let scale = 1.45 * Self::HEIGHT as f64 / z;
+        let scale = 1.35 * Self::HEIGHT as f64 / z;
         let place = |from_middle: f64, side: usize| {
             ((from_middle * scale + side as f64 * 0.5) * Self::STEPS).round() as i64
         };
