@@ -52,6 +52,7 @@ use crate::faces::Preparation;
 /// | order of n fragments | time | memory |
 /// |---|---|---|
 /// | [`back_to_front_into`](Self::back_to_front_into), a list of numbers | O(n) | your buffer |
+/// | [`Triangles::write_back_to_front`](crate::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
 /// | [`back_to_front`](Self::back_to_front), an iterator, from both ends | O(n) if read to its end | O(depth) |
 /// | [`visit_front_to_back`](Self::visit_front_to_back), stops when you break | O(n) at most | O(depth) |
 ///
