@@ -1,8 +1,8 @@
-//! The error of a build.
+//! The error of a build, and of a mesh.
 
 use std::fmt;
 
-/// The reason why a tree could not be built, and the polygon to blame if there is one.
+/// The reason why a tree or a mesh could not be built, and the polygon to blame if there is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     kind: Kind,
@@ -43,6 +43,15 @@ enum Kind {
     },
     #[cfg(feature = "layers")]
     Viewport,
+    TooManyIndices,
+    Places {
+        needed: usize,
+        given: usize,
+    },
+    OtherTree {
+        fragments: usize,
+        expected: usize,
+    },
 }
 
 impl Error {
@@ -94,6 +103,18 @@ impl Error {
     #[cfg(feature = "layers")]
     pub(crate) const fn viewport() -> Self {
         Self { kind: Kind::Viewport }
+    }
+
+    pub(crate) const fn too_many_indices() -> Self {
+        Self { kind: Kind::TooManyIndices }
+    }
+
+    pub(crate) const fn places(needed: usize, given: usize) -> Self {
+        Self { kind: Kind::Places { needed, given } }
+    }
+
+    pub(crate) const fn other_tree(fragments: usize, expected: usize) -> Self {
+        Self { kind: Kind::OtherTree { fragments, expected } }
     }
 
     /// The index of the polygon (or layer) to blame, in the order in which the polygons were given.
@@ -162,6 +183,19 @@ impl fmt::Display for Error {
                 f,
                 "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
                  or choose another heuristic"
+            ),
+            Kind::TooManyIndices => {
+                f.write_str("the mesh would have more than 2^32 indices: divide the scene")
+            }
+            Kind::Places { needed, given } => write!(
+                f,
+                "the buffer has room for {given} indices, but {needed} are to be written: make it \
+                 as long as `Triangles::indices`"
+            ),
+            Kind::OtherTree { fragments, expected } => write!(
+                f,
+                "the tree has {fragments} fragments, but the mesh was made of a tree of \
+                 {expected}: make the mesh of this tree"
             ),
             Kind::Cancelled => f.write_str("the build was cancelled"),
             #[cfg(feature = "layers")]

@@ -9,6 +9,7 @@
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Partition`] | what it consists of |
+//! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
 //!
 //! # Conventions
 //!
@@ -58,7 +59,10 @@ pub use exact::Faces;
 pub use faces::{MAX_CORNERS, Preparation, Tolerance};
 pub use glam;
 pub use input::{Point, Polygon};
-pub use tree::{BspTree, Fragment, Fragments, Invalid, Ordered, Partition, Partitions, Stats};
+pub use tree::{
+    BspTree, Fragment, Fragments, Invalid, Mesh, MeshVertex, Ordered, Partition, Partitions, Stats,
+    Triangles,
+};
 #[cfg(feature = "raster")]
 pub use verify::{
     OrderFault, Verification, check_orders, paint_tree, paint_tree_in_colour, verify, verify_fronts,

@@ -49,5 +49,15 @@ fn a_second_order_in_index_form_allocates_nothing() {
             let again = allocations(|| viewpoints.into_iter().for_each(&mut write));
             assert_eq!(again, 0, "{}, back to front: {forwards}", scene.name());
         }
+        let mesh = tree.welded_mesh().unwrap();
+        let (mut order, mut indices) = (Vec::new(), vec![0; mesh.triangles().indices().len()]);
+        let mut write = |viewpoint| {
+            let written =
+                mesh.triangles().write_back_to_front(&tree, viewpoint, &mut order, &mut indices);
+            assert_eq!(written, Ok(mesh.triangles().indices().len()));
+        };
+        assert!(allocations(|| write(viewpoints[0])) > 0, "{}", scene.name());
+        let again = allocations(|| viewpoints.into_iter().for_each(&mut write));
+        assert_eq!(again, 0, "indices of {}", scene.name());
     }
 }

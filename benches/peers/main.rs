@@ -15,9 +15,11 @@ mod fragments;
 mod frames;
 mod growth;
 mod kernels;
+mod mesh;
 mod order;
 mod plane_split;
 mod rulings;
+mod same;
 mod threads;
 
 /// A section's name on the command line, and what it does.
@@ -25,6 +27,8 @@ type Section = (&'static str, fn());
 
 const SECTIONS: [Section; 10] = [
     ("order", order::run),
+    ("mesh", mesh::run),
+    ("same-order", same::run),
     ("build", build::run),
     ("threads", threads::run),
     ("growth", growth::run),

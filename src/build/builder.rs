@@ -4,6 +4,7 @@ mod arena;
 mod divide;
 mod emit;
 mod leaf;
+mod small;
 mod state;
 mod table;
 

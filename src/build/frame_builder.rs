@@ -49,6 +49,11 @@ impl FrameBuilder {
         Self { options, workshop: Workshop::default(), tree: BspTree::empty() }
     }
 
+    /// Sets the options of the trees to come.
+    pub fn set_options(&mut self, options: BuildOptions) {
+        self.options = options;
+    }
+
     /// Builds a tree of polygons in place of the last one.
     ///
     /// # Errors
@@ -65,6 +70,13 @@ impl FrameBuilder {
     /// The last tree that was built.
     pub fn tree(&self) -> &BspTree {
         &self.tree
+    }
+}
+
+impl Clone for FrameBuilder {
+    /// A builder with the same options and tree, and no spare memory.
+    fn clone(&self) -> Self {
+        Self { options: self.options, workshop: Workshop::default(), tree: self.tree.clone() }
     }
 }
 

@@ -21,6 +21,9 @@ pub struct Faces {
     /// Faces with explicit corner numbers, and where these begin in `numbers`.
     pub(crate) numbered: Vec<(u32, u32)>,
     pub(crate) faces: Vec<Face>,
+    /// The corners, counted over all faces, that were moved onto their face's plane, and where they
+    /// were. In ascending order.
+    pub(crate) moved: Vec<(u32, [f64; 3])>,
 }
 
 /// Marks a corner if the edge from it to the next is not an edge of the polygon.
@@ -114,6 +117,15 @@ impl Faces {
         self.corners[corner as usize]
     }
 
+    /// The lattice point of a corner, counted over all faces, before it was moved onto its face's
+    /// plane. Polygons that share a corner as given have equal points here.
+    pub(crate) fn given_corner(&self, corner: u32) -> [f64; 3] {
+        match self.moved.binary_search_by_key(&corner, |&(corner, _)| corner) {
+            Ok(at) => self.moved[at].1,
+            Err(_) => self.corner(corner),
+        }
+    }
+
     /// The three corners, counted over all faces, that define a face's plane.
     #[doc(hidden)]
     #[inline]
@@ -175,5 +187,6 @@ impl Faces {
             + size_of_val(&*self.numbers)
             + size_of_val(&*self.numbered)
             + size_of_val(&*self.faces)
+            + size_of_val(&*self.moved)
     }
 }

@@ -103,7 +103,7 @@ impl fmt::Debug for Line {
 /// A vertex of a piece of a face: where two lines of that face meet.
 ///
 /// Only input points enter its definition, so it is as exact after a thousand cuts as after one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Symbol {
     a: Line,
     b: Line,

@@ -8,8 +8,10 @@
 //! | `filter` | the same side by rounded distances, where they are certain |
 //! | `tolerance` | where a piece lies against a plane |
 //! | `split` | how a piece is cut |
+//! | `along` | in which order points of one line come |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
 
+pub(crate) mod along;
 pub(crate) mod exact_kernel;
 mod eye;
 pub(crate) mod faces;

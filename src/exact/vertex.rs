@@ -71,7 +71,11 @@ impl Faces {
             // Now of one sign, or no rest.
             let excess = rest + rest - slope;
             let is_next = excess.sign() == slope.sign() && rest.sign().is_ne();
-            self.corners[corner][axis] -= if is_next { steps + up } else { steps };
+            let steps = if is_next { steps + up } else { steps };
+            if steps != 0.0 {
+                self.moved.push((corner as u32, self.corners[corner]));
+                self.corners[corner][axis] -= steps;
+            }
         }
     }
 

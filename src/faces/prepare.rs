@@ -196,6 +196,7 @@ impl Faces {
         self.numbers.clear();
         self.numbered.clear();
         self.faces.clear();
+        self.moved.clear();
     }
 
     /// Gives memory back that is not needed.
@@ -204,6 +205,7 @@ impl Faces {
         self.numbers.shrink_to_fit();
         self.numbered.shrink_to_fit();
         self.faces.shrink_to_fit();
+        self.moved.shrink_to_fit();
     }
 
     /// Adds the faces of the polygons that follow.
@@ -223,6 +225,9 @@ impl Faces {
         reserve(&mut self.faces, next.faces.len())?;
         let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
         self.faces.extend(next.faces.into_iter().map(moved));
+        reserve(&mut self.moved, next.moved.len())?;
+        let moved = next.moved.into_iter();
+        self.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
         Ok(())
     }
 }
@@ -317,6 +322,7 @@ impl Builder {
             let axis = (off > 0.0).then(|| plane.main_axis());
             self.push(polygon, 0..self.kept.len(), Frame::new(second, third, axis))?;
             if let Some(axis) = axis {
+                reserve(&mut self.faces.moved, self.kept.len())?;
                 self.faces.flatten_last(axis, &plane);
             }
             return Ok(Outcome::Whole { off });

@@ -7,10 +7,9 @@ use super::layer::Layer;
 use super::piece::LayerPiece;
 use super::vertex::Corner;
 use crate::Error;
-use crate::build::BuildOptions;
+use crate::build::{BuildOptions, FrameBuilder};
 use crate::input::Polygon;
 use crate::memory::reserve;
-use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
 /// How far a page reaches in depth, and if it is not clipped to its viewport across as well, in
@@ -29,19 +28,21 @@ const TOUCH: f64 = 1e-9;
 /// The layers of a page, cut and in paint order, from frame to frame.
 ///
 /// Give every frame's layers to [`update`](Self::update). It does nothing if they are those of the
-/// last frame, and takes the time of a [`BspTree`] of as many polygons if not. Then read the pieces.
+/// last frame, and takes the time of a [`BspTree`](crate::BspTree) of as many polygons if not. Then read the pieces.
 /// [The module](super) has an example and says what becomes of every layer.
 #[derive(Clone, Debug)]
 pub struct Layers {
     viewport: [DVec2; 2],
     is_clipped: bool,
-    /// The last frame, if `tree` is of one.
+    /// The last frame, if a tree was built of it.
     layers: Vec<Layer>,
     /// What is seen of them.
     outlines: Vec<Outline>,
     /// The corners of all outlines.
     corners: Vec<Corner>,
-    tree: Option<BspTree>,
+    builder: FrameBuilder,
+    /// Whether the builder's tree is of the last frame.
+    is_built: bool,
     /// The tree's fragments, back to front.
     order: Vec<u32>,
     visible: usize,
@@ -65,7 +66,8 @@ impl Layers {
             layers: Vec::new(),
             outlines: Vec::new(),
             corners: Vec::new(),
-            tree: None,
+            builder: FrameBuilder::new(BuildOptions::DEFAULT),
+            is_built: false,
             order: Vec::new(),
             visible: 0,
         }
@@ -89,7 +91,7 @@ impl Layers {
     /// error is the layer's index), the pieces would be more than a tree may have, or memory runs
     /// out. Then the page has no pieces.
     pub fn update(&mut self, layers: &[Layer]) -> Result<bool, Error> {
-        if self.tree.is_some() && self.layers == layers {
+        if self.is_built && self.layers == layers {
             return Ok(false);
         }
         // The page is empty until its tree is there, so after an error as well.
@@ -102,7 +104,7 @@ impl Layers {
         self.outlines.clear();
         self.corners.clear();
         self.order.clear();
-        (self.tree, self.visible) = (None, 0);
+        (self.is_built, self.visible) = (false, 0);
     }
 
     fn replace(&mut self, layers: &[Layer]) -> Result<(), Error> {
@@ -113,13 +115,14 @@ impl Layers {
         self.layers.extend_from_slice(layers);
         let precision = self.clip()?;
         let [least, most] = TOLERANCES.map(|share| share * self.size());
-        let tree = self.build(precision.clamp(least, most))?;
+        self.build(precision.clamp(least, most))?;
+        let tree = self.builder.tree();
         tree.back_to_front_into(Viewpoint::Direction(DVec3::NEG_Z), &mut self.order);
         for fragment in tree.fragments() {
             self.outlines[fragment.polygon()].pieces += 1;
         }
         self.visible = self.outlines.iter().filter(|outline| outline.pieces > 0).count();
-        self.tree = Some(tree);
+        self.is_built = true;
         Ok(())
     }
 
@@ -143,14 +146,16 @@ impl Layers {
     }
 
     /// The only place where a tree is built.
-    fn build(&self, tolerance: f64) -> Result<BspTree, Error> {
-        let polygons = (0..self.outlines.len()).map(|k| Clipped(self.corners_of(k)));
-        BuildOptions::DEFAULT.with_tolerance(tolerance).build(polygons)
+    fn build(&mut self, tolerance: f64) -> Result<(), Error> {
+        let Self { builder, outlines, corners, .. } = self;
+        let polygons = (0..outlines.len()).map(|k| Clipped(corners_of(outlines, corners, k)));
+        builder.set_options(BuildOptions::DEFAULT.with_tolerance(tolerance));
+        builder.build(polygons)?;
+        Ok(())
     }
 
     fn corners_of(&self, outline: usize) -> &[Corner] {
-        let end = self.outlines.get(outline + 1).map_or(self.corners.len(), |next| next.corners);
-        &self.corners[self.outlines[outline].corners..end]
+        corners_of(&self.outlines, &self.corners, outline)
     }
 
     /// The viewport's longer side.
@@ -191,7 +196,7 @@ impl Layers {
     }
 
     fn piece(&self, number: u32) -> LayerPiece<'_> {
-        let fragment = self.tree.as_ref().expect("the order is of a tree").fragment(number);
+        let fragment = self.builder.tree().fragment(number);
         let index = fragment.polygon();
         let &Outline { layer: number, pieces, .. } = &self.outlines[index];
         LayerPiece {
@@ -215,6 +220,12 @@ impl Layers {
             piece.covers(at, slack).then(|| (piece.number, local.to_array()))
         })
     }
+}
+
+/// The corners of one of some outlines.
+fn corners_of<'a>(outlines: &[Outline], corners: &'a [Corner], outline: usize) -> &'a [Corner] {
+    let end = outlines.get(outline + 1).map_or(corners.len(), |next| next.corners);
+    &corners[outlines[outline].corners..end]
 }
 
 /// A layer as clipped.

@@ -53,6 +53,7 @@ use crate::faces::Preparation;
 /// | order of n fragments | time | memory |
 /// |---|---|---|
 /// | [`back_to_front_into`](Self::back_to_front_into), a list of numbers | O(n) | your buffer |
+/// | [`Triangles::write_back_to_front`](crate::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
 /// | [`back_to_front`](Self::back_to_front), an iterator, from both ends | O(n) if read to its end | O(depth) |
 /// | [`visit_front_to_back`](Self::visit_front_to_back), stops when you break | O(n) at most | O(depth) |
 ///
@@ -61,40 +62,43 @@ use crate::faces::Preparation;
 ///
 /// # Drawing a frame
 ///
-/// Triangulate each fragment once, as a fan, into vertex and index buffers of your renderer. Every
-/// frame, write the order into a buffer that you keep, and draw the fragments in that order:
+/// A [`Mesh`](crate::Mesh) has the fragments as vertices and triangles. Upload its vertices once. Every
+/// frame, write the indices back to front, into a buffer that you keep or into mapped memory:
 ///
 /// ```
 /// use binspace::{BspTree, Viewpoint};
 ///
 /// # let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
 /// # let tree = BspTree::build([square(2.0), square(0.0)])?;
-/// // Once: vertices, and for each fragment its triangles.
-/// let mut vertices: Vec<[f32; 3]> = Vec::new();
-/// let mut triangles: Vec<Vec<[u32; 3]>> = Vec::new();
-/// for fragment in tree.fragments() {
-///     let first = vertices.len() as u32;
-///     vertices.extend(fragment.vertices().map(|v| v.as_vec3().to_array()));
-///     let last = vertices.len() as u32;
-///     triangles.push((first + 2..last).map(|i| [first, i - 1, i]).collect());
-/// }
-/// // Every frame: nothing is allocated once both buffers have grown to their size.
-/// let (mut order, mut indices) = (Vec::new(), Vec::new());
+/// // Once.
+/// let mesh = tree.welded_mesh()?;
+/// let vertices: Vec<[f32; 3]> =
+///     mesh.vertices().map(|vertex| vertex.position.as_vec3().to_array()).collect();
+/// // Every frame: nothing is allocated once `order` has grown to its size.
+/// let mut order = Vec::new();
+/// let mut indices = vec![0; mesh.triangles().indices().len()];
 /// # for _ in 0..2 {
-/// tree.back_to_front_into(Viewpoint::eye([0.5, 0.5, 9.0]), &mut order);
-/// indices.clear();
-/// for &fragment in &order {
-///     indices.extend(triangles[fragment as usize].iter().flatten());
-/// }
+/// let eye = Viewpoint::eye([0.5, 0.5, 9.0]);
+/// mesh.triangles().write_back_to_front(&tree, eye, &mut order, &mut indices)?;
 /// # assert_eq!((indices.len(), indices[0]), (12, 4));
 /// # }
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
+/// If [`same_order`](Self::same_order) says that no partition plane lies between the eye and that of
+/// an earlier frame, the indices of that frame are still right.
+///
+/// Where most polygons are opaque, let a depth buffer draw those, in any order, and only the
+/// translucent ones back to front after them, with the depth test on and writing depths off.
+/// [`Mesh::triangles_of`](crate::Mesh::triangles_of) gives the triangles of either. The picture is the
+/// same as that of all in order, except where polygons touch: at the same depth a translucent polygon
+/// is drawn over an opaque one, whichever comes first in the input.
+///
 /// # Attributes
 ///
 /// A cut vertex needs texture coordinates, colours or normals as the corners have them.
-/// [`Fragment::weights`](crate::Fragment::weights) gives the weights of each vertex over the corners of the polygon:
+/// [`Fragment::weights`](crate::Fragment::weights) gives the weights of each vertex over the corners of the polygon,
+/// and so does each [`MeshVertex`](crate::MeshVertex):
 ///
 /// ```
 /// # let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -153,12 +157,14 @@ use crate::faces::Preparation;
 ///
 /// # T-junctions
 ///
-/// The fragments of one polygon share the vertices of a cut bit for bit, so they leave no gap
-/// between them. But a cut goes through the polygons that span the plane, and no others: where it
-/// ends on an edge that a *neighbouring* polygon shares, the neighbour may not be cut there, and
-/// then has no vertex there. A rasteriser can miss pixels at such a T-junction, because the rounded
-/// vertex is not exactly on the neighbour's edge. If that matters, insert the vertex into the
-/// neighbour's outline: [`Fragment::edges`](crate::Fragment::edges) names the polygon's edge that it lies on.
+/// A cut goes through the polygons that span the plane, and no others: where it ends on an edge that a
+/// *neighbouring* polygon shares, the neighbour may not be cut there, and then has no vertex there. The
+/// same is so between two fragments of one polygon, if only one of them is cut further. A rasteriser can
+/// miss pixels at such a T-junction, because the rounded vertex is not exactly on the other's edge.
+/// Where both sides have a vertex, they have it bit for bit, unless the tolerance moved a corner of one.
+///
+/// [`welded_mesh`](Self::welded_mesh) has no T-junctions: it inserts the vertex on the other side, so
+/// that a closed body stays closed. Fragments themselves are never changed.
 ///
 /// # Building
 ///

@@ -4,6 +4,7 @@ pub(crate) mod apart;
 pub(crate) mod bsp_tree;
 mod facing;
 mod fragment;
+mod mesh;
 pub(crate) mod node;
 pub(crate) mod order;
 mod partitions;
@@ -14,6 +15,7 @@ pub(crate) mod walk;
 
 pub use bsp_tree::BspTree;
 pub use fragment::{Fragment, Fragments};
+pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use order::Ordered;
 pub use partitions::{Partition, Partitions};
 pub use stats::Stats;

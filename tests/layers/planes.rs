@@ -115,8 +115,10 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     let wall = Layer::from_f32([[-3000.0, 100.0], [3000.0, 200.0]], wall.as_mat4());
     let mut page = Layers::new(VIEWPORT).unclipped();
     page.update(&[wall, at(0.2), at(0.0), at(0.1)]).unwrap();
-    let cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
-    assert_eq!(cards[..3], [2, 3, 1], "{cards:?}");
+    // The wall may cut them.
+    let mut cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
+    cards.dedup();
+    assert!(cards.chunks(3).all(|side| side == [2, 3, 1]), "{cards:?}");
 }
 
 #[test]

@@ -1,16 +1,10 @@
-//! Small sets, divided down to the leaves from a table of where each piece lies against each plane.
+//! Where each piece of a small set lies against each plane.
 
-use super::leaf::is_small_leaf;
-use super::state::{Builder, Pending, Shared};
-use crate::Error;
-use crate::build::choose::{Best, Set};
 use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
-use crate::memory::reserve;
-use crate::tree::parts::{Child, RawNode};
 
 /// The most pieces in a table: a bit of a mask each.
-const SLOTS: usize = 64;
+pub(super) const SLOTS: usize = 64;
 
 /// The pieces of a small set, and the planes of their faces.
 ///
@@ -19,39 +13,39 @@ const SLOTS: usize = 64;
 /// of its own, and is held against those planes only that go through the whole piece.
 #[derive(Debug)]
 pub(super) struct Table<K: Kernel> {
-    slots: Vec<Slot>,
+    pub(super) slots: Vec<Slot>,
     /// Slots that hold no piece.
-    free: u64,
-    planes: Vec<Row<K>>,
+    pub(super) free: u64,
+    pub(super) planes: Vec<Row<K>>,
     /// The sets that are still to be divided, with their depths; the next one on top.
-    sets: Vec<(u64, usize)>,
+    pub(super) sets: Vec<(u64, usize)>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Slot {
-    piece: Live,
+pub(super) struct Slot {
+    pub(super) piece: Live,
     /// The row of the plane of its face.
-    row: usize,
+    pub(super) row: usize,
 }
 
 /// A plane, and which pieces reach in front of it and behind it: both if it cuts them, neither if
 /// they lie on it.
 #[derive(Clone, Copy, Debug)]
-struct Row<K: Kernel> {
-    plane: PlaneId,
-    splitter: K::Splitter,
-    front: u64,
-    back: u64,
+pub(super) struct Row<K: Kernel> {
+    pub(super) plane: PlaneId,
+    pub(super) splitter: K::Splitter,
+    pub(super) front: u64,
+    pub(super) back: u64,
     /// Of which pieces that is known.
-    known: u64,
+    pub(super) known: u64,
 }
 
 impl<K: Kernel> Row<K> {
-    fn new(plane: PlaneId, splitter: K::Splitter) -> Self {
+    pub(super) fn new(plane: PlaneId, splitter: K::Splitter) -> Self {
         Self { plane, splitter, front: 0, back: 0, known: 0 }
     }
 
-    fn set(&mut self, slot: usize, side: Side) {
+    pub(super) fn set(&mut self, slot: usize, side: Side) {
         let bit = 1 << slot;
         self.known |= bit;
         self.front &= !bit;
@@ -68,189 +62,10 @@ impl<K: Kernel> Default for Table<K> {
 }
 
 /// The slots of a set.
-fn slots(mut set: u64) -> impl Iterator<Item = usize> + Clone {
+pub(super) fn slots(mut set: u64) -> impl Iterator<Item = usize> + Clone {
     std::iter::from_fn(move || {
         let slot = (set != 0).then(|| set.trailing_zeros() as usize)?;
         set &= set - 1;
         Some(slot)
     })
-}
-
-impl<K: Kernel> Builder<'_, K> {
-    /// Divides the set on top of the stack, of at most [`SLOTS`] / 2 pieces, down to the leaves.
-    pub(super) fn divide_small(&mut self, start: usize, depth: usize) -> Result<(), Error> {
-        self.fill_table(start)?;
-        let all = u64::MAX >> (SLOTS - self.table.slots.len());
-        self.table.sets.push((all, depth));
-        while let Some((set, depth)) = self.table.sets.pop() {
-            let row = self.best_of_table(set)?;
-            let spanning = set & row.front & row.back;
-            if spanning.count_ones() > self.table.free.count_ones() {
-                // There are not enough slots, so smaller sets get tables of their own.
-                self.table.sets.push((set, depth));
-                return self.leave_table();
-            }
-            self.shared.budget.check_depth(depth + 1)?;
-            self.shared.budget.count(spanning.count_ones() as usize)?;
-            let mut sides = [set & row.front & !spanning, set & row.back & !spanning];
-            for slot in slots(spanning) {
-                let parts = self.cut_slot(slot, set, &row.splitter)?;
-                sides[0] |= 1 << parts[0];
-                sides[1] |= 1 << parts[1];
-            }
-            self.emit_small(&row, set & !row.front & !row.back, sides, depth + 1)?;
-        }
-        Ok(())
-    }
-
-    /// Moves the pieces on top of the stack into slots, and holds each against the planes of all.
-    fn fill_table(&mut self, start: usize) -> Result<(), Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let table = &mut self.table;
-        let count = self.pieces.len() - start;
-        table.sets.clear();
-        table.planes.clear();
-        table.slots.clear();
-        for &piece in &self.pieces[start..] {
-            let plane = PlaneId::face(piece.face);
-            let known = table.planes.iter().position(|row| row.plane == plane);
-            let row = known.unwrap_or(table.planes.len());
-            if known.is_none() {
-                let splitter = kernel.splitter(faces, plane);
-                table.planes.push(Row::new(plane, splitter));
-            }
-            table.slots.push(Slot { piece, row });
-        }
-        self.pieces.truncate(start);
-        table.free = !(u64::MAX >> (SLOTS - count));
-        Ok(())
-    }
-
-    /// The best plane for a set: the first of its own that divides it evenly and cuts nothing, else
-    /// the best of those that cut nothing, a free plane that cuts nothing, or the best of its own.
-    fn best_of_table(&mut self, set: u64) -> Result<Row<K>, Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let table = &mut self.table;
-        let pieces = slots(set).map(|slot| &table.slots[slot].piece);
-        let mut best = Best::new(pieces, self.shared.rules.tuning);
-        for slot in slots(set) {
-            let Slot { piece, row } = &table.slots[slot];
-            let plane = &mut table.planes[*row];
-            self.shared.watch.work((set & !plane.known).count_ones() as usize)?;
-            for other in slots(set & !plane.known) {
-                let piece = table.slots[other].piece.piece(&self.arena);
-                plane.set(other, kernel.classify(faces, &plane.splitter, piece));
-            }
-            let [front, back] = [plane.front & set, plane.back & set].map(u64::count_ones);
-            let both = (plane.front & plane.back & set).count_ones();
-            best.see(*row, piece, [front, back, both]);
-            if best.is_good() {
-                break;
-            }
-        }
-        let own = table.planes[best.row()];
-        if !best.cuts() {
-            return Ok(own);
-        }
-        let Shared { kernel, faces, normals, rules, .. } = self.shared;
-        let listed = &mut self.scratch.own;
-        listed.clear();
-        listed.extend(slots(set).map(|slot| table.slots[slot].piece));
-        let free = {
-            let set = Set::new(kernel, faces, normals, listed, &self.arena);
-            self.chooser.clean(rules, &set)
-        };
-        let Some(plane) = free else { return Ok(own) };
-        let mut row = Row::new(plane, kernel.splitter(faces, plane));
-        for slot in slots(set) {
-            let piece = table.slots[slot].piece.piece(&self.arena);
-            row.set(slot, kernel.classify(faces, &row.splitter, piece));
-        }
-        // Free planes are found by rounded distances, so exact decisions can show that one separates
-        // nothing.
-        let separates = set & !row.front != 0 && set & !row.back != 0;
-        Ok(if separates { row } else { own })
-    }
-
-    /// Cuts the piece in a slot, and gives the slots of its parts, the one in front first.
-    fn cut_slot(
-        &mut self,
-        slot: usize,
-        set: u64,
-        splitter: &K::Splitter,
-    ) -> Result<[usize; 2], Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let whole = self.table.slots[slot];
-        let [front, back] = self.cut(&whole.piece, splitter)?;
-        let table = &mut self.table;
-        let other = table.free.trailing_zeros() as usize;
-        table.free &= table.free - 1;
-        if other == table.slots.len() {
-            table.slots.push(whole);
-        }
-        table.slots[slot].piece = front;
-        table.slots[other] = Slot { piece: back, ..whole };
-        // Only the planes of pieces that are left in the set will be asked for.
-        let asked = slots(set).fold(0u64, |rows, slot| rows | 1 << table.slots[slot].row);
-        for row in slots(asked) {
-            let row = &mut table.planes[row];
-            row.known &= !(1 << other);
-            if row.known >> slot & 1 == 0 {
-                continue;
-            }
-            match [row.front >> slot & 1, row.back >> slot & 1] {
-                [1, 1] => {
-                    row.set(slot, kernel.classify(faces, &row.splitter, front.piece(&self.arena)));
-                    row.set(other, kernel.classify(faces, &row.splitter, back.piece(&self.arena)));
-                }
-                [1, 0] => row.set(other, Side::Front),
-                [0, 1] => row.set(other, Side::Back),
-                _ => row.set(other, Side::Coplanar),
-            }
-        }
-        Ok([slot, other])
-    }
-
-    /// Writes a node with what is on its plane and in its leaves, and keeps its other sides.
-    fn emit_small(
-        &mut self,
-        row: &Row<K>,
-        own: u64,
-        sides: [u64; 2],
-        depth: usize,
-    ) -> Result<(), Error> {
-        let listed = &mut self.scratch.own;
-        listed.clear();
-        listed.extend(slots(own).map(|slot| self.table.slots[slot].piece));
-        listed.sort_by_key(|piece| piece.face);
-        let own_len = listed.len() as u32;
-        (0..listed.len()).try_for_each(|i| self.store(self.scratch.own[i]))?;
-        self.table.free |= own;
-        let children = sides.map(|side| {
-            if is_small_leaf(side) { Child::Leaf(side.count_ones()) } else { Child::Node }
-        });
-        for side in sides.into_iter().filter(|&side| is_small_leaf(side)) {
-            slots(side).try_for_each(|slot| self.store(self.table.slots[slot].piece))?;
-            self.table.free |= side;
-        }
-        let [front, back] = children;
-        self.output.push_node(RawNode { plane: row.plane, own: own_len, front, back })?;
-        // The front comes off first, as nodes stand depth first.
-        let kept = sides.into_iter().rev().filter(|&side| !is_small_leaf(side));
-        self.table.sets.extend(kept.map(|side| (side, depth)));
-        Ok(())
-    }
-
-    /// Puts the sets that are not yet divided back on the stack.
-    fn leave_table(&mut self) -> Result<(), Error> {
-        let arena = self.arena.len();
-        for i in 0..self.table.sets.len() {
-            let (set, depth) = self.table.sets[i];
-            let start = self.pieces.len();
-            reserve(&mut self.pieces, set.count_ones() as usize)?;
-            self.pieces.extend(slots(set).map(|slot| self.table.slots[slot].piece));
-            self.pending.push(Pending::new(start..self.pieces.len(), arena, depth));
-        }
-        Ok(())
-    }
 }

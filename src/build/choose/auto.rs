@@ -1,11 +1,11 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
-use super::Rules;
 use super::choice::Choice;
 use super::cost::{Candidate, Cost};
 use super::free::Sweep;
 use super::own::{Contest, Terms};
 use super::peel::{Peeler, arrange};
+use super::rules::Rules;
 use super::sample::Sample;
 use super::set::Set;
 use super::sketch::{LANES, Sketch};

@@ -6,6 +6,7 @@ mod cost;
 mod free;
 mod own;
 mod peel;
+mod rules;
 mod sample;
 mod scored;
 mod set;
@@ -15,7 +16,6 @@ mod tests;
 mod tuning;
 
 use super::heuristic::{DEFAULT_WEIGHTS, Heuristic};
-use super::progress::Watch;
 use crate::exact::{Kernel, PlaneId};
 use crate::random::mix;
 use auto::Auto;
@@ -23,6 +23,7 @@ pub(super) use choice::Choice;
 use free::Sweep;
 pub(super) use own::Best;
 pub(super) use peel::Peeled;
+pub(super) use rules::Rules;
 use scored::Scored;
 pub(super) use set::{Normals, Set};
 pub use tuning::Tuning;
@@ -30,22 +31,6 @@ pub use tuning::Tuning;
 /// The most own planes that heuristics try which would try all, spread evenly over the set. More: time
 /// that grows with the square of the set; fewer: planes that cut more.
 const MOST_CANDIDATES: usize = 256;
-
-/// By what planes are chosen.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rules<'a> {
-    pub(super) heuristic: Heuristic,
-    pub(super) tuning: &'a Tuning,
-    /// Once a build is cancelled, any plane is chosen, quickly.
-    pub(super) watch: &'a Watch<'a>,
-}
-
-impl Rules<'_> {
-    /// Whether a set is divided from a table of all pieces against all planes.
-    pub(super) fn is_small(&self, pieces: usize) -> bool {
-        self.heuristic == Heuristic::Auto && pieces <= self.tuning.table
-    }
-}
 
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]

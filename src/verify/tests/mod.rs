@@ -1,6 +1,7 @@
 //! Judgements of right trees and of wrong orders.
 
 mod contested;
+mod mix;
 mod orders;
 
 use super::{paint_tree_in_colour, verify};

@@ -1,0 +1,230 @@
+//! Makes the vertices and triangles of a mesh from the points of its fragments' edges.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::outline::{Corner, triangulate};
+use super::points::{Points, coordinate};
+use super::survey::{Node, Survey, ends};
+use super::triangles::Triangles;
+use crate::Error;
+use crate::exact::{Symbol, SymbolKind};
+use crate::memory::reserve;
+use crate::tree::BspTree;
+
+/// What a mesh consists of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Assembled {
+    /// Where each point is.
+    pub(super) positions: Vec<DVec3>,
+    /// For each vertex, its point, its polygon, and where its weights end.
+    pub(super) vertices: Vec<Record>,
+    pub(super) weights: Vec<(u32, f64)>,
+}
+
+/// A vertex as a mesh stores it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Record {
+    pub(super) point: u32,
+    pub(super) polygon: u32,
+    pub(super) weights_end: usize,
+}
+
+/// The mesh of a tree, welded or not.
+pub(super) fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangles), Error> {
+    let survey = Survey::new(tree)?;
+    let points = Points::new(&survey)?;
+    let mut lengths = Vec::new();
+    reserve(&mut lengths, tree.len())?;
+    lengths.resize(tree.len(), 0_u32);
+    for (at, &fragment) in survey.fragments.iter().enumerate() {
+        let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
+        let steps = points.ends[range].iter().map(|&[from, to]| match from.abs_diff(to) {
+            steps if weld => steps,
+            steps => steps.min(1),
+        });
+        let triangles = steps.sum::<u32>().saturating_sub(2);
+        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Error::too_many_indices())?;
+    }
+    let mut triangles = Triangles::with_lengths(lengths.into_iter())?;
+    let mut assembler = Assembler::new(&survey, &points)?;
+    for (at, &fragment) in survey.fragments.iter().enumerate() {
+        assembler.outline(at, weld)?;
+        let mut places = triangles.of_mut(fragment).as_chunks_mut::<3>().0.iter_mut();
+        triangulate(&assembler.outline, |triangle| {
+            if let Some(place) = places.next() {
+                *place = triangle;
+            }
+        });
+    }
+    Ok((assembler.made, triangles))
+}
+
+/// Numbers that name no point, and no corner.
+const NONE: u32 = u32::MAX;
+
+/// What tells two vertices of a polygon apart: the point, and the corners that have weights there.
+/// (A polygon that touches itself has several corners at one point.)
+type Key = (u32, [u32; 3]);
+
+struct Assembler<'s, 't> {
+    survey: &'s Survey<'t>,
+    points: &'s Points,
+    made: Assembled,
+    /// The number of each node's point, if the node names it and it has one.
+    numbers: Vec<u32>,
+    /// The vertices of the current polygon.
+    known: HashMap<Key, u32>,
+    polygon: usize,
+    /// The outline of the current fragment.
+    outline: Vec<Corner>,
+}
+
+impl<'s, 't> Assembler<'s, 't> {
+    fn new(survey: &'s Survey<'t>, points: &'s Points) -> Result<Self, Error> {
+        let mut numbers = Vec::new();
+        reserve(&mut numbers, survey.nodes())?;
+        numbers.resize(survey.nodes(), NONE);
+        let (made, known) = (Assembled::default(), HashMap::new());
+        let (polygon, outline) = (usize::MAX, Vec::new());
+        Ok(Self { survey, points, made, numbers, known, polygon, outline })
+    }
+
+    /// Makes the outline of a fragment, given its place among the fragments face by face.
+    fn outline(&mut self, at: usize, weld: bool) -> Result<(), Error> {
+        let (survey, points) = (self.survey, self.points);
+        let face = survey.tree.records[survey.fragments[at] as usize].face;
+        if survey.tree.faces.polygon(face) != self.polygon {
+            self.polygon = survey.tree.faces.polygon(face);
+            self.known.clear();
+        }
+        self.outline.clear();
+        let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
+        let edges = &survey.edges[range.clone()];
+        let lines = survey.tree.fragment(survey.fragments[at]).lines();
+        let mut before = edges.last().map(|edge| edge.carrier);
+        for ((edge, &[from, to]), line) in edges.iter().zip(&points.ends[range]).zip(lines) {
+            // Two edges on one line: the polygon's outline runs straight on here.
+            let straight = before == Some(edge.carrier);
+            if from == to {
+                continue;
+            }
+            before = Some(edge.carrier);
+            let vertex = self.own_vertex(face, edge.from)?;
+            self.outline.push(Corner { vertex, straight });
+            if weld {
+                let inside = from.min(to) + 1..from.max(to);
+                for k in 0..inside.len() as u32 {
+                    let place = if from < to { inside.start + k } else { inside.end - 1 - k };
+                    let node = points.on_lines[place as usize];
+                    let vertex = match line.as_edge() {
+                        Some(k) => self.vertex_on_edge(face, k, edge.carrier, node)?,
+                        None => self.own_vertex(face, node)?,
+                    };
+                    self.outline.push(Corner { vertex, straight: true });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A vertex that the face itself has.
+    fn own_vertex(&mut self, face: u32, node: Node) -> Result<u32, Error> {
+        let faces = &self.survey.tree.faces;
+        let symbol = match self.survey.cut(node) {
+            Some((_, symbol)) => symbol,
+            None => Symbol::corner(node - faces.corner_range(face).start as u32),
+        };
+        let number = |k: u32| faces.corner_number(face, k);
+        let corners = match symbol.kind() {
+            SymbolKind::Corner(k) => [number(k), NONE, NONE],
+            SymbolKind::OnEdge(k, _) => pair(edge_numbers(self.survey, face, k)),
+            SymbolKind::Inside(..) => {
+                let first = faces.corner_range(face).start as u32;
+                faces.reference_triangle(face).map(|corner| number(corner - first))
+            }
+        };
+        self.vertex(node, corners, || {
+            let weights = faces.barycentric(face, symbol).into_iter();
+            weights.map(|(k, weight)| (number(k), weight)).collect()
+        })
+    }
+
+    /// A vertex inside an edge of the face that another face has there.
+    fn vertex_on_edge(&mut self, face: u32, k: u32, line: u32, node: Node) -> Result<u32, Error> {
+        let survey = self.survey;
+        let numbers = edge_numbers(survey, face, k);
+        self.vertex(node, pair(numbers), || {
+            let axis = survey.carriers[line as usize].axis;
+            let [a, b] = ends(&survey.tree.faces, face, k).map(|end| end[axis]);
+            let share = coordinate(survey, line as usize, node).share(a, b).clamp(0.0, 1.0);
+            vec![(numbers[0], 1.0 - share), (numbers[1], share)]
+        })
+    }
+
+    /// The number of a vertex, which is made if the polygon has none like it.
+    fn vertex(
+        &mut self,
+        node: Node,
+        corners: [u32; 3],
+        weights: impl FnOnce() -> Vec<(u32, f64)>,
+    ) -> Result<u32, Error> {
+        let point = self.point(node)?;
+        if let Some(&vertex) = self.known.get(&(point, corners)) {
+            return Ok(vertex);
+        }
+        let weights = weights();
+        reserve(&mut self.made.weights, weights.len())?;
+        self.made.weights.extend(weights);
+        reserve(&mut self.made.vertices, 1)?;
+        let (polygon, weights_end) = (self.polygon as u32, self.made.weights.len());
+        let vertex = self.made.vertices.len() as u32;
+        self.made.vertices.push(Record { point, polygon, weights_end });
+        self.known.insert((point, corners), vertex);
+        Ok(vertex)
+    }
+
+    /// The number of a node's point.
+    fn point(&mut self, node: Node) -> Result<u32, Error> {
+        let root = self.points.root(node);
+        let number = self.numbers[root as usize];
+        if number != NONE {
+            return Ok(number);
+        }
+        let faces = &self.survey.tree.faces;
+        let place = match self.survey.cut(root) {
+            None => faces.given_corner(root),
+            Some((face, symbol)) => place_of_cut(self.survey, face, symbol),
+        };
+        reserve(&mut self.made.positions, 1)?;
+        self.made.positions.push(faces.lattice().to_world(place));
+        let number = self.made.positions.len() as u32 - 1;
+        self.numbers[root as usize] = number;
+        Ok(number)
+    }
+}
+
+/// Where a vertex is that is no corner, in lattice units: on an edge as given, if it is on one, so
+/// that all faces at the edge agree.
+fn place_of_cut(survey: &Survey<'_>, face: u32, symbol: Symbol) -> [f64; 3] {
+    let faces = &survey.tree.faces;
+    match symbol.kind() {
+        SymbolKind::OnEdge(k, plane) if faces.upright_axis(face).is_some() => {
+            let cut = faces.cut_of_segment(ends(faces, face, k), plane);
+            cut.map_or_else(|| faces.position(face, symbol), |cut| cut.position())
+        }
+        _ => faces.position(face, symbol),
+    }
+}
+
+fn pair([a, b]: [u32; 2]) -> [u32; 3] {
+    [a.min(b), a.max(b), NONE]
+}
+
+/// The numbers, within the polygon, of the corners at the ends of a face's edge.
+fn edge_numbers(survey: &Survey<'_>, face: u32, k: u32) -> [u32; 2] {
+    let faces = &survey.tree.faces;
+    let len = faces.corner_range(face).len() as u32;
+    [k, if k + 1 == len { 0 } else { k + 1 }].map(|k| faces.corner_number(face, k))
+}

@@ -1,0 +1,152 @@
+//! Lists the edges of all fragments: between which nodes they run, and along which line.
+
+use std::collections::HashMap;
+
+use super::lines::{Carrier, Lines};
+use crate::Error;
+use crate::exact::{Faces, PlaneId, Symbol, SymbolKind};
+use crate::memory::reserve;
+use crate::tree::BspTree;
+
+/// A vertex as one face names it: a corner, or where planes cut the face. The first nodes are the
+/// corners of all faces, the others [`Survey::cuts`].
+pub(super) type Node = u32;
+
+/// An edge of a fragment. It ends where the fragment's next edge begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    pub(super) carrier: u32,
+    pub(super) from: Node,
+}
+
+/// The edges of all fragments, face by face.
+pub(super) struct Survey<'t> {
+    pub(super) tree: &'t BspTree,
+    /// The numbers of all fragments, face by face.
+    pub(super) fragments: Vec<u32>,
+    /// Where the edges of each of `fragments` begin, and the end of the last.
+    pub(super) starts: Vec<u32>,
+    pub(super) edges: Vec<Edge>,
+    /// Nodes that are no corners: a face, and the vertex on it.
+    pub(super) cuts: Vec<(u32, Symbol)>,
+    pub(super) carriers: Vec<Carrier>,
+}
+
+impl<'t> Survey<'t> {
+    pub(super) fn new(tree: &'t BspTree) -> Result<Self, Error> {
+        let fragments = by_face(tree)?;
+        let (starts, edges) = (Vec::new(), Vec::new());
+        let mut survey =
+            Self { tree, fragments, starts, edges, cuts: Vec::new(), carriers: Vec::new() };
+        let edges = tree.fragments().map(|fragment| fragment.vertex_count()).sum();
+        u32::try_from(2 * edges).map_err(|_| Error::too_many_indices())?;
+        reserve(&mut survey.edges, edges)?;
+        reserve(&mut survey.starts, tree.len() + 1)?;
+        let mut names = Names::default();
+        for at in 0..survey.fragments.len() {
+            let fragment = tree.fragment(survey.fragments[at]);
+            names.enter(&tree.faces, fragment.face());
+            survey.starts.push(survey.edges.len() as u32);
+            for (symbol, line) in fragment.symbols().zip(fragment.lines()) {
+                let from = survey.node(&mut names, symbol);
+                let carrier = match line.as_cut() {
+                    Some(plane) => survey.carrier_of_cut(&mut names, plane),
+                    None => survey.carrier_of_edge(&mut names, line.as_edge().unwrap_or(0)),
+                };
+                survey.edges.push(Edge { carrier, from });
+            }
+        }
+        survey.starts.push(survey.edges.len() as u32);
+        Ok(survey)
+    }
+
+    fn node(&mut self, names: &mut Names, symbol: Symbol) -> Node {
+        if let SymbolKind::Corner(k) = symbol.kind() {
+            return names.first_corner + k;
+        }
+        let corners = self.tree.faces.corner_count();
+        *names.symbols.entry(symbol).or_insert_with(|| {
+            self.cuts.push((names.face, symbol));
+            (corners + self.cuts.len() - 1) as u32
+        })
+    }
+
+    fn carrier_of_cut(&mut self, names: &mut Names, plane: PlaneId) -> u32 {
+        *names.planes.entry(plane).or_insert_with(|| {
+            let axis = self.tree.faces.axis_of_cut(names.face, plane);
+            self.carriers.push(Carrier { axis, face: Some(names.face) });
+            self.carriers.len() as u32 - 1
+        })
+    }
+
+    fn carrier_of_edge(&mut self, names: &mut Names, k: u32) -> u32 {
+        let known = &mut names.edges[k as usize];
+        *known.get_or_insert_with(|| {
+            let ends = ends(&self.tree.faces, names.face, k);
+            names.lines.number(ends, &mut self.carriers)
+        })
+    }
+
+    /// Which face and vertex a node is, unless it is a corner.
+    pub(super) fn cut(&self, node: Node) -> Option<(u32, Symbol)> {
+        let at = (node as usize).checked_sub(self.tree.faces.corner_count())?;
+        self.cuts.get(at).copied()
+    }
+
+    /// How many nodes there are.
+    pub(super) fn nodes(&self) -> usize {
+        self.tree.faces.corner_count() + self.cuts.len()
+    }
+}
+
+/// The ends of a face's edge, as they were given.
+pub(super) fn ends(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
+    let range = faces.corner_range(face);
+    let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
+    [k, next].map(|k| faces.given_corner(range.start as u32 + k))
+}
+
+/// What has a number already, on the current face; lines on any face.
+#[derive(Default)]
+struct Names {
+    face: u32,
+    first_corner: u32,
+    symbols: HashMap<Symbol, Node>,
+    planes: HashMap<PlaneId, u32>,
+    edges: Vec<Option<u32>>,
+    lines: Lines,
+}
+
+impl Names {
+    fn enter(&mut self, faces: &Faces, face: u32) {
+        if face == self.face && !self.edges.is_empty() {
+            return;
+        }
+        let corners = faces.corner_range(face);
+        (self.face, self.first_corner) = (face, corners.start as u32);
+        self.symbols.clear();
+        self.planes.clear();
+        self.edges.clear();
+        self.edges.resize(corners.len(), None);
+    }
+}
+
+/// The numbers of all fragments, face by face.
+fn by_face(tree: &BspTree) -> Result<Vec<u32>, Error> {
+    let mut ends = vec![0_u32; tree.faces.len()];
+    tree.records.iter().for_each(|record| ends[record.face as usize] += 1);
+    let mut sum = 0;
+    for end in &mut ends {
+        sum += *end;
+        *end = sum;
+    }
+    let mut fragments = Vec::new();
+    reserve(&mut fragments, tree.len())?;
+    fragments.resize(tree.len(), 0);
+    for (number, record) in tree.records.iter().enumerate().rev() {
+        let end = &mut ends[record.face as usize];
+        *end -= 1;
+        fragments[*end as usize] = number as u32;
+    }
+    Ok(fragments)
+}

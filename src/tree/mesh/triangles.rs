@@ -1,0 +1,177 @@
+//! Triangles of fragments as indices, and their order for a viewpoint.
+
+use std::ops::Range;
+
+use crate::Error;
+use crate::memory::reserve;
+use crate::tree::BspTree;
+use crate::viewpoint::Viewpoint;
+
+/// Triangles of a tree's fragments: three vertices of a [`Mesh`](crate::Mesh) each, one range of
+/// indices a fragment.
+///
+/// [`Mesh::triangles`](crate::Mesh::triangles) has those of all fragments,
+/// [`Mesh::triangles_of`](crate::Mesh::triangles_of) those of some polygons, such as the translucent
+/// ones.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Triangles {
+    /// Where each fragment's indices begin, and the end of the last.
+    starts: Vec<u32>,
+    /// [`CHUNK`] more than there are.
+    indices: Vec<u32>,
+    /// How many triangles each fragment has, if all have as many.
+    each: Option<u32>,
+}
+
+impl Triangles {
+    /// Room for so many indices of each fragment.
+    pub(super) fn with_lengths(lengths: impl Iterator<Item = u32>) -> Result<Self, Error> {
+        let (mut starts, mut indices) = (Vec::new(), Vec::new());
+        reserve(&mut starts, lengths.size_hint().0 + 1)?;
+        let mut sum = 0_u32;
+        starts.push(sum);
+        for length in lengths {
+            sum = sum.checked_add(length).ok_or(Error::too_many_indices())?;
+            starts.push(sum);
+        }
+        reserve(&mut indices, sum as usize + CHUNK)?;
+        indices.resize(sum as usize + CHUNK, 0);
+        let mut lengths = starts.windows(2).map(|ends| ends[1] - ends[0]);
+        let first = lengths.next().unwrap_or(0);
+        let each = lengths.all(|length| length == first).then_some(first / 3);
+        Ok(Self { starts, indices, each })
+    }
+
+    /// The indices of a fragment, to be filled in.
+    pub(super) fn of_mut(&mut self, fragment: u32) -> &mut [u32] {
+        let range = self.range(fragment);
+        &mut self.indices[range]
+    }
+
+    /// Those of some fragments alone.
+    pub(super) fn of_fragments(&self, keep: impl Fn(u32) -> bool) -> Result<Self, Error> {
+        let fragments = 0..self.starts.len() as u32 - 1;
+        let kept = |fragment| if keep(fragment) { self.range(fragment) } else { 0..0 };
+        let mut some = Self::with_lengths(fragments.clone().map(|f| kept(f).len() as u32))?;
+        for fragment in fragments {
+            some.of_mut(fragment).copy_from_slice(&self.indices[kept(fragment)]);
+        }
+        Ok(some)
+    }
+
+    /// All indices in the order of the fragments' numbers, for what is drawn in any order.
+    pub fn indices(&self) -> &[u32] {
+        &self.indices[..self.indices.len() - CHUNK]
+    }
+
+    /// Which of [`indices`](Self::indices) a fragment has, given its number.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such fragment.
+    pub fn range(&self, fragment: u32) -> Range<usize> {
+        let fragment = fragment as usize;
+        self.starts[fragment] as usize..self.starts[fragment + 1] as usize
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.starts) + size_of_val(&*self.indices)
+    }
+
+    /// Writes the indices back to front, and returns how many: always the length of
+    /// [`indices`](Self::indices). Inside a fragment the triangles keep their order.
+    ///
+    /// `indices` may be mapped memory of a device: each place is written once, from the first on,
+    /// and none is read. Places beyond are left as they are. `order` is working space, in which the
+    /// order of the fragments is left; as in
+    /// [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once it has grown.
+    ///
+    /// O(n).
+    ///
+    /// # Errors
+    ///
+    /// If `indices` is too short, or the tree is not the one that the mesh was made of and has
+    /// another number of fragments. Then nothing is written.
+    pub fn write_back_to_front(
+        &self,
+        tree: &BspTree,
+        viewpoint: Viewpoint,
+        order: &mut Vec<u32>,
+        indices: &mut [u32],
+    ) -> Result<usize, Error> {
+        let (count, fragments) = (self.indices().len(), self.starts.len() - 1);
+        if tree.len() != fragments {
+            return Err(Error::other_tree(tree.len(), fragments));
+        }
+        let given = indices.len();
+        let places = indices.get_mut(..count).ok_or(Error::places(count, given))?;
+        tree.back_to_front_into(viewpoint, order);
+        self.write(order, places);
+        Ok(count)
+    }
+
+    /// Writes the indices of fragments one after the other.
+    fn write(&self, order: &[u32], places: &mut [u32]) {
+        match self.each {
+            Some(1) => self.write_equal::<3>(order, places),
+            Some(2) => self.write_equal::<6>(order, places),
+            _ => self.write_staged(order, places),
+        }
+    }
+
+    /// If each fragment has N indices, the place of a fragment's is known without looking.
+    fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
+        let (all, places) = (self.indices.as_chunks::<N>().0, places.as_chunks_mut::<N>().0);
+        for (&fragment, place) in order.iter().zip(places) {
+            *place = all[fragment as usize];
+        }
+    }
+
+    /// Each fragment's indices are copied into a small buffer, always [`CHUNK`] of them, and those
+    /// too many are written over by the next fragment's. That is faster than a branch on how many
+    /// there are, which no processor can predict; but the caller's memory must be written once.
+    fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
+        let mut stage = [0_u32; STAGE + CHUNK];
+        let mut filled = 0;
+        for &fragment in order {
+            let fragment = fragment as usize;
+            let (start, end) = (self.starts[fragment] as usize, self.starts[fragment + 1] as usize);
+            // Behind the last fragment's indices there is room to read so many.
+            let from = self.indices[start..].first_chunk::<CHUNK>();
+            let to = stage[filled..].first_chunk_mut::<CHUNK>();
+            let (Some(from), Some(to)) = (from, to) else { continue };
+            *to = *from;
+            let rest = if end - start <= CHUNK {
+                filled += end - start;
+                &[]
+            } else {
+                filled += CHUNK;
+                &self.indices[start + CHUNK..end]
+            };
+            if filled >= STAGE || !rest.is_empty() {
+                places = put(places, &stage[..filled]);
+                places = put(places, rest);
+                filled = 0;
+            }
+        }
+        put(places, &stage[..filled]);
+    }
+}
+
+/// How many indices are copied at once: four triangles. Smaller: more fragments are copied piece by
+/// piece; larger: more is copied in vain.
+const CHUNK: usize = 12;
+/// How many indices are gathered before they are written, 4 kB. Smaller: more calls; larger: the
+/// buffer leaves the processor's nearest cache.
+const STAGE: usize = 1024;
+
+/// Writes some indices to the first places, and returns the other places.
+fn put<'p>(places: &'p mut [u32], indices: &[u32]) -> &'p mut [u32] {
+    match places.split_at_mut_checked(indices.len()) {
+        Some((first, rest)) => {
+            first.copy_from_slice(indices);
+            rest
+        }
+        None => &mut [],
+    }
+}

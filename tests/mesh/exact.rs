@@ -1,0 +1,162 @@
+//! Points, triangles and weights against exact rationals.
+
+use super::open_edges;
+use crate::support::hard::{self, Tolerance};
+use crate::support::model::{Face, main_axis};
+use crate::support::rational::{self, Point, difference, product};
+use crate::support::tally::tally;
+use binspace::glam::DVec3;
+use binspace::internals::Line;
+use binspace::{BspTree, BuildOptions, Heuristic, Mesh};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use std::collections::HashMap;
+
+/// What was checked.
+#[derive(Default)]
+struct Seen {
+    triangles: usize,
+    inserted: usize,
+}
+
+/// The exact place of each point, from the fragments that have it as a vertex of their own.
+fn places(
+    tree: &BspTree,
+    mesh: &Mesh,
+    faces: &[Face],
+) -> Result<Vec<Option<Point>>, TestCaseError> {
+    let mut places: Vec<Option<Point>> = vec![None; mesh.positions().len()];
+    for fragment in tree.fragments() {
+        let face = &faces[fragment.face() as usize];
+        let mut vertices =
+            mesh.triangles().indices()[mesh.triangles().range(fragment.index())].to_vec();
+        vertices.sort_unstable();
+        vertices.dedup();
+        for (symbol, rounded) in fragment.symbols().zip(fragment.vertices()) {
+            let distance = |&v: &u32| mesh.vertex(v).position.distance(rounded);
+            vertices.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+            prop_assert!(vertices.len() >= 3, "a fragment without triangles");
+            prop_assert!(distance(&vertices[0]) <= 1e-12 * hard_size(tree));
+            // Two vertices that a rounding may have exchanged: neither is known from here.
+            if distance(&vertices[1]) <= 4e-12 * hard_size(tree) {
+                continue;
+            }
+            let exact = face.resolve(tree.faces(), symbol);
+            let place = &mut places[mesh.vertex(vertices[0]).point as usize];
+            prop_assert!(
+                place.as_ref().is_none_or(|place| *place == exact),
+                "one point, two places"
+            );
+            *place = Some(exact);
+        }
+    }
+    Ok(places)
+}
+
+fn hard_size(tree: &BspTree) -> f64 {
+    let size = |p: DVec3| p.abs().max_element();
+    tree.fragments().flat_map(|f| f.vertices()).map(size).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+fn check(tree: &BspTree, polygons: &[Vec<DVec3>], seen: &mut Seen) -> Result<(), TestCaseError> {
+    let faces: Vec<Face> =
+        (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
+    let mesh = tree.welded_mesh().unwrap();
+    let places = places(tree, &mesh, &faces)?;
+    let place = |vertex: u32| places[mesh.vertex(vertex).point as usize].as_ref();
+    for fragment in tree.fragments() {
+        let face = &faces[fragment.face() as usize];
+        let axis = main_axis(&face.plane);
+        let facing = rational::sign(&face.plane.normal[axis]);
+        let outline: Vec<Point> =
+            fragment.symbols().map(|symbol| face.resolve(tree.faces(), symbol)).collect();
+        let whole = rational::area(&outline);
+        let mut sum = [0.0; 3].map(rational::exact);
+        let triangles = &mesh.triangles().indices()[mesh.triangles().range(fragment.index())];
+        if triangles.iter().any(|&vertex| place(vertex).is_none()) {
+            continue;
+        }
+        seen.inserted += triangles.len() / 3 + 2 - fragment.vertex_count();
+        for triangle in triangles.chunks(3) {
+            let [Some(a), Some(b), Some(c)] = [0, 1, 2].map(|k| place(triangle[k])) else {
+                continue;
+            };
+            let area = product(&difference(b, a), &difference(c, a));
+            prop_assert_eq!(
+                rational::sign(&area[axis]),
+                facing,
+                "a triangle without area or turned"
+            );
+            sum = rational::sum(&sum, &area);
+            seen.triangles += 1;
+        }
+        prop_assert_eq!(sum, whole, "the triangles do not fill fragment {}", fragment.index());
+    }
+    let size = hard_size(tree);
+    for vertex in mesh.vertices() {
+        let sum: f64 = vertex.weights.iter().map(|&(_, weight)| weight).sum();
+        prop_assert!((sum - 1.0).abs() < 1e-12);
+        let at: DVec3 = vertex
+            .weights
+            .iter()
+            .map(|&(corner, weight)| polygons[vertex.polygon][corner as usize] * weight)
+            .sum();
+        prop_assert!(at.distance(vertex.position) <= 1e-9 * size, "{vertex:?}");
+    }
+    inner_edges_match(tree, &mesh)
+}
+
+/// Between the fragments of a face no edge is open: all open edges lie on the face's own.
+fn inner_edges_match(tree: &BspTree, mesh: &Mesh) -> Result<(), TestCaseError> {
+    let mut by_face: HashMap<u32, Vec<u32>> = HashMap::new();
+    let mut on_edges: HashMap<u32, usize> = HashMap::new();
+    for fragment in tree.fragments() {
+        by_face.entry(fragment.face()).or_default().push(fragment.index());
+        let outer = |line: &Line| line.as_edge().is_some();
+        *on_edges.entry(fragment.face()).or_default() += fragment.lines().filter(outer).count();
+    }
+    for (face, fragments) in by_face {
+        let open = open_edges(mesh, mesh.triangles(), &fragments);
+        // The open edges are one closed way: each point is left as often as it is come to.
+        let mut balance: HashMap<u32, i32> = HashMap::new();
+        for (&[a, b], &count) in &open {
+            *balance.entry(a).or_default() += count;
+            *balance.entry(b).or_default() -= count;
+            prop_assert_eq!(count.abs(), 1);
+        }
+        prop_assert!(balance.values().all(|&count| count == 0));
+        let corners = tree.faces().corners(face).len();
+        prop_assert!(open.len() >= corners.max(on_edges[&face]));
+        let on_outline = open.keys().filter(|ends| is_on_outline(tree, mesh, face, **ends)).count();
+        prop_assert_eq!(on_outline, open.len(), "face {} is open inside", face);
+    }
+    Ok(())
+}
+
+/// Whether both ends are near one edge of a face.
+fn is_on_outline(tree: &BspTree, mesh: &Mesh, face: u32, ends: [u32; 2]) -> bool {
+    let lattice = tree.faces().lattice();
+    let corners: Vec<DVec3> =
+        tree.faces().corners(face).iter().map(|&corner| lattice.to_world(corner)).collect();
+    (0..corners.len()).any(|k| {
+        let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+        ends.iter().all(|&end| {
+            let to = mesh.positions()[end as usize] - a;
+            let foot = (b - a) * (to.dot(b - a) / (b - a).length_squared());
+            to.distance(foot) <= 1e-11 * hard_size(tree)
+        })
+    })
+}
+
+#[test]
+fn triangles_fill_fragments_exactly() {
+    let cases = (hard::scene(), prop::sample::select(Heuristic::ALL));
+    let seen: Seen = tally(file!(), 128, cases, |seen: &mut Seen, (scene, by)| {
+        let scene = scene.with_tolerance(Tolerance::Share(0.0));
+        let mut options = BuildOptions::DEFAULT.with_heuristic(by);
+        options.tolerance = scene.tolerance().into();
+        check(&options.build(&scene.polygons).unwrap(), &scene.polygons, seen)
+    });
+    let Seen { triangles, inserted } = seen;
+    assert!(triangles > 3000 && inserted > 150, "{triangles} triangles, {inserted} inserted");
+}
