@@ -8,10 +8,13 @@ use crate::Error;
 /// # Errors
 ///
 /// If there is not enough memory.
+#[inline]
 pub(crate) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
-    if list.capacity() - list.len() >= more {
-        return Ok(());
-    }
+    if list.capacity() - list.len() >= more { Ok(()) } else { grow(list, more) }
+}
+
+#[cold]
+fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
     let spare = (list.len() / 8).max(64);
     list.try_reserve_exact(more.saturating_add(spare)).map_err(|_| Error::out_of_memory())
 }

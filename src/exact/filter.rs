@@ -12,7 +12,7 @@ use super::{Faces, Int};
 #[derive(Clone, Copy, Debug)]
 pub struct ExactSplitter {
     pub(super) plane: PlaneId,
-    exact: Plane,
+    pub(super) exact: Plane,
     normal: [f64; 3],
     offset: f64,
     /// A rounded distance has the right sign if it is larger than this.

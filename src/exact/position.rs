@@ -31,10 +31,20 @@ impl Faces {
     /// vertex. All pieces, of any face, that define the vertex by the same points and planes get
     /// the same bits.
     pub(crate) fn position(&self, face: u32, vertex: Symbol) -> [f64; 3] {
+        self.position_by(face, vertex, None)
+    }
+
+    /// The same, where one of the planes that may define the vertex is at hand.
+    pub(super) fn position_by(
+        &self,
+        face: u32,
+        vertex: Symbol,
+        at_hand: Option<(PlaneId, Plane)>,
+    ) -> [f64; 3] {
         if let SymbolKind::Corner(k) = vertex.kind() {
             return self.corners(face)[k as usize];
         }
-        let leading = match self.definition(face, vertex) {
+        let leading = match self.definition(face, vertex, at_hand) {
             Definition::Edge(ends, plane) => on_edge(&ends, &plane),
             Definition::Meeting(triangle, [g, h]) => meeting(&triangle, &g, &h),
             Definition::Corner(_) | Definition::Moved { .. } => None,

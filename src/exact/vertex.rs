@@ -160,7 +160,7 @@ impl Faces {
 
     /// A vertex as a combination of corners of its face.
     pub(crate) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
-        match self.definition(face, vertex) {
+        match self.definition(face, vertex, None) {
             Definition::Corner(point) => Weights::Corner(point),
             Definition::Moved { corner, triangle, axis } => {
                 let area = |p, q| Int::from(cross(corner, p, q)[axis]);
@@ -172,8 +172,17 @@ impl Faces {
         }
     }
 
-    /// What defines a vertex: lattice points and planes.
-    pub(super) fn definition(&self, face: u32, vertex: Symbol) -> Definition {
+    /// What defines a vertex: lattice points and planes, one of which may be at hand.
+    pub(super) fn definition(
+        &self,
+        face: u32,
+        vertex: Symbol,
+        at_hand: Option<(PlaneId, Plane)>,
+    ) -> Definition {
+        let plane_of = |id| match at_hand {
+            Some((known, plane)) if known == id => plane,
+            _ => self.plane(id),
+        };
         let record = &self.faces[face as usize];
         let corners = self.corners(face);
         let triangle = record.frame.triangle().map(|k| corners[k as usize]);
@@ -195,11 +204,11 @@ impl Faces {
             (SymbolKind::Corner(k), _) => Definition::Corner(corners[k as usize]),
             (SymbolKind::OnEdge(k, plane), Some(axis)) if !(stays(k) && stays(k + 1)) => {
                 let [a, b] = edge(k);
-                Definition::Meeting(triangle, [Plane::upright(a, b, axis), self.plane(plane)])
+                Definition::Meeting(triangle, [Plane::upright(a, b, axis), plane_of(plane)])
             }
-            (SymbolKind::OnEdge(k, plane), _) => Definition::Edge(edge(k), self.plane(plane)),
+            (SymbolKind::OnEdge(k, plane), _) => Definition::Edge(edge(k), plane_of(plane)),
             (SymbolKind::Inside(g, h), _) => {
-                Definition::Meeting(triangle, [self.plane(g), self.plane(h)])
+                Definition::Meeting(triangle, [plane_of(g), plane_of(h)])
             }
         }
     }

@@ -14,24 +14,18 @@ impl Builder {
     pub(super) fn widest_triangle(&self) -> Option<([usize; 2], Plane)> {
         let point = |k: usize| DVec3::from(self.kept[k].0);
         let (origin, n) = (self.kept.first().map(|_| point(0))?, self.kept.len());
-        let largest = |size: &dyn Fn(usize) -> f64, skipped: usize| {
-            let others = (1..n).filter(|&k| k != skipped);
-            // The last of equals.
-            others.fold(None, |best, k| match (best, size(k)) {
-                (Some((_, most)), size) if size < most => best,
-                (_, size) => Some((k, size)),
-            })
-        };
-        let (far, _) = largest(&|k| point(k).distance_squared(origin), 0)?;
+        let mut others = 1..n;
+        let far = largest(others.clone(), |k| point(k).distance_squared(origin))?;
         let arm = point(far) - origin;
-        let (best, _) = largest(&|k| arm.cross(point(k) - origin).length_squared(), far)?;
+        let rest = others.clone().filter(|&k| k != far);
+        let best = largest(rest, |k| arm.cross(point(k) - origin).length_squared())?;
         let exact = |third: usize| {
             let (low, high) = (far.min(third), far.max(third));
             let plane = Plane::through([0, low, high].map(|k| self.kept[k].0));
             (plane.normal() != [0; 3]).then_some(([low, high], plane))
         };
         // In a nearly straight polygon the rounded areas may choose a corner exactly on the line.
-        exact(best).or_else(|| (1..n).find_map(exact))
+        exact(best).or_else(|| others.find_map(exact))
     }
 
     /// How far the corner furthest from the plane of three corners is off it, in lattice units,
@@ -46,15 +40,19 @@ impl Builder {
     /// Whether the polygon is convex and winds once, seen along the axis in which its plane is
     /// least steep: of three of its corners. Exact.
     pub(super) fn is_convex(&self, plane: &Plane) -> bool {
-        let at = |k: usize| self.kept[k % self.kept.len()].0;
         let drop = plane.main_axis();
         let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
-        let step = |k: usize| [at(k + 1)[x] - at(k)[x], at(k + 1)[y] - at(k)[y]];
+        let points = self.kept.iter().map(|(point, _)| [point[x], point[y]]);
+        // Twice round, so that each corner has the next two behind it.
+        let mut ahead = points.clone().chain(points.clone());
+        let (Some(mut here), Some(mut next)) = (ahead.next(), ahead.next()) else { return false };
+        let step = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
         let mut rises = 0;
         let mut turn = 0i8;
         let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
-        for k in 0..self.kept.len() {
-            let (a, b) = (step(k), step(k + 1));
+        for then in ahead.take(self.kept.len()) {
+            let (a, b) = (step(here, next), step(next, then));
+            (here, next) = (next, then);
             // The projection puts two corners in a row on one point: no direction to turn from.
             if a == [0.0; 2] || b == [0.0; 2] {
                 return false;
@@ -98,4 +96,16 @@ impl Builder {
         }
         Ok(())
     }
+}
+
+/// The number of the largest size, the last of equals.
+fn largest(numbers: impl Iterator<Item = usize>, size: impl Fn(usize) -> f64) -> Option<usize> {
+    let (mut best, mut most) = (None, f64::NEG_INFINITY);
+    for k in numbers {
+        let size = size(k);
+        if size >= most {
+            (best, most) = (Some(k), size);
+        }
+    }
+    best
 }
