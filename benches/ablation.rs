@@ -63,7 +63,8 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 38] = changes! {
+const CHANGES: [Change; 40] = changes! {
+    table: "0" => 0, "½" => 16;
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;

@@ -253,6 +253,8 @@ struct Builder {
     /// The corners of the current polygon on the lattice, each with its number. Of equal corners in
     /// a row one is kept.
     kept: Vec<([f64; 3], u32)>,
+    /// How many corners it was given with.
+    given: usize,
     /// For each kept corner, how many corners the straight run of the outline that begins there
     /// passes or ends at; at least 1. Empty if the polygon is not triangulated.
     runs: Vec<u32>,
@@ -369,6 +371,7 @@ impl Builder {
     fn keep_distinct(&mut self, points: &[DVec3]) -> Result<(), Error> {
         self.kept.clear();
         self.runs.clear();
+        self.given = points.len();
         reserve(&mut self.kept, points.len())?;
         for (number, &point) in points.iter().enumerate() {
             let point = self.faces.lattice.snap(point);
@@ -400,7 +403,11 @@ impl Builder {
         reserve(&mut faces.faces, 1)?;
         faces.corners.extend(kept.clone().map(|k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
-        self.number_last(kept)
+        // Most polygons become one face with the same corners, which needs no numbers.
+        if frame == Frame::TRIANGLE || self.kept.len() < self.given {
+            self.number_last(kept)?;
+        }
+        Ok(())
     }
 
     /// Numbers the corners of the last face, if they are not the first of the polygon in order, with
