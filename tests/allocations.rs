@@ -1,7 +1,7 @@
-//! A second order into the same list allocates nothing. Alone in its program, as it counts what all
+//! A second order into the same list allocates nothing, and a second frame next to nothing. Alone in its program, as it counts what all
 //! threads allocate.
 
-use binspace::{BspTree, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, FrameBuilder, Viewpoint, scene};
 use dhat::{HeapStats, Profiler};
 
 #[global_allocator]
@@ -15,7 +15,7 @@ fn allocations(work: impl FnOnce()) -> u64 {
 }
 
 #[test]
-fn a_second_order_in_index_form_allocates_nothing() {
+fn a_second_order_allocates_nothing_and_a_second_frame_once() {
     let _profiler = Profiler::builder().testing().build();
     let scenes = [
         scene::layers(1, 0.1),
@@ -60,4 +60,26 @@ fn a_second_order_in_index_form_allocates_nothing() {
         let again = allocations(|| viewpoints.into_iter().for_each(&mut write));
         assert_eq!(again, 0, "indices of {}", scene.name());
     }
+
+    // A frame of few layers that are all moved: the list of jobs is all that is not kept.
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    let mut order = Vec::new();
+    let mut frame = |turn: u32| {
+        let scene = scene::layers(10, 0.1 + 0.01 * f64::from(turn));
+        let upright = [[0.5, -9.0, -9.0], [0.5, 9.0, -9.0], [0.5, 9.0, 9.0], [0.5, -9.0, 9.0]];
+        let polygons: Vec<Vec<[f64; 3]>> = scene
+            .polygons()
+            .map(|polygon| polygon.iter().map(|corner| corner.to_array()).collect())
+            .chain([upright.to_vec()])
+            .collect();
+        allocations(|| {
+            let tree = builder.build(&polygons).unwrap();
+            assert!(tree.len() > polygons.len(), "{}", tree.len());
+            tree.back_to_front_into(viewpoints[0], &mut order);
+            let vertices = order.iter().flat_map(|&number| tree.fragment(number).vertices());
+            assert!(vertices.map(|vertex| vertex.x).sum::<f64>().is_finite());
+        })
+    };
+    assert!(frame(0) > 10);
+    assert_eq!((1..6).map(&mut frame).min(), Some(1));
 }

@@ -1,5 +1,6 @@
 //! One builder, scene after scene, against trees that are built alone.
 
+use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Viewpoint};
 use proptest::prelude::*;
 
@@ -87,6 +88,41 @@ fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
         let tree = builder.build(scene.polygons())?;
         assert_same(tree, &alone, Viewpoint::eye([0.3, 0.2, 4.0]));
         tree.validate()?;
+    }
+    Ok(())
+}
+
+/// Cards that all go through each other, as many as a table of a small set has room for and more: its
+/// slots run out, and budgets are counted in it to the last piece and node.
+#[test]
+fn crossing_cards_of_every_small_number_keep_their_budgets()
+-> Result<(), Box<dyn std::error::Error>> {
+    let mut dice = Dice(5);
+    let mut some = |scale: f64| DVec3::from_array([(); 3].map(|()| scale * (dice.share() - 0.5)));
+    let cards: Vec<[DVec3; 4]> = (0..40)
+        .map(|_| {
+            let (centre, u) = (some(1.0), some(4.0));
+            let v = u.cross(some(4.0));
+            [centre - u - v, centre + u - v, centre + u + v, centre - u + v]
+        })
+        .collect();
+    for count in (2..40).filter(|count| count % 6 < 2 || (30..35).contains(count)) {
+        let cards = &cards[..count];
+        let tree = BspTree::build(cards)?;
+        tree.validate()?;
+        let (pieces, depth) = (tree.len(), tree.stats().depth_max);
+        let options = BuildOptions::DEFAULT;
+        assert_eq!(
+            options.with_max_fragments(pieces).with_max_depth(depth).build(cards)?.len(),
+            pieces
+        );
+        assert!(
+            options.with_max_fragments(pieces - 1).build(cards).is_err_and(|e| e.is_over_budget())
+        );
+        assert!(options.with_max_depth(depth - 1).build(cards).is_err_and(|e| e.is_over_budget()));
+        if count > 25 {
+            assert!(pieces > 300, "{pieces} pieces of {count}");
+        }
     }
     Ok(())
 }
