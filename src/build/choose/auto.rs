@@ -34,6 +34,11 @@ impl Auto {
         if let Some(plane) = common_plane(set, &self.sample.sketch) {
             return Choice::Split(plane);
         }
+        if set.len() < tuning.small
+            && let Some(plane) = even_plane(set, tuning)
+        {
+            return Choice::Split(plane);
+        }
         let free = if set.len() < tuning.clean_below {
             self.sweep.clean(set, tuning)
         } else {
@@ -118,6 +123,24 @@ fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Cand
         (Some(own), Some(free)) if free.cost.is_less(&own.cost) => free.plane,
         (Some(one), _) | (None, Some(one)) => one.plane,
         (None, None) => set.own_plane(0),
+    })
+}
+
+/// An own plane that cuts nothing and divides the set evenly, among those of a few pieces. Layers of a
+/// stack have such planes, and other sets are soon found to be cut.
+fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
+    let least = set.len() / tuning.uneven;
+    set.sample(tuning.probes).map(|piece| set.own_plane(piece)).find(|&plane| {
+        let splitter = set.splitter(plane);
+        let (mut front, mut back) = (0, 0);
+        let is_whole = (0..set.len()).all(|piece| {
+            let side = set.classify(&splitter, piece);
+            front += usize::from(side == Side::Front);
+            back += usize::from(side == Side::Back);
+            // If all of a first sample is on one side, so is nearly all of the set.
+            side != Side::Spanning && (piece < tuning.first_sample || front.min(back) > 0)
+        });
+        is_whole && front.min(back) >= least
     })
 }
 

@@ -10,6 +10,10 @@ pub struct Tuning {
     /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
     /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
     pub clean_below: usize,
+    /// Own planes of a small set that are tried first, and taken at once if they cut nothing and
+    /// divide the set evenly. More: time where each plane cuts something; fewer: stacks of layers are
+    /// searched for the best plane, though any will do.
+    pub probes: usize,
     /// Sets of fewer pieces try more own planes, and pieces that need no cut are peeled off them.
     /// Larger: slightly fewer fragments, but more time and deeper trees; smaller: more fragments on
     /// scans, whose surfaces no free plane follows.
@@ -56,6 +60,7 @@ impl Tuning {
     pub const DEFAULT: Self = Self {
         table: 32,
         clean_below: 64,
+        probes: 4,
         small: 256,
         own_planes: 96,
         few_own_planes: 16,
