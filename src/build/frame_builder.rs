@@ -15,8 +15,9 @@ use crate::tree::BspTree;
 /// and orders, but are made for one view: the rounded positions of cut vertices are stored rather
 /// than computed at each reading, and the layout from which
 /// [`back_to_front_into`](BspTree::back_to_front_into) writes order after order is left out, so that
-/// an order takes a few times longer. Once its lists have grown to the size of a scene, a build of up
-/// to 32 polygons allocates once, of more a few times.
+/// an order takes a few times longer; so it does for a clone of such a tree. Once its lists have grown
+/// to the size of a scene, a frame of few layers allocates next to nothing. They do not shrink again:
+/// make another builder for that.
 ///
 /// ```
 /// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};

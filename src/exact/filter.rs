@@ -104,7 +104,8 @@ impl Vertex for ExactVertex {
 /// - the rounded normal: Σ (πᵢ + |nᵢ|)|dᵢ|;
 /// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
 /// - the vertex, three roundings of each coordinate (see [`Faces::position`]), of which that of
-///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|.
+///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (What cutting off its weights adds,
+///   [`OFF`](super::position::OFF), is less than a thousandth of a rounding of m.)
 ///
 /// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
 /// the excess of π over |n₀| + |n₁| + |n₂| counts twice, and in units in which |n₀| + |n₁| + |n₂|
@@ -124,7 +125,8 @@ impl Vertex for ExactVertex {
 const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 
 /// The largest error of an axis-aligned plane at a rounded vertex, among those where the sign is
-/// wrong. It is that of the vertex: three roundings of a coordinate of at most 1.014 m. The
+/// wrong. It is that of the vertex: three roundings of a coordinate of at most 1.014 m, and less than
+/// a thousandth of one for what cutting off its weights adds. The
 /// difference of two numbers this close is exact.
 const AXIS_ERROR: f64 = 3.05 * (f64::EPSILON / 2.0) * LIMIT;
 

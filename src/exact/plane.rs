@@ -16,10 +16,10 @@ pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
     })
 }
 
-/// Components of a normal are divided into parts of so many bits, whose products with differences of
-/// coordinates fit 128 bits, three of them added.
-pub(super) const PART: u32 = 56;
-pub(super) const LOW_PART: i128 = (1 << PART) - 1;
+/// Components of a normal are divided into parts of so many bits. Products of these with differences
+/// of coordinates fit 128 bits, three of them added.
+pub(super) const LOW_BITS: u32 = 56;
+pub(super) const LOW: i128 = (1 << LOW_BITS) - 1;
 
 /// A plane in integers: a normal and a lattice point on it.
 #[derive(Clone, Copy, Debug)]
@@ -50,13 +50,16 @@ impl Plane {
         Self { normal, point: point.map(|c| c as i64) }
     }
 
-    /// The normal, each component rounded, some of them twice.
+    /// The normal, each component rounded at most twice.
     #[inline]
     pub(crate) fn normal_f64(&self) -> DVec3 {
-        // By parts, because a conversion of 128 bits calls a function.
+        // By parts, because a conversion of 128 bits calls a function. The parts have one sign, so
+        // nothing cancels.
         let [x, y, z] = self.normal.map(|c| {
-            let (high, low) = ((c >> 62) as i64, (c & ((1 << 62) - 1)) as i64);
-            high as f64 * (1u64 << 62) as f64 + low as f64
+            let size = c.unsigned_abs();
+            let (high, low) = ((size >> 62) as i64, (size & ((1 << 62) - 1)) as i64);
+            let size = high as f64 * (1u64 << 62) as f64 + low as f64;
+            if c < 0 { -size } else { size }
         });
         DVec3::new(x, y, z)
     }
@@ -95,13 +98,17 @@ impl Plane {
         // Components of the normal are below 2¹⁰⁸, so their parts and products fit 64 and 128 bits.
         let (mut high, mut low) = (0i128, 0i128);
         for (component, step) in self.normal.iter().zip(direction) {
-            high += i128::from((component >> PART) as i64) * i128::from(step);
-            low += i128::from((component & LOW_PART) as i64) * i128::from(step);
+            high += i128::from((component >> LOW_BITS) as i64) * i128::from(step);
+            low += i128::from((component & LOW) as i64) * i128::from(step);
         }
-        high += low >> PART;
-        let (low, high_bits) = ((low & LOW_PART) as u64, high as u128);
-        let last = (high >> (128 - PART)) as u64;
-        Int::from_limbs([low | (high_bits << PART) as u64, (high_bits >> (64 - PART)) as u64, last])
+        high += low >> LOW_BITS;
+        let (low, high_bits) = ((low & LOW) as u64, high as u128);
+        let last = (high >> (128 - LOW_BITS)) as u64;
+        Int::from_limbs([
+            low | (high_bits << LOW_BITS) as u64,
+            (high_bits >> (64 - LOW_BITS)) as u64,
+            last,
+        ])
     }
 }
 
@@ -114,6 +121,25 @@ pub(crate) fn relative_to(numerator: Ordering, denominator: Ordering) -> Orderin
 #[cfg(test)]
 mod tests {
     use super::Plane;
+
+    /// Of every size, and of both signs: components near 0 as well.
+    #[test]
+    fn rounded_normals_are_off_by_two_roundings_at_most() {
+        let mut random = crate::random::SplitMix64::new(3);
+        for shift in (0..106).flat_map(|shift| [shift; 20]) {
+            let normal = [(); 3].map(|()| {
+                let size =
+                    (u128::from(random.next()) << 64 | u128::from(random.next())) >> (22 + shift);
+                if random.next() & 1 == 0 { size as i128 } else { -(size as i128) }
+            });
+            let rounded = Plane { normal, point: [0; 3] }.normal_f64().to_array();
+            for (exact, rounded) in normal.into_iter().zip(rounded) {
+                // The conversion of the language rounds once.
+                let error = (rounded - exact as f64).abs();
+                assert!(error <= f64::EPSILON * (exact as f64).abs(), "{exact} {rounded}");
+            }
+        }
+    }
 
     #[test]
     fn of_equally_long_components_the_first_is_the_main_axis() {

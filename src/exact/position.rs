@@ -1,14 +1,14 @@
 //! Positions of vertices, rounded.
 //!
-//! The exact position is a quotient of integers of up to 380 bits, of which the leading ones tell
-//! nearly always. So numbers are cut off to 124 bits as they arise, with a bound on what that
-//! loses. Where the quotient could be off by more than a 2¹⁴th of a rounding, because terms cancel,
-//! it is computed in full.
+//! The exact position is a quotient of integers of up to 380 bits, whose leading bits nearly always
+//! suffice. So numbers are cut off to 124 bits as they arise, with a bound on what that loses. Where
+//! the quotient could be off by more than [`OFF`], because terms cancel, it is computed in full.
 
 use super::Int;
 use super::faces::Faces;
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
-use super::plane::{LOW_PART, PART, Plane};
+use super::lattice::LIMIT;
+use super::plane::{LOW, LOW_BITS, Plane};
 use super::vertex::{Definition, Weights};
 
 #[cfg(test)]
@@ -19,17 +19,18 @@ const KEPT: u32 = 124;
 /// Numbers are multiplied by halves of so many bits, whose products fit 128.
 const HALF: u32 = KEPT / 2;
 const LOW_HALF: i128 = (1 << HALF) - 1;
-/// Weights that were cut off have four bits less, as they are sums.
-const ROOM: u32 = 4;
-/// A sum of weights must be 2⁷⁰ times the error of one. Then the quotient is off by less than
-/// 6 · 2⁻⁷⁰ of the lattice's size, for three weights above and below the line.
+/// The sum of the weights must be 2⁷⁰ times the error of one. Smaller: positions are off by more;
+/// larger: more of them are computed in full.
 const MARGIN: u32 = 70;
+/// What cutting off adds to the error of a position, at most, in lattice units: for three weights
+/// above the line of the quotient and three below, 6 · 2⁻⁷⁰ of the lattice's size.
+pub(crate) const OFF: f64 = 6.0 * LIMIT / (1u128 << MARGIN) as f64;
 
 impl Faces {
-    /// The rounded position of a vertex in lattice units. Each coordinate is within three roundings
-    /// of the exact one, and exact along an axis if a plane perpendicular to that axis defines the
-    /// vertex. All pieces, of any face, that define the vertex by the same points and planes get
-    /// the same bits.
+    /// The rounded position of a vertex in lattice units. Each coordinate is within three of its own
+    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to
+    /// that axis defines the vertex. All pieces, of any face, that define the vertex by the same
+    /// points and planes get the same bits, whichever way their faces run.
     pub(crate) fn position(&self, face: u32, vertex: Symbol) -> [f64; 3] {
         self.position_by(face, vertex, None)
     }
@@ -106,12 +107,12 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         *weight = Product::of(g[j], h[k], g[k], h[j]);
     }
-    let bits = bits_of(weights.map(|weight| weight.high));
-    let dropped = if bits == 0 { 0 } else { bits + ROOM };
+    // All bits above the first 124 are dropped at the other end.
+    let dropped = bits_of(weights.map(|weight| weight.magnitude().high));
     // A value is off by less than 1, its products with others by 2¹²⁴, and a weight by four of these.
     let inexact = if is_exact { 0 } else { 1 << (KEPT + 2).saturating_sub(dropped) };
     let error = inexact + u128::from(dropped > 0);
-    mean(triangle, &weights.map(|weight| weight.without(dropped, bits)), error)
+    mean(triangle, &weights.map(|weight| weight.without(dropped)), error)
 }
 
 /// The weighted mean of lattice points, rounded; `None` if that could be off because each weight is,
@@ -144,16 +145,17 @@ fn mean<const K: usize>(
 
 /// Numbers without their last bits.
 struct Leading<const K: usize> {
-    /// Each is the number times 2^−`dropped`, rounded down; at most 2¹²⁴ in magnitude.
+    /// Each is the number times 2^−`dropped`, rounded towards 0: so that of a plane and its reverse
+    /// they differ in sign alone. Below 2¹²⁴ in magnitude.
     values: [i128; K],
     dropped: u32,
 }
 
 impl<const K: usize> Leading<K> {
-    /// A plane at some lattice points: up to 162 bits, see `vertex`.
+    /// A plane at some lattice points, see `vertex`.
     #[inline]
     fn of(plane: &Plane, points: &[[f64; 3]; K]) -> Self {
-        let normal = plane.normal().map(|c| [(c & LOW_PART) as i64, (c >> PART) as i64]);
+        let normal = plane.normal().map(|c| [(c & LOW) as i64, (c >> LOW_BITS) as i64]);
         let through = plane.point();
         let (mut high, mut low) = ([0i128; K], [0i128; K]);
         for (i, point) in points.iter().enumerate() {
@@ -162,22 +164,43 @@ impl<const K: usize> Leading<K> {
                 low[i] += i128::from(normal[axis][0]) * arm;
                 high[i] += i128::from(normal[axis][1]) * arm;
             }
-            high[i] += low[i] >> PART;
-            low[i] &= LOW_PART;
+            high[i] += low[i] >> LOW_BITS;
+            low[i] &= LOW;
         }
-        let dropped = (bits_of(high) + PART).saturating_sub(KEPT);
+        let dropped = (bits_of(high) + LOW_BITS).saturating_sub(KEPT);
         let mut values = [0; K];
-        for (value, (high, low)) in values.iter_mut().zip(high.iter().zip(&low)) {
-            *value = (high << (PART - dropped)) + (low >> dropped);
+        for (value, (high, low)) in values.iter_mut().zip(high.into_iter().zip(low)) {
+            let Magnitude { is_negative, high, low } = Magnitude::of(high, low, LOW_BITS);
+            let size = (high << (LOW_BITS - dropped)) + (low >> dropped);
+            *value = if is_negative { -size } else { size };
         }
         Self { values, dropped }
     }
 }
 
-/// How many bits the largest of some numbers has, the sign aside.
+/// The magnitude of a number in two parts.
+struct Magnitude {
+    is_negative: bool,
+    high: i128,
+    low: i128,
+}
+
+impl Magnitude {
+    /// Of `high` · 2^bits + `low`, with `low` from 0 to 2^bits.
+    #[inline]
+    fn of(high: i128, low: i128, bits: u32) -> Self {
+        match (high < 0, low == 0) {
+            (false, _) => Self { is_negative: false, high, low },
+            (true, true) => Self { is_negative: true, high: -high, low },
+            (true, false) => Self { is_negative: true, high: -high - 1, low: (1 << bits) - low },
+        }
+    }
+}
+
+/// How many bits the largest magnitude of some numbers has.
 #[inline]
 fn bits_of<const K: usize>(numbers: [i128; K]) -> u32 {
-    let all = numbers.iter().fold(0, |all, number| all | (number ^ number >> 127));
+    let all = numbers.iter().fold(0, |all, number| all | number.unsigned_abs());
     128 - all.leading_zeros()
 }
 
@@ -206,16 +229,21 @@ impl Product {
         Self { high, low: (middle & LOW_HALF) << HALF | (low & LOW_HALF) }
     }
 
-    /// The number times 2^−`dropped`, rounded down; `bits` are those of `high`.
+    /// The number times 2^−`dropped`, rounded towards 0; `dropped` are the bits of `high`, so that 124
+    /// are left.
     #[inline]
-    fn without(self, dropped: u32, bits: u32) -> i128 {
-        if dropped == 0 {
-            return (self.high << KEPT) + self.low;
-        }
-        match (KEPT - ROOM).checked_sub(bits) {
-            Some(up) => (self.high << up) + self.low.checked_shr(dropped).unwrap_or(0),
-            None => self.high >> (bits - (KEPT - ROOM)),
-        }
+    fn without(self, dropped: u32) -> i128 {
+        let Magnitude { is_negative, high, low } = self.magnitude();
+        let size = match KEPT.checked_sub(dropped) {
+            Some(up) => (high << up) + (low >> dropped),
+            None => high >> (dropped - KEPT),
+        };
+        if is_negative { -size } else { size }
+    }
+
+    #[inline]
+    fn magnitude(&self) -> Magnitude {
+        Magnitude::of(self.high, self.low, KEPT)
     }
 }
 

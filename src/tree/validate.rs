@@ -74,7 +74,7 @@ impl BspTree {
         self.check_positions()
     }
 
-    /// Positions that are kept are those of the vertices.
+    /// Positions that are kept are those that are computed for the vertices.
     fn check_positions(&self) -> Result<(), Invalid> {
         let fault = Err(Invalid { node: 0, what: Fault::Positions });
         if !self.positions.is_empty() && self.positions.len() != self.vertices.len() {

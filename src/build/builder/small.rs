@@ -10,7 +10,7 @@ use crate::memory::reserve;
 use crate::tree::parts::{Child, RawNode};
 
 impl<K: Kernel> Builder<'_, K> {
-    /// Divides the set on top of the stack, of at most [`SLOTS`] / 2 pieces, down to the leaves.
+    /// Divides the set on top of the stack, of at most [`MOST_IN_TABLE`](crate::build::choose::MOST_IN_TABLE) pieces, down to the leaves.
     pub(super) fn divide_small(&mut self, start: usize, depth: usize) -> Result<(), Error> {
         self.fill_table(start)?;
         let all = u64::MAX >> (SLOTS - self.table.slots.len());

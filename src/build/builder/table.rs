@@ -1,16 +1,18 @@
 //! Where each piece of a small set lies against each plane.
 
+use crate::build::choose::MOST_IN_TABLE;
 use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
 
-/// The most pieces in a table: a bit of a mask each.
-pub(super) const SLOTS: usize = 64;
+/// The most pieces in a table.
+pub(super) const SLOTS: usize = 2 * MOST_IN_TABLE;
+const _: () = assert!(SLOTS == u64::BITS as usize, "a bit of a mask each");
 
 /// The pieces of a small set, and the planes of their faces.
 ///
 /// Each piece has a slot, and sets of pieces are masks, so that planes are compared by counting bits.
-/// A piece is held against a plane once, when that is first asked for; what a cut makes takes a slot
-/// of its own, and is held against those planes only that go through the whole piece.
+/// A piece is classified against a plane once, when that is first asked for; what a cut makes takes a
+/// slot of its own, and is classified against those planes only that go through the whole piece.
 #[derive(Debug)]
 pub(super) struct Table<K: Kernel> {
     pub(super) slots: Vec<Slot>,

@@ -23,7 +23,7 @@ pub(super) use choice::Choice;
 use free::Sweep;
 pub(super) use own::Best;
 pub(super) use peel::Peeled;
-pub(super) use rules::Rules;
+pub(super) use rules::{MOST_IN_TABLE, Rules};
 use scored::Scored;
 pub(super) use set::{Normals, Set};
 pub use tuning::Tuning;

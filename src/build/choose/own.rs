@@ -103,7 +103,7 @@ impl Shares {
     }
 }
 
-/// The best of the planes of a small set, of which all is known.
+/// The best own plane of a small set, by exact counts of all its pieces.
 #[derive(Debug)]
 pub(in crate::build) struct Best {
     terms: Terms,

@@ -1,13 +1,13 @@
-//! By what planes are chosen.
+//! The settings of the chooser.
 
 use super::tuning::Tuning;
 use crate::build::heuristic::Heuristic;
 use crate::build::progress::Watch;
 
-/// The most pieces of a set that is divided from a table: half as many as the table has room for.
-const MOST: usize = 32;
+/// The most pieces of a set that is divided from a table: half as many as a table has room for.
+pub(in crate::build) const MOST_IN_TABLE: usize = 32;
 
-/// By what planes are chosen.
+/// The settings of the chooser.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::build) struct Rules<'a> {
     pub(in crate::build) heuristic: Heuristic,
@@ -19,6 +19,6 @@ pub(in crate::build) struct Rules<'a> {
 impl Rules<'_> {
     /// Whether a set is divided from a table of all pieces against all planes.
     pub(in crate::build) fn is_small(&self, pieces: usize) -> bool {
-        self.heuristic == Heuristic::Auto && pieces <= self.tuning.table.min(MOST)
+        self.heuristic == Heuristic::Auto && pieces <= self.tuning.table.min(MOST_IN_TABLE)
     }
 }
