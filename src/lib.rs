@@ -8,7 +8,7 @@
 //! | [`FrameBuilder`] | trees built anew every frame |
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
-//! | [`Fragment`], [`Partition`] | what it consists of |
+//! | [`Fragment`], [`Node`] | what it consists of |
 //! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
 //!
 //! # Conventions
@@ -35,6 +35,7 @@ mod build;
 mod error;
 mod exact;
 mod faces;
+mod frustum;
 mod input;
 #[cfg(feature = "layers")]
 pub mod layers;
@@ -57,11 +58,12 @@ pub use error::Error;
 #[cfg(feature = "raster")]
 pub use exact::Faces;
 pub use faces::{MAX_CORNERS, Preparation, Tolerance};
+pub use frustum::Frustum;
 pub use glam;
 pub use input::{Point, Polygon};
 pub use tree::{
-    BspTree, Fragment, Fragments, Invalid, Mesh, MeshVertex, Ordered, Partition, Partitions, Stats,
-    Triangles,
+    Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
+    Nodes, Ordered, Part, Sides, Stats, Triangles,
 };
 #[cfg(feature = "raster")]
 pub use verify::{
@@ -86,7 +88,7 @@ pub mod internals {
     #[cfg(feature = "scene")]
     pub use crate::scene::turn::unit_circle;
     pub use crate::tree::apart::parts_of_tree;
-    pub use crate::tree::parts::{Child, Parts, RawNode, Record};
+    pub use crate::tree::parts::{Parts, RawChild, RawNode, Record};
     #[cfg(feature = "raster")]
     pub use crate::verify::paint_order;
 }

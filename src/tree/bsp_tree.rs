@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::node::{Node, Sizes, finish};
+use super::node_record::{NodeRecord, Sizes, finish};
 use super::order::layout::Schedule;
 use super::order::planes::Planes;
 use super::parts::{Parts, RawNode, Record};
@@ -196,7 +196,7 @@ use crate::faces::Preparation;
 pub struct BspTree {
     pub(super) faces: Faces,
     pub(super) preparation: Preparation,
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<NodeRecord>,
     pub(super) planes: Planes,
     /// None in a tree for one view.
     pub(super) schedule: Option<Schedule>,
