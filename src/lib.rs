@@ -9,6 +9,7 @@
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Node`] | what it consists of |
+//! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
 //! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
 //!
 //! # Conventions
@@ -40,6 +41,8 @@ mod input;
 #[cfg(feature = "layers")]
 pub mod layers;
 mod memory;
+#[cfg(feature = "raster")]
+mod occlusion;
 mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
@@ -61,6 +64,8 @@ pub use faces::{MAX_CORNERS, Preparation, Tolerance};
 pub use frustum::Frustum;
 pub use glam;
 pub use input::{Point, Polygon};
+#[cfg(feature = "raster")]
+pub use occlusion::CoverageMask;
 pub use tree::{
     Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
     Nodes, Ordered, Part, Sides, Stats, Triangles,

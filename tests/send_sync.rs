@@ -9,8 +9,9 @@ use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
-    BspTree, BuildOptions, Error, Fragment, FrameBuilder, Heuristic, Invalid, Mesh, Node, Ordered,
-    ParseHeuristicError, Preparation, Progress, Stats, Triangles, Verification, Viewpoint,
+    Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FrameBuilder,
+    Frustum, Heuristic, Invalid, Mesh, Node, Nodes, Ordered, ParseHeuristicError, Part,
+    Preparation, Progress, Stats, Triangles, Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -25,6 +26,7 @@ macro_rules! assert_shared {
 
 // Trees, and what they hand out.
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
+assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint,);
 
 // Building, and what can go wrong.

@@ -70,10 +70,10 @@ fn camera(side: usize, k: usize) -> Camera {
     let turn = k as f64 / EYES as f64 * std::f64::consts::TAU;
     let middle = DVec3::new(0.5, 0.5, 0.0) * (side as f64 * ROOM) + DVec3::Z * (0.55 * HEIGHT);
     let eye = middle + DVec3::new(turn.cos(), turn.sin(), 0.0) * (0.2 * side as f64 * ROOM);
-    // Looks outwards: to there it is 0.3 sides, and a wedge of 0.22 radians and that length is a
+    // Looks outwards: to there it is 0.3 sides, and a wedge of 0.115 radians is about a
     // hundredth of the square.
     let target = eye + (eye - middle).with_z(0.0);
-    Camera::perspective(eye, target, DVec3::Z, 0.12, [320, 180]).expect("a camera")
+    Camera::perspective(eye, target, DVec3::Z, 0.065, [320, 180]).expect("a camera")
 }
 
 /// How many fragments are in view; the shortest times of the whole order, of those in view, and of

@@ -94,6 +94,15 @@ use crate::faces::Preparation;
 /// same as that of all in order, except where polygons touch: at the same depth a translucent polygon
 /// is drawn over an opaque one, whichever comes first in the input.
 ///
+/// # What need not be drawn
+///
+/// A tree can be walked: [`root`](Self::root) and [`nodes`](Self::nodes) show its planes, and
+/// [`walk_front_to_back`](Self::walk_front_to_back) visits subtrees and fragments in order and skips
+/// what you say. [`bounds`](Self::bounds) makes boxes of all subtrees, once, for those who need them.
+/// With these, [`culled_back_to_front_into`](Self::culled_back_to_front_into) writes an order without
+/// what is outside of a camera's [`Frustum`](crate::Frustum) or seen from the wrong side, in a time that
+/// follows what is left. The feature `raster` has a mask that leaves out what is hidden.
+///
 /// # Attributes
 ///
 /// A cut vertex needs texture coordinates, colours or normals as the corners have them.

@@ -3,6 +3,7 @@
 mod bounds;
 mod culling;
 mod nodes;
+mod occlusion;
 mod order;
 #[path = "../../examples/level/rooms.rs"]
 mod rooms;
