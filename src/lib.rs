@@ -8,7 +8,8 @@
 //! | [`FrameBuilder`] | trees built anew every frame |
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
-//! | [`Fragment`], [`Partition`] | what it consists of |
+//! | [`Fragment`], [`Node`] | what it consists of |
+//! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
 //! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
 //!
 //! # Conventions
@@ -35,10 +36,13 @@ mod build;
 mod error;
 mod exact;
 mod faces;
+mod frustum;
 mod input;
 #[cfg(feature = "layers")]
 pub mod layers;
 mod memory;
+#[cfg(feature = "raster")]
+mod occlusion;
 mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
@@ -57,11 +61,14 @@ pub use error::Error;
 #[cfg(feature = "raster")]
 pub use exact::Faces;
 pub use faces::{MAX_CORNERS, Preparation, Tolerance};
+pub use frustum::Frustum;
 pub use glam;
 pub use input::{Point, Polygon};
+#[cfg(feature = "raster")]
+pub use occlusion::CoverageMask;
 pub use tree::{
-    BspTree, Fragment, Fragments, Invalid, Mesh, MeshVertex, Ordered, Partition, Partitions, Stats,
-    Triangles,
+    Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
+    Nodes, Ordered, Part, Sides, Stats, Triangles,
 };
 #[cfg(feature = "raster")]
 pub use verify::{
@@ -86,7 +93,7 @@ pub mod internals {
     #[cfg(feature = "scene")]
     pub use crate::scene::turn::unit_circle;
     pub use crate::tree::apart::parts_of_tree;
-    pub use crate::tree::parts::{Child, Parts, RawNode, Record};
+    pub use crate::tree::parts::{Parts, RawChild, RawNode, Record};
     #[cfg(feature = "raster")]
     pub use crate::verify::paint_order;
 }

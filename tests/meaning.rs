@@ -5,7 +5,7 @@ mod support;
 
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Line, PlaneId, PlaneKind};
-use binspace::{BspTree, BuildOptions, Heuristic, Partition};
+use binspace::{BspTree, BuildOptions, Heuristic, Node};
 use std::collections::HashMap;
 use support::dice::Dice;
 use support::model::{self, Face, Vertex, clip};
@@ -172,13 +172,8 @@ fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
     let faces = tree.faces();
     assert_eq!(faces.tolerance(), 0.0);
     let exact: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
-    let total = |p: &Partition| {
-        let ranges = [&p.on, &p.front, &p.back];
-        let used = || ranges.into_iter().filter(|range| !range.is_empty());
-        let start = used().map(|range| range.start).min().expect("a fragment");
-        (p.depth, start..used().map(|range| range.end).max().expect("a fragment"))
-    };
-    let named: HashMap<_, Partition> = tree.partitions().map(|p| (total(&p), p)).collect();
+    let named: HashMap<_, Node<'_>> =
+        tree.nodes().map(|node| ((node.depth(), node.fragments()), node)).collect();
     let whole = |face: u32| Piece { face, outline: exact[face as usize].outline() };
     let all = (0..faces.len() as u32).map(whole).collect();
     let mut pending: Vec<(_, Vec<Piece>)> = vec![((1, 0..tree.len() as u32), all)];
@@ -192,14 +187,14 @@ fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
         let plane = model::plane(faces, node.plane());
         let sides = divided(&set, node.plane(), &plane);
         let found = sides.each_ref().map(Vec::len);
-        assert_eq!(found[0], node.on.len(), "on {:?}", node.plane());
+        assert_eq!(found[0], node.on().len(), "on {:?}", node.plane());
         let counts = Counts::of(&plane, &set);
         visit(&Divided { faces, exact: &exact, plane: node.plane(), counts, set });
         let [_, front, back] = sides;
-        for (range, set) in [(&node.front, front), (&node.back, back)] {
+        for (range, set) in [(node.in_front(), front), (node.behind(), back)] {
             assert_eq!(range.is_empty(), set.is_empty());
             if !set.is_empty() {
-                pending.push(((at.0 + 1, range.clone()), set));
+                pending.push(((at.0 + 1, range), set));
             }
         }
     }
@@ -319,11 +314,11 @@ fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
     }
     // Of many seeds, each polygon of a set is the choice of some: none is left out.
     let scene: Vec<Corners> = scene(&mut Dice(4), 5);
-    let roots =
-        (0..200).filter_map(|seed| build(&scene, Heuristic::Random { seed }).partitions().next());
     let mut counts = [0; 5];
-    for root in roots {
-        let PlaneKind::Face(face) = root.plane().kind() else { panic!("{:?}", root.plane()) };
+    for seed in 0..200 {
+        let tree = build(&scene, Heuristic::Random { seed });
+        let plane = tree.root().expect("a node").plane();
+        let PlaneKind::Face(face) = plane.kind() else { panic!("{plane:?}") };
         counts[face as usize] += 1;
     }
     assert!(counts.iter().all(|&count| count >= 20), "{counts:?}");

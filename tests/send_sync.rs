@@ -9,9 +9,9 @@ use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
-    BspTree, BuildOptions, Error, Fragment, FrameBuilder, Heuristic, Invalid, Mesh, Ordered,
-    ParseHeuristicError, Partition, Preparation, Progress, Stats, Triangles, Verification,
-    Viewpoint,
+    Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FrameBuilder,
+    Frustum, Heuristic, Invalid, Mesh, Node, Nodes, Ordered, ParseHeuristicError, Part,
+    Preparation, Progress, Stats, Triangles, Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -26,7 +26,8 @@ macro_rules! assert_shared {
 
 // Trees, and what they hand out.
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
-assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Partition, Stats, Triangles, Viewpoint,);
+assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
+assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint,);
 
 // Building, and what can go wrong.
 assert_shared!(BuildOptions, Heuristic, Progress, Error, Invalid, ParseHeuristicError, CameraError,);

@@ -97,17 +97,17 @@ fn orders_are_read_from_both_ends() {
 }
 
 #[test]
-fn fragments_and_partitions_are_read_from_both_ends() {
+fn fragments_and_nodes_are_read_from_both_ends() {
     let (mut dice, mut deep) = (Dice(8), 0);
     for tree in trees() {
         let numbers: Vec<u32> = (0..tree.len() as u32).collect();
         check_ends(tree.fragments().map(|f| f.index()), &numbers, &mut dice);
         assert_eq!(tree.fragments().nth(2).map(|f| f.index()), numbers.get(2).copied());
         let stats = tree.stats();
-        let partitions: Vec<_> = tree.partitions().collect();
-        assert_eq!(partitions.len(), stats.nodes);
-        assert_eq!(partitions.iter().map(|p| p.depth).max().unwrap_or(0), stats.depth_max);
-        check_ends(tree.partitions(), &partitions, &mut dice);
+        let nodes: Vec<_> = tree.nodes().collect();
+        assert_eq!(nodes.len(), stats.nodes);
+        assert_eq!(nodes.iter().map(|node| node.depth()).max().unwrap_or(0), stats.depth_max);
+        check_ends(tree.nodes(), &nodes, &mut dice);
         deep += usize::from(stats.depth_max > 8);
     }
     assert!(deep > 10, "{deep}");
@@ -128,9 +128,9 @@ fn the_parts_of_a_fragment_are_read_from_both_ends() {
     }
 }
 
-/// Every fragment is where the rounded plane of a partition says, but for rounding.
+/// Every fragment is where the rounded plane of a node says, but for rounding.
 #[test]
-fn normals_and_offsets_of_partitions_are_those_of_their_planes() {
+fn normals_and_offsets_of_nodes_are_those_of_their_planes() {
     let (mut checked, far) = (0, dvec3(1e3, -2e3, 5e2));
     for scene in [scene::random_triangles(80, 2), scene::city(200, 1), scene::crossing(9)] {
         let moved =
@@ -138,16 +138,16 @@ fn normals_and_offsets_of_partitions_are_those_of_their_planes() {
         let tree = BspTree::build(scene.polygons().map(moved)).unwrap();
         let (low, high) = scene.bounds().unwrap();
         let slack = 1e-8 * (high - low).max_element();
-        for partition in tree.partitions() {
-            assert!((partition.normal.length() - 1.0).abs() < 1e-15);
+        for node in tree.nodes() {
+            assert!((node.normal().length() - 1.0).abs() < 1e-15);
             for (numbers, least, most) in [
-                (partition.on.clone(), -slack, slack),
-                (partition.front.clone(), -slack, f64::INFINITY),
-                (partition.back.clone(), f64::NEG_INFINITY, slack),
+                (node.on(), -slack, slack),
+                (node.in_front(), -slack, f64::INFINITY),
+                (node.behind(), f64::NEG_INFINITY, slack),
             ] {
                 for vertex in numbers.flat_map(|number| tree.fragment(number).vertices()) {
-                    let distance = partition.normal.dot(vertex) - partition.offset;
-                    assert!((least..=most).contains(&distance), "{distance}: {partition:?}");
+                    let distance = node.normal().dot(vertex) - node.offset();
+                    assert!((least..=most).contains(&distance), "{distance}: {node:?}");
                     checked += 1;
                 }
             }
@@ -222,7 +222,7 @@ fn a_tolerance_beyond_a_share_of_the_extent_counts_as_that() {
     let is_coplanar = |gap: f64, tolerance: f64| {
         let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
         let tree = options.build([layer(0.0), layer(gap)]).unwrap();
-        tree.partitions().next().unwrap().on.len() == 2
+        tree.root().unwrap().on().len() == 2
     };
     for tolerance in [0.5, 1.0, 1e300, f64::INFINITY] {
         assert!(is_coplanar(1.0 / 257.0, tolerance), "{tolerance}");

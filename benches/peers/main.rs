@@ -11,6 +11,7 @@
 
 mod build;
 mod clipping;
+mod culling;
 mod fragments;
 mod frames;
 mod growth;
@@ -25,7 +26,7 @@ mod threads;
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 10] = [
+const SECTIONS: [Section; 13] = [
     ("order", order::run),
     ("mesh", mesh::run),
     ("same-order", same::run),
@@ -36,6 +37,7 @@ const SECTIONS: [Section; 10] = [
     ("plane-split", plane_split::run),
     ("frames", frames::run),
     ("clipping", clipping::run),
+    ("culling", culling::run),
     ("exactness", kernels::run),
     ("rulings", rulings::run),
 ];

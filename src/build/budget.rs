@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::options::BuildOptions;
 use crate::error::Error;
-use crate::tree::node::MOST_FRAGMENTS;
+use crate::tree::node_record::MOST_FRAGMENTS;
 
 /// What all jobs of a build may use together.
 pub(super) struct Budget {

@@ -17,7 +17,7 @@ use crate::faces::{Listener, Preparation, Preparer};
 use crate::input::Polygon;
 use crate::memory::reserve;
 use crate::tree::BspTree;
-use crate::tree::node::Sizes;
+use crate::tree::node_record::Sizes;
 use crate::tree::parts::{Parts, RawNode};
 
 impl BspTree {

@@ -80,6 +80,29 @@ impl Lattice {
         }))
     }
 
+    /// The world coordinates of a box in lattice units, rounded outwards: all of its points are
+    /// inside, and so are these as [`to_world`](Self::to_world) rounds them.
+    pub(crate) fn enclose(&self, low: [f64; 3], high: [f64; 3]) -> [DVec3; 2] {
+        let bound = |lattice: [f64; 3], outwards: fn(f64) -> f64, sign: f64| {
+            DVec3::from_array(std::array::from_fn(|axis| {
+                let (mut sum, lost) = two_sum(lattice[axis], self.origin[axis]);
+                if lost * sign > 0.0 {
+                    sum = outwards(sum);
+                }
+                let mut world = self.steps.divides(sum);
+                // A power of two divides exactly, except where digits are lost near 0.
+                if world.abs() < f64::MIN_POSITIVE && sum != 0.0 {
+                    world = outwards(world);
+                }
+                if self.far[axis] != 0.0 {
+                    world = outwards(world + self.far[axis]);
+                }
+                world.clamp(f64::MIN, f64::MAX)
+            }))
+        };
+        [bound(low, f64::next_down, -1.0), bound(high, f64::next_up, 1.0)]
+    }
+
     /// A world length in lattice units.
     pub fn length_to_lattice(&self, length: f64) -> f64 {
         self.steps.times(length)
@@ -89,6 +112,13 @@ impl Lattice {
     pub fn length_to_world(&self, length: f64) -> f64 {
         self.steps.divides(length)
     }
+}
+
+/// A sum and what its rounding has lost (Knuth 1969).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
 /// The nearest integer, ties to even where that is decided here: `f64::round` calls a function on

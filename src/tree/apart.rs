@@ -1,8 +1,8 @@
 //! Taking a tree apart.
 
 use super::BspTree;
-use super::node::Node;
-use super::parts::{Child, Parts, RawNode};
+use super::node_record::NodeRecord;
+use super::parts::{Parts, RawChild, RawNode};
 use super::walk::Walk;
 use crate::exact::ExactStored;
 
@@ -11,8 +11,8 @@ pub fn parts_of_tree(tree: &BspTree) -> Parts<ExactStored> {
     let mut nodes = Vec::with_capacity(tree.nodes.len());
     let mut walk = Walk::new(tree);
     while let Some(visit) = walk.next(tree) {
-        let Node { plane, front_len, front_nodes, .. } = tree.nodes[visit.node];
-        let child = |is_node, len| if is_node { Child::Node } else { Child::Leaf(len) };
+        let NodeRecord { plane, front_len, front_nodes, .. } = tree.nodes[visit.node];
+        let child = |is_node, len| if is_node { RawChild::Node } else { RawChild::Leaf(len) };
         nodes.push(RawNode {
             plane,
             own: tree.nodes[visit.node].own(),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::node::{Node, Sizes, finish};
+use super::node_record::{NodeRecord, Sizes, finish};
 use super::order::layout::Schedule;
 use super::order::planes::Planes;
 use super::parts::{Parts, RawNode, Record};
@@ -93,6 +93,15 @@ use crate::faces::Preparation;
 /// [`Mesh::triangles_of`](crate::Mesh::triangles_of) gives the triangles of either. The picture is the
 /// same as that of all in order, except where polygons touch: at the same depth a translucent polygon
 /// is drawn over an opaque one, whichever comes first in the input.
+///
+/// # What need not be drawn
+///
+/// A tree can be walked: [`root`](Self::root) and [`nodes`](Self::nodes) show its planes, and
+/// [`walk_front_to_back`](Self::walk_front_to_back) visits subtrees and fragments in order and skips
+/// what you say. [`bounds`](Self::bounds) makes boxes of all subtrees, once, for those who need them.
+/// With these, [`culled_back_to_front_into`](Self::culled_back_to_front_into) writes an order without
+/// what is outside of a camera's [`Frustum`](crate::Frustum) or seen from the wrong side, in a time that
+/// follows what is left. The feature `raster` has a mask that leaves out what is hidden.
 ///
 /// # Attributes
 ///
@@ -196,7 +205,7 @@ use crate::faces::Preparation;
 pub struct BspTree {
     pub(super) faces: Faces,
     pub(super) preparation: Preparation,
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<NodeRecord>,
     pub(super) planes: Planes,
     /// None in a tree for one view.
     pub(super) schedule: Option<Schedule>,

@@ -1,22 +1,29 @@
 //! The finished tree, one file an operation.
 
 pub(crate) mod apart;
+mod between;
+mod bounds;
 pub(crate) mod bsp_tree;
+mod culling;
 mod facing;
 mod fragment;
 mod mesh;
-pub(crate) mod node;
+mod node;
+pub(crate) mod node_record;
 pub(crate) mod order;
-mod partitions;
 pub(crate) mod parts;
 mod stats;
+#[cfg(test)]
+mod tests;
 mod validate;
 pub(crate) mod walk;
 
+pub use bounds::Bounds;
 pub use bsp_tree::BspTree;
+pub use culling::{Culling, Sides};
 pub use fragment::{Fragment, Fragments};
 pub use mesh::{Mesh, MeshVertex, Triangles};
-pub use order::Ordered;
-pub use partitions::{Partition, Partitions};
+pub use node::{Child, Node, Nodes};
+pub use order::{Flow, Ordered, Part};
 pub use stats::Stats;
 pub use validate::Invalid;

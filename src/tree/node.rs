@@ -1,103 +1,246 @@
-//! A node of the finished tree.
+//! The nodes of a tree, to be looked at.
 
+use std::cmp::Ordering;
+use std::fmt;
+use std::iter::FusedIterator;
 use std::ops::Range;
 
-use super::parts::{Child, RawNode};
-use crate::exact::PlaneId;
+use glam::DVec3;
 
-const BACK_IS_NODE: u32 = 1 << 31;
+use super::BspTree;
+use super::node_record::Ranges;
+use super::walk::{Visit, Walk};
+use crate::exact::{Eye, PlaneId, PlaneKind};
+use crate::viewpoint::Viewpoint;
 
-/// The most fragments of a tree. While a [`Schedule`](super::order::layout::Schedule) is laid out, its
-/// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
-pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
-
-/// A node.
+/// A node of a tree: a partition plane, the fragments on it, and what is on its sides.
 ///
-/// Nodes are stored depth first: the root, its front subtree, its back subtree. Fragments are numbered
-/// in this order: those on the node's plane, those of a front leaf, those of a back leaf, those of the
-/// front subtree, those of the back subtree.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Node {
-    pub(super) plane: PlaneId,
-    own: u32,
-    /// How many fragments are in front.
-    pub(super) front_len: u32,
-    /// How many nodes are in front; if none, the front is a leaf.
-    pub(super) front_nodes: u32,
+/// [`BspTree::root`] and [`children`](Self::front) give nodes one by one, [`BspTree::nodes`] all of
+/// them, and [`BspTree::walk_front_to_back`] those that a viewpoint needs, in its order. A node is
+/// as cheap to copy as a reference.
+///
+/// The plane holds the points p with `normal().dot(p) == offset()`; its front is where the left side
+/// is larger. Both are rounded. The tree itself decides by the exact plane: that of the polygon that
+/// [`polygon`](Self::polygon) names.
+///
+/// Fragments of a subtree have consecutive numbers, so those of a node, on its plane and on its
+/// sides, are ranges.
+#[derive(Clone, Copy)]
+pub struct Node<'t> {
+    pub(super) tree: &'t BspTree,
+    pub(super) index: u32,
+    pub(super) depth: u32,
+    /// The fragments of the whole subtree.
+    pub(super) first: u32,
+    pub(super) end: u32,
 }
 
-impl Node {
-    /// How many fragments lie on the plane.
-    #[inline]
-    pub(super) fn own(&self) -> u32 {
-        self.own & !BACK_IS_NODE
+/// What is on one side of a [`Node`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Child<'t> {
+    /// Another node.
+    Node(Node<'t>),
+    /// The numbers of the fragments of a leaf: one, or none.
+    Leaf(Range<u32>),
+}
+
+impl<'t> Node<'t> {
+    /// Its number, depth first: a node, its front subtree, its back subtree. The root is 0.
+    pub fn index(&self) -> usize {
+        self.index as usize
     }
 
-    /// Whether the back is a node rather than a leaf.
-    #[inline]
-    pub(super) fn back_is_node(&self) -> bool {
-        self.own & BACK_IS_NODE != 0
+    /// How many nodes there are on the path from the root to this one, both included.
+    pub fn depth(&self) -> usize {
+        self.depth as usize
     }
 
-    /// The number of the node in front, given that of this one; `None` if the front is a leaf.
-    #[inline]
-    pub(super) fn front_node(&self, index: usize) -> Option<usize> {
-        (self.front_nodes > 0).then_some(index + 1)
+    /// The unit normal, which points to the front.
+    pub fn normal(&self) -> DVec3 {
+        self.tree.faces.plane(self.plane()).normal_f64().normalize()
     }
 
-    /// The number of the node behind, given that of this one; `None` if the back is a leaf.
-    #[inline]
-    pub(super) fn back_node(&self, index: usize) -> Option<usize> {
-        self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
+    /// The distance of the plane from the origin along the normal, in the polygons' unit. Infinite
+    /// if it is too large for `f64`.
+    pub fn offset(&self) -> f64 {
+        let faces = &self.tree.faces;
+        let corner = match self.plane().kind() {
+            PlaneKind::Face(face) => faces.reference_triangle(face)[0],
+            PlaneKind::Axis(_, corner) => corner,
+        };
+        self.normal().dot(faces.lattice().to_world(faces.corner(corner)))
     }
 
-    /// Where the fragments of the subtree of this node are, given the numbers of all of them.
-    #[inline]
-    pub(super) fn ranges(&self, all: Range<u32>) -> Ranges {
-        let own = all.start..all.start + self.own();
-        // A leaf is numbered before a subtree, so it is only here that the back comes first.
-        if self.front_nodes > 0 && !self.back_is_node() {
-            let middle = all.end - self.front_len;
-            return Ranges { front: middle..all.end, back: own.end..middle, own };
+    /// The index, in the input, of the polygon in whose plane the node's plane is. If that polygon
+    /// was triangulated, it is the plane of one of the triangles.
+    ///
+    /// `None` for a free plane, which is perpendicular to an axis: `normal` and `offset` are then
+    /// exact, but for the one rounding to the grid that corners have.
+    pub fn polygon(&self) -> Option<usize> {
+        match self.plane().kind() {
+            PlaneKind::Face(face) => Some(self.tree.faces.polygon(face)),
+            PlaneKind::Axis(..) => None,
         }
-        let middle = own.end + self.front_len;
-        Ranges { front: own.end..middle, back: middle..all.end, own }
+    }
+
+    /// The plane's exact name, by a face or corner of [`BspTree::faces`].
+    #[doc(hidden)]
+    pub fn plane(&self) -> PlaneId {
+        self.tree.nodes[self.index()].plane
+    }
+
+    /// Which side of the plane a viewpoint sees, exactly: `Greater` is the front, `Equal` is
+    /// neither. The far side, from which orders begin, is the other one; of a plane seen edge-on,
+    /// either may be.
+    pub fn facing(&self, viewpoint: Viewpoint) -> Ordering {
+        let eye = Eye::new(viewpoint, self.tree.faces.lattice());
+        self.tree.faces.plane(self.plane()).facing(&eye)
+    }
+
+    /// The numbers of the fragments on the plane, and on both sides down to the leaves.
+    pub fn fragments(&self) -> Range<u32> {
+        self.first..self.end
+    }
+
+    /// The numbers of the fragments on the plane, in input order.
+    pub fn on(&self) -> Range<u32> {
+        self.ranges().own
+    }
+
+    /// The numbers of all fragments in front, down to the leaves.
+    pub fn in_front(&self) -> Range<u32> {
+        self.ranges().front
+    }
+
+    /// The numbers of all fragments behind, down to the leaves.
+    pub fn behind(&self) -> Range<u32> {
+        self.ranges().back
+    }
+
+    /// What is in front.
+    pub fn front(&self) -> Child<'t> {
+        let record = &self.tree.nodes[self.index()];
+        self.child(record.front_node(self.index()), self.in_front())
+    }
+
+    /// What is behind.
+    pub fn back(&self) -> Child<'t> {
+        let record = &self.tree.nodes[self.index()];
+        self.child(record.back_node(self.index()), self.behind())
+    }
+
+    /// The far side, what is on the plane, and the near side: back to front.
+    #[inline]
+    pub(super) fn parts(&self, is_eye_in_front: bool) -> [Child<'t>; 3] {
+        let record = &self.tree.nodes[self.index()];
+        let Ranges { own, front, back } = record.ranges(self.fragments());
+        let front = self.child(record.front_node(self.index()), front);
+        let back = self.child(record.back_node(self.index()), back);
+        let own = Child::Leaf(own);
+        if is_eye_in_front { [back, own, front] } else { [front, own, back] }
+    }
+
+    fn ranges(&self) -> Ranges {
+        self.tree.nodes[self.index()].ranges(self.fragments())
+    }
+
+    fn child(&self, node: Option<usize>, fragments: Range<u32>) -> Child<'t> {
+        match node {
+            Some(index) => Child::Node(Node {
+                tree: self.tree,
+                index: index as u32,
+                depth: self.depth + 1,
+                first: fragments.start,
+                end: fragments.end,
+            }),
+            None => Child::Leaf(fragments),
+        }
     }
 }
 
-/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind,
-/// down to the leaves.
+/// Nodes of one tree are equal if they are the same one.
+impl PartialEq for Node<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.tree, other.tree) && self.index == other.index
+    }
+}
+
+impl Eq for Node<'_> {}
+
+impl fmt::Debug for Node<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Node")
+            .field("index", &self.index)
+            .field("depth", &self.depth)
+            .field("plane", &self.plane())
+            .field("on", &self.on())
+            .field("in_front", &self.in_front())
+            .field("behind", &self.behind())
+            .finish()
+    }
+}
+
+/// The nodes of a tree, depth first: [`BspTree::nodes`].
 #[derive(Clone, Debug)]
-pub(super) struct Ranges {
-    pub(super) own: Range<u32>,
-    pub(super) front: Range<u32>,
-    pub(super) back: Range<u32>,
+pub struct Nodes<'t> {
+    tree: &'t BspTree,
+    walk: Walk,
+    left: usize,
 }
 
-/// The fragments and nodes of a subtree.
-pub(crate) type Sizes = (u32, u32);
-
-/// Computes the sizes of all subtrees, and replaces a list of nodes.
-pub(super) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<Node>) {
-    // Children come after their parents, so their sizes are known if nodes are read from the last to
-    // the first.
-    sizes.clear();
-    sizes.resize(raw.len(), (0, 0));
-    nodes.clear();
-    nodes.reserve_exact(raw.len());
-    for (i, node) in raw.iter().enumerate().rev() {
-        let (front_len, front_nodes) = match node.front {
-            Child::Leaf(len) => (len, 0),
-            Child::Node => sizes[i + 1],
-        };
-        let (back_len, back_nodes) = match node.back {
-            Child::Leaf(len) => (len, 0),
-            Child::Node => sizes[i + 1 + front_nodes as usize],
-        };
-        sizes[i] = (node.own + front_len + back_len, 1 + front_nodes + back_nodes);
-        let back_is_node = if node.back == Child::Node { BACK_IS_NODE } else { 0 };
-        let own = node.own | back_is_node;
-        nodes.push(Node { plane: node.plane, own, front_len, front_nodes });
+impl<'t> Nodes<'t> {
+    fn take(&mut self, visit: Visit) -> Node<'t> {
+        self.left -= 1;
+        let fragments = visit.all();
+        Node {
+            tree: self.tree,
+            index: visit.node as u32,
+            depth: visit.depth as u32,
+            first: fragments.start,
+            end: fragments.end,
+        }
     }
-    nodes.reverse();
+}
+
+impl<'t> Iterator for Nodes<'t> {
+    type Item = Node<'t>;
+
+    fn next(&mut self) -> Option<Node<'t>> {
+        let visit = self.walk.next(self.tree)?;
+        Some(self.take(visit))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl<'t> DoubleEndedIterator for Nodes<'t> {
+    fn next_back(&mut self) -> Option<Node<'t>> {
+        let visit = self.walk.next_back(self.tree)?;
+        Some(self.take(visit))
+    }
+}
+
+impl ExactSizeIterator for Nodes<'_> {}
+impl FusedIterator for Nodes<'_> {}
+
+impl BspTree {
+    /// The node at the top, of all fragments. `None` if there are no nodes: in a tree without
+    /// fragments, or one of a single fragment that needs no plane.
+    pub fn root(&self) -> Option<Node<'_>> {
+        let end = self.records.len() as u32;
+        (!self.nodes.is_empty()).then_some(Node { tree: self, index: 0, depth: 1, first: 0, end })
+    }
+
+    /// The root, or all fragments if there are no nodes.
+    pub(super) fn whole(&self) -> Child<'_> {
+        self.root().map_or(Child::Leaf(0..self.records.len() as u32), Child::Node)
+    }
+
+    /// All nodes, depth first, those in front of each before those behind it: to draw, measure or
+    /// check a tree. O(nodes) for all of them.
+    pub fn nodes(&self) -> Nodes<'_> {
+        Nodes { tree: self, walk: Walk::new(self), left: self.nodes.len() }
+    }
 }

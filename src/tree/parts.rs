@@ -10,14 +10,14 @@ pub struct RawNode {
     /// How many fragments lie on the plane.
     pub own: u32,
     /// The front side.
-    pub front: Child,
+    pub front: RawChild,
     /// The back side.
-    pub back: Child,
+    pub back: RawChild,
 }
 
 /// What is on one side of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Child {
+pub enum RawChild {
     /// A leaf of this many fragments, stored right behind the node's own.
     Leaf(u32),
     /// Another node.

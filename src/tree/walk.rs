@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use super::BspTree;
-use super::node::Ranges;
+use super::node_record::Ranges;
 use crate::exact::Side;
 
 /// A node on a walk.
@@ -28,6 +28,11 @@ pub(super) struct Visit {
 }
 
 impl Visit {
+    /// The fragments of the whole subtree.
+    pub(super) fn all(&self) -> Range<u32> {
+        self.own.start..self.in_front.end.max(self.behind.end)
+    }
+
     /// How many fragments are in its leaves.
     pub(super) fn leaves(&self) -> usize {
         self.front.len() + self.back.len()

@@ -15,7 +15,7 @@ use crate::viewpoint::Viewpoint;
 
 use contest::contest;
 use orders::Orders;
-use pieces::Buffers;
+pub(crate) use pieces::Buffers;
 
 pub use orders::{OrderFault, check_orders};
 

@@ -5,14 +5,14 @@ use crate::raster::{Outline, Piece};
 use crate::tree::Fragment;
 
 /// A fragment's outline, in memory that the next one uses again.
-#[derive(Default)]
-pub(super) struct Buffers {
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
     lines: Vec<Line>,
     vertices: Vec<[f64; 3]>,
 }
 
 impl Buffers {
-    pub(super) fn piece(&mut self, fragment: &Fragment<'_>) -> Piece<'_> {
+    pub(crate) fn piece(&mut self, fragment: &Fragment<'_>) -> Piece<'_> {
         let face = fragment.face();
         if fragment.is_whole() {
             return Piece { face, outline: Outline::Whole };

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::camera::{Camera, Projection};
+use crate::frustum::Frustum;
 
 /// Polygons are clipped at this distance from the eye's plane, as a share of the distance of their
 /// furthest vertex. Larger: parts near the eye are missing. Smaller: coordinates lose digits.
@@ -34,6 +35,34 @@ impl Camera {
         let position = [x / w, y / w];
         let seen = w > 0.0 && position[0].is_finite() && position[1].is_finite();
         seen.then_some(position)
+    }
+
+    /// The region that the picture shows, to its borders: half a pixel more on each side than the
+    /// rays through the centres of its pixels. That is more than the rounding of the camera, unless
+    /// it is so narrow that a pixel is finer than 2⁻³⁰ of its distance, or of a parallel camera's
+    /// scene.
+    ///
+    /// There is no near and no far plane; a perspective camera sees what is ahead of its eye.
+    pub fn frustum(&self) -> Frustum {
+        let [half_width, half_height] =
+            self.size.map(|side| 0.5 * f64::from(side) * self.pixel_size());
+        let (right, up, ahead) = (self.right, self.up, self.forward);
+        let planes = |origin: DVec3, normals: [DVec3; 4], half: [f64; 4]| {
+            let sides = normals.into_iter().zip(half);
+            sides.map(move |(normal, half)| (normal, normal.dot(origin) - half))
+        };
+        match self.projection {
+            Projection::Perspective { eye, .. } => {
+                let (side, rise) = (ahead * half_width, ahead * half_height);
+                let sides =
+                    planes(eye, [side + right, side - right, rise + up, rise - up], [0.0; 4]);
+                Frustum::new(sides.chain([(ahead, ahead.dot(eye))]))
+            }
+            Projection::Parallel { centre, .. } => {
+                let half = [half_width, half_width, half_height, half_height];
+                Frustum::new(planes(centre, [right, -right, up, -up], half))
+            }
+        }
     }
 
     /// The part of a convex polygon that the picture shows, in pixels; empty if it shows none.

@@ -13,10 +13,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What every layer may import.
-const GROUND: [&str; 6] = ["error", "input", "memory", "parallel_map", "random", "viewpoint"];
+const GROUND: [&str; 7] =
+    ["error", "frustum", "input", "memory", "parallel_map", "random", "viewpoint"];
 
 /// The layers that are built on the ground, each with those before it that it may import.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("exact", &[]),
     ("faces", &["exact"]),
     ("tree", &["exact", "faces"]),
@@ -27,6 +28,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
     // The judge of the order knows nothing of trees, nor of where polygons come from.
     ("raster", &["exact", "view"]),
     ("verify", &["exact", "tree", "view", "raster"]),
+    ("occlusion", &["tree", "raster", "verify"]),
 ];
 
 fn source() -> PathBuf {

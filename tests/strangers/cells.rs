@@ -29,11 +29,11 @@ impl Cells {
         let mut above = vec![None; tree.len()];
         // The last node seen at each depth.
         let mut path: Vec<usize> = Vec::new();
-        for partition in tree.partitions() {
-            path.truncate(partition.depth - 1);
+        for node in tree.nodes() {
+            path.truncate(node.depth() - 1);
             let index = nodes.len();
-            let plane = targets.named(tree, partition.plane());
-            let (on, front, back) = (partition.on, partition.front, partition.back);
+            let plane = targets.named(tree, node.plane());
+            let (on, front, back) = (node.on(), node.in_front(), node.behind());
             for range in [&on, &front, &back] {
                 above[range.start as usize..range.end as usize].fill(Some(index));
             }

@@ -3,7 +3,7 @@
 //!
 //! Rays are shot at the *source polygons*, which gives what is hit and in what depth, exactly. The
 //! fragment at a hit is found by its rounded vertices, and where these cannot tell, by the
-//! cells that [`partitions`](binspace::BspTree::partitions) describes. Then every pair must come far
+//! cells that [`nodes`](binspace::BspTree::nodes) describes. Then every pair must come far
 //! before near, pairs in one plane in input order, and every hit must find its polygon covered once.
 //!
 //! For longer runs, over seed after seed and scenes of up to 5 000 polygons, name the seconds; a

@@ -138,12 +138,12 @@ impl<'t> Judge<'t> {
     /// Every fragment lies where the rules of the exact kernel put it, of every plane above it.
     fn sides(&self) -> Verdict {
         let faces = self.tree.faces();
-        for partition in self.tree.partitions() {
-            let by = model::plane(faces, partition.plane());
+        for node in self.tree.nodes() {
+            let by = model::plane(faces, node.plane());
             let groups = [
-                (partition.on.clone(), Side::Coplanar),
-                (partition.front.clone(), Side::Front),
-                (partition.back.clone(), Side::Back),
+                (node.on(), Side::Coplanar),
+                (node.in_front(), Side::Front),
+                (node.behind(), Side::Back),
             ];
             for (range, expected) in groups {
                 for id in range {
@@ -152,9 +152,9 @@ impl<'t> Judge<'t> {
                     let side = |p: &Homogeneous| Rational::from_integer(p.side(&by));
                     let values: Vec<Rational> = piece.flat.iter().map(side).collect();
                     let exact = &self.faces[face as usize];
-                    let allowed = exact.classify((faces, face), (partition.plane(), &by), &values);
+                    let allowed = exact.classify((faces, face), (node.plane(), &by), &values);
                     ensure(allowed.contains(&expected), || {
-                        format!("fragment {id} is {allowed:?} at {partition:?}")
+                        format!("fragment {id} is {allowed:?} at {node:?}")
                     })?;
                 }
             }

@@ -223,8 +223,8 @@ impl<'t> Rays<'t> {
     fn excuse(&self, ray: &Ray, hits: [&Hit; 2], in_input_order: bool) -> bool {
         let ids = hits.map(|hit| hit.fragment);
         let count = |range: &Range<u32>| ids.iter().filter(|id| range.contains(id)).count();
-        let parting = self.tree.partitions().find(|partition| {
-            let [on, front, back] = [&partition.on, &partition.front, &partition.back].map(count);
+        let parting = self.tree.nodes().find(|node| {
+            let [on, front, back] = [&node.on(), &node.in_front(), &node.behind()].map(count);
             on + front + back == 2 && front < 2 && back < 2
         });
         let Some(parting) = parting else { return false };
@@ -237,7 +237,7 @@ impl<'t> Rays<'t> {
         let nearer = hits.into_iter().min_by(|a, b| a.depth_order(b));
         let eye_is_near = !ray.endless && float(&at.start) <= reach;
         let excused = near == 2 || nearer.as_ref().is_some_and(is_near) && eye_is_near;
-        excused && (in_input_order || count(&parting.on) < 2)
+        excused && (in_input_order || count(&parting.on()) < 2)
     }
 }
 

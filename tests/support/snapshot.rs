@@ -13,7 +13,7 @@ type Node = (PlaneId, usize, [Range<u32>; 3]);
 /// A tree's planes and fragments.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Snapshot {
-    pub(crate) partitions: Vec<Node>,
+    pub(crate) nodes: Vec<Node>,
     pub(crate) pieces: Vec<Piece>,
 }
 
@@ -24,10 +24,10 @@ impl Snapshot {
             let vertices = fragment.lattice_vertices().map(bits).collect();
             (fragment.face(), fragment.polygon(), fragment.lines().collect(), vertices)
         });
-        let partitions = tree
-            .partitions()
-            .map(|p| (p.plane(), p.depth, [p.on.clone(), p.front.clone(), p.back]));
-        Self { partitions: partitions.collect(), pieces: pieces.collect() }
+        let nodes = tree
+            .nodes()
+            .map(|node| (node.plane(), node.depth(), [node.on(), node.in_front(), node.behind()]));
+        Self { nodes: nodes.collect(), pieces: pieces.collect() }
     }
 }
 

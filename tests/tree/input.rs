@@ -38,7 +38,7 @@ fn check_orders(polygons: &[impl Polygon]) {
 fn no_polygons_make_an_empty_tree() {
     let nothing: [[[f64; 3]; 4]; 0] = [];
     let tree = BspTree::build(nothing).unwrap();
-    assert!(tree.is_empty() && tree.partitions().next().is_none());
+    assert!(tree.is_empty() && tree.root().is_none());
     assert_eq!(tree.stats().depth_max, 0);
     check_orders(&nothing);
 }

@@ -10,7 +10,7 @@ use crate::{build, fail};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::scene;
-use binspace::{BspTree, BuildOptions, Heuristic, Partition};
+use binspace::{BspTree, BuildOptions, Heuristic, Node};
 use proptest::prelude::*;
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -18,18 +18,18 @@ use std::ops::Range;
 /// A tree with its planes in rationals.
 struct Sides<'t> {
     tree: &'t BspTree,
-    planes: Vec<(Partition, Plane)>,
+    planes: Vec<(Node<'t>, Plane)>,
     /// How many planes have had the eye behind them, on them, and in front.
     counts: [usize; 3],
 }
 
 impl<'t> Sides<'t> {
     fn new(tree: &'t BspTree) -> Self {
-        let plane = |partition: Partition| {
-            let plane = model::plane(tree.faces(), partition.plane());
-            (partition, plane)
+        let plane = |node: Node<'t>| {
+            let plane = model::plane(tree.faces(), node.plane());
+            (node, plane)
         };
-        Self { tree, planes: tree.partitions().map(plane).collect(), counts: [0; 3] }
+        Self { tree, planes: tree.nodes().map(plane).collect(), counts: [0; 3] }
     }
 
     /// Whether every plane has what is on its far side, then what is on it in input order, then
@@ -39,19 +39,27 @@ impl<'t> Sides<'t> {
         let mut place = vec![0; self.tree.len()];
         let order = self.tree.back_to_front(view.viewpoint);
         order.enumerate().for_each(|(at, fragment)| place[fragment.index() as usize] = at);
-        let places = |ids: &Range<u32>| place[ids.start as usize..ids.end as usize].iter();
+        let places = |ids: Range<u32>| place[ids.start as usize..ids.end as usize].iter();
         let is_before = |a, b| places(a).max().zip(places(b).min()).is_none_or(|(a, b)| a < b);
-        for (partition, plane) in &self.planes {
-            let (id, Partition { on, front, back, .. }) = (partition.plane(), partition);
-            let go = |far, near| is_before(far, near) && is_before(far, on) && is_before(on, near);
+        for (node, plane) in &self.planes {
+            let is_parted = |far: Range<u32>, near: Range<u32>| {
+                let on = node.on();
+                is_before(far.clone(), near.clone())
+                    && is_before(far, on.clone())
+                    && is_before(on, near)
+            };
+            let front_last = || is_parted(node.behind(), node.in_front());
+            let back_last = || is_parted(node.in_front(), node.behind());
             let side = view.side(plane);
             self.counts[(side as i8 + 1) as usize] += 1;
             let fits = match side {
-                Ordering::Greater => go(back, front),
-                Ordering::Less => go(front, back),
-                Ordering::Equal => go(back, front) || go(front, back),
+                Ordering::Greater => front_last(),
+                Ordering::Less => back_last(),
+                Ordering::Equal => front_last() || back_last(),
             };
-            ensure(fits && places(on).is_sorted(), || format!("{id:?} is {side:?}: {view:?}"))?;
+            ensure(fits && places(node.on()).is_sorted(), || {
+                format!("{node:?} is {side:?}: {view:?}")
+            })?;
         }
         Ok(())
     }
@@ -159,7 +167,8 @@ fn every_plane_has_something_on_it_or_on_both_sides() {
     for scene in scenes {
         for &by in Heuristic::ALL {
             let tree = BuildOptions::DEFAULT.with_heuristic(by).build(scene.polygons()).unwrap();
-            for Partition { on, front, back, .. } in tree.partitions() {
+            for node in tree.nodes() {
+                let (on, front, back) = (node.on(), node.in_front(), node.behind());
                 assert!(!on.is_empty() || !front.is_empty() && !back.is_empty(), "{by}");
                 assert!(on.len() + front.len() + back.len() > 1, "{by}");
             }

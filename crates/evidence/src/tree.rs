@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 
 use binspace::internals::{
-    Child, Exact, Eye, Faces, Kernel, Line, Parts, Piece, PlaneId, Side, Symbol, Tuning, Vertex,
+    Exact, Eye, Faces, Kernel, Line, Parts, Piece, PlaneId, RawChild, Side, Symbol, Tuning, Vertex,
     parts, parts_of_tree,
 };
 use binspace::{BspTree, BuildOptions, Error, Viewpoint};
@@ -29,8 +29,8 @@ pub struct KernelTree<K: Kernel> {
 struct Node {
     plane: PlaneId,
     own: u32,
-    front: Child,
-    back: Child,
+    front: RawChild,
+    back: RawChild,
     /// How many fragments there are in its subtree, and how many nodes.
     fragments: u32,
     nodes: u32,
@@ -67,12 +67,12 @@ impl<K: Kernel> KernelTree<K> {
         for raw in parts.nodes.iter().rev() {
             let at = |behind: usize| nodes[nodes.len() - 1 - behind];
             let (front, front_nodes) = match raw.front {
-                Child::Leaf(len) => (len, 0),
-                Child::Node => (at(0).fragments, at(0).nodes),
+                RawChild::Leaf(len) => (len, 0),
+                RawChild::Node => (at(0).fragments, at(0).nodes),
             };
             let (back, back_nodes) = match raw.back {
-                Child::Leaf(len) => (len, 0),
-                Child::Node => {
+                RawChild::Leaf(len) => (len, 0),
+                RawChild::Node => {
                     let child = at(front_nodes as usize);
                     (child.fragments, child.nodes)
                 }
@@ -199,8 +199,8 @@ impl<K: Kernel> KernelTree<K> {
                     };
                     let on = run(node.own);
                     let mut leaf = |child| match child {
-                        Child::Leaf(len) => Some(run(len)),
-                        Child::Node => None,
+                        RawChild::Leaf(len) => Some(run(len)),
+                        RawChild::Node => None,
                     };
                     let (front, back) = (leaf(node.front), leaf(node.back));
                     let (mut child, mut first) = (index + 1, next);
@@ -232,8 +232,8 @@ impl<K: Kernel> KernelTree<K> {
                 (child, next) = (child + size.nodes as usize, next + size.fragments);
                 next - size.fragments..next
             };
-            let front = if node.front == Child::Node { subtree() } else { visit.front };
-            let back = if node.back == Child::Node { subtree() } else { visit.back };
+            let front = if node.front == RawChild::Node { subtree() } else { visit.front };
+            let back = if node.back == RawChild::Node { subtree() } else { visit.back };
             (visit.plane, [visit.on, front, back])
         })
     }
@@ -244,14 +244,14 @@ impl<K: Kernel> KernelTree<K> {
         self.nodes.iter().map(move |node| {
             let (depth, is_front) = stack.pop().unwrap_or((1, false));
             let mut take = |child| {
-                let len = if let Child::Leaf(len) = child { len } else { 0 };
+                let len = if let RawChild::Leaf(len) = child { len } else { 0 };
                 next += len;
                 next - len..next
             };
-            let on = take(Child::Leaf(node.own));
+            let on = take(RawChild::Leaf(node.own));
             let (front, back) = (take(node.front), take(node.back));
             for (child, is_front) in [(node.back, false), (node.front, true)] {
-                if child == Child::Node {
+                if child == RawChild::Node {
                     stack.push((depth + 1, is_front));
                 }
             }

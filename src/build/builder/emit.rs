@@ -7,7 +7,7 @@ use crate::build::choose::Peeled;
 use crate::build::job::{Job, is_worth_a_job};
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::parts::{RawChild, RawNode};
 
 impl<K: Kernel> Builder<'_, K> {
     /// Writes the node of a set that has been divided, and puts its two sides on the stack.
@@ -35,7 +35,7 @@ impl<K: Kernel> Builder<'_, K> {
             self.pieces.truncate(start);
         }
         let child =
-            |is_leaf, len: usize| if is_leaf { Child::Leaf(len as u32) } else { Child::Node };
+            |is_leaf, len: usize| if is_leaf { RawChild::Leaf(len as u32) } else { RawChild::Node };
         let (back_child, front_child) = (child(back_is_leaf, back), child(front_is_leaf, front));
         let node = RawNode { plane, own: own as u32, front: front_child, back: back_child };
         self.output.push_node(node)?;
@@ -84,7 +84,7 @@ impl<K: Kernel> Builder<'_, K> {
             own.sort_by_key(|piece| piece.face);
             let own = own.len();
             (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
-            let child = |side| if layer.rest == side { Child::Node } else { Child::Leaf(0) };
+            let child = |side| if layer.rest == side { RawChild::Node } else { RawChild::Leaf(0) };
             let (front, back) = (child(Side::Front), child(Side::Back));
             let node = RawNode { plane: layer.plane, own: own as u32, front, back };
             self.output.push_node(node)?;
@@ -101,8 +101,9 @@ impl<K: Kernel> Builder<'_, K> {
             (start..next).try_for_each(|i| self.store(self.pieces[i]))?;
             // The last layer's node was written with a child node that now turns out to be a leaf.
             if let Some(node) = self.output.parts.nodes.last_mut() {
-                let child = Child::Leaf((next - start) as u32);
-                let side = if node.front == Child::Node { &mut node.front } else { &mut node.back };
+                let child = RawChild::Leaf((next - start) as u32);
+                let side =
+                    if node.front == RawChild::Node { &mut node.front } else { &mut node.back };
                 *side = child;
             }
         } else {

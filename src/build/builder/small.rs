@@ -7,7 +7,7 @@ use crate::Error;
 use crate::build::choose::{Best, Set};
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::parts::{RawChild, RawNode};
 
 impl<K: Kernel> Builder<'_, K> {
     /// Divides the set on top of the stack, of at most [`MOST_IN_TABLE`](crate::build::choose::MOST_IN_TABLE) pieces, down to the leaves.
@@ -160,7 +160,7 @@ impl<K: Kernel> Builder<'_, K> {
         (0..listed.len()).try_for_each(|i| self.store(self.scratch.own[i]))?;
         self.table.free |= own;
         let children = sides.map(|side| {
-            if is_small_leaf(side) { Child::Leaf(side.count_ones()) } else { Child::Node }
+            if is_small_leaf(side) { RawChild::Leaf(side.count_ones()) } else { RawChild::Node }
         });
         for side in sides.into_iter().filter(|&side| is_small_leaf(side)) {
             slots(side).try_for_each(|slot| self.store(self.table.slots[slot].piece))?;

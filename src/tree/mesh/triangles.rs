@@ -110,6 +110,28 @@ impl Triangles {
         Ok(count)
     }
 
+    /// Writes the indices of some fragments in a given order, such as that of
+    /// [`culled_back_to_front_into`](BspTree::culled_back_to_front_into), and returns how many:
+    /// otherwise as [`write_back_to_front`](Self::write_back_to_front).
+    ///
+    /// # Errors
+    ///
+    /// If `indices` is too short. Then nothing is written.
+    ///
+    /// # Panics
+    ///
+    /// If there is no fragment of a number in the list.
+    pub fn write_order(&self, order: &[u32], indices: &mut [u32]) -> Result<usize, Error> {
+        let count = match self.each {
+            Some(each) => 3 * each as usize * order.len(),
+            None => order.iter().map(|&fragment| self.range(fragment).len()).sum(),
+        };
+        let given = indices.len();
+        let places = indices.get_mut(..count).ok_or(Error::places(count, given))?;
+        self.write(order, places);
+        Ok(count)
+    }
+
     /// Writes the indices of fragments one after the other.
     fn write(&self, order: &[u32], places: &mut [u32]) {
         match self.each {

@@ -5,16 +5,8 @@ use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
 use super::sides::View;
-use crate::tree::node::Ranges;
-use crate::tree::{BspTree, Fragment};
+use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
-
-/// A part of a tree: fragments in the order of their numbers, or a subtree.
-#[derive(Clone, Debug)]
-enum Part {
-    Run(Range<u32>),
-    Subtree { node: u32, fragments: Range<u32> },
-}
 
 /// The fragments of a tree in the order of a viewpoint: [`BspTree::back_to_front`] and
 /// [`BspTree::front_to_back`].
@@ -30,7 +22,7 @@ pub struct Ordered<'t> {
     /// The furthest fragments, behind all of `parts`.
     far: Range<u32>,
     /// What neither end has come to, back to front. Each end opens subtrees only as far as it must.
-    parts: VecDeque<Part>,
+    parts: VecDeque<Child<'t>>,
     /// The nearest fragments, in front of all of `parts`.
     near: Range<u32>,
     left: usize,
@@ -39,42 +31,22 @@ pub struct Ordered<'t> {
 impl<'t> Ordered<'t> {
     fn new(tree: &'t BspTree, viewpoint: Viewpoint, front_to_back: bool) -> Self {
         let left = tree.records.len();
-        let all = 0..left as u32;
-        let root = if tree.nodes.is_empty() {
-            Part::Run(all)
-        } else {
-            Part::Subtree { node: 0, fragments: all }
-        };
         let view = View::new(tree, viewpoint);
-        let parts = [root].into();
+        let parts = [tree.whole()].into();
         Self { tree, view, front_to_back, far: 0..0, parts, near: 0..0, left }
     }
 
     /// The parts of a subtree, back to front.
-    fn open(&self, index: u32, fragments: Range<u32>) -> [Part; 3] {
-        let index = index as usize;
-        let node = &self.tree.nodes[index];
-        let Ranges { own, front, back } = node.ranges(fragments);
-        let part = |child: Option<usize>, fragments| match child {
-            Some(node) => Part::Subtree { node: node as u32, fragments },
-            None => Part::Run(fragments),
-        };
-        let own = Part::Run(own);
-        let front = part(node.front_node(index), front);
-        let back = part(node.back_node(index), back);
-        if self.view.is_in_front(self.tree, index) {
-            [back, own, front]
-        } else {
-            [front, own, back]
-        }
+    fn open(&self, node: Node<'t>) -> [Child<'t>; 3] {
+        node.parts(self.view.is_in_front(self.tree, node.index()))
     }
 
     fn take_furthest(&mut self) -> Option<Fragment<'t>> {
         while self.far.is_empty() {
             match self.parts.pop_front() {
-                Some(Part::Run(run)) => self.far = run,
-                Some(Part::Subtree { node, fragments }) => {
-                    let parts = self.open(node, fragments);
+                Some(Child::Leaf(run)) => self.far = run,
+                Some(Child::Node(node)) => {
+                    let parts = self.open(node);
                     parts.into_iter().rev().for_each(|part| self.parts.push_front(part));
                 }
                 // Only the run that the other end is reading is left: this end reads on in it.
@@ -91,9 +63,9 @@ impl<'t> Ordered<'t> {
     fn take_nearest(&mut self) -> Option<Fragment<'t>> {
         while self.near.is_empty() {
             match self.parts.pop_back() {
-                Some(Part::Run(run)) => self.near = run,
-                Some(Part::Subtree { node, fragments }) => {
-                    let parts = self.open(node, fragments);
+                Some(Child::Leaf(run)) => self.near = run,
+                Some(Child::Node(node)) => {
+                    let parts = self.open(node);
                     self.parts.extend(parts);
                 }
                 None => {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::twig::{FRAGMENTS, NODES, Permutations, Shape};
-use crate::tree::node::Node;
+use crate::tree::node_record::NodeRecord;
 
 /// Part number for "none".
 pub(in crate::tree) const NOBODY: u32 = 0;
@@ -114,7 +114,7 @@ pub(in crate::tree) struct Run {
 
 impl Schedule {
     /// Lays out a tree. O(nodes).
-    pub(in crate::tree) fn new(nodes: &[Node], fragments: u32) -> Self {
+    pub(in crate::tree) fn new(nodes: &[NodeRecord], fragments: u32) -> Self {
         let mut layout = Layout { nodes, schedule: Self::default(), rows: HashMap::new(), next: 0 };
         layout.fill(fragments);
         let mut schedule = layout.schedule;
@@ -169,7 +169,7 @@ enum Side {
 }
 
 struct Layout<'a> {
-    nodes: &'a [Node],
+    nodes: &'a [NodeRecord],
     schedule: Schedule,
     rows: HashMap<Shape, u32>,
     /// The first fragment that is not yet in a part.
@@ -266,7 +266,7 @@ impl Layout<'_> {
     /// How many nodes at the top of a subtree form a list.
     fn links(&self, subtree: &Subtree) -> usize {
         let mut fragments = subtree.fragments;
-        let side = |node: &Node, fragments: u32| {
+        let side = |node: &NodeRecord, fragments: u32| {
             let rest_is_front = node.front_len + 1 == fragments;
             let rest_is_node =
                 if rest_is_front { node.front_nodes > 0 } else { node.back_is_node() };

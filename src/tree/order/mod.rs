@@ -5,7 +5,9 @@ mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
 mod same;
-mod sides;
+pub(super) mod sides;
 mod twig;
+mod walk;
 
 pub use fragments::Ordered;
+pub use walk::{Flow, Part};

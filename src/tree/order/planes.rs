@@ -4,7 +4,7 @@ use glam::Vec4;
 
 use crate::exact::{Faces, LATTICE_LIMIT};
 use crate::parallel_map;
-use crate::tree::node::Node;
+use crate::tree::node_record::NodeRecord;
 
 /// How many planes stand together, and how many signs are in a word.
 pub(super) const GROUP: usize = 4;
@@ -25,8 +25,8 @@ impl Planes {
     }
 
     /// Replaces the planes by those of a tree's nodes.
-    pub(in crate::tree) fn fill(&mut self, faces: &Faces, nodes: &[Node]) {
-        let group = |nodes: &[Node]| {
+    pub(in crate::tree) fn fill(&mut self, faces: &Faces, nodes: &[NodeRecord]) {
+        let group = |nodes: &[NodeRecord]| {
             let mut group = [Vec4::ZERO; 4];
             for (i, node) in nodes.iter().enumerate() {
                 let plane = faces.plane(node.plane);

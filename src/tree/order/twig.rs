@@ -1,6 +1,6 @@
 //! Subtrees of few fragments, whose orders are looked up in a table.
 
-use crate::tree::node::Node;
+use crate::tree::node_record::NodeRecord;
 
 /// The most fragments of a twig: four places of two bits each fit a byte.
 pub(in crate::tree) const FRAGMENTS: usize = 4;
@@ -41,7 +41,7 @@ impl Shape {
     }
 
     /// The shape of a whole subtree of at most [`NODES`] nodes and [`FRAGMENTS`] fragments.
-    pub(in crate::tree) fn of(subtree: &[Node], fragments: u32) -> Self {
+    pub(in crate::tree) fn of(subtree: &[NodeRecord], fragments: u32) -> Self {
         let mut shape =
             Self { len: subtree.len() as u8, fragments: fragments as u8, ..Self::default() };
         // How many fragments the subtree at each node has.

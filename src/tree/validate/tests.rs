@@ -13,7 +13,7 @@ use crate::build::{BuildOptions, Heuristic};
 use crate::exact::{Exact, Kernel};
 use crate::scene::{self, Scene};
 use crate::tree::BspTree;
-use crate::tree::parts::{self, Child, RawNode, Record};
+use crate::tree::parts::{self, RawChild, RawNode, Record};
 use crate::tree::walk::Walk;
 
 type Stored = <Exact as Kernel>::Stored;
@@ -33,7 +33,8 @@ impl Parts {
         let mut nodes = Vec::new();
         while let Some(visit) = walk.next(tree) {
             let node = &tree.nodes[visit.node];
-            let child = |is_node, len| if is_node { Child::Node } else { Child::Leaf(len as u32) };
+            let child =
+                |is_node, len| if is_node { RawChild::Node } else { RawChild::Leaf(len as u32) };
             nodes.push(RawNode {
                 plane: node.plane,
                 own: node.own(),

@@ -1,4 +1,4 @@
-//! What the planes of a tree excuse, against exact rays and the ranges of its partitions.
+//! What the planes of a tree excuse, against exact rays and the ranges of its nodes.
 
 use crate::exact::{Line, PlaneId};
 use crate::random::SplitMix64;
@@ -13,10 +13,11 @@ use glam::DVec3;
 /// What may be added to the tolerance for corners that are kept rounded, in lattice units.
 const ROUNDED_CORNERS: f64 = 4.0;
 
-/// The plane that parts two fragments, by the ranges of all partitions.
+/// The plane that parts two fragments, by the ranges of all nodes.
 fn parting(tree: &BspTree, a: u32, b: u32) -> Option<PlaneId> {
-    let mut parting = tree.partitions().filter(|node| {
-        let side = |f: u32| [&node.on, &node.front, &node.back].map(|range| range.contains(&f));
+    let mut parting = tree.nodes().filter(|node| {
+        let side =
+            |f: u32| [node.on(), node.in_front(), node.behind()].map(|range| range.contains(&f));
         let (a, b) = (side(a), side(b));
         a.contains(&true) && b.contains(&true) && (a != b || a[0])
     });

@@ -115,19 +115,21 @@ fn a_flipped_side_shows_in_the_picture_of_its_direction() {
     let (scene, tree) = case();
     let camera = &cameras(&scene, 1)[0];
     let mut shown = [0, 0];
-    for node in tree.partitions().filter(|node| !node.front.is_empty() && !node.back.is_empty()) {
+    for node in tree.nodes() {
+        let (on, front, back) = (node.on(), node.in_front(), node.behind());
+        if front.is_empty() || back.is_empty() {
+            continue;
+        }
         for (form, shown) in [0, PAINTED_NEAR_FIRST].into_iter().zip(&mut shown) {
             let judgement = judged(&tree, camera, form, |list| {
-                let is_inside = |f: &u32| {
-                    [&node.front, &node.on, &node.back].iter().any(|part| part.contains(f))
-                };
+                let is_inside = |f: &u32| [&front, &on, &back].iter().any(|part| part.contains(f));
                 let first = list.iter().position(is_inside).unwrap();
-                let len = node.front.len() + node.on.len() + node.back.len();
+                let len = node.fragments().len();
                 let part = &mut list[first..first + len];
-                let far = if node.front.contains(&part[0]) { &node.front } else { &node.back };
+                let far = if front.contains(&part[0]) { &front } else { &back };
                 part.rotate_left(far.len());
-                let near = len - far.len() - node.on.len();
-                part[..node.on.len() + near].rotate_left(node.on.len());
+                let near = len - far.len() - on.len();
+                part[..on.len() + near].rotate_left(on.len());
             });
             let pictures = [&judgement.comparison, &judgement.front_to_back];
             let [wrong, right] = if form == 0 { pictures } else { [pictures[1], pictures[0]] };

@@ -3,8 +3,8 @@
 use super::{ROOT, Schedule, write_order};
 use crate::exact::PlaneId;
 use crate::random::SplitMix64;
-use crate::tree::node::{Node, finish};
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::node_record::{NodeRecord, finish};
+use crate::tree::parts::{RawChild, RawNode};
 
 /// A node: how many fragments are on its plane, and what is in front and behind.
 #[derive(Clone, Debug)]
@@ -39,8 +39,8 @@ impl Tree {
     /// Appends its nodes, depth first, the front before the back.
     fn lay(&self, nodes: &mut Vec<RawNode>) {
         let [front, back] = self.sides.each_ref().map(|side| match side {
-            Leaf(fragments) => Child::Leaf(*fragments),
-            Below(_) => Child::Node,
+            Leaf(fragments) => RawChild::Leaf(*fragments),
+            Below(_) => RawChild::Node,
         });
         nodes.push(RawNode { plane: PlaneId::face(0), own: self.own, front, back });
         for side in &self.sides {
@@ -50,7 +50,7 @@ impl Tree {
         }
     }
 
-    fn nodes(&self) -> Vec<Node> {
+    fn nodes(&self) -> Vec<NodeRecord> {
         let mut nodes = Vec::new();
         self.lay(&mut nodes);
         let mut finished = Vec::new();

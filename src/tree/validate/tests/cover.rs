@@ -4,7 +4,7 @@ use super::{Parts, Stored, assert_fault, build, crossing, decals, square, tilted
 use crate::build::{BuildOptions, Heuristic};
 use crate::exact::{Exact, Kernel, Line, PlaneId, Symbol, Vertex};
 use crate::tree::BspTree;
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::parts::{RawChild, RawNode};
 
 const INCOMPLETE: &str = "do not add up to it";
 const OVERLAP: &str = "occurs twice, or another piece overlaps it";
@@ -30,8 +30,8 @@ fn remove(tree: &BspTree, fragment: u32) -> Parts {
     let node = &mut parts.nodes[node];
     match group {
         0 => node.own -= 1,
-        1 => node.front = Child::Leaf(0),
-        _ => node.back = Child::Leaf(0),
+        1 => node.front = RawChild::Leaf(0),
+        _ => node.back = RawChild::Leaf(0),
     }
     parts.pieces.remove(fragment as usize);
     parts
@@ -53,18 +53,18 @@ fn double(tree: &BspTree, fragment: u32) -> Parts {
     // A leaf's subtree comes behind the other leaf, and in front of or behind the other subtree.
     let raw = &mut parts.nodes[node];
     let child = if group == 1 { &mut raw.front } else { &mut raw.back };
-    *child = Child::Node;
+    *child = RawChild::Node;
     let plane = PlaneId::face(piece.0);
-    let doubled = RawNode { plane, own: 2, front: Child::Leaf(0), back: Child::Leaf(0) };
+    let doubled = RawNode { plane, own: 2, front: RawChild::Leaf(0), back: RawChild::Leaf(0) };
     parts.pieces.remove(fragment as usize);
-    let partition = tree.partitions().nth(node).expect("the node");
+    let handle = tree.nodes().nth(node).expect("the node");
     let front_nodes = tree.nodes[node].front_nodes as usize;
     let (at_node, at_piece) = if group == 1 {
         // Behind the node's own and the back's leaf.
-        let back_leaf = if tree.nodes[node].back_is_node() { 0 } else { partition.back.len() };
-        (node + 1, partition.on.end as usize + back_leaf)
+        let back_leaf = if tree.nodes[node].back_is_node() { 0 } else { handle.behind().len() };
+        (node + 1, handle.on().end as usize + back_leaf)
     } else {
-        let in_front = if front_nodes > 0 { partition.front.end } else { partition.back.start };
+        let in_front = if front_nodes > 0 { handle.in_front().end } else { handle.behind().start };
         (
             node + 1 + front_nodes,
             if front_nodes > 0 { in_front as usize - 1 } else { in_front as usize },

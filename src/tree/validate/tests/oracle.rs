@@ -6,7 +6,7 @@ use crate::exact::{Exact, ExactVertex, Kernel, Line, Piece, PlaneId, Side, Verte
 use crate::random::SplitMix64;
 use crate::scene;
 use crate::tree::BspTree;
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::parts::{RawChild, RawNode};
 
 /// A piece of a face; all of it, if it has no vertices.
 type Live = (u32, Vec<ExactVertex>);
@@ -46,11 +46,11 @@ fn is_right(tree: &BspTree, parts: &Parts) -> bool {
         own.sort_by_key(|&(face, _)| face);
         let mut take =
             |list: &[Live]| list.iter().all(|live| pieces.next().is_some_and(|p| same(p, live)));
-        let fits = |child: Child, list: &[Live]| match child {
-            Child::Leaf(len) => len as usize == list.len() && len <= 1,
-            Child::Node => true,
+        let fits = |child: RawChild, list: &[Live]| match child {
+            RawChild::Leaf(len) => len as usize == list.len() && len <= 1,
+            RawChild::Node => true,
         };
-        let leaf = |child: Child| matches!(child, Child::Leaf(_));
+        let leaf = |child: RawChild| matches!(child, RawChild::Leaf(_));
         if is_idle
             || own.len() != node.own as usize
             || !fits(node.front, &front)
@@ -61,10 +61,10 @@ fn is_right(tree: &BspTree, parts: &Parts) -> bool {
         {
             return false;
         }
-        if node.back == Child::Node {
+        if node.back == RawChild::Node {
             stack.push(back);
         }
-        if node.front == Child::Node {
+        if node.front == RawChild::Node {
             stack.push(front);
         }
     }

@@ -4,7 +4,7 @@ use super::{Parts, assert_fault, build, crossing, decals, tilted};
 use crate::build::Heuristic;
 use crate::exact::PlaneId;
 use crate::scene;
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::parts::{RawChild, RawNode};
 
 #[test]
 fn sides_that_are_exchanged_are_found() {
@@ -15,7 +15,7 @@ fn sides_that_are_exchanged_are_found() {
     ] {
         let has_one_leaf = |node: &&mut RawNode| {
             let sides = (node.front, node.back);
-            matches!(sides, (Child::Leaf(a), Child::Leaf(b)) if a != b)
+            matches!(sides, (RawChild::Leaf(a), RawChild::Leaf(b)) if a != b)
         };
         let edit = |parts: &mut Parts| match parts.nodes.iter_mut().rfind(has_one_leaf) {
             Some(node) => std::mem::swap(&mut node.front, &mut node.back),
@@ -56,7 +56,7 @@ fn a_fragment_beside_the_plane_that_it_is_said_to_be_on_is_found() {
     let edit = |parts: &mut Parts| {
         let last = parts.nodes.last_mut().expect("a node");
         last.own += 1;
-        (last.front, last.back) = (Child::Leaf(0), Child::Leaf(0));
+        (last.front, last.back) = (RawChild::Leaf(0), RawChild::Leaf(0));
     };
     assert_fault(&tree, edit, "not Coplanar as its place says");
 }
@@ -65,11 +65,11 @@ fn a_fragment_beside_the_plane_that_it_is_said_to_be_on_is_found() {
 fn a_plane_that_faces_the_other_way_is_found() {
     let tree = build(&decals(), Heuristic::First);
     let mut flipped = 0;
-    for (at, partition) in tree.partitions().enumerate() {
+    for (at, node) in tree.nodes().enumerate() {
         let normal = |plane| tree.faces.plane(plane).normal_f64().normalize();
         for plane in (0..tree.faces.len() as u32).map(PlaneId::face) {
-            let is_opposite = normal(plane).dot(normal(partition.plane())) < -0.9;
-            if is_opposite && partition.front.len() + partition.back.len() > 0 {
+            let is_opposite = normal(plane).dot(normal(node.plane())) < -0.9;
+            if is_opposite && node.in_front().len() + node.behind().len() > 0 {
                 let edit = |parts: &mut Parts| parts.nodes[at].plane = plane;
                 assert_fault(&tree, edit, "as its place says");
                 flipped += 1;
@@ -85,7 +85,7 @@ fn coplanar_fragments_out_of_input_order_are_found() {
     for scene in [decals(), tilted(&decals())] {
         for by in [Heuristic::First, Heuristic::default()] {
             let tree = build(&scene, by);
-            for on in tree.partitions().map(|partition| partition.on).filter(|on| on.len() > 1) {
+            for on in tree.nodes().map(|node| node.on()).filter(|on| on.len() > 1) {
                 let edit =
                     |parts: &mut Parts| parts.pieces.swap(on.start as usize, on.start as usize + 1);
                 let fault = format!("fragment {} on its plane comes before one", on.start);
@@ -106,10 +106,10 @@ fn a_face_beside_its_own_plane_is_found_and_counts_as_misplaced() {
     let edit = |parts: &mut Parts| {
         let [root] = &mut parts.nodes[..] else { panic!("one node") };
         // The other square stays on its side.
-        if root.front == Child::Leaf(1) {
+        if root.front == RawChild::Leaf(1) {
             parts.pieces.swap(0, 1);
         }
-        (root.own, root.front, root.back) = (0, Child::Leaf(1), Child::Leaf(1));
+        (root.own, root.front, root.back) = (0, RawChild::Leaf(1), RawChild::Leaf(1));
     };
     assert_fault(&tree, edit, "is Coplanar, not");
 }

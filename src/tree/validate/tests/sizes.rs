@@ -4,23 +4,23 @@ use super::{Parts, assert_fault, build, crossing, trees, verdict};
 use crate::build::Heuristic;
 use crate::exact::PlaneId;
 use crate::scene;
-use crate::tree::node::{Node, finish};
-use crate::tree::parts::{Child, RawNode};
+use crate::tree::node_record::{NodeRecord, finish};
+use crate::tree::parts::{RawChild, RawNode};
 
 const COUNTS: &str = "the sizes of its subtrees contradict each other";
 
 /// The same node with another number of fragments on its plane, and another kind of back.
-fn with_own(node: &Node, own: u32, back_is_node: bool) -> Node {
-    let back = if back_is_node { Child::Node } else { Child::Leaf(0) };
-    let raw = RawNode { plane: node.plane, own, front: Child::Leaf(0), back };
-    let last = RawNode { back: Child::Leaf(0), ..raw };
+fn with_own(node: &NodeRecord, own: u32, back_is_node: bool) -> NodeRecord {
+    let back = if back_is_node { RawChild::Node } else { RawChild::Leaf(0) };
+    let raw = RawNode { plane: node.plane, own, front: RawChild::Leaf(0), back };
+    let last = RawNode { back: RawChild::Leaf(0), ..raw };
     let mut nodes = Vec::new();
     finish(&[raw, last], &mut Vec::new(), &mut nodes);
     with_front(&nodes[0], node.front_len, node.front_nodes)
 }
 
 /// The same node with other numbers of fragments and nodes in front.
-fn with_front(node: &Node, front_len: u32, front_nodes: u32) -> Node {
+fn with_front(node: &NodeRecord, front_len: u32, front_nodes: u32) -> NodeRecord {
     let mut node = *node;
     (node.front_len, node.front_nodes) = (front_len, front_nodes);
     node
@@ -90,13 +90,17 @@ fn sizes_that_send_a_walk_in_circles_end_it() {
 
 #[test]
 fn a_plane_that_tells_nothing_apart_is_idle() {
-    let idle =
-        RawNode { plane: PlaneId::axis(0, 0), own: 0, front: Child::Node, back: Child::Leaf(0) };
+    let idle = RawNode {
+        plane: PlaneId::axis(0, 0),
+        own: 0,
+        front: RawChild::Node,
+        back: RawChild::Leaf(0),
+    };
     // All of the last square's polygons are on one side of the first corner's plane.
     let tree = build(&scene::chain(30), Heuristic::First);
     let fault = "its plane separates no fragments";
     assert_fault(&tree, |parts| parts.nodes.insert(0, idle), fault);
-    let behind = RawNode { front: Child::Leaf(0), back: Child::Node, ..idle };
+    let behind = RawNode { front: RawChild::Leaf(0), back: RawChild::Node, ..idle };
     assert_fault(&tree, |parts| parts.nodes.insert(0, behind), fault);
 }
 
@@ -114,10 +118,10 @@ fn fragments_that_no_plane_tells_apart_are_a_crowd() {
                 assert!(front_nodes > 0 && root.back_is_node());
                 if front {
                     parts.nodes.drain(1..=front_nodes);
-                    parts.nodes[0].front = Child::Leaf(root.front_len);
+                    parts.nodes[0].front = RawChild::Leaf(root.front_len);
                 } else {
                     parts.nodes.truncate(1 + front_nodes);
-                    parts.nodes[0].back = Child::Leaf(back_len);
+                    parts.nodes[0].back = RawChild::Leaf(back_len);
                 }
             };
             assert_fault(&tree, edit, fault);

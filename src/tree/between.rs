@@ -1,105 +1,12 @@
-//! The partition planes of a tree, to be looked at.
+//! The plane between two fragments.
 
-use std::iter::FusedIterator;
 use std::ops::Range;
 
-use glam::DVec3;
-
 use super::BspTree;
-use super::node::Ranges;
-use super::walk::{Visit, Walk};
-use crate::exact::{Faces, PlaneId, PlaneKind};
-
-/// A partition plane, and which fragments lie on which side of it; see [`BspTree::partitions`].
-///
-/// The plane holds the points p with `normal.dot(p) == offset`; its front is where the left side is
-/// larger. Both are rounded. The tree itself decides by the exact plane.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Partition {
-    /// The unit normal, which points to the front.
-    pub normal: DVec3,
-    /// The distance of the plane from the origin along the normal, in the polygons' unit. Infinite
-    /// if it is too large for `f64`.
-    pub offset: f64,
-    /// How many planes there are on the path from the root to this one, both included.
-    pub depth: usize,
-    /// The numbers of the fragments on the plane.
-    pub on: Range<u32>,
-    /// The numbers of all fragments in front, down to the leaves.
-    pub front: Range<u32>,
-    /// The numbers of all fragments behind, down to the leaves.
-    pub back: Range<u32>,
-    plane: PlaneId,
-}
-
-impl Partition {
-    fn new(tree: &BspTree, visit: Visit) -> Self {
-        let node = &tree.nodes[visit.node];
-        let (normal, offset) = rounded(&tree.faces, node.plane);
-        let (depth, plane) = (visit.depth, node.plane);
-        let Visit { own: on, in_front: front, behind: back, .. } = visit;
-        Self { normal, offset, depth, on, front, back, plane }
-    }
-
-    /// The plane's exact name, by a face or corner of [`BspTree::faces`].
-    #[doc(hidden)]
-    pub fn plane(&self) -> PlaneId {
-        self.plane
-    }
-}
-
-/// A plane's unit normal and offset in the polygons' unit.
-fn rounded(faces: &Faces, plane: PlaneId) -> (DVec3, f64) {
-    let corner = match plane.kind() {
-        PlaneKind::Face(face) => faces.reference_triangle(face)[0],
-        PlaneKind::Axis(_, corner) => corner,
-    };
-    let point = faces.lattice().to_world(faces.corner(corner));
-    let normal = faces.plane(plane).normal_f64().normalize();
-    (normal, normal.dot(point))
-}
-
-/// The partition planes of a tree, depth first: [`BspTree::partitions`].
-#[derive(Clone, Debug)]
-pub struct Partitions<'t> {
-    tree: &'t BspTree,
-    walk: Walk,
-    left: usize,
-}
-
-impl Iterator for Partitions<'_> {
-    type Item = Partition;
-
-    fn next(&mut self) -> Option<Partition> {
-        let visit = self.walk.next(self.tree)?;
-        self.left -= 1;
-        Some(Partition::new(self.tree, visit))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.left, Some(self.left))
-    }
-}
-
-impl DoubleEndedIterator for Partitions<'_> {
-    fn next_back(&mut self) -> Option<Partition> {
-        let visit = self.walk.next_back(self.tree)?;
-        self.left -= 1;
-        Some(Partition::new(self.tree, visit))
-    }
-}
-
-impl ExactSizeIterator for Partitions<'_> {}
-impl FusedIterator for Partitions<'_> {}
+use super::node_record::Ranges;
+use crate::exact::PlaneId;
 
 impl BspTree {
-    /// The partition planes, depth first, those in front of each before those behind it: to draw,
-    /// measure or check a tree. O(nodes) for all of them.
-    pub fn partitions(&self) -> Partitions<'_> {
-        Partitions { tree: self, walk: Walk::new(self), left: self.nodes.len() }
-    }
-
     /// The partition plane that parts two fragments, or that both lie on; `None` if both are in one
     /// leaf, which a fragment in a leaf is with itself. O(depth).
     ///
@@ -134,13 +41,13 @@ mod tests {
     use crate::random::SplitMix64;
     use crate::{BuildOptions, Heuristic, scene};
 
-    /// The plane between any two fragments by the ranges of all partitions, in a table: a pair that
+    /// The plane between any two fragments by the ranges of all nodes, in a table: a pair that
     /// is not on one side of a plane is parted there, and nowhere else.
     fn table(tree: &BspTree) -> Vec<Vec<Option<PlaneId>>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
-        for partition in tree.partitions() {
-            let plane = partition.plane();
-            let Partition { on, front, back, .. } = partition;
+        for node in tree.nodes() {
+            let plane = node.plane();
+            let (on, front, back) = (node.on(), node.in_front(), node.behind());
             for (one, other) in [(&on, &on), (&on, &front), (&on, &back), (&front, &back)] {
                 for a in one.clone() {
                     for b in other.clone() {
@@ -184,7 +91,7 @@ mod tests {
                     in_one_leaf += usize::from(expected.is_none());
                 }
             }
-            on_one_plane += tree.partitions().filter(|p| p.on.len() > 1).count();
+            on_one_plane += tree.nodes().filter(|node| node.on().len() > 1).count();
             most = most.max(tree.len());
         };
         for seed in 0..40 {

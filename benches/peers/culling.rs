@@ -1,0 +1,125 @@
+//! Orders of what is in view, against whole orders: a level of rooms with about one in a hundred of
+//! its polygons in view, and a large one of 2.6 million.
+
+#[path = "../../examples/level/rooms.rs"]
+mod rooms;
+
+use binspace::glam::DVec3;
+use binspace::view::Camera;
+use binspace::{Bounds, BspTree, Culling, Frustum, Sides};
+use rooms::{HEIGHT, ROOM};
+use std::time::{Duration, Instant};
+use support::{Table, Target, against, time};
+
+/// The rooms on a side of each level.
+const SIDES: [usize; 4] = [40, 100, 200, 395];
+
+/// Eyes of a level.
+const EYES: usize = 8;
+
+pub(crate) fn run() {
+    let table = Table::new(
+        "Fragments in view, one thread, against the order of all",
+        &[
+            "rooms",
+            "polygons",
+            "fragments",
+            "bounds made in",
+            "share in view",
+            "order",
+            "in view",
+            "ratio",
+            "target",
+            "met",
+            "fronts in view",
+        ],
+    );
+    for side in SIDES {
+        let level: Vec<_> = rooms::rooms(side).into_iter().map(|(_, quad)| quad).collect();
+        let tree = BspTree::build(&level).expect("memory");
+        let begin = Instant::now();
+        let bounds = tree.bounds().expect("memory");
+        let making = begin.elapsed();
+        let (mut share, mut times) = (0.0, [Duration::ZERO; 3]);
+        for k in 0..EYES {
+            let camera = camera(side, k);
+            let (kept, measured) = measure(&tree, &bounds, &camera);
+            share += kept as f64 / tree.len() as f64 / EYES as f64;
+            times.iter_mut().zip(measured).for_each(|(sum, time)| *sum += time / EYES as u32);
+        }
+        let ratio = times[1].as_secs_f64() / times[0].as_secs_f64();
+        let [ratio, target, met] = against(ratio, Target::AtMost(0.05));
+        table.row(&[
+            (side * side).to_string(),
+            level.len().to_string(),
+            tree.len().to_string(),
+            time(making),
+            format!("{:.2} %", 100.0 * share),
+            time(times[0]),
+            time(times[1]),
+            ratio,
+            target,
+            met,
+            time(times[2]),
+        ]);
+    }
+}
+
+/// An eye in a room, and a direction of view, with such an angle that about a hundredth is in view.
+fn camera(side: usize, k: usize) -> Camera {
+    let turn = k as f64 / EYES as f64 * std::f64::consts::TAU;
+    let middle = DVec3::new(0.5, 0.5, 0.0) * (side as f64 * ROOM) + DVec3::Z * (0.55 * HEIGHT);
+    let eye = middle + DVec3::new(turn.cos(), turn.sin(), 0.0) * (0.2 * side as f64 * ROOM);
+    // Looks outwards: to there it is 0.3 sides, and a wedge of 0.115 radians is about a
+    // hundredth of the square.
+    let target = eye + (eye - middle).with_z(0.0);
+    Camera::perspective(eye, target, DVec3::Z, 0.065, [320, 180]).expect("a camera")
+}
+
+/// How many fragments are in view; the shortest times of the whole order, of those in view, and of
+/// those of which the fronts are seen as well.
+fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> (usize, [Duration; 3]) {
+    let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
+    let culling = Culling::new(bounds).with_frustum(frustum.clone());
+    let fronts = culling.clone().with_sides(Sides::Front);
+    let (mut order, mut seen, mut shown) = (Vec::new(), Vec::new(), Vec::new());
+    let mut shortest = [Duration::MAX; 3];
+    for _ in 0..(5_000_000 / tree.len()).clamp(7, 60) {
+        let mut take = |place: usize, work: &mut dyn FnMut()| {
+            let begin = Instant::now();
+            work();
+            shortest[place] = shortest[place].min(begin.elapsed());
+        };
+        take(0, &mut || tree.back_to_front_into(viewpoint, &mut order));
+        take(1, &mut || tree.culled_back_to_front_into(viewpoint, &culling, &mut seen));
+        take(2, &mut || tree.culled_back_to_front_into(viewpoint, &fronts, &mut shown));
+    }
+    check(tree, &frustum, &order, &seen);
+    let is_front = |&fragment: &u32| tree.fragment(fragment).facing(viewpoint).is_gt();
+    assert!(seen.iter().copied().filter(is_front).eq(shown));
+    (seen.len(), shortest)
+}
+
+/// The list is the whole order without the fragments whose vertices are all outside of one plane.
+/// What is so near to a plane that rounding decides may be in the list.
+fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
+    let mut seen = seen.iter().peekable();
+    for &fragment in order {
+        // The polygons are flat along axes, so their boxes are outside if they are.
+        let vertices: Vec<DVec3> = tree.fragment(fragment).vertices().collect();
+        let (low, high) = vertices
+            .iter()
+            .fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)));
+        let furthest = frustum.planes().iter().map(|(normal, offset)| {
+            let far = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
+            (normal.dot(far) - offset) / normal.length()
+        });
+        let furthest = furthest.fold(f64::INFINITY, f64::min);
+        let is_seen = seen.next_if(|&&other| other == fragment).is_some();
+        assert!(
+            is_seen == (furthest >= 0.0) || is_seen && furthest > -1e-8,
+            "{fragment}: {furthest:e}"
+        );
+    }
+    assert_eq!(seen.next(), None);
+}

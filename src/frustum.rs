@@ -1,0 +1,149 @@
+//! A convex region of space, such as what a camera sees.
+
+use std::cmp::Ordering;
+
+use glam::{DMat4, DVec3, DVec4};
+use smallvec::SmallVec;
+
+/// A convex region: the points on the front of some planes, such as the four sides of what a camera
+/// sees.
+///
+/// A plane is a normal, of any length, and an offset: it keeps the points p with
+/// `normal.dot(p) >= offset`, as a [`Node`](crate::Node) has its front. Without planes, the region is
+/// all of space. A plane with a number that is infinite or NaN keeps everything.
+///
+/// ```
+/// use binspace::Frustum;
+/// use binspace::glam::DVec3;
+///
+/// // 1 ≤ x ≤ 2.
+/// let slab = Frustum::new([(DVec3::X, 1.0), (DVec3::NEG_X, -2.0)]);
+/// assert!(slab.meets([DVec3::ZERO, DVec3::splat(1.5)]));
+/// assert!(!slab.meets([DVec3::ZERO, DVec3::splat(0.5)]));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frustum {
+    planes: SmallVec<[(DVec3, f64); 6]>,
+}
+
+impl Frustum {
+    /// The points on the front of all these planes.
+    pub fn new(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Self {
+        Self { planes: planes.into_iter().collect() }
+    }
+
+    /// What a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w: the sides of a picture, as a projection
+    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU has them. Its depths are left alone, so there is
+    /// no near and no far plane.
+    ///
+    /// Points right on the sides may be left out by the rounding of the matrix: widen it a little.
+    pub fn of_matrix(matrix: DMat4) -> Self {
+        let [x, y, w] = [matrix.row(0), matrix.row(1), matrix.row(3)];
+        // Where both sides hold, w is not negative; it is worth a plane of its own for boxes.
+        Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
+    }
+
+    /// The planes.
+    pub fn planes(&self) -> &[(DVec3, f64)] {
+        &self.planes
+    }
+
+    /// Whether a box, given by its least and largest coordinates, may have points in the region:
+    /// whether it is not outside of one of the planes.
+    ///
+    /// Rounding makes it say yes too often, never no: the box counts as larger by some 10⁻¹⁵ of its
+    /// distance from the origin. It also says yes where a box is outside, but not of any one plane.
+    pub fn meets(&self, bounds: [DVec3; 2]) -> bool {
+        let reach = bounds[0].abs().max(bounds[1].abs());
+        let bounds = flat(bounds);
+        !self.planes.iter().any(|&plane| HalfSpace::new(plane, reach, 0.0).side(&bounds).is_lt())
+    }
+}
+
+/// A box: its least coordinates, then its largest.
+pub(crate) type Flat = [f64; 6];
+
+pub(crate) fn flat([low, high]: [DVec3; 2]) -> Flat {
+    [low.x, low.y, low.z, high.x, high.y, high.z]
+}
+
+/// The front of a plane, prepared to be compared with many boxes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfSpace {
+    normal: [f64; 3],
+    /// Less than the offset, by more than the rounding of all that it is compared with.
+    offset: f64,
+    /// Which of a box's numbers are the largest along the normal.
+    far: [usize; 3],
+}
+
+/// Roundings in a scalar product of three terms, its comparison, and the bound itself.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+impl HalfSpace {
+    /// For boxes whose coordinates are at most `reach` in magnitude, and count as larger by `slack`
+    /// on all sides.
+    pub(crate) fn new((normal, offset): (DVec3, f64), reach: DVec3, slack: f64) -> Self {
+        let size = normal.abs().dot(reach) + offset.abs();
+        let margin = size * ROUNDINGS + normal.abs().element_sum() * slack + f64::MIN_POSITIVE;
+        let normal = normal.to_array();
+        // The same margin for all boxes: so a box inside another never is on the front of a plane
+        // that the larger one is behind.
+        Self {
+            normal,
+            offset: offset - margin,
+            far: [0, 1, 2].map(|axis| axis + if normal[axis] > 0.0 { 3 } else { 0 }),
+        }
+    }
+
+    /// Where a box is: `Less` is behind, `Greater` in front, `Equal` neither or not certain.
+    #[inline]
+    pub(crate) fn side(&self, bounds: &Flat) -> Ordering {
+        let along = |corner: [f64; 3]| {
+            let [a, b, c] = self.normal;
+            a * corner[0] + b * corner[1] + c * corner[2]
+        };
+        let [i, j, k] = self.far;
+        if along([bounds[i], bounds[j], bounds[k]]) < self.offset {
+            return Ordering::Less;
+        }
+        let [i, j, k] = [(i + 3) % 6, (j + 3) % 6, (k + 3) % 6];
+        if along([bounds[i], bounds[j], bounds[k]]) >= self.offset {
+            Ordering::Greater
+        } else {
+            Ordering::Equal
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_keeps_what_it_maps_into_the_picture() {
+        let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
+        // A perspective of 1.5 radians, half as high again in width, with w = −z.
+        let mut perspective = DMat4::from_scale(DVec3::new(1.0 / 1.5, 1.0, -1.0) / 0.75_f64.tan());
+        (perspective.z_axis.w, perspective.w_axis.w) = (-1.0, 0.0);
+        let frustum = Frustum::of_matrix(perspective * view);
+        let meets = |x: f64, y: f64, z: f64| frustum.meets([DVec3::new(x, y, z); 2]);
+        // From z = 5 along −z: half the height at distance 5 is 5 tan 0.75 = 4.66.
+        assert!(meets(0.0, 4.6, 0.0) && !meets(0.0, 4.7, 0.0));
+        assert!(meets(-6.9, 0.0, 0.0) && !meets(-7.1, 0.0, 0.0));
+        assert!(meets(0.0, 0.0, 4.99) && !meets(0.0, 0.0, 5.01) && meets(0.0, 0.0, -1e9));
+    }
+
+    #[test]
+    fn numbers_that_are_none_keep_everything() {
+        let boxes = [[DVec3::ZERO; 2], [DVec3::MIN, DVec3::MAX], [DVec3::splat(1e300); 2]];
+        let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        for bounds in boxes {
+            for number in numbers {
+                assert!(Frustum::new([(DVec3::X, number)]).meets(bounds));
+                assert!(Frustum::new([(DVec3::new(0.0, number, 1.0), 0.0)]).meets(bounds));
+            }
+            assert!(Frustum::default().meets(bounds));
+        }
+    }
+}

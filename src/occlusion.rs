@@ -1,0 +1,79 @@
+//! Which pixels are covered already, for walks from front to back that leave out what is hidden.
+
+use glam::DVec3;
+
+use crate::raster::{Mask, Rays};
+use crate::tree::{BspTree, Fragment};
+use crate::verify::Buffers;
+
+/// The pixels that are covered so far on a walk from front to back: occlusion culling.
+///
+/// Cover it with each fragment that comes, and skip the subtrees that it hides: nothing in them
+/// owns a pixel of the picture that the rays define. That is exact, except that a subtree is judged
+/// by its box, so that one is looked at which only seems to reach out.
+///
+/// The mask may be coarser than the picture: cells of so many pixels each way, which are covered
+/// only by a fragment that covers all of their pixels. Then it is smaller and faster, and hides less:
+/// along the edge between two walls, no cell is covered by either.
+///
+/// ```
+/// use binspace::raster::Rays;
+/// use binspace::{BspTree, CoverageMask, Flow, Part, scene, view::Camera};
+/// use binspace::glam::DVec3;
+///
+/// // Squares one behind the other: from the front, the first hides all others.
+/// let tree = BspTree::build(scene::chain(50).polygons())?;
+/// let bounds = tree.bounds()?;
+/// let eye = DVec3::new(0.0, -9.0, 0.0);
+/// let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [64, 64])?;
+/// let mut mask = CoverageMask::new(&tree, &Rays::new(&camera, tree.faces())?, 1);
+/// let mut seen = Vec::new();
+/// let _ = tree.walk_front_to_back(camera.viewpoint(), |part| match part {
+///     Part::Subtree(node) if mask.hides(bounds.of(node)) => Flow::Skip,
+///     Part::Fragment(fragment) if mask.cover(&fragment) => {
+///         seen.push(fragment.polygon());
+///         Flow::<()>::Descend
+///     }
+///     _ => Flow::Descend,
+/// });
+/// assert_eq!(seen, [0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CoverageMask<'t> {
+    tree: &'t BspTree,
+    rays: Rays,
+    mask: Mask,
+    buffers: Buffers,
+}
+
+impl<'t> CoverageMask<'t> {
+    /// A mask of which nothing is covered, for the picture of some rays through a tree's faces, with
+    /// cells of `cell` pixels each way; 0 counts as 1.
+    pub fn new(tree: &'t BspTree, rays: &Rays, cell: u32) -> Self {
+        let mask = Mask::new(rays.size(), cell.max(1));
+        Self { tree, rays: rays.clone(), mask, buffers: Buffers::default() }
+    }
+
+    /// Whether nothing in a box owns a pixel: all that it may cover is covered, or it is outside of
+    /// the picture.
+    pub fn hides(&self, [low, high]: [DVec3; 2]) -> bool {
+        let lattice = self.tree.faces().lattice();
+        let corners: [[f64; 3]; 8] = std::array::from_fn(|k| {
+            let pick = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            lattice.to_lattice(DVec3::new(pick(0), pick(1), pick(2)))
+        });
+        self.mask.hides(&self.rays, &corners)
+    }
+
+    /// Covers the pixels of a fragment, and returns whether it owns some: whether it covers a pixel
+    /// of a cell that was not covered yet.
+    pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
+        self.mask.cover(&self.rays, self.tree.faces(), self.buffers.piece(fragment))
+    }
+
+    /// Whether all of the picture is covered.
+    pub fn is_full(&self) -> bool {
+        self.mask.is_full()
+    }
+}

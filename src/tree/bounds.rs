@@ -1,0 +1,227 @@
+//! Bounding boxes of a tree's subtrees and fragments.
+
+pub(super) mod normals;
+
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::{BspTree, Child, Fragment, Node};
+use crate::Error;
+use crate::exact::{Exact, Eye, Kernel, SymbolKind};
+use crate::frustum::{Flat, flat};
+use crate::memory::reserve;
+use crate::parallel_map;
+use crate::viewpoint::Viewpoint;
+use normals::{Arms, Normals};
+
+/// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common:
+/// [`BspTree::bounds`].
+///
+/// A tree has none of its own: who needs them makes them once and keeps them beside the tree. They
+/// take about 130 bytes a fragment.
+///
+/// Boxes are `[low, high]` in the polygons' unit, rounded outwards: each contains the exact vertices
+/// of its fragments, and those that [`Fragment::vertices`] gives. It is larger than needed by at most
+/// 2⁻⁵¹ of the scene's extent and three steps of `f64` on each side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds {
+    /// Of each node's subtree.
+    pub(super) nodes: Vec<Flat>,
+    pub(super) normals: Vec<Normals>,
+    /// Of each fragment; then of each [`BLOCK`] fragments with consecutive numbers, of each
+    /// [`BLOCK`] of these, and so on.
+    pub(super) levels: Vec<Vec<Flat>>,
+    all: Flat,
+}
+
+/// How many boxes are summed up in one, for planes with many fragments. Smaller: more memory; larger:
+/// more boxes are looked at where few are met.
+pub(super) const BLOCK: usize = 16;
+
+/// How many fragments one thread takes at a time.
+const PART: usize = 4096;
+
+/// The box of nothing.
+const NOTHING: Flat = [
+    f64::INFINITY,
+    f64::INFINITY,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NEG_INFINITY,
+    f64::NEG_INFINITY,
+];
+
+/// A cut vertex is within three roundings of its exact position, each at most this share of a
+/// coordinate, and a rounding of the lattice's size, which is at most `STEP` lattice units.
+const SHARE: f64 = 2.0 * f64::EPSILON;
+const STEP: f64 = 1.0 / 4096.0;
+/// Stored is the lattice point that is nearest to a moved corner.
+const MOVED: f64 = 0.5;
+
+impl BspTree {
+    /// The bounding boxes of all subtrees and fragments. O(n).
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory.
+    pub fn bounds(&self) -> Result<Bounds, Error> {
+        let fragments = self.fragment_bounds()?;
+        let mut nodes = Vec::new();
+        reserve(&mut nodes, self.nodes.len())?;
+        nodes.resize(self.nodes.len(), NOTHING);
+        let mut normals = Vec::new();
+        reserve(&mut normals, self.nodes.len())?;
+        normals.resize(self.nodes.len(), Normals::NONE);
+        let faces: Vec<Normals> =
+            (0..self.faces.len() as u32).map(|face| Normals::of(&self.faces, face)).collect();
+        // Children come after their parents, so they are summed up before them from the last on.
+        for node in self.nodes().rev() {
+            let index = node.index();
+            let parts = [node.front(), Child::Leaf(node.on()), node.back()];
+            for part in parts {
+                match part {
+                    Child::Node(child) => {
+                        nodes[index] = union(nodes[index], nodes[child.index()]);
+                        normals[index] = normals[index].union(normals[child.index()]);
+                    }
+                    Child::Leaf(run) => {
+                        let run = run.start as usize..run.end as usize;
+                        for (bounds, record) in
+                            fragments[run.clone()].iter().zip(&self.records[run])
+                        {
+                            nodes[index] = union(nodes[index], *bounds);
+                            normals[index] = normals[index].union(faces[record.face as usize]);
+                        }
+                    }
+                }
+            }
+        }
+        let all = fragments.iter().copied().fold(NOTHING, union);
+        let mut levels = vec![fragments];
+        while let Some(last) = levels.last().filter(|last| last.len() > BLOCK) {
+            let mut next = Vec::new();
+            reserve(&mut next, last.len().div_ceil(BLOCK))?;
+            next.extend(last.chunks(BLOCK).map(|block| block.iter().copied().fold(NOTHING, union)));
+            levels.push(next);
+        }
+        Ok(Bounds { nodes, normals, levels, all })
+    }
+
+    fn fragment_bounds(&self) -> Result<Vec<Flat>, Error> {
+        let mut boxes = Vec::new();
+        reserve(&mut boxes, self.len())?;
+        let starts = (0..self.len()).step_by(PART);
+        let parts = parallel_map::map(starts.collect(), |start| {
+            let numbers = start as u32..(start + PART).min(self.len()) as u32;
+            numbers.map(|number| self.fragment(number).bounds()).collect::<Vec<_>>()
+        });
+        parts.into_iter().for_each(|part| boxes.extend(part));
+        Ok(boxes)
+    }
+}
+
+impl Fragment<'_> {
+    fn bounds(&self) -> Flat {
+        let faces = self.tree.faces();
+        let mut margin = [0.0; 3];
+        if let Some(axis) = faces.upright_axis(self.face) {
+            margin[axis] = MOVED;
+        }
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let mut stored = self.stored().iter();
+        for vertex in self.lattice_vertices() {
+            let symbol = stored.next().map(Exact::symbol);
+            let is_cut = symbol.is_some_and(|s| !matches!(s.kind(), SymbolKind::Corner(_)));
+            for axis in 0..3 {
+                let at = vertex[axis];
+                let rounded = if is_cut { at.abs() * SHARE + STEP } else { 0.0 };
+                low[axis] = low[axis].min(at - rounded - margin[axis]);
+                high[axis] = high[axis].max(at + rounded + margin[axis]);
+            }
+        }
+        flat(faces.lattice().enclose(low, high))
+    }
+}
+
+fn union(a: Flat, b: Flat) -> Flat {
+    std::array::from_fn(|i| if i < 3 { a[i].min(b[i]) } else { a[i].max(b[i]) })
+}
+
+fn unflat(flat: &Flat) -> [DVec3; 2] {
+    let [a, b, c, d, e, f] = *flat;
+    [DVec3::new(a, b, c), DVec3::new(d, e, f)]
+}
+
+impl Bounds {
+    /// The box of a subtree: of all fragments on a node's plane and on its sides. O(1).
+    ///
+    /// # Panics
+    ///
+    /// If the node is of another tree, and has a number that this one has not.
+    pub fn of(&self, node: Node<'_>) -> [DVec3; 2] {
+        unflat(&self.nodes[node.index()])
+    }
+
+    /// The box of a fragment, by its number. O(1).
+    ///
+    /// # Panics
+    ///
+    /// If there is no such fragment.
+    pub fn of_fragment(&self, fragment: u32) -> [DVec3; 2] {
+        unflat(&self.fragments()[fragment as usize])
+    }
+
+    /// The box of all fragments; `None` if there are none.
+    pub fn all(&self) -> Option<[DVec3; 2]> {
+        (!self.fragments().is_empty()).then(|| unflat(&self.all))
+    }
+
+    /// Which side all fragments of a subtree show to a viewpoint, if their normals and their box
+    /// tell at once: `Greater` is the front. It is the exact [`Fragment::facing`] of each of them.
+    /// O(1).
+    ///
+    /// # Panics
+    ///
+    /// If the node is of another tree, and has a number that this one has not.
+    pub fn facing(&self, node: Node<'_>, viewpoint: Viewpoint) -> Option<Ordering> {
+        let lattice = node.tree.faces.lattice();
+        self.seen(node.index(), &Arms::new(&Eye::new(viewpoint, lattice), lattice))
+    }
+
+    pub(super) fn seen(&self, node: usize, arms: &Arms<'_>) -> Option<Ordering> {
+        self.normals[node].facing(arms, unflat(&self.nodes[node]))
+    }
+
+    pub(super) fn fragments(&self) -> &[Flat] {
+        &self.levels[0]
+    }
+
+    /// The largest magnitudes of coordinates.
+    pub(super) fn reach(&self) -> DVec3 {
+        let [low, high] = unflat(&self.all);
+        if self.fragments().is_empty() { DVec3::ZERO } else { low.abs().max(high.abs()) }
+    }
+
+    /// The largest aligned block that begins with a run of fragments and is within it: its level,
+    /// and how many fragments it has.
+    pub(super) fn block(&self, run: &Range<u32>) -> (usize, u32) {
+        let (mut level, mut len) = (0, 1_u32);
+        while level + 1 < self.levels.len()
+            && run.start.is_multiple_of(len * BLOCK as u32)
+            && run.end - run.start >= len * BLOCK as u32
+        {
+            (level, len) = (level + 1, len * BLOCK as u32);
+        }
+        (level, len)
+    }
+
+    /// The size in bytes, heap included.
+    pub fn bytes(&self) -> usize {
+        size_of::<Self>()
+            + size_of_val(&*self.nodes)
+            + size_of_val(&*self.normals)
+            + self.levels.iter().map(|level| size_of_val(&**level)).sum::<usize>()
+    }
+}

@@ -1,0 +1,95 @@
+//! What the normals of several fragments have in common.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+
+use crate::exact::{Eye, Faces, Lattice, PlaneId};
+
+/// The least and the largest coordinates of unit normals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Normals {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+/// More than a unit normal's coordinate is off in `f32`. Smaller: a box may be without the exact
+/// normal; larger: fewer subtrees are decided at once.
+const ROUNDED: f32 = 2.0 * f32::EPSILON;
+
+impl Normals {
+    pub(super) const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    pub(super) fn of(faces: &Faces, face: u32) -> Self {
+        let normal = faces.plane(PlaneId::face(face)).normal_f64().normalize();
+        let normal = normal.as_vec3().to_array();
+        Self { low: normal.map(|c| c - ROUNDED), high: normal.map(|c| c + ROUNDED) }
+    }
+
+    pub(super) fn union(self, other: Self) -> Self {
+        let pick = |of: fn(f32, f32) -> f32, a: [f32; 3], b: [f32; 3]| {
+            std::array::from_fn(|i| of(a[i], b[i]))
+        };
+        Self {
+            low: pick(f32::min, self.low, other.low),
+            high: pick(f32::max, self.high, other.high),
+        }
+    }
+
+    /// Which side all polygons show to an eye that have such normals and vertices in a box; `None`
+    /// if these do not tell.
+    ///
+    /// A polygon's plane is at n·(e − p) from the eye e, with n its normal and p any point of it. The
+    /// bounds of n and p bound each product, and so the sum.
+    pub(super) fn facing(&self, arms: &Arms<'_>, bounds: [DVec3; 2]) -> Option<Ordering> {
+        let [least, most] = arms.to(bounds);
+        let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
+        for axis in 0..3 {
+            let [a, b] = [self.low[axis], self.high[axis]].map(f64::from);
+            let [c, d] = [least[axis], most[axis]];
+            let products = [a * c, a * d, b * c, b * d];
+            low += products.into_iter().fold(f64::INFINITY, f64::min);
+            high += products.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            size += products.into_iter().fold(0.0, |size, product| product.abs().max(size));
+        }
+        let margin = 4.0 * f64::EPSILON * size;
+        if low > margin {
+            Some(Ordering::Greater)
+        } else if high < -margin {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+}
+
+/// The eye relative to points of boxes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::tree) struct Arms<'t> {
+    lattice: &'t Lattice,
+    eye: [f64; 3],
+    /// 1, or 0 for an eye at infinity.
+    w: f64,
+}
+
+impl<'t> Arms<'t> {
+    pub(in crate::tree) fn new(eye: &Eye, lattice: &'t Lattice) -> Self {
+        let (eye, w) = eye.homogeneous();
+        Self { lattice, eye, w }
+    }
+
+    /// The least and largest coordinates of the eye less a point of a box, in lattice units, or of
+    /// the direction towards the eye.
+    fn to(&self, [low, high]: [DVec3; 2]) -> [[f64; 3]; 2] {
+        let [low, high] = [low, high].map(|corner| self.lattice.to_lattice(corner));
+        let bound = |corner: [f64; 3], sign: f64| {
+            std::array::from_fn(|axis| {
+                let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
+                // Both are rounded, and a direction as its largest component is, which is 1.
+                let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
+                eye - corner + sign * rounded
+            })
+        };
+        [bound(high, -1.0), bound(low, 1.0)]
+    }
+}

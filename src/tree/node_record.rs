@@ -1,0 +1,103 @@
+//! A node of the finished tree.
+
+use std::ops::Range;
+
+use super::parts::{RawChild, RawNode};
+use crate::exact::PlaneId;
+
+const BACK_IS_NODE: u32 = 1 << 31;
+
+/// The most fragments of a tree. While a [`Schedule`](super::order::layout::Schedule) is laid out, its
+/// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
+pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
+
+/// A node.
+///
+/// Nodes are stored depth first: the root, its front subtree, its back subtree. Fragments are numbered
+/// in this order: those on the node's plane, those of a front leaf, those of a back leaf, those of the
+/// front subtree, those of the back subtree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct NodeRecord {
+    pub(super) plane: PlaneId,
+    own: u32,
+    /// How many fragments are in front.
+    pub(super) front_len: u32,
+    /// How many nodes are in front; if none, the front is a leaf.
+    pub(super) front_nodes: u32,
+}
+
+impl NodeRecord {
+    /// How many fragments lie on the plane.
+    #[inline]
+    pub(super) fn own(&self) -> u32 {
+        self.own & !BACK_IS_NODE
+    }
+
+    /// Whether the back is a node rather than a leaf.
+    #[inline]
+    pub(super) fn back_is_node(&self) -> bool {
+        self.own & BACK_IS_NODE != 0
+    }
+
+    /// The number of the node in front, given that of this one; `None` if the front is a leaf.
+    #[inline]
+    pub(super) fn front_node(&self, index: usize) -> Option<usize> {
+        (self.front_nodes > 0).then_some(index + 1)
+    }
+
+    /// The number of the node behind, given that of this one; `None` if the back is a leaf.
+    #[inline]
+    pub(super) fn back_node(&self, index: usize) -> Option<usize> {
+        self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
+    }
+
+    /// Where the fragments of the subtree of this node are, given the numbers of all of them.
+    #[inline]
+    pub(super) fn ranges(&self, all: Range<u32>) -> Ranges {
+        let own = all.start..all.start + self.own();
+        // A leaf is numbered before a subtree, so it is only here that the back comes first.
+        if self.front_nodes > 0 && !self.back_is_node() {
+            let middle = all.end - self.front_len;
+            return Ranges { front: middle..all.end, back: own.end..middle, own };
+        }
+        let middle = own.end + self.front_len;
+        Ranges { front: own.end..middle, back: middle..all.end, own }
+    }
+}
+
+/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind,
+/// down to the leaves.
+#[derive(Clone, Debug)]
+pub(super) struct Ranges {
+    pub(super) own: Range<u32>,
+    pub(super) front: Range<u32>,
+    pub(super) back: Range<u32>,
+}
+
+/// The fragments and nodes of a subtree.
+pub(crate) type Sizes = (u32, u32);
+
+/// Computes the sizes of all subtrees, and replaces a list of nodes.
+pub(super) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<NodeRecord>) {
+    // Children come after their parents, so their sizes are known if nodes are read from the last to
+    // the first.
+    sizes.clear();
+    sizes.resize(raw.len(), (0, 0));
+    nodes.clear();
+    nodes.reserve_exact(raw.len());
+    for (i, node) in raw.iter().enumerate().rev() {
+        let (front_len, front_nodes) = match node.front {
+            RawChild::Leaf(len) => (len, 0),
+            RawChild::Node => sizes[i + 1],
+        };
+        let (back_len, back_nodes) = match node.back {
+            RawChild::Leaf(len) => (len, 0),
+            RawChild::Node => sizes[i + 1 + front_nodes as usize],
+        };
+        sizes[i] = (node.own + front_len + back_len, 1 + front_nodes + back_nodes);
+        let back_is_node = if node.back == RawChild::Node { BACK_IS_NODE } else { 0 };
+        let own = node.own | back_is_node;
+        nodes.push(NodeRecord { plane: node.plane, own, front_len, front_nodes });
+    }
+    nodes.reverse();
+}

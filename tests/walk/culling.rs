@@ -1,0 +1,274 @@
+//! What culled orders leave out, against brute force in rationals and against exact pictures.
+
+use crate::support::dice::Dice;
+use crate::support::model;
+use crate::support::rational::{self, Plane, Rational};
+use crate::support::shapes;
+use crate::support::views::View;
+use crate::{rooms, trees, viewpoints};
+use binspace::glam::DVec3;
+use binspace::internals::{PlaneId, paint_order};
+use binspace::raster::Rays;
+use binspace::view::{self, Camera};
+use binspace::{Bounds, BspTree, Culling, Frustum, Sides, Viewpoint, paint_tree, scene};
+use num_traits::Zero;
+use proptest::prelude::*;
+use std::cmp::Ordering;
+
+fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
+    let mut order = Vec::new();
+    tree.back_to_front_into(viewpoint, &mut order);
+    order
+}
+
+/// A culled order, after checks that it is a part of the whole order, from both ends.
+fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling<'_>) -> Vec<u32> {
+    let mut found = vec![3; 5];
+    tree.culled_back_to_front_into(viewpoint, culling, &mut found);
+    let mut whole = order(tree, viewpoint).into_iter();
+    assert!(found.iter().all(|&fragment| whole.any(|other| other == fragment)));
+    let mut reverse = Vec::new();
+    tree.culled_front_to_back_into(viewpoint, culling, &mut reverse);
+    assert!(found.iter().rev().eq(&reverse));
+    found
+}
+
+/// Whether a fragment's box reaches over a plane of the region, exactly, and by how much at most it
+/// may be short of that and be kept all the same.
+fn must_be_kept(bounds: &Bounds, fragment: u32, frustum: &Frustum) -> Option<bool> {
+    let corners = bounds.of_fragment(fragment);
+    let [low, high] = bounds.all().unwrap();
+    let reach = low.abs().max(high.abs());
+    let mut worst = Some(true);
+    for &(normal, offset) in frustum.planes() {
+        let furthest = (0..3).fold(-rational::exact(offset), |sum, axis| {
+            let ends = corners.map(|c| rational::exact(c[axis]) * rational::exact(normal[axis]));
+            let [a, b] = ends;
+            sum + a.max(b)
+        });
+        let size = normal.abs().dot(reach) + offset.abs();
+        let step = (high - low).max_element() * 2f64.powi(-49) * normal.abs().element_sum();
+        let slack = rational::exact(1e-14 * size + step + 1e-300);
+        if furthest < -slack {
+            return Some(false);
+        }
+        if furthest < Rational::zero() {
+            worst = None;
+        }
+    }
+    worst
+}
+
+/// Regions about a tree: slabs, wedges from a point, planes through corners of boxes.
+fn frusta(bounds: &Bounds, dice: &mut Dice) -> Vec<Frustum> {
+    let Some([low, high]) = bounds.all() else { return vec![] };
+    let size = (high - low).max(DVec3::splat((high - low).max_element() * 1e-3));
+    let mut share = || DVec3::from_array([0; 3].map(|_| dice.share()));
+    let mut frusta = vec![Frustum::default()];
+    for count in [1, 2, 4, 4, 5, 6, 40] {
+        let apex = low + size * share();
+        let planes: Vec<_> = (0..count)
+            .map(|_| {
+                let normal = (share() - 0.5) * 2.0;
+                (normal, normal.dot(apex))
+            })
+            .collect();
+        frusta.push(Frustum::new(planes));
+    }
+    // A small cell, and one that is bounded by a box exactly.
+    for cell in [[low + size * 0.4, low + size * 0.5], bounds.of_fragment(0)] {
+        let [low, high] = cell;
+        let sides = DVec3::AXES
+            .into_iter()
+            .flat_map(|axis| [(axis, axis.dot(low)), (-axis, -axis.dot(high))]);
+        frusta.push(Frustum::new(sides));
+    }
+    frusta
+}
+
+#[test]
+fn what_is_left_is_what_a_look_at_every_box_leaves() {
+    let mut dice = Dice(21);
+    let [mut kept, mut left_out, mut doubtful] = [0; 3];
+    for tree in trees() {
+        let bounds = tree.bounds().unwrap();
+        for frustum in frusta(&bounds, &mut dice) {
+            // Only so many planes are used.
+            let used = Frustum::new(frustum.planes().iter().copied().take(32));
+            let expected: Vec<Option<bool>> =
+                (0..tree.len() as u32).map(|f| must_be_kept(&bounds, f, &used)).collect();
+            for viewpoint in viewpoints(&tree, &mut dice).into_iter().take(3) {
+                let culling = Culling::new(&bounds).with_frustum(frustum.clone());
+                let found = culled(&tree, viewpoint, &culling);
+                let mut is_found = vec![false; tree.len()];
+                found.iter().for_each(|&fragment| is_found[fragment as usize] = true);
+                for (index, (&found, &expected)) in is_found.iter().zip(&expected).enumerate() {
+                    assert!(expected.is_none_or(|kept| kept == found), "{index} of {tree:?}");
+                    match expected {
+                        Some(true) => kept += 1,
+                        Some(false) => left_out += 1,
+                        None => doubtful += 1,
+                    }
+                }
+            }
+        }
+    }
+    assert!(kept > 10_000 && left_out > 10_000 && doubtful < 500, "{kept} {left_out} {doubtful}");
+}
+
+#[test]
+fn sides_are_those_that_rationals_say() {
+    let mut dice = Dice(22);
+    let [mut fronts, mut backs, mut whole] = [0; 3];
+    for tree in trees().into_iter().filter(|tree| !tree.is_empty()) {
+        let (bounds, faces) = (tree.bounds().unwrap(), tree.faces());
+        let planes: Vec<Plane> =
+            tree.fragments().map(|f| model::plane(faces, PlaneId::face(f.face()))).collect();
+        let [low, high] = bounds.all().unwrap();
+        let at = |world: DVec3| View::eye(faces, DVec3::from(faces.lattice().to_lattice(world)));
+        let mut views = vec![
+            at(low + (high - low) * 0.3),
+            at(high + (high - low) * 2.0),
+            at(tree.fragment(0).vertices().next().unwrap()),
+            View::direction(DVec3::new(0.3, -0.2, -1.0)),
+            View::direction(DVec3::Y),
+            // Its small components are lost when it is rounded.
+            View::direction(DVec3::new(1e-19, 1.0, -1e-19)),
+        ];
+        views.extend((0..3).map(|_| at(low + (high - low) * dice.share())));
+        for view in views {
+            let sides: Vec<Ordering> = planes.iter().map(|plane| view.side(plane)).collect();
+            let whole_order = order(&tree, view.viewpoint);
+            for (shown, side, count) in [
+                (Sides::Front, Ordering::Greater, &mut fronts),
+                (Sides::Back, Ordering::Less, &mut backs),
+            ] {
+                let culling = Culling::new(&bounds).with_sides(shown);
+                let found = culled(&tree, view.viewpoint, &culling);
+                let shown = whole_order.iter().filter(|&&f| sides[f as usize] == side);
+                assert!(found.iter().eq(shown), "{tree:?} {view:?}");
+                *count += found.len();
+            }
+            let culling = Culling::new(&bounds).with_sides(Sides::Both);
+            assert_eq!(culled(&tree, view.viewpoint, &culling), whole_order);
+            for node in tree.nodes() {
+                if let Some(side) = bounds.facing(node, view.viewpoint) {
+                    assert!(node.fragments().all(|f| sides[f as usize] == side), "{node:?}");
+                    whole += usize::from(node.fragments().len() > 2);
+                }
+            }
+        }
+    }
+    assert!(fronts > 5000 && backs > 5000 && whole > 500, "{fronts} {backs} {whole}");
+}
+
+/// A convex body: points on a sphere's lattice of circles, moved, turned and stretched.
+fn body() -> impl Strategy<Value = Vec<Vec<DVec3>>> {
+    let turn = prop::array::uniform3(-3.0..3.0f64);
+    let size = prop::array::uniform3(0.1..10.0f64);
+    (turn, size, 0..3).prop_map(|(turn, size, kind)| {
+        let turn = shapes::rotation(turn);
+        let place = |p: DVec3| turn * (p * DVec3::from(size));
+        match kind {
+            0 => shapes::cuboid(turn, DVec3::ONE, DVec3::from(size)).into_iter().collect(),
+            1 => {
+                let sphere = scene::sphere(200);
+                sphere.polygons().map(|p| p.iter().map(|&p| place(p)).collect()).collect()
+            }
+            _ => {
+                let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(place);
+                vec![vec![a, c, b], vec![a, b, d], vec![b, c, d], vec![c, a, d]]
+            }
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    /// Of a convex body, the fronts alone make the picture, in any order.
+    #[test]
+    fn the_fronts_of_a_convex_body_are_its_picture(body in body(), seed in any::<u64>()) {
+        let tree = BspTree::build(&body).unwrap();
+        let bounds = tree.bounds().unwrap();
+        for camera in view::views(bounds.all().unwrap(), DVec3::Z, 3, [60, 48], seed).unwrap() {
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            let viewpoint = camera.viewpoint();
+            let whole = paint_tree(&tree, viewpoint, &rays);
+            let inside = tree.fragments().all(|f| f.facing(viewpoint).is_lt());
+            let shown = if inside { Sides::Back } else { Sides::Front };
+            let mut found = culled(&tree, viewpoint, &Culling::new(&bounds).with_sides(shown));
+            prop_assert!(found.len() < tree.len() || inside);
+            let ordered = paint_order(&tree, &found, &rays);
+            // None covers another.
+            found.sort_unstable();
+            let unordered = paint_order(&tree, &found, &rays);
+            for picture in [ordered, unordered] {
+                prop_assert_eq!(picture.faces(), whole.faces());
+                prop_assert_eq!(picture.drawn(), whole.covered() as u64);
+            }
+        }
+    }
+}
+
+/// Every pixel of the picture is that of the whole order; also with an eye on a corner, and wide
+/// and narrow views.
+#[test]
+fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
+    let [mut left_out, mut all, mut pictures] = [0; 3];
+    for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
+        let bounds = tree.bounds().unwrap();
+        let [low, high] = bounds.all().unwrap();
+        let size = [64, 36];
+        let mut cameras = view::views([low, high], DVec3::Z, 6, size, 5).unwrap();
+        let corner = tree.fragment(0).vertices().next().unwrap();
+        let (middle, extent) = ((low + high) * 0.5, (high - low).max_element());
+        for fov in [1e-3, 0.3, 3.0] {
+            cameras.extend(Camera::perspective(corner, middle, DVec3::Y, fov, size));
+        }
+        for share in [1.5, 0.2, 1e-3] {
+            let look = DVec3::new(0.5, -0.7, 0.3);
+            cameras.extend(Camera::parallel(look, DVec3::Z, middle, extent * share, size));
+        }
+        for camera in cameras {
+            let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
+            let culling = Culling::new(&bounds).with_frustum(camera.frustum());
+            let found = culled(&tree, camera.viewpoint(), &culling);
+            let whole = paint_tree(&tree, camera.viewpoint(), &rays);
+            let picture = paint_order(&tree, &found, &rays);
+            // Not only who shows, but who is hidden: every one that covers a pixel is there.
+            assert_eq!((picture.faces(), picture.drawn()), (whole.faces(), whole.drawn()));
+            left_out += tree.len() - found.len();
+            all += tree.len();
+            pictures += 1;
+        }
+    }
+    assert!(pictures > 300 && left_out * 3 > all, "{pictures} {left_out} of {all}");
+}
+
+/// On a level, few fragments are looked at that are not seen; and floors, which lie in one plane
+/// with many others, are left out too.
+#[test]
+fn indices_of_what_is_in_view_are_those_of_the_list() {
+    let level: Vec<_> = rooms::rooms(12).into_iter().map(|(_, quad)| quad).collect();
+    let tree = BspTree::build(&level).unwrap();
+    let (bounds, mesh) = (tree.bounds().unwrap(), tree.mesh().unwrap());
+    let eye = DVec3::new(20.0, 20.0, 1.7);
+    let camera = Camera::perspective(eye, eye + DVec3::X, DVec3::Z, 0.5, [160, 90]).unwrap();
+    let culling = Culling::new(&bounds).with_frustum(camera.frustum());
+    let found = culled(&tree, camera.viewpoint(), &culling);
+    assert!(!found.is_empty() && found.len() * 3 < tree.len(), "{} {}", found.len(), tree.len());
+    let on_floor = |list: &[u32]| {
+        list.iter().filter(|&&f| tree.fragment(f).vertices().all(|p| p.z == 0.0)).count()
+    };
+    let all: Vec<u32> = (0..tree.len() as u32).collect();
+    assert!(on_floor(&found) * 3 < on_floor(&all));
+    let triangles = mesh.triangles();
+    let mut indices = vec![7; triangles.indices().len()];
+    let count = triangles.write_order(&found, &mut indices).unwrap();
+    let expected =
+        found.iter().flat_map(|&fragment| &triangles.indices()[triangles.range(fragment)]);
+    assert!(expected.eq(&indices[..count]));
+    assert!(indices[count..].iter().all(|&place| place == 7));
+    assert!(triangles.write_order(&found, &mut indices[..count - 1]).is_err());
+}

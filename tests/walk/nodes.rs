@@ -1,0 +1,116 @@
+//! Nodes and their planes.
+
+use crate::support::rational::{self, Plane};
+use crate::{scenes, trees};
+use binspace::glam::DVec3;
+use binspace::{BspTree, BuildOptions, Child, Heuristic, Node};
+use num_traits::{Signed, ToPrimitive};
+
+/// All nodes below a node, depth first, by its children.
+fn below(root: Node<'_>) -> Vec<Node<'_>> {
+    let (mut found, mut pending) = (Vec::new(), vec![root]);
+    while let Some(node) = pending.pop() {
+        found.push(node);
+        for child in [node.back(), node.front()] {
+            if let Child::Node(child) = child {
+                assert_eq!(child.depth(), node.depth() + 1);
+                pending.push(child);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn the_children_lead_to_all_nodes_and_the_ranges_to_all_fragments() {
+    let mut deep = 0;
+    for tree in trees() {
+        let nodes: Vec<Node<'_>> = tree.nodes().collect();
+        assert_eq!(tree.root(), nodes.first().copied());
+        assert_eq!(tree.root().map_or(vec![], below), nodes);
+        let mut met = vec![0; tree.len()];
+        for (index, node) in nodes.iter().enumerate() {
+            assert_eq!(node.index(), index);
+            let mut parts = vec![node.on()];
+            for (child, all) in [(node.front(), node.in_front()), (node.back(), node.behind())] {
+                match child {
+                    Child::Node(child) => assert_eq!(child.fragments(), all),
+                    Child::Leaf(run) => {
+                        assert_eq!(run, all);
+                        assert!(run.len() <= 1);
+                        parts.push(run);
+                    }
+                }
+            }
+            parts.into_iter().flatten().for_each(|fragment| met[fragment as usize] += 1);
+            let mut all: Vec<u32> = node.on().chain(node.in_front()).chain(node.behind()).collect();
+            all.sort_unstable();
+            assert!(all.into_iter().eq(node.fragments()));
+            deep = node.depth().max(deep);
+        }
+        assert!(met.iter().all(|&count| count == 1), "{met:?}");
+        assert_eq!(tree.root().is_none(), tree.is_empty());
+    }
+    assert!(deep > 20, "{deep}");
+}
+
+/// Planes against the polygons as given, in rationals: no lattice, no library.
+#[test]
+fn planes_are_those_of_the_polygons_that_they_name() {
+    let [mut named, mut free] = [0; 2];
+    for scene in scenes() {
+        for heuristic in [Heuristic::default(), Heuristic::FreePlanes] {
+            let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+            let tree = options.build(&scene).unwrap();
+            let all = scene.iter().flatten();
+            let [low, high] = all
+                .clone()
+                .fold([DVec3::MAX, DVec3::MIN], |[low, high], &p| [low.min(p), high.max(p)]);
+            let size = low.abs().max(high.abs()).max_element();
+            let step = (high - low).max_element() * 2f64.powi(-51) + size * 2f64.powi(-50);
+            for node in tree.nodes() {
+                let (normal, offset) = (node.normal(), node.offset());
+                assert!((normal.length() - 1.0).abs() < 1e-15);
+                let Some(polygon) = node.polygon() else {
+                    let axis = normal.abs().max_position();
+                    assert_eq!(normal, DVec3::AXES[axis]);
+                    assert!(all.clone().any(|p| (p[axis] - offset).abs() <= step));
+                    free += 1;
+                    continue;
+                };
+                // All corners are on it, but for the grid and the tolerance.
+                let slack = step * 4.0 + tree.stats().tolerance;
+                // Of a polygon that is bent, those of one of its triangles.
+                let is_on = |p: &&DVec3| (normal.dot(**p) - offset).abs() <= slack;
+                let on = scene[polygon].iter().filter(is_on).count();
+                assert!(on >= 3, "{node:?} of {polygon}");
+                if let [a, b, c] = scene[polygon][..] {
+                    let exact = Plane::through([a, b, c].map(rational::point).each_ref());
+                    let largest = exact.normal.iter().map(Signed::abs).max().unwrap();
+                    let unit = exact.normal.each_ref().map(|c| (c / &largest).to_f64().unwrap());
+                    let unit = DVec3::from(unit).normalize();
+                    // The grid moves a corner by a step, and a thin triangle turns by more.
+                    let [u, v] = [b - a, c - a];
+                    let height = u.cross(v).length() / u.length().max(v.length());
+                    let turned = 4.0 * step / height + 1e-15;
+                    assert!((unit - normal).length() <= turned, "{unit} {normal} {turned:e}");
+                    named += 1;
+                }
+            }
+        }
+    }
+    assert!(named > 300 && free > 100, "{named} {free}");
+}
+
+#[test]
+fn a_node_tells_on_which_side_of_it_a_viewpoint_is() {
+    use binspace::Viewpoint;
+    use std::cmp::Ordering::{Equal, Greater, Less};
+    let tree = BspTree::build([[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]]]).unwrap();
+    let root = tree.root().unwrap();
+    assert_eq!((root.normal(), root.offset(), root.polygon()), (DVec3::Z, 2.0, Some(0)));
+    let facing = |z: f64| root.facing(Viewpoint::eye([9.0, 9.0, z]));
+    assert_eq!([2.0f64.next_up(), 2.0, 1.0].map(facing), [Greater, Equal, Less]);
+    assert_eq!(root.facing(Viewpoint::direction([0.0, 0.0, -1.0])), Greater);
+    assert_eq!(root.facing(Viewpoint::direction([1.0, 0.0, 0.0])), Equal);
+}

@@ -1,0 +1,88 @@
+//! Coverage masks against exact pictures.
+
+use crate::{rooms, trees};
+use binspace::glam::DVec3;
+use binspace::internals::paint_order;
+use binspace::raster::Rays;
+use binspace::view::{self, Camera};
+use binspace::{BspTree, CoverageMask, Flow, Part, paint_tree};
+
+/// The fragments that a mask lets through, back to front, and how many parts were visited.
+fn unhidden(tree: &BspTree, camera: &Camera, rays: &Rays, cell: u32) -> (Vec<u32>, usize) {
+    let bounds = tree.bounds().unwrap();
+    let mut mask = CoverageMask::new(tree, rays, cell);
+    let (mut found, mut visited) = (Vec::new(), 0);
+    let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
+        visited += 1;
+        match part {
+            Part::Subtree(node) if mask.hides(bounds.of(node)) => return Flow::Skip,
+            Part::Fragment(fragment) if mask.cover(&fragment) => found.push(fragment.index()),
+            _ => {}
+        }
+        if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
+    });
+    found.reverse();
+    (found, visited)
+}
+
+#[test]
+fn nothing_that_owns_a_pixel_is_hidden() {
+    let [mut skipped, mut all, mut hidden] = [0; 3];
+    for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
+        let bounds = tree.bounds().unwrap().all().unwrap();
+        for camera in view::views(bounds, DVec3::Z, 4, [67, 41], 9).unwrap() {
+            for fronts in [false, true] {
+                let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
+                let rays = if fronts { rays.with_front_faces_only() } else { rays };
+                let whole = paint_tree(&tree, camera.viewpoint(), &rays);
+                for cell in [1, 3, 8, 64] {
+                    let (found, visited) = unhidden(&tree, &camera, &rays, cell);
+                    let picture = paint_order(&tree, &found, &rays);
+                    assert_eq!(picture.faces(), whole.faces(), "{cell}");
+                    let parts = tree.len() + tree.stats().nodes;
+                    skipped += usize::from(visited < parts);
+                    all += 1;
+                    if cell == 1 {
+                        // Each owns a pixel: without it, the picture is another one.
+                        for gone in (0..found.len()).step_by(17) {
+                            let mut rest = found.clone();
+                            rest.remove(gone);
+                            assert_ne!(
+                                paint_fragments(&tree, &rest, &rays),
+                                paint_fragments(&tree, &found, &rays)
+                            );
+                            hidden += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(skipped * 2 > all && hidden > 500, "{skipped} of {all}, {hidden}");
+}
+
+/// Which fragment shows in each pixel.
+fn paint_fragments(tree: &BspTree, order: &[u32], rays: &Rays) -> Vec<u32> {
+    // How often pixels are covered tells of fragments of one face that hide nothing of each other.
+    let image = paint_order(tree, order, rays);
+    let mut shown = image.faces().to_vec();
+    shown.push(image.drawn() as u32);
+    shown
+}
+
+#[test]
+fn walls_save_most_visits_in_a_level() {
+    let level: Vec<_> = rooms::rooms(16).into_iter().map(|(_, quad)| quad).collect();
+    let tree = BspTree::build(&level).unwrap();
+    let parts = tree.len() + tree.stats().nodes;
+    let eye = DVec3::new(60.0, 62.0, 1.7);
+    for k in 0..6 {
+        let look = DVec3::new((f64::from(k)).cos(), (f64::from(k)).sin(), -0.05);
+        let camera = Camera::perspective(eye, eye + look, DVec3::Z, 1.0, [160, 90]).unwrap();
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let (found, visited) = unhidden(&tree, &camera, &rays, 1);
+        assert!(visited * 4 < parts, "{visited} of {parts}");
+        let picture = paint_order(&tree, &found, &rays);
+        assert_eq!(picture.faces(), paint_tree(&tree, camera.viewpoint(), &rays).faces());
+    }
+}
