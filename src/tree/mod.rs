@@ -9,6 +9,8 @@ pub(crate) mod node;
 pub(crate) mod order;
 mod partitions;
 pub(crate) mod parts;
+#[cfg(feature = "save")]
+mod saved;
 mod stats;
 mod validate;
 pub(crate) mod walk;

@@ -1,0 +1,7 @@
+//! Trees and scenes that are written and read back, and files that are not right.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod damage;
+mod same;
