@@ -20,12 +20,13 @@ mod order;
 mod plane_split;
 mod rulings;
 mod same;
+mod saved;
 mod threads;
 
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 10] = [
+const SECTIONS: &[Section] = &[
     ("order", order::run),
     ("mesh", mesh::run),
     ("same-order", same::run),
@@ -38,6 +39,7 @@ const SECTIONS: [Section; 10] = [
     ("clipping", clipping::run),
     ("exactness", kernels::run),
     ("rulings", rulings::run),
+    ("saved", saved::run),
 ];
 
 fn main() {

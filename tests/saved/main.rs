@@ -5,3 +5,4 @@ mod support;
 
 mod damage;
 mod same;
+mod scenes;

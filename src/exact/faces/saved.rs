@@ -1,17 +1,21 @@
 //! Faces in files, and what a file must not say of them.
 
 use std::io::{self, Read, Write};
+use std::ops::Range;
 
 use super::{Face, Faces, Frame, INNER};
 use crate::exact::label::MAX_LABELS;
 use crate::exact::label::bits::Known;
 use crate::exact::lattice::LIMIT;
 use crate::exact::{Int, Lattice, Plane, is_convex};
+use crate::parallel_map;
 use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
 
 /// The largest coordinate: a corner that the tolerance moves can leave the lattice by a little, see
 /// the bounds of the filter.
 const LARGEST: f64 = 1.014 * LIMIT;
+/// How many faces one thread checks at a time.
+const PART: usize = 4096;
 /// The largest tolerance, as the preparation limits it.
 const LARGEST_TOLERANCE: f64 = LIMIT / 128.0;
 
@@ -98,9 +102,14 @@ impl Faces {
         if let Some(face) = self.faces.windows(2).position(is_late) {
             return Err(invalid("face", face, "comes before one of an earlier polygon"));
         }
-        for face in 0..self.faces.len() as u32 {
-            self.check_face(face).map_err(|fault| invalid("face", face as usize, fault))?;
-        }
+        let ranges = (0..self.faces.len()).step_by(PART);
+        let ranges = ranges.map(|start| start..self.faces.len().min(start + PART)).collect();
+        let check = |mut range: Range<usize>| {
+            range.try_for_each(|face| {
+                self.check_face(face as u32).map_err(|fault| invalid("face", face, fault))
+            })
+        };
+        parallel_map::map(ranges, check).into_iter().collect::<Result<(), LoadError>>()?;
         self.check_numbers()?;
         self.check_moved()
     }
