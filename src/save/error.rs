@@ -17,7 +17,7 @@ enum Kind {
     Io(io::Error),
     Short { what: &'static str },
     Foreign,
-    OtherKind { found: [u8; 4], expected: [u8; 4] },
+    Content { found: [u8; 4], expected: [u8; 4] },
     Version { found: u32, expected: u32 },
     TooMany { what: &'static str, found: u64, limit: u64 },
     Checksum { found: u32, expected: u32 },
@@ -45,7 +45,7 @@ impl LoadError {
     }
 
     pub(super) fn other_kind(found: [u8; 4], expected: [u8; 4]) -> Self {
-        Self { kind: Kind::OtherKind { found, expected } }
+        Self { kind: Kind::Content { found, expected } }
     }
 
     pub(super) fn version(found: u32, expected: u32) -> Self {
@@ -88,7 +88,7 @@ impl fmt::Display for LoadError {
                 write!(f, "it ends within its {what}: it is cut short, or damaged before that")
             }
             Kind::Foreign => f.write_str("it is no file of binspace: it begins with other bytes"),
-            Kind::OtherKind { found, expected } => {
+            Kind::Content { found, expected } => {
                 let [found, expected] = [found, expected].map(|name| name.escape_ascii());
                 write!(f, "it holds a \"{found}\" where a \"{expected}\" is expected")
             }

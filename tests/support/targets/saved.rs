@@ -68,7 +68,7 @@ fn file<P: binspace::Polygon>(
 }
 
 /// Changes a number of the file a little or altogether, or copies one over another.
-fn change(bytes: &mut Unstructured<'_>, file: &mut Vec<u8>) -> Result<()> {
+fn change(bytes: &mut Unstructured<'_>, file: &mut [u8]) -> Result<()> {
     // Behind the head: changes of that are always noticed.
     let place = |bytes: &mut Unstructured<'_>| bytes.int_in_range(16..=file.len() - 5);
     let at = place(bytes)?;
