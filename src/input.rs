@@ -30,6 +30,12 @@ impl_point! {
     DVec3, f64: self => self;
 }
 
+#[cfg(feature = "mint")]
+impl_point! {
+    mint::Point3<f32>, f32: self => Vec3::from(self).as_dvec3();
+    mint::Point3<f64>, f64: self => DVec3::from(self);
+}
+
 /// An input polygon: its corners in order around it. The first corner is not repeated at the end.
 ///
 /// The front of a polygon is the side from which its corners run counter-clockwise. Implement the

@@ -29,6 +29,8 @@
 //! | `layers` | no | module `layers`: rectangles with 4×4 matrices, as in CSS 3D, clipped, cut and in paint order |
 //! | `scene` | no | module `scene`: polygons with colours, generated scenes |
 //! | `obj` | no | reading Wavefront OBJ files into a `Scene`; turns on `scene` |
+//! | `save` | no | trees (and scenes) as files: `BspTree::write` and `BspTree::read` |
+//! | `mint` | no | polygons of `mint::Point3`; glam's conversions from and to mint |
 //!
 //! Without features the library depends on glam and smallvec alone.
 
@@ -47,6 +49,8 @@ mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
 pub mod raster;
+#[cfg(feature = "save")]
+mod save;
 #[cfg(feature = "scene")]
 pub mod scene;
 mod tree;
@@ -66,6 +70,8 @@ pub use glam;
 pub use input::{Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
+#[cfg(feature = "save")]
+pub use save::LoadError;
 pub use tree::{
     Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
     Nodes, Ordered, Part, Sides, Stats, Triangles,

@@ -39,6 +39,11 @@ fn large_regressions_pass() {
     replay("large", targets::large::run);
 }
 
+#[test]
+fn saved_regressions_pass() {
+    replay("saved", targets::saved::run);
+}
+
 #[cfg(feature = "obj")]
 #[test]
 fn obj_regressions_pass() {

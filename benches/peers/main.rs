@@ -21,12 +21,13 @@ mod order;
 mod plane_split;
 mod rulings;
 mod same;
+mod saved;
 mod threads;
 
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 13] = [
+const SECTIONS: &[Section] = &[
     ("order", order::run),
     ("mesh", mesh::run),
     ("same-order", same::run),
@@ -40,6 +41,7 @@ const SECTIONS: [Section; 13] = [
     ("culling", culling::run),
     ("exactness", kernels::run),
     ("rulings", rulings::run),
+    ("saved", saved::run),
 ];
 
 fn main() {

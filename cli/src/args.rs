@@ -30,6 +30,7 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    Build(BuildFileArgs),
     Order(OrderArgs),
     Verify(VerifyArgs),
     Stats(StatsArgs),
@@ -54,6 +55,22 @@ pub(crate) struct TourArgs {
     /// Seed of the random views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
+}
+
+/// Build a scene's tree and write it to a file
+///
+/// The file holds the tree and the scene: its polygons, colours and materials. Every command takes it
+/// in place of the scene, and then builds nothing. The library reads the tree with `BspTree::read`.
+#[derive(Args, Debug)]
+#[command(after_help = examples::BUILD)]
+pub(crate) struct BuildFileArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+    /// File to write, complete or not at all, such as scene.bsp; - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 /// Write a scene's fragments in paint order, one JSON object per line
@@ -246,9 +263,10 @@ pub(crate) enum Format {
 
 #[derive(Args, Debug)]
 pub(crate) struct SceneArgs {
-    /// An OBJ file, - for one on standard input, or a built-in scene such as sphere:100000
+    /// An OBJ file, a file of `binspace build`, - for either on standard input, or a built-in scene
+    /// such as sphere:100000
     ///
-    /// A name that ends in .obj or contains a path separator is a file. Any other is a built-in
+    /// A name that ends in .obj or .bsp or contains a path separator is a file. Any other is a built-in
     /// scene, with an optional size after a colon, or, if there is none of that name, a file.
     /// `binspace scenes` lists the built-in scenes.
     #[arg(value_name = "SCENE")]

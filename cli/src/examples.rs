@@ -8,9 +8,16 @@ Examples:
   binspace stats city:100000 --heuristic all how the heuristics compare
   binspace render scene.obj -o scene.svg     a drawing of the whole scene
   binspace report --quick                    every method, its speed against its error
+  binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
 
 Exit status: 0 done; 1 an image differs from the depth buffer's; 2 an error: bad usage
 or input, output that cannot be written, too little memory.";
+
+pub(crate) const BUILD: &str = "\
+Examples:
+  binspace build scene.obj -o scene.bsp
+  binspace order scene.bsp --eye=0,2,10
+  binspace build city:100000 -o - | binspace render - -o city.png";
 
 pub(crate) const ORDER: &str = "\
 Examples:

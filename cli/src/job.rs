@@ -2,12 +2,12 @@
 
 use binspace::internals::Faces;
 use binspace::scene::Scene;
-use binspace::{BspTree, Error, Preparation};
+use binspace::{BspTree, BuildOptions, Error, Heuristic, Preparation};
 
 use crate::args::{BuildArgs, LimitArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::measure;
-use crate::scene_arg;
+use crate::scene_arg::{self, Loaded};
 use crate::terminal::note;
 use crate::units::count;
 
@@ -22,15 +22,41 @@ pub(crate) fn scene_and_tree(
     scene: &SceneArgs,
     build: &BuildArgs,
 ) -> Result<(Scene, BspTree), Failure> {
-    let scene = scene_arg::load(scene)?;
+    let Loaded { scene, tree } = scene_arg::load(scene)?;
     let options = build.limits.options(build.heuristic);
-    let tree = measure::build(&scene, &options).map_err(|error| about(&scene, &error))?;
+    let is_built = tree.is_some();
+    let tree = match tree {
+        Some(tree) => {
+            refuse_options(&scene, &[build.heuristic], &build.limits)?;
+            tree
+        }
+        None => measure::build(&scene, &options).map_err(|error| about(&scene, &error))?,
+    };
     note_preparation(&scene, tree.faces(), tree.preparation());
-    note_tolerance(&scene, &build.limits, &tree);
+    if !is_built {
+        note_tolerance(&scene, &build.limits, &tree);
+    }
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
     Ok((scene, tree))
+}
+
+/// An error if a tree that is in a file, and so is not built, is to be built in a certain way.
+pub(crate) fn refuse_options(
+    scene: &Scene,
+    heuristics: &[Heuristic],
+    limits: &LimitArgs,
+) -> Result<(), Failure> {
+    let is_default = heuristics == [Heuristic::default()]
+        && limits.tolerance.is_none()
+        && limits.max_fragments == BuildOptions::DEFAULT.max_fragments;
+    if is_default {
+        return Ok(());
+    }
+    let problem = "its tree is built already: leave out --heuristic, --tolerance and \
+                   --max-fragments, or give the scene that it was built of";
+    Err(Failure::about(scene.name(), problem))
 }
 
 /// A failure to build a scene's tree.

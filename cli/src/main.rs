@@ -17,6 +17,7 @@ mod pictures;
 mod png_file;
 mod progress;
 mod samples;
+mod saved_file;
 mod scene_arg;
 mod signals;
 mod standard_input;
@@ -58,6 +59,7 @@ fn main() -> ExitCode {
 fn run(cli: &Cli) -> Result<Outcome, Failure> {
     match &cli.command {
         None => commands::tour::run(&cli.tour),
+        Some(Command::Build(args)) => commands::build::run(args),
         Some(Command::Order(args)) => commands::order::run(args),
         Some(Command::Verify(args)) => commands::verify::run(args),
         Some(Command::Stats(args)) => commands::stats::run(args),

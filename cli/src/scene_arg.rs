@@ -3,6 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use binspace::BspTree;
 use binspace::scene::{Builtin, BuiltinSpec, Scene};
 
 use crate::args::SceneArgs;
@@ -10,8 +11,28 @@ use crate::failure::Failure;
 use crate::files::STANDARD;
 use crate::memory;
 use crate::progress::Progress;
+use crate::saved_file;
 use crate::standard_input;
 use crate::terminal::note;
+
+/// A scene, and its tree if that came with it.
+#[derive(Debug)]
+pub(crate) struct Loaded {
+    pub(crate) scene: Scene,
+    pub(crate) tree: Option<BspTree>,
+}
+
+impl From<Scene> for Loaded {
+    fn from(scene: Scene) -> Self {
+        Self { scene, tree: None }
+    }
+}
+
+impl From<(Scene, BspTree)> for Loaded {
+    fn from((scene, tree): (Scene, BspTree)) -> Self {
+        Self { scene, tree: Some(tree) }
+    }
+}
 
 /// The scene that a name means.
 #[derive(Debug, PartialEq)]
@@ -22,15 +43,16 @@ enum Source {
 }
 
 /// Reads or generates the scene that the user asks for, and notes what was left out.
-pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
+pub(crate) fn load(args: &SceneArgs) -> Result<Loaded, Failure> {
     let name = args.name.to_string_lossy();
     match source(&args.name)? {
         Source::StandardInput => standard_input::scene(),
         Source::Builtin(spec) => {
             memory::check(&name, spec.polygons())?;
             let _progress = Progress::spinner(format!("generating {name}"));
-            Ok(spec.build(args.seed))
+            Ok(spec.build(args.seed).into())
         }
+        Source::File(path) if saved_file::is_saved(&path) => Ok(saved_file::open(&path)?.into()),
         Source::File(path) => {
             if let Ok(file) = path.metadata() {
                 memory::check_file(&name, file.len())?;
@@ -45,7 +67,7 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene, Failure> {
             if !report.is_clean() {
                 note(&format!("{name}: {report}"));
             }
-            Ok(scene)
+            Ok(scene.into())
         }
     }
 }
@@ -56,8 +78,10 @@ fn source(name: &OsStr) -> Result<Source, Failure> {
     }
     let path = Path::new(name);
     let file = || Ok(Source::File(path.to_owned()));
-    let is_obj = path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("obj"));
-    let Some(text) = name.to_str().filter(|_| !is_obj) else {
+    let is_named = path
+        .extension()
+        .is_some_and(|ext| ["obj", "bsp"].iter().any(|known| ext.eq_ignore_ascii_case(known)));
+    let Some(text) = name.to_str().filter(|_| !is_named) else {
         return file();
     };
     if text.contains(std::path::is_separator) {
@@ -86,7 +110,7 @@ mod tests {
         assert_eq!(source("teapot:3".as_ref()).unwrap(), builtin("teapot:3"));
         assert_eq!(source("sphere".as_ref()).unwrap(), builtin("sphere"));
         assert_eq!(source("-".as_ref()).unwrap(), Source::StandardInput);
-        for text in ["./-", "teapot.obj", "./teapot", "a/teapot:3", "SPHERE.OBJ"] {
+        for text in ["./-", "teapot.obj", "./teapot", "a/teapot:3", "SPHERE.OBJ", "teapot.bsp"] {
             assert_eq!(source(text.as_ref()).unwrap(), Source::File(text.into()), "{text}");
         }
     }

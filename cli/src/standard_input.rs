@@ -7,6 +7,8 @@ use binspace::scene::Scene;
 use crate::failure::Failure;
 use crate::memory;
 use crate::progress::Progress;
+use crate::saved_file;
+use crate::scene_arg::Loaded;
 use crate::terminal::note;
 
 /// What messages call it.
@@ -14,13 +16,16 @@ const NAME: &str = "standard input";
 /// How many bytes are asked for at a time.
 const CHUNK: usize = 1 << 20;
 
-/// Reads an OBJ file from standard input, and notes what was left out.
-pub(crate) fn scene() -> Result<Scene, Failure> {
+/// Reads an OBJ file, or one of `binspace build`, from standard input, and notes what was left out.
+pub(crate) fn scene() -> Result<Loaded, Failure> {
     if io::stdin().is_terminal() {
         note("reading an OBJ file from the terminal, up to an end of file (Ctrl-D)");
     }
     let progress = Progress::spinner(format!("reading {NAME}"));
     let bytes = bytes()?;
+    if bytes.starts_with(saved_file::BEGINNING) {
+        return Ok(saved_file::read(NAME, &bytes[..])?.into());
+    }
     memory::check_file(NAME, bytes.len() as u64)?;
     let (scene, mut report) = Scene::from_obj(NAME, &bytes, |_| None)
         .map_err(|error| Failure::Message(error.to_string()))?;
@@ -42,7 +47,7 @@ pub(crate) fn scene() -> Result<Scene, Failure> {
     if !report.is_clean() {
         note(&format!("{NAME}: {report}"));
     }
-    Ok(scene)
+    Ok(scene.into())
 }
 
 /// All of standard input. Too little memory is an error.

@@ -25,6 +25,11 @@ pub fn large(data: &[u8]) {
     support::targets::large::run(data);
 }
 
+/// Reads files of trees, forged ones and any bytes, and uses what is read.
+pub fn saved(data: &[u8]) {
+    support::targets::saved::run(data);
+}
+
 /// Prepares polygons of up to some thousand corners.
 pub fn faces(data: &[u8]) {
     support::targets::faces::run(data);

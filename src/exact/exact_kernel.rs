@@ -29,6 +29,14 @@ pub struct ExactStored {
     line: Line,
 }
 
+#[cfg(feature = "save")]
+impl ExactStored {
+    /// A vertex as a file names it, which may be any.
+    pub(crate) fn new(symbol: Symbol, line: Line) -> Self {
+        Self { symbol, line }
+    }
+}
+
 impl Kernel for Exact {
     type Splitter = ExactSplitter;
     type Vertex = ExactVertex;

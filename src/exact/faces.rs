@@ -1,5 +1,8 @@
 //! The faces of a scene: convex, planar, on the lattice.
 
+#[cfg(feature = "save")]
+mod saved;
+
 use super::Lattice;
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input

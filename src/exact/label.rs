@@ -1,5 +1,8 @@
 //! Names for planes, edges and vertices that stay exact however often a polygon is cut.
 
+#[cfg(feature = "save")]
+pub(crate) mod bits;
+
 use std::fmt;
 
 const TAG_SHIFT: u32 = 28;

@@ -1,5 +1,8 @@
 //! The scene lattice: corners are rounded to it once, and everything after that is exact.
 
+#[cfg(feature = "save")]
+mod saved;
+
 use glam::DVec3;
 
 /// The largest magnitude of a lattice coordinate.

@@ -8,10 +8,12 @@
 //! | `filter` | the same side by rounded distances, where they are certain |
 //! | `tolerance` | where a piece lies against a plane |
 //! | `split` | how a piece is cut |
+//! | `convex` | whether an outline is convex |
 //! | `along` | in which order points of one line come |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
 
 pub(crate) mod along;
+mod convex;
 pub(crate) mod exact_kernel;
 mod eye;
 pub(crate) mod faces;
@@ -19,13 +21,14 @@ mod filter;
 mod int;
 mod kernel;
 pub(crate) mod label;
-mod lattice;
+pub(crate) mod lattice;
 mod plane;
 mod position;
 mod split;
 mod tolerance;
 pub(crate) mod vertex;
 
+pub(crate) use convex::is_convex;
 pub use exact_kernel::{Exact, ExactStored};
 pub use eye::Eye;
 pub use faces::Faces;

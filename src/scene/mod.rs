@@ -22,6 +22,8 @@ mod newell;
 #[cfg(feature = "obj")]
 mod obj;
 mod random;
+#[cfg(feature = "save")]
+mod saved;
 mod sphere;
 mod teapot;
 mod terrain;

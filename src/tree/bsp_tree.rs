@@ -187,6 +187,9 @@ use crate::faces::Preparation;
 /// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to
 /// 150 bytes a fragment ([`bytes`](Self::bytes)), and up to 2.9 times that while it is built.
 ///
+/// With the feature `save`, a tree is written to a file and read from it, bit for bit, which takes a
+/// small part of the time to build it: `BspTree::write` and `BspTree::read`.
+///
 /// Nothing recurses over the data: a chain of a million polygons needs no more stack than one. The
 /// same input and options give the same tree, bit for bit, with any number of threads.
 ///

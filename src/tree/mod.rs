@@ -12,6 +12,8 @@ mod node;
 pub(crate) mod node_record;
 pub(crate) mod order;
 pub(crate) mod parts;
+#[cfg(feature = "save")]
+mod saved;
 mod stats;
 #[cfg(test)]
 mod tests;

@@ -13,8 +13,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What every layer may import.
-const GROUND: [&str; 7] =
-    ["error", "frustum", "input", "memory", "parallel_map", "random", "viewpoint"];
+const GROUND: [&str; 8] =
+    ["error", "frustum", "input", "memory", "parallel_map", "random", "save", "viewpoint"];
 
 /// The layers that are built on the ground, each with those before it that it may import.
 const LAYERS: [(&str, &[&str]); 10] = [

@@ -12,6 +12,7 @@ pub(crate) mod model;
 pub(crate) mod orders;
 pub(crate) mod rational;
 pub(crate) mod rays;
+pub(crate) mod saved;
 pub(crate) mod shapes;
 pub(crate) mod snapshot;
 pub(crate) mod tally;

@@ -1,5 +1,6 @@
 //! The commands, one a file.
 
+pub(crate) mod build;
 pub(crate) mod order;
 pub(crate) mod render;
 pub(crate) mod report;

@@ -1,13 +1,16 @@
 //! `binspace stats`: the figures of trees.
 
+use std::time::Instant;
+
 use binspace::scene::Scene;
-use binspace::{Heuristic, Stats};
+use binspace::{BspTree, Heuristic, Stats};
 use serde::Serialize;
 
 use super::Outcome;
 use crate::args::StatsArgs;
 use crate::failure::Failure;
 use crate::measure::{order_nanoseconds, timed_build};
+use crate::scene_arg::Loaded;
 use crate::table::Table;
 use crate::terminal::{HEAD, note, say, styled};
 use crate::units::{bytes, count, three_digits, time};
@@ -18,16 +21,21 @@ const NAME: usize = 13;
 
 /// The figures of one tree.
 struct Figures {
-    heuristic: Heuristic,
+    /// None of a tree from a file.
+    heuristic: Option<Heuristic>,
     stats: Stats,
+    /// The time to build the tree, or to read it.
     build_seconds: f64,
     order_nanoseconds: f64,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
-    let scene = scene_arg::load(&args.scene)?;
-    let table = table();
+    let begin = Instant::now();
+    let Loaded { scene, tree } = scene_arg::load(&args.scene)?;
+    if let Some(tree) = tree {
+        return of_file(args, &scene, &tree, begin.elapsed().as_secs_f64());
+    }
     let (mut over_budget, mut is_first) = (0, true);
     for &heuristic in &args.heuristic.0 {
         let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
@@ -48,26 +56,49 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             }
         }
         let figures = Figures {
-            heuristic,
+            heuristic: Some(heuristic),
             stats: tree.stats(),
             build_seconds: seconds,
             order_nanoseconds: order_nanoseconds(&tree, &scene),
         };
-        if args.json {
-            say(json(&figures)?)?;
-        } else {
-            if is_first {
-                say(title(&scene, &figures.stats))?;
-                say(styled(HEAD, table.head()))?;
-            }
-            say(row(&table, &figures))?;
-        }
+        show(args, &scene, &figures, is_first)?;
         is_first = false;
     }
     match over_budget {
         0 => Ok(Outcome::Done),
         trees => Err(Failure::about(scene.name(), format!("{} over budget", count(trees, "tree")))),
     }
+}
+
+/// The figures of a tree that was read from a file.
+fn of_file(
+    args: &StatsArgs,
+    scene: &Scene,
+    tree: &BspTree,
+    seconds: f64,
+) -> Result<Outcome, Failure> {
+    job::refuse_options(scene, &args.heuristic.0, &args.limits)?;
+    job::note_preparation(scene, tree.faces(), tree.preparation());
+    let figures = Figures {
+        heuristic: None,
+        stats: tree.stats(),
+        build_seconds: seconds,
+        order_nanoseconds: order_nanoseconds(tree, scene),
+    };
+    show(args, scene, &figures, true)?;
+    Ok(Outcome::Done)
+}
+
+fn show(args: &StatsArgs, scene: &Scene, figures: &Figures, is_first: bool) -> Result<(), Failure> {
+    if args.json {
+        return say(json(figures)?);
+    }
+    let table = table();
+    if is_first {
+        say(title(scene, &figures.stats))?;
+        say(styled(HEAD, table.head()))?;
+    }
+    say(row(&table, figures))
 }
 
 fn title(scene: &Scene, stats: &Stats) -> String {
@@ -101,7 +132,7 @@ fn row(table: &Table, figures: &Figures) -> String {
     let Figures { heuristic, stats, .. } = figures;
     let per_face = stats.fragments as f64 / stats.faces.max(1) as f64;
     table.row(&[
-        name(*heuristic),
+        heuristic.map_or_else(|| "from a file".to_owned(), name),
         stats.fragments.to_string(),
         format!("{per_face:.2}"),
         stats.nodes.to_string(),
@@ -128,7 +159,7 @@ fn name(heuristic: Heuristic) -> String {
 /// The figures of a tree as a JSON object.
 #[derive(Serialize)]
 struct Line {
-    heuristic: String,
+    heuristic: Option<String>,
     polygons: usize,
     faces: usize,
     fragments: usize,
@@ -155,7 +186,7 @@ struct Line {
 fn json(figures: &Figures) -> Result<String, Failure> {
     let stats = &figures.stats;
     let line = Line {
-        heuristic: figures.heuristic.to_string(),
+        heuristic: figures.heuristic.map(|heuristic| heuristic.to_string()),
         polygons: stats.polygons,
         faces: stats.faces,
         fragments: stats.fragments,

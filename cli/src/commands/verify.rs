@@ -179,7 +179,7 @@ mod tests {
         let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7 \
                        --cull back";
         let Command::Verify(args) = parse(command) else { panic!("another command") };
-        let scene = crate::scene_arg::load(&args.scene).unwrap();
+        let scene = crate::scene_arg::load(&args.scene).unwrap().scene;
         let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
         for view in views {
             let Command::Render(again) = parse(&reproduce(&args, &view)) else {

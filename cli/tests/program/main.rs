@@ -13,6 +13,7 @@ mod render;
 mod report;
 mod run;
 mod samples;
+mod saved;
 mod stats;
 mod tour;
 mod verify;

@@ -45,6 +45,6 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     ] {
         assert!(!said(&options), "{options}");
     }
-    let run = crate::run::Run::new(&folder.pipe(&format!("verify - {verify}"), &block(false)));
+    let run = crate::run::Run::new(&folder.pipe(&format!("verify - {verify}"), block(false)));
     assert!(run.err.contains("standard input: it looks as if z pointed up"), "{}", run.err);
 }

@@ -49,16 +49,16 @@ impl Folder {
         command
     }
 
-    /// Runs the program with a text on standard input; what it writes may be no text.
-    pub(crate) fn pipe(&self, arguments: &str, input: &str) -> Output {
+    /// Runs the program with something on standard input; what it writes may be no text.
+    pub(crate) fn pipe(&self, arguments: &str, input: impl AsRef<[u8]>) -> Output {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
         let mut pipe = child.stdin.take().unwrap();
-        let input = input.to_owned();
+        let input = input.as_ref().to_owned();
         let writer = thread::spawn(move || {
             // A program that stops early does not read all of it.
-            let _ = pipe.write_all(input.as_bytes());
+            let _ = pipe.write_all(&input);
         });
         let output = child.wait_with_output().unwrap();
         writer.join().unwrap();

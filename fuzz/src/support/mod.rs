@@ -16,6 +16,8 @@ pub(crate) mod orders;
 pub(crate) mod rational;
 #[path = "../../../tests/support/rays.rs"]
 pub(crate) mod rays;
+#[path = "../../../tests/support/saved.rs"]
+pub(crate) mod saved;
 #[path = "../../../tests/support/snapshot.rs"]
 pub(crate) mod snapshot;
 #[path = "../../../tests/support/targets/mod.rs"]

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::Builder;
 use crate::Error;
-use crate::exact::{Plane, cross};
+use crate::exact::{Plane, cross, is_convex};
 use crate::memory::reserve;
 
 impl Builder {
@@ -40,35 +40,7 @@ impl Builder {
     /// Whether the polygon is convex and winds once, seen along the axis in which its plane is
     /// least steep: of three of its corners. Exact.
     pub(super) fn is_convex(&self, plane: &Plane) -> bool {
-        let drop = plane.main_axis();
-        let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
-        let points = self.kept.iter().map(|(point, _)| [point[x], point[y]]);
-        // Twice round, so that each corner has the next two behind it.
-        let mut ahead = points.clone().chain(points.clone());
-        let (Some(mut here), Some(mut next)) = (ahead.next(), ahead.next()) else { return false };
-        let step = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
-        let mut rises = 0;
-        let mut turn = 0i8;
-        let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
-        for then in ahead.take(self.kept.len()) {
-            let (a, b) = (step(here, next), step(next, then));
-            (here, next) = (next, then);
-            // The projection puts two corners in a row on one point: no direction to turn from.
-            if a == [0.0; 2] || b == [0.0; 2] {
-                return false;
-            }
-            let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
-            let area = product(a[0], b[1]) - product(a[1], b[0]);
-            let backwards = area == 0 && product(a[0], b[0]) + product(a[1], b[1]) < 0;
-            let sign = area.signum() as i8;
-            if backwards || sign * turn < 0 {
-                return false;
-            }
-            turn |= sign;
-            rises += u32::from(!ascending(a) && ascending(b));
-        }
-        // It turns one way only. Each time round it changes once from descending to ascending.
-        rises == 1
+        is_convex(self.kept.len(), |k| self.kept[k].0, plane.main_axis())
     }
 
     /// Whether the straight line from one kept corner to another is part of the outline: the second

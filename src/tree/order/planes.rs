@@ -1,8 +1,8 @@
 //! The planes of a tree, rounded and laid out to be held against an eye.
 
-use glam::Vec4;
+use glam::{DVec3, DVec4, Vec4};
 
-use crate::exact::{Faces, LATTICE_LIMIT};
+use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, PlaneKind};
 use crate::parallel_map;
 use crate::tree::node_record::NodeRecord;
 
@@ -29,10 +29,8 @@ impl Planes {
         let group = |nodes: &[NodeRecord]| {
             let mut group = [Vec4::ZERO; 4];
             for (i, node) in nodes.iter().enumerate() {
-                let plane = faces.plane(node.plane);
-                let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
-                let all = normal.extend(offset / LATTICE_LIMIT) / normal.length();
-                for (part, value) in group.iter_mut().zip(all.as_vec4().to_array()) {
+                let plane = rounded(faces, node.plane).as_vec4();
+                for (part, value) in group.iter_mut().zip(plane.to_array()) {
                     part[i] = value;
                 }
             }
@@ -57,5 +55,20 @@ impl Planes {
     /// The resident size in bytes, apart from its own.
     pub(in crate::tree) fn bytes(&self) -> usize {
         size_of_val(&*self.0)
+    }
+}
+
+/// The unit normal of a plane and its distance from the origin, rounded.
+fn rounded(faces: &Faces, id: PlaneId) -> DVec4 {
+    match id.kind() {
+        // The same numbers as below, without integers and a square root.
+        PlaneKind::Axis(axis, corner) => {
+            DVec3::AXES[axis].extend(faces.corner(corner)[axis] / LATTICE_LIMIT)
+        }
+        PlaneKind::Face(_) => {
+            let plane = faces.plane(id);
+            let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
+            normal.extend(offset / LATTICE_LIMIT) / normal.length()
+        }
     }
 }

@@ -138,3 +138,40 @@ fn obj_reads_a_file() {
     assert_eq!((scene.len(), report.faces), (1, 1));
     assert_eq!(BspTree::build(scene.polygons()).unwrap().len(), 1);
 }
+
+#[cfg(feature = "save")]
+#[test]
+fn save_writes_a_tree_and_reads_it() {
+    let tree = BspTree::build(squares(6)).unwrap();
+    let mut file = Vec::new();
+    tree.write(&mut file).unwrap();
+    let again = BspTree::read(&file[..]).unwrap();
+    assert_eq!(again.validate(), Ok(()));
+    assert_eq!(again.stats(), tree.stats());
+    let from_above = Viewpoint::direction([0.0, -1.0, 0.25]);
+    let order = |tree: &BspTree| {
+        tree.back_to_front(from_above).map(|fragment| fragment.index()).collect::<Vec<_>>()
+    };
+    assert_eq!(order(&again), order(&tree));
+    file[40] ^= 1;
+    let error: binspace::LoadError = BspTree::read(&file[..]).unwrap_err();
+    assert!(error.to_string().contains("damaged"));
+}
+
+#[cfg(feature = "mint")]
+#[test]
+fn mint_has_points_for_polygons_and_viewpoints() {
+    let point = |[x, y, z]: [f32; 3]| mint::Point3 { x, y, z };
+    let single = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [0.5, 1.0, 0.0]];
+    let tree = BspTree::build([single.map(point), single.map(|[x, y, z]| point([x, y, z + 1.0]))]);
+    let tree = tree.unwrap();
+    // As precise as the arrays that they stand for.
+    let arrays = BspTree::build([single, single.map(|[x, y, z]| [x, y, z + 1.0])]).unwrap();
+    assert_eq!(tree.stats(), arrays.stats());
+    let double = single.map(|c| mint::Point3::from(c.map(f64::from)));
+    assert!(BspTree::build([double]).unwrap().fragment(0).vertices().len() == 3);
+    let above = Viewpoint::eye(mint::Point3 { x: 0.0, y: 0.0, z: 9.0 });
+    assert!(tree.back_to_front(above).map(|fragment| fragment.polygon()).eq([0, 1]));
+    let vertex: mint::Point3<f64> = tree.fragment(0).vertices().next().unwrap().into();
+    assert_eq!(vertex.x, 0.0);
+}

@@ -5,5 +5,6 @@ pub(crate) mod faces;
 pub(crate) mod large;
 #[cfg(feature = "obj")]
 pub(crate) mod obj;
+pub(crate) mod saved;
 pub(crate) mod split;
 pub(crate) mod tree;

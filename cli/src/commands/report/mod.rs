@@ -117,7 +117,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
 
 /// Reads a scene, of which a face is left at least.
 fn load(args: &ReportArgs, name: &OsStr) -> Result<Scene, Failure> {
-    let scene = scene_arg::load(&SceneArgs { name: name.to_owned(), seed: args.seed })?;
+    let scene = scene_arg::load(&SceneArgs { name: name.to_owned(), seed: args.seed })?.scene;
     match Faces::new(scene.polygons(), None) {
         Ok((faces, found)) if faces.is_empty() => {
             job::note_preparation(&scene, &faces, &found);

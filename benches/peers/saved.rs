@@ -1,0 +1,76 @@
+//! A tree read from a file, checks included, against building it.
+
+use binspace::BspTree;
+use std::time::{Duration, Instant};
+use support::{Table, Target, against, best, check, scene, time, viewpoints};
+
+/// Each about a million fragments.
+const SCENES: [&str; 5] =
+    ["terrain:1000000", "sphere:1000000", "city:1000000", "random:14000", "showroom_big_cc0.obj"];
+
+pub(crate) fn run() {
+    let table = Table::new(
+        "Trees read from files in memory, against building them",
+        &[
+            "scene",
+            "fragments",
+            "build",
+            "write",
+            "read",
+            "bytes a fragment",
+            "in memory",
+            "ratio",
+            "target",
+            "met",
+        ],
+    );
+    for name in SCENES {
+        let Some(scene) = scene(name) else { continue };
+        let (building, tree) = best(|| BspTree::build(scene.polygons()).expect("within budget"));
+        check(&tree, &scene);
+        let (mut file, begin) = (Vec::new(), Instant::now());
+        tree.write(&mut file).expect("memory");
+        let writing = begin.elapsed();
+        let mut reading = Duration::MAX;
+        for _ in 0..5 {
+            let begin = Instant::now();
+            let again = BspTree::read(&file[..]).expect("a file that was written");
+            reading = reading.min(begin.elapsed());
+            assert_same(&tree, &again);
+            check(&again, &scene);
+            for viewpoint in viewpoints(&scene) {
+                assert_eq!(order(&tree, viewpoint), order(&again, viewpoint));
+            }
+        }
+        let each = |bytes: usize| format!("{:.1}", bytes as f64 / tree.len() as f64);
+        let ratio = reading.as_secs_f64() / building.as_secs_f64();
+        let [ratio, target, met] = against(ratio, Target::AtMost(0.1));
+        table.row(&[
+            name.to_owned(),
+            tree.len().to_string(),
+            time(building),
+            time(writing),
+            time(reading),
+            each(file.len()),
+            each(tree.bytes()),
+            ratio,
+            target,
+            met,
+        ]);
+    }
+}
+
+fn order(tree: &BspTree, viewpoint: binspace::Viewpoint) -> Vec<u32> {
+    let mut order = Vec::new();
+    tree.back_to_front_into(viewpoint, &mut order);
+    order
+}
+
+/// The same statistics, and the same fragments bit for bit in the same places.
+fn assert_same(a: &BspTree, b: &BspTree) {
+    assert_eq!(a.stats(), b.stats());
+    for (a, b) in a.fragments().zip(b.fragments()) {
+        assert_eq!(a.polygon(), b.polygon());
+        assert!(a.vertices().eq(b.vertices()));
+    }
+}

@@ -1,0 +1,21 @@
+//! `binspace build`: a tree in a file.
+
+use super::Outcome;
+use crate::args::BuildFileArgs;
+use crate::failure::Failure;
+use crate::files::Output;
+use crate::progress::Progress;
+use crate::{job, saved_file};
+
+/// Runs the command.
+pub(crate) fn run(args: &BuildFileArgs) -> Result<Outcome, Failure> {
+    let output = Output::open(Some(&args.output))?;
+    if output.is_terminal() {
+        let problem = "a tree is not for a terminal: pipe it, or name a file";
+        return Err(Failure::about("standard output", problem));
+    }
+    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let _progress = Progress::spinner("writing");
+    output.write(|out| saved_file::write(out, &scene, &tree))?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,69 @@
+//! Files of `binspace build`: a tree, and behind it the scene that it is of.
+
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use binspace::scene::Scene;
+use binspace::{BspTree, LoadError};
+
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// What such a file begins with.
+pub(crate) const BEGINNING: &[u8] = b"binspace";
+
+/// Writes a file.
+pub(crate) fn write(mut out: &mut dyn Write, scene: &Scene, tree: &BspTree) -> io::Result<()> {
+    tree.write(&mut out)?;
+    scene.write(&mut out)
+}
+
+/// Whether a file is one of these, by its name or else by how it begins.
+pub(crate) fn is_saved(path: &Path) -> bool {
+    let is_named = path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("bsp"));
+    // Only of regular files the beginning can be read twice.
+    let begins = || {
+        path.metadata().ok().filter(std::fs::Metadata::is_file)?;
+        let mut bytes = [0; BEGINNING.len()];
+        std::fs::File::open(path).ok()?.read_exact(&mut bytes).ok()?;
+        Some(bytes == BEGINNING)
+    };
+    is_named || begins() == Some(true)
+}
+
+/// Reads a file by its name.
+pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
+    let name = path.display().to_string();
+    let _progress = Progress::spinner(format!("reading {name}"));
+    let file = std::fs::File::open(path)
+        .map_err(|error| Failure::about(&name, format!("cannot be read: {error}")))?;
+    read(&name, io::BufReader::new(file))
+}
+
+/// Reads a file; `name` is what messages call it.
+pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
+    let about = |error: LoadError| Failure::about(name, error);
+    let tree = BspTree::read(&mut input).map_err(about)?;
+    let scene = Scene::read(&mut input).map_err(|error| {
+        Failure::about(name, format!("behind the tree, where its scene must be: {error}"))
+    })?;
+    let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;
+    if more > 0 {
+        return Err(Failure::about(name, "more follows behind its scene: write it again"));
+    }
+    if !belong_together(&tree, &scene) {
+        return Err(Failure::about(name, "its tree is not one of its scene: write it again"));
+    }
+    Ok((scene, tree))
+}
+
+/// Whether a tree can be of a scene: it has as many polygons, and no corners that these do not have.
+fn belong_together(tree: &BspTree, scene: &Scene) -> bool {
+    let faces = tree.faces();
+    let has_corners = |face: u32| {
+        let corners = scene.polygon(faces.polygon(face)).len();
+        (0..faces.corners(face).len() as u32)
+            .all(|k| (faces.corner_number(face, k) as usize) < corners)
+    };
+    tree.preparation().polygons == scene.len() && (0..faces.len() as u32).all(has_corners)
+}

@@ -1,0 +1,192 @@
+//! Faces in files, and what a file must not say of them.
+
+use std::io::{self, Read, Write};
+use std::ops::Range;
+
+use super::{Face, Faces, Frame, INNER};
+use crate::exact::label::MAX_LABELS;
+use crate::exact::label::bits::Known;
+use crate::exact::lattice::LIMIT;
+use crate::exact::{Int, Lattice, Plane, is_convex};
+use crate::parallel_map;
+use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
+
+/// The largest coordinate: a corner that the tolerance moves can leave the lattice by a little, see
+/// the bounds of the filter.
+const LARGEST: f64 = 1.014 * LIMIT;
+/// How many faces one thread checks at a time.
+const PART: usize = 4096;
+/// The largest tolerance, as the preparation limits it.
+const LARGEST_TOLERANCE: f64 = LIMIT / 128.0;
+
+impl Faces {
+    pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
+        let point = |file: &mut Writer<_>, point: [f64; 3]| {
+            file.items(point.into_iter(), |file, c| file.u64(c as i64 as u64))
+        };
+        self.lattice.write(file)?;
+        file.f64(self.tolerance)?;
+        let ranges = (0..self.faces.len() as u32).map(|face| self.corner_range(face).len());
+        file.list(self.faces.iter().zip(ranges), |file, (face, corners)| {
+            file.u32(face.polygon)?;
+            file.u32(corners as u32)?;
+            file.u32(face.frame.0)
+        })?;
+        file.items(self.corners.iter(), |file, &corner| point(file, corner))?;
+        file.list(self.numbered.iter(), |file, &(face, _)| file.u32(face))?;
+        file.items(self.numbers.iter(), |file, &number| file.u32(number))?;
+        file.list(self.moved.iter(), |file, &(corner, given)| {
+            file.u32(corner)?;
+            point(file, given)
+        })
+    }
+
+    /// Reads faces, which have to be [checked](Self::check), once the file's checksum is known to be
+    /// right.
+    pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, LoadError> {
+        let point = |bytes: &[u8], at: usize| {
+            let bytes: &[u8; 24] = bytes[at..].first_chunk().unwrap_or(&[0; 24]);
+            [0, 8, 16].map(|at| u64_at(bytes, at) as i64 as f64)
+        };
+        let lattice = Lattice::read(file)?;
+        let tolerance = file.f64("tolerance")?;
+        let mut corners = 0_u64;
+        let faces = file.list("faces", MAX_LABELS, |bytes: &[u8; 12]| {
+            // Saturated rather than wrong: too many are refused below.
+            let start = u32::try_from(corners).unwrap_or(u32::MAX);
+            corners += u64::from(u32_at(bytes, 4));
+            Face { start, polygon: u32_at(bytes, 0), frame: Frame(u32_at(bytes, 8)) }
+        })?;
+        if corners >= MAX_LABELS as u64 {
+            return Err(LoadError::too_many("corners", corners, MAX_LABELS as u64 - 1));
+        }
+        let corners =
+            file.items("corners", corners as usize, |bytes: &[u8; 24]| point(bytes, 0))?;
+        let mut read = Self { lattice, tolerance, corners, faces, ..Self::default() };
+        let mut numbers = 0_u64;
+        read.numbered = file.list("numbered faces", read.faces.len(), |bytes: &[u8; 4]| {
+            let (face, at) = (u32_at(bytes, 0), numbers as u32);
+            if (face as usize) < read.faces.len() {
+                numbers += read.corner_range(face).len() as u64;
+            }
+            (face, at)
+        })?;
+        if numbers > read.corners.len() as u64 {
+            let limit = read.corners.len() as u64;
+            return Err(LoadError::too_many("corner numbers", numbers, limit));
+        }
+        let numbers = numbers as usize;
+        read.numbers = file.items("corner numbers", numbers, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
+        let moved = |bytes: &[u8; 28]| (u32_at(bytes, 0), point(bytes, 4));
+        read.moved = file.list("moved corners", read.corners.len(), moved)?;
+        Ok(read)
+    }
+
+    /// How many things the names of planes and lines may name.
+    pub(crate) fn known(&self) -> Known {
+        Known { faces: self.len(), corners: self.corner_count() }
+    }
+
+    /// An error unless all faces are what the exact predicates take them for: convex, with area, on
+    /// their planes, within the lattice. O(corners).
+    pub(crate) fn check(&self) -> Result<(), LoadError> {
+        self.lattice.check()?;
+        if !(0.0..=LARGEST_TOLERANCE).contains(&self.tolerance) {
+            return Err(LoadError::of("tolerance", "is negative, too large or no number"));
+        }
+        let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > LARGEST);
+        if let Some(corner) = self.corners.iter().position(is_outside) {
+            return Err(invalid("corner", corner, "is outside the grid"));
+        }
+        let is_late = |faces: &[Face]| faces[0].polygon > faces[1].polygon;
+        if let Some(face) = self.faces.windows(2).position(is_late) {
+            return Err(invalid("face", face, "comes before one of an earlier polygon"));
+        }
+        let ranges = (0..self.faces.len()).step_by(PART);
+        let ranges = ranges.map(|start| start..self.faces.len().min(start + PART)).collect();
+        let check = |mut range: Range<usize>| {
+            range.try_for_each(|face| {
+                self.check_face(face as u32).map_err(|fault| invalid("face", face, fault))
+            })
+        };
+        parallel_map::map(ranges, check).into_iter().collect::<Result<(), LoadError>>()?;
+        self.check_numbers()?;
+        self.check_moved()
+    }
+
+    fn check_face(&self, face: u32) -> Result<(), &'static str> {
+        let corners = self.corners(face);
+        let frame = self.faces[face as usize].frame;
+        let [_, second, third] = frame.triangle().map(|k| k as usize);
+        if !(3..=Frame::MAX_CORNERS).contains(&corners.len()) {
+            return Err("has too few corners or too many");
+        }
+        if second == 0 || third <= second || third >= corners.len() {
+            return Err("names corners that it does not have");
+        }
+        let plane = Plane::through([0, second, third].map(|k| corners[k]));
+        if plane.normal() == [0; 3] {
+            return Err("has no area");
+        }
+        if corners.len() == 3 {
+            return if frame == Frame::TRIANGLE { Ok(()) } else { Err("is moved, but a triangle") };
+        }
+        let axis = plane.main_axis();
+        if !is_convex(corners.len(), |k| corners[k], axis) {
+            return Err("is not convex");
+        }
+        // The nearest lattice points are off the plane by half a step along the axis at most.
+        let half = match frame.drop_axis() {
+            Some(moved) if moved != axis => {
+                return Err("is moved along another axis than its plane's");
+            }
+            Some(axis) => Int::<3>::from(plane.normal()[axis]),
+            None => Int::ZERO,
+        };
+        let half = if half.is_negative() { -half } else { half };
+        let is_off = |corner: &[f64; 3]| {
+            let off = plane.at(corner);
+            let off = if off.is_negative() { -off } else { off };
+            (half - off - off).is_negative()
+        };
+        if corners.iter().any(is_off) { Err("is not planar") } else { Ok(()) }
+    }
+
+    fn check_numbers(&self) -> Result<(), LoadError> {
+        let mut next = 0;
+        for &(face, _) in &self.numbered {
+            if face < next || face as usize >= self.faces.len() {
+                return Err(invalid("numbered face", face as usize, "is unknown or out of order"));
+            }
+            next = face + 1;
+        }
+        let is_large = |&number: &u32| (number & !INNER) as usize >= MAX_LABELS;
+        match self.numbers.iter().position(is_large) {
+            Some(at) => Err(invalid("corner number", at, "is too large")),
+            None => Ok(()),
+        }
+    }
+
+    fn check_moved(&self) -> Result<(), LoadError> {
+        let (mut next, mut face) = (0, 0);
+        for &(corner, given) in &self.moved {
+            let fault = |fault| Err(invalid("moved corner", corner as usize, fault));
+            if corner < next || corner as usize >= self.corners.len() {
+                return fault("is unknown or out of order");
+            }
+            next = corner + 1;
+            while !self.corner_range(face).contains(&(corner as usize)) {
+                face += 1;
+            }
+            let stays = |axis: usize| given[axis] == self.corner(corner)[axis];
+            let axis = self.upright_axis(face);
+            if axis.is_none() || !(0..3).all(|k| Some(k) == axis || stays(k)) {
+                return fault("was not moved along its face's axis");
+            }
+            if given.iter().any(|c| c.abs() > LIMIT) {
+                return fault("was outside the grid");
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,203 @@
+//! Scenes in files.
+
+use std::io::{self, Read, Write};
+
+use glam::{DVec2, DVec3};
+
+use super::{Attributes, Material, Scene};
+use crate::save::{Kind, LoadError, Reader, Writer, u32_at, u64_at};
+
+const KIND: Kind = Kind { name: *b"scen", version: 1 };
+
+/// More polygons, corners or materials than a tree can have.
+const MOST: usize = 1 << 32;
+/// The most bytes of a name.
+const LONGEST: usize = 1 << 16;
+
+impl Scene {
+    /// Writes the scene with its materials and what a file said of its corners, so that
+    /// [`read`](Self::read) gives an equal one. It may follow a tree in the same file, as in those of
+    /// the program `binspace`.
+    ///
+    /// # Layout
+    ///
+    /// Version 1. All numbers are little-endian; a list is its length as `u64` and then its items; an
+    /// item that may be missing is a `u32`, 1 if it is there and 0 if not, and then its numbers.
+    ///
+    /// | part | what |
+    /// |---|---|
+    /// | head | the bytes `binspacescen`, the version as `u32` |
+    /// | name | a list of bytes: UTF-8, at most 65 536 |
+    /// | up, precision | three `f64`, and one |
+    /// | view | six `f64`, which may be missing: eye and target |
+    /// | materials | the number as `u64`; each is a name, and red, green, blue and opacity as `f32` |
+    /// | polygons | a list: the number of corners, and the material, as `u32` |
+    /// | corners | of all polygons: three `f64` each |
+    /// | lines | a list: of each polygon the line of the file that it is from, `u64`; or empty |
+    /// | texture coordinates | a list: of each corner two `f64`, which may be missing; or empty |
+    /// | normals | a list: likewise, three `f64` |
+    /// | colours | a list: likewise, three `f32` |
+    /// | end | the CRC-32 of all bytes before, `u32` |
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer, or if a name is too long. What was written until then is no file.
+    pub fn write(&self, output: impl Write) -> io::Result<()> {
+        let mut file = Writer::new(output, KIND)?;
+        let numbers = |file: &mut Writer<_>, numbers: &[f64]| {
+            file.items(numbers.iter(), |file, &number| file.f64(number))
+        };
+        write_name(&mut file, &self.name)?;
+        numbers(&mut file, &[self.up.x, self.up.y, self.up.z, self.precision])?;
+        let view = self.view.map(|(eye, target)| [eye.to_array(), target.to_array()].concat());
+        file.u32(u32::from(view.is_some()))?;
+        numbers(&mut file, &view.unwrap_or_else(|| vec![0.0; 6]))?;
+        file.list(self.materials.iter(), |file, material| {
+            write_name(file, &material.name)?;
+            let light = material.color.into_iter().chain([material.opacity]);
+            file.items(light, |file, number| file.put(number.to_le_bytes()))
+        })?;
+        file.list(0..self.len(), |file, index| {
+            file.u32(self.polygon(index).len() as u32)?;
+            file.u32(self.material_of[index])
+        })?;
+        file.items(self.corners.iter(), |file, corner| numbers(file, &corner.to_array()))?;
+        file.list(self.lines.iter(), |file, &line| file.u64(line as u64))?;
+        let Attributes { uvs, normals, colors } = &self.attributes;
+        file.list(uvs.iter(), |file, uv| {
+            file.u32(u32::from(uv.is_some()))?;
+            numbers(file, &uv.unwrap_or_default().to_array())
+        })?;
+        file.list(normals.iter(), |file, normal| {
+            file.u32(u32::from(normal.is_some()))?;
+            numbers(file, &normal.unwrap_or_default().to_array())
+        })?;
+        file.list(colors.iter(), |file, color| {
+            file.u32(u32::from(color.is_some()))?;
+            let light = color.unwrap_or_default().into_iter();
+            file.items(light, |file, number| file.put(number.to_le_bytes()))
+        })?;
+        file.finish()
+    }
+
+    /// Reads a scene that [`write`](Self::write) has written. Takes up no more than the scene's bytes.
+    ///
+    /// Any file is safe to read, and memory grows with what is read. Coordinates and colours are what
+    /// the file says: as in any scene, they may be infinite or no numbers.
+    ///
+    /// # Errors
+    ///
+    /// If the data cannot be read, are no scene, of another version, cut short or damaged, or lists
+    /// contradict each other; or if memory runs out. The message says which.
+    pub fn read(input: impl Read) -> Result<Self, LoadError> {
+        let mut file = Reader::new(input, KIND)?;
+        let name = read_name(&mut file)?;
+        let [x, y, z, precision] = numbers(&mut file, "up and precision")?;
+        let mut scene = Self { precision, ..Self::new("", DVec3::new(x, y, z)) };
+        let has_view = file.u32("view")? != 0;
+        let [a, b, c, d, e, f] = numbers(&mut file, "view")?;
+        scene.view = has_view.then_some((DVec3::new(a, b, c), DVec3::new(d, e, f)));
+        let materials = read_materials(&mut file)?;
+        let mut corners = 0_u64;
+        let polygons = file.list("polygons", MOST, |bytes: &[u8; 8]| {
+            corners = corners.saturating_add(u32_at(bytes, 0).into());
+            (corners as usize, u32_at(bytes, 4))
+        })?;
+        if corners > MOST as u64 {
+            return Err(LoadError::too_many("corners", corners, MOST as u64));
+        }
+        (scene.ends, scene.material_of) = polygons.into_iter().unzip();
+        scene.corners = file.items("corners", corners as usize, |bytes: &[u8; 24]| {
+            DVec3::from_array(f64s(bytes))
+        })?;
+        scene.lines = file.list("lines", MOST, |bytes: &[u8; 8]| u64_at(bytes, 0) as usize)?;
+        let is_there = |bytes: &[u8]| bytes[..4] != [0; 4];
+        scene.attributes = Attributes {
+            uvs: file.list("texture coordinates", MOST, |bytes: &[u8; 20]| {
+                is_there(bytes).then(|| DVec2::from_array(f64s(&bytes[4..])))
+            })?,
+            normals: file.list("normals", MOST, |bytes: &[u8; 28]| {
+                is_there(bytes).then(|| DVec3::from_array(f64s(&bytes[4..])))
+            })?,
+            colors: file.list("colours", MOST, |bytes: &[u8; 16]| {
+                is_there(bytes).then(|| f32s(&bytes[4..]))
+            })?,
+        };
+        file.finish()?;
+        let name_of =
+            |bytes| String::from_utf8(bytes).map_err(|_| LoadError::of("name", "is no text"));
+        scene.name = name_of(name)?;
+        for (name, color, opacity) in materials {
+            scene.materials.push(Material { name: name_of(name)?, color, opacity });
+        }
+        scene.check()?;
+        Ok(scene)
+    }
+
+    fn check(&self) -> Result<(), LoadError> {
+        let Attributes { uvs, normals, colors } = &self.attributes;
+        let is_wrong = |len: usize, of: usize| len != 0 && len != of;
+        if is_wrong(self.lines.len(), self.len()) {
+            return Err(LoadError::of("lines", "are more or fewer than its polygons"));
+        }
+        if [uvs.len(), normals.len(), colors.len()]
+            .iter()
+            .any(|&len| is_wrong(len, self.corners.len()))
+        {
+            return Err(LoadError::of(
+                "texture coordinates, normals or colours",
+                "are more or fewer than its corners",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A material as it is read: the name may be no text.
+type RawMaterial = (Vec<u8>, [f32; 3], f32);
+
+fn read_materials(file: &mut Reader<impl Read>) -> Result<Vec<RawMaterial>, LoadError> {
+    let mut materials = Vec::new();
+    for _ in 0..file.count("materials", MOST)? {
+        let name = read_name(file)?;
+        let [[r, g, b, opacity]] = file
+            .items("materials", 1, |bytes: &[u8; 16]| f32s::<4>(bytes))?
+            .try_into()
+            .unwrap_or([[0.0; 4]]);
+        materials.try_reserve(1).map_err(|_| LoadError::out_of_memory())?;
+        materials.push((name, [r, g, b], opacity));
+    }
+    Ok(materials)
+}
+
+fn write_name(file: &mut Writer<impl Write>, name: &str) -> io::Result<()> {
+    if name.len() > LONGEST {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "a name is too long for a file"));
+    }
+    file.list(name.bytes(), |file, byte| file.put([byte]))
+}
+
+fn read_name(file: &mut Reader<impl Read>) -> Result<Vec<u8>, LoadError> {
+    file.list("bytes of a name", LONGEST, |&[byte]: &[u8; 1]| byte)
+}
+
+fn numbers<const N: usize>(
+    file: &mut Reader<impl Read>,
+    what: &'static str,
+) -> Result<[f64; N], LoadError> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        *number = file.f64(what)?;
+    }
+    Ok(numbers)
+}
+
+fn f64s<const N: usize>(bytes: &[u8]) -> [f64; N] {
+    let chunks = bytes.as_chunks::<8>().0;
+    std::array::from_fn(|i| chunks.get(i).map_or(0.0, |&bytes| f64::from_le_bytes(bytes)))
+}
+
+fn f32s<const N: usize>(bytes: &[u8]) -> [f32; N] {
+    let chunks = bytes.as_chunks::<4>().0;
+    std::array::from_fn(|i| chunks.get(i).map_or(0.0, |&bytes| f32::from_le_bytes(bytes)))
+}

@@ -1,0 +1,113 @@
+//! Files that are cut short, damaged, forged, or of something else.
+
+use crate::support::saved::{bytes, checksum, seal};
+use crate::support::targets::saved::try_file;
+use binspace::scene;
+use binspace::{BspTree, BuildOptions, FrameBuilder};
+
+/// Files of small trees: with cuts, bent faces, triangulated and dropped polygons, and for one view.
+fn files() -> Vec<Vec<u8>> {
+    let bent = [[0.0, 0.0, 0.0], [4.0, 0.0, 1e-12], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+    let across = [[1.0, 1.0, -1.0], [3.0, 2.0, -1.0], [3.0, 2.0, 1.0], [1.0, 1.0, 1.0]];
+    let arrow = [[0.0, 0.0, 3.0], [2.0, 2.0, 3.0], [0.0, 1.0, 3.0], [-2.0, 2.0, 3.0]];
+    let line = [[1.0, 1.0, 1.0]; 4];
+    let mixed = [bent, across, arrow, line];
+    let build = |scene: scene::Scene| bytes(&BspTree::build(scene.polygons()).unwrap());
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    vec![
+        bytes(&BspTree::build(mixed).unwrap()),
+        bytes(builder.build(mixed).unwrap()),
+        build(scene::crossing(3)),
+        build(scene::random_triangles(6, 5)),
+    ]
+}
+
+fn message(file: &[u8]) -> String {
+    BspTree::read(file).expect_err("a file that is not right").to_string()
+}
+
+#[test]
+fn every_part_of_a_file_is_cut_short() {
+    for file in files() {
+        for len in 0..file.len() {
+            let message = message(&file[..len]);
+            assert!(message.contains("cut short"), "{len}: {message}");
+        }
+    }
+}
+
+#[test]
+fn a_checksum_shows_every_changed_byte() {
+    for file in files() {
+        let body = file.len() - 4;
+        assert_eq!(file[body..], checksum(&file[..body]).to_le_bytes(), "the checksum of gzip");
+        for at in 0..file.len() {
+            for change in [0x01, 0x80, 0xff] {
+                let mut damaged = file.clone();
+                damaged[at] ^= change;
+                let message = message(&damaged);
+                let is_told = match at {
+                    0..8 => message.contains("no file of binspace"),
+                    8..12 => message.contains("where a \"tree\" is expected"),
+                    12..16 => message.contains("version"),
+                    _ => message.contains("damaged"),
+                };
+                assert!(is_told, "byte {at}: {message}");
+            }
+        }
+    }
+}
+
+/// Every byte changed, and the checksum made right: refused, or as good as any tree to use.
+#[test]
+fn a_forged_file_is_refused_or_usable() {
+    let (mut usable, mut refused) = (0, 0);
+    for file in files() {
+        for at in 16..file.len() - 4 {
+            for change in [0x01, 0x02, 0x10, 0x80, 0xff] {
+                let mut forged = file.clone();
+                forged[at] ^= change;
+                seal(&mut forged);
+                let is_usable = try_file(&forged);
+                usable += usize::from(is_usable);
+                refused += usize::from(!is_usable);
+            }
+        }
+    }
+    // Corners may be moved a little, and counts be false.
+    assert!(usable > 1000 && refused > 1000, "{usable} {refused}");
+}
+
+#[test]
+fn an_absurd_length_is_refused() {
+    let file = &files()[0];
+    // Where the lengths of lists are: in place of one, 2⁵⁶ and what is just allowed.
+    let mut tried = 0;
+    for at in (16..file.len() - 12).step_by(4) {
+        for length in [1_u64 << 56, (1 << 28) - 1, (1 << 29) - 1, u64::MAX] {
+            let mut forged = file.clone();
+            forged[at..at + 8].copy_from_slice(&length.to_le_bytes());
+            seal(&mut forged);
+            try_file(&forged);
+            tried += 1;
+        }
+    }
+    assert!(tried > 100);
+}
+
+#[test]
+fn another_version_is_named() {
+    let mut file = files().swap_remove(0);
+    file[12] = 2;
+    seal(&mut file);
+    let message = message(&file);
+    assert!(message.contains("version 2") && message.contains("reads version 1"), "{message}");
+}
+
+#[test]
+fn other_files_are_told() {
+    assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("no file of binspace"));
+    assert!(message(b"binspacescene").contains("cut short"));
+    assert!(message(b"binspacescen\x01\0\0\0").contains("it holds a \"scen\""));
+    assert!(message(b"").contains("cut short"));
+}

@@ -1,0 +1,8 @@
+//! Trees and scenes that are written and read back, and files that are not right.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod damage;
+mod same;
+mod scenes;

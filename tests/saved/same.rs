@@ -1,0 +1,161 @@
+//! What is read is what was written, bit for bit.
+
+use crate::support::dice::Dice;
+use crate::support::rays::Rays;
+use crate::support::saved::{bytes, use_all};
+use crate::support::snapshot::{Snapshot, order};
+use crate::support::{hard, views};
+use binspace::glam::DVec3;
+use binspace::scene;
+use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
+use proptest::prelude::*;
+
+fn again(tree: &BspTree) -> BspTree {
+    let file = bytes(tree);
+    let again = BspTree::read(&file[..]).expect("a file that was written");
+    assert_eq!(bytes(&again), file, "another file");
+    again
+}
+
+/// The same fragments, statistics, weights and orders.
+fn assert_same(tree: &BspTree, eyes: &[Viewpoint]) {
+    let again = again(tree);
+    assert_eq!(Snapshot::of(&again), Snapshot::of(tree));
+    assert_eq!(again.stats(), tree.stats());
+    assert_eq!(again.preparation(), tree.preparation());
+    assert!(again.dropped().eq(tree.dropped()));
+    for (a, b) in again.fragments().zip(tree.fragments()) {
+        assert!(a.weights().eq(b.weights()) && a.edges().eq(b.edges()));
+        assert!(a.vertices().eq(b.vertices()));
+    }
+    for &eye in eyes {
+        assert_eq!(order(&again, eye), order(tree, eye));
+    }
+    assert_eq!(again.validate(), Ok(()));
+}
+
+const EYES: [Viewpoint; 3] = [
+    Viewpoint::Eye(DVec3::new(3.0, 1.0, 2.0)),
+    Viewpoint::Eye(DVec3::new(0.1, -0.2, 0.05)),
+    Viewpoint::Direction(DVec3::new(0.3, -1.0, 0.2)),
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
+
+    #[test]
+    fn trees_of_hard_scenes_come_back(
+        scene in hard::scene(), heuristic in 0..Heuristic::ALL.len(), seed: u64,
+    ) {
+        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::ALL[heuristic]);
+        let options = scene.tolerance().map_or(options, |length| options.with_tolerance(length));
+        let tree = options.build(&scene.polygons).unwrap();
+        let mut eyes = EYES.to_vec();
+        if !tree.is_empty() {
+            // Eyes on corners and planes as well.
+            let (mut dice, rays) = (Dice(seed), Rays::new(&tree));
+            eyes.extend((0..4).map(|_| views::some_view(tree.faces(), &rays, &mut dice).viewpoint));
+        }
+        assert_same(&tree, &eyes);
+        assert_eq!(use_all(&tree), Ok(()));
+        let mut builder = FrameBuilder::new(options);
+        assert_same(builder.build(&scene.polygons).unwrap(), &eyes);
+    }
+}
+
+#[test]
+fn trees_of_large_scenes_come_back() {
+    let scenes = [
+        scene::terrain(3000, 1),
+        scene::sphere(2000),
+        scene::city(3000, 2),
+        scene::chain(9000),
+        scene::random_triangles(120, 3),
+        scene::newell_bars(),
+        scene::cornell_box(),
+        scene::teapot(6),
+    ];
+    let mut fragments = 0;
+    for scene in scenes {
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        assert_same(&tree, &EYES);
+        assert_same(
+            FrameBuilder::new(BuildOptions::DEFAULT).build(scene.polygons()).unwrap(),
+            &EYES,
+        );
+        fragments += tree.len();
+    }
+    assert!(fragments > 15_000, "{fragments}");
+}
+
+#[test]
+fn trees_of_nothing_come_back() {
+    for polygons in [vec![], vec![[[0.0; 3]; 3]; 4]] {
+        let tree = BspTree::build(&polygons).unwrap();
+        assert_same(&tree, &EYES);
+        assert_eq!(again(&tree).stats().dropped, polygons.len());
+    }
+    assert_same(FrameBuilder::new(BuildOptions::DEFAULT).tree(), &EYES);
+}
+
+/// As a file may hold a tree and something else.
+#[test]
+fn no_more_is_read_than_was_written() {
+    let trees = [scene::crossing(3), scene::chain(7)]
+        .map(|scene| BspTree::build(scene.polygons()).unwrap());
+    let mut file: Vec<u8> = trees.iter().flat_map(bytes).collect();
+    file.extend(b"rest");
+    let mut rest = &file[..];
+    for tree in &trees {
+        let read = BspTree::read(&mut rest).unwrap();
+        assert_eq!(Snapshot::of(&read), Snapshot::of(tree));
+    }
+    assert_eq!(rest, b"rest");
+}
+
+/// A reader that gives a byte at a time, and is interrupted.
+struct Slow<'a>(&'a [u8], bool);
+
+impl std::io::Read for Slow<'_> {
+    fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
+        self.1 = !self.1;
+        if self.1 {
+            return Err(std::io::ErrorKind::Interrupted.into());
+        }
+        let len = to.len().min(1);
+        std::io::Read::read(&mut self.0, &mut to[..len])
+    }
+}
+
+#[test]
+fn a_slow_reader_is_waited_for() {
+    let tree = BspTree::build(scene::crossing(3).polygons()).unwrap();
+    let read = BspTree::read(Slow(&bytes(&tree), false)).unwrap();
+    assert_eq!(Snapshot::of(&read), Snapshot::of(&tree));
+}
+
+#[test]
+fn errors_of_readers_and_writers_are_passed_on() {
+    use std::error::Error;
+    use std::io;
+
+    struct Broken;
+    impl io::Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("the disk is gone"))
+        }
+    }
+    impl io::Write for Broken {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(io::Error::other("the disk is full"))
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    let error = BspTree::read(Broken).unwrap_err();
+    assert!(error.is_io() && error.source().is_some(), "{error}");
+    assert_eq!(error.to_string(), "cannot be read: the disk is gone");
+    let tree = BspTree::build(scene::chain(2).polygons()).unwrap();
+    assert_eq!(tree.write(Broken).unwrap_err().to_string(), "the disk is full");
+}

@@ -1,0 +1,106 @@
+//! Trees as bytes, and everything that can be done with a tree.
+
+use super::judge::{Verdict, ensure};
+use super::{orders, snapshot::Snapshot};
+use binspace::glam::{DVec3, dvec3};
+use binspace::{BspTree, Mesh, Viewpoint, verify, verify_fronts, view};
+
+/// A tree's file.
+pub(crate) fn bytes(tree: &BspTree) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    tree.write(&mut bytes).expect("a list takes all");
+    bytes
+}
+
+/// The CRC-32 of gzip and PNG, bit by bit.
+pub(crate) fn checksum(bytes: &[u8]) -> u32 {
+    let step = |rest: u32| if rest & 1 == 1 { rest >> 1 ^ 0xedb8_8320 } else { rest >> 1 };
+    let next = |rest: u32, &byte: &u8| (0..8).fold(rest ^ u32::from(byte), |rest, _| step(rest));
+    !bytes.iter().fold(!0, next)
+}
+
+/// Makes the last four bytes the checksum of those before.
+pub(crate) fn seal(bytes: &mut [u8]) {
+    if let Some(body) = bytes.len().checked_sub(4) {
+        let sum = checksum(&bytes[..body]);
+        bytes[body..].copy_from_slice(&sum.to_le_bytes());
+    }
+}
+
+const EYES: [Viewpoint; 4] = [
+    Viewpoint::Eye(dvec3(3.0, -1.0, 2.0)),
+    Viewpoint::Eye(dvec3(0.1, 0.2, -0.05)),
+    Viewpoint::Direction(dvec3(0.3, -1.0, 0.2)),
+    Viewpoint::Direction(DVec3::Z),
+];
+
+/// Calls every method of a tree, which may be a forged one; it need be usable, not right.
+pub(crate) fn use_all(tree: &BspTree) -> Verdict {
+    // What is only looked at here must not panic.
+    let _ = (tree.validate(), tree.stats(), tree.bytes(), format!("{tree:?}"));
+    ensure(tree.dropped().count() == tree.preparation().dropped, || "dropped".into())?;
+    for viewpoint in EYES {
+        orders::check(tree, viewpoint)?;
+        tree.same_order(viewpoint, EYES[0]);
+    }
+    use_fragments(tree)?;
+    let partitions: Vec<_> = tree.partitions().collect();
+    let mut backwards: Vec<_> = tree.partitions().rev().collect();
+    backwards.reverse();
+    // Not the rounded normals: a forged plane may have none.
+    let places = |list: &[binspace::Partition]| -> Vec<_> {
+        list.iter().map(|p| (p.on.clone(), p.front.clone(), p.back.clone(), p.depth)).collect()
+    };
+    ensure(places(&partitions) == places(&backwards), || "partitions".into())?;
+    for mesh in [tree.mesh(), tree.welded_mesh()] {
+        use_mesh(tree, &mesh.map_err(|error| error.to_string())?)?;
+    }
+    use_pictures(tree);
+    let (again, written) = (tree.clone(), bytes(tree));
+    ensure(bytes(&again) == written, || "a copy is another tree".into())?;
+    let again = BspTree::read(&written[..]).map_err(|error| error.to_string())?;
+    ensure(Snapshot::of(&again) == Snapshot::of(tree), || "it is not the same again".into())
+}
+
+fn use_fragments(tree: &BspTree) -> Verdict {
+    for fragment in tree.fragments() {
+        let count = fragment.vertex_count();
+        let is_finite = fragment.vertices().all(DVec3::is_finite)
+            && fragment.weights().flatten().all(|(_, weight)| weight.is_finite());
+        ensure(is_finite && count >= 3, || format!("{fragment:?}"))?;
+        ensure(fragment.edges().len() == count, || "edges".into())?;
+        ensure(fragment.polygon() < tree.preparation().polygons, || "its polygon".into())?;
+        for viewpoint in EYES {
+            let _ = fragment.facing(viewpoint);
+        }
+        let other = fragment.index() / 2;
+        let _ = tree.plane_between(fragment.index(), other);
+    }
+    Ok(())
+}
+
+fn use_mesh(tree: &BspTree, mesh: &Mesh) -> Verdict {
+    let triangles = mesh.triangles();
+    let is_known = |&index: &u32| (index as usize) < mesh.len();
+    ensure(triangles.indices().iter().all(is_known), || "an index of no vertex".into())?;
+    let is_finite = |vertex: binspace::MeshVertex<'_>| {
+        vertex.position.is_finite() && vertex.interpolate(|corner| corner as f64).is_finite()
+    };
+    ensure(mesh.vertices().all(is_finite), || "a vertex nowhere".into())?;
+    let (mut order, mut indices) = (Vec::new(), vec![0; triangles.indices().len()]);
+    let written = triangles.write_back_to_front(tree, EYES[1], &mut order, &mut indices);
+    ensure(written == Ok(indices.len()), || format!("{written:?}"))?;
+    let some = mesh.triangles_of(|polygon| polygon % 2 == 0).map_err(|error| error.to_string())?;
+    ensure(some.indices().len() <= indices.len(), || "some are more than all".into())
+}
+
+fn use_pictures(tree: &BspTree) {
+    let points = || tree.fragments().flat_map(|fragment| fragment.vertices());
+    let Some(low) = points().reduce(DVec3::min) else { return };
+    let high = points().fold(low, DVec3::max);
+    // Around a tree as large as numbers go there is no camera.
+    let cameras = view::views([low, high], DVec3::Z, 2, [24, 18], 3).unwrap_or_default();
+    for camera in cameras {
+        let _ = (verify(tree, &camera), verify_fronts(tree, &camera));
+    }
+}
