@@ -2,10 +2,6 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
-/// A point counts as in the rectangle if it is outside by no more than this share of its sides.
-/// Smaller: points on an edge are missed by rounding; larger: an edge is hit before it is reached.
-const TOUCH: f64 = 1e-9;
-
 /// A rectangle in coordinates of its own, and a matrix that maps it to the screen.
 ///
 /// Two layers are equal if their numbers are: an equal list of layers is an unchanged frame.
@@ -56,14 +52,6 @@ impl Layer {
     pub(super) fn corners(&self) -> [DVec2; 4] {
         let Self { low, high, .. } = *self;
         [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
-    }
-
-    /// The point of the rectangle that appears at a point of the screen, if one does or nearly does.
-    pub(super) fn inside(&self, screen: DVec2) -> Option<DVec2> {
-        let local = DVec2::from(self.local(screen.to_array())?);
-        let inside = self.clamp(local);
-        let slack = (self.high - self.low) * TOUCH;
-        (local - inside).abs().cmple(slack).all().then_some(inside)
     }
 
     /// (u, v), moved into the rectangle if rounding put it outside.

@@ -8,6 +8,7 @@ use super::piece::LayerPiece;
 use super::vertex::Corner;
 use crate::Error;
 use crate::build::{BuildOptions, FrameBuilder};
+use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
 use crate::memory::reserve;
 use crate::viewpoint::Viewpoint;
@@ -17,10 +18,10 @@ use crate::viewpoint::Viewpoint;
 /// layers that pass near the eye lose a part that is seen.
 const REACH: f64 = (1 << 20) as f64;
 /// The least and the largest tolerance, as shares of the viewport's size; as
-/// [`Tolerance::Default`](crate::Tolerance::Default) has them of the extent. Smaller: cards meant to
-/// be in one plane cut each other; larger: thin layers are merged, or, for one layer of few digits,
-/// those of the whole page.
-const TOLERANCES: [f64; 2] = [1e-9, 1e-5];
+/// [`Tolerance::Default`](crate::Tolerance::Default) has them of the extent (the second is
+/// `LARGEST_ROUNDING` there). Smaller: cards meant to be in one plane cut each other; larger: thin
+/// layers are merged, or, for one layer of few digits, those of the whole page.
+const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// A point counts as in a piece if it is outside by no more than this share of the viewport's size.
 /// Smaller: points fall through between pieces; larger: an edge is hit before it is reached.
 const TOUCH: f64 = 1e-9;
@@ -80,6 +81,16 @@ impl Layers {
         self.clear();
         self.is_clipped = false;
         self
+    }
+
+    /// Changes the viewport, from its `low` to its `high` corner, as when a window is resized. If it is
+    /// another, the page is empty until its next [`update`](Self::update). Memory is kept.
+    pub fn set_viewport(&mut self, [low, high]: [[f64; 2]; 2]) {
+        let viewport = [low.into(), high.into()];
+        if self.viewport != viewport {
+            self.clear();
+            self.viewport = viewport;
+        }
     }
 
     /// Takes the layers of a frame, and tells whether anything had to be done: not if they are equal
@@ -209,15 +220,18 @@ impl Layers {
     }
 
     /// The nearest layer at a point of the screen, by its index, and the point (u, v) of it that
-    /// appears there. O(pieces), in `f64`: within 10⁻⁹ of the viewport's longer side of an edge,
-    /// either side may answer.
+    /// appears there. O(pieces), in `f64`: within 10⁻⁹ of the viewport's longer side of a piece's edge,
+    /// as its [vertices](LayerPiece::vertices) have it, either side may answer.
     pub fn hit(&self, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);
         self.back_to_front().rev().find_map(|piece| {
             // Most pieces are ruled out by their layer, without computing a vertex.
-            let local = piece.layer.inside(at)?;
-            piece.covers(at, slack).then(|| (piece.number, local.to_array()))
+            if !(piece.is_near(at, slack) && piece.covers(at, slack)) {
+                return None;
+            }
+            let local = piece.layer.local(at.to_array())?;
+            Some((piece.number, piece.layer.clamp(local.into()).to_array()))
         })
     }
 }

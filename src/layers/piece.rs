@@ -53,6 +53,15 @@ impl<'p> LayerPiece<'p> {
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
     }
 
+    /// Whether its layer's part on the screen has a point of the screen in its bounding box, or comes
+    /// as near to it as `slack`.
+    pub(super) fn is_near(&self, at: DVec2, slack: f64) -> bool {
+        let corners = self.outline.iter().map(|corner| corner.vertex.position.truncate());
+        let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        let bounds = corners.fold(empty, |[low, high], to| [low.min(to), high.max(to)]);
+        at.cmpge(bounds[0] - slack).all() && at.cmple(bounds[1] + slack).all()
+    }
+
     /// Whether it covers a point of the screen, or comes as near to it as `slack`.
     pub(super) fn covers(&self, at: DVec2, slack: f64) -> bool {
         let mut vertices = self.vertices().map(|vertex| vertex.position.truncate());

@@ -6,6 +6,7 @@ mod outline;
 mod points;
 mod survey;
 mod triangles;
+mod union;
 
 use glam::DVec3;
 

@@ -2,6 +2,7 @@
 //! seen of a layer, where in it a point of the screen is, and what is painted over what.
 
 mod drawn;
+mod hit;
 mod hostile;
 mod oracle;
 mod order;

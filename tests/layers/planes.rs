@@ -2,7 +2,7 @@
 
 use super::support::dice::Dice;
 use super::{VIEWPORT, camera, pages};
-use binspace::glam::{DMat4, Mat4, Quat, Vec3, dvec3, vec3};
+use binspace::glam::{DMat4, Mat4, Quat, dvec3, vec3};
 use binspace::layers::{Layer, Layers};
 
 fn order(page: &Layers) -> Vec<usize> {
@@ -26,30 +26,20 @@ fn forty_cards_put_into_one_tilted_plane_by_f32_matrices_stay_whole() {
         let tilt = Quat::from_rotation_x(turn()) * Quat::from_rotation_y(turn());
         let plane = single_camera()
             * Mat4::from_rotation_translation(tilt, vec3(0.3, -7.7, -210.4) * turn());
-        let layers: Vec<Layer> = (0..40)
+        let matrices: Vec<Mat4> = (0..40)
             .map(|_| {
-                let at = Vec3::new(dice.share() as f32, dice.share() as f32, 0.0) * 700.0 - 350.0;
-                let at = vec3(at.x, at.y, 0.0);
-                let turned = Mat4::from_rotation_z(dice.share() as f32);
-                let matrix = plane * Mat4::from_translation(at) * turned;
-                Layer::from_f32([[0.0, 0.0], [120.3, 80.7]], matrix)
+                let at = vec3(dice.share() as f32, dice.share() as f32, 0.5) * 700.0 - 350.0;
+                plane * Mat4::from_translation(at) * Mat4::from_rotation_z(dice.share() as f32)
             })
             .collect();
+        let card = [[0.0, 0.0], [120.3, 80.7]];
+        let layers: Vec<Layer> = matrices.iter().map(|&m| Layer::from_f32(card, m)).collect();
         let mut page = Layers::new(VIEWPORT);
         page.update(&layers).unwrap();
         assert_eq!((page.len(), page.visible()), (40, 40));
         assert_eq!(order(&page), (0..40).collect::<Vec<_>>());
         // As `f64` matrices, the same numbers are not in one plane: the case shows something.
-        let exact: Vec<Layer> = layers
-            .iter()
-            .zip(0..)
-            .map(|(_, k)| {
-                let mut dice = Dice(k);
-                let at = dvec3(700.0 * dice.share() - 350.0, 700.0 * dice.share() - 350.0, 0.0);
-                let matrix = plane.as_dmat4() * DMat4::from_translation(at);
-                Layer::new([[0.0, 0.0], [120.3, 80.7]], matrix.as_mat4().as_dmat4())
-            })
-            .collect();
+        let exact: Vec<Layer> = matrices.iter().map(|m| Layer::new(card, m.as_dmat4())).collect();
         page.update(&exact).unwrap();
         rounded += usize::from(page.len() > 40 || order(&page) != (0..40).collect::<Vec<_>>());
     }
@@ -100,7 +90,7 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
                 order(&page).into_iter().filter(|&layer| layer > 0).collect();
             cards.dedup();
             let is_right = cards.chunks(3).all(|side| side == [2, 3, 1]);
-            assert!(is_right, "{tilt} {unclipped} {cards:?}");
+            assert!(cards.len() >= 3 && is_right, "{tilt} {unclipped} {cards:?}");
         }
     }
 }
@@ -118,7 +108,8 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     // The wall may cut them.
     let mut cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
     cards.dedup();
-    assert!(cards.chunks(3).all(|side| side == [2, 3, 1]), "{cards:?}");
+    let is_right = cards.chunks(3).all(|side| side == [2, 3, 1]);
+    assert!(cards.len() >= 3 && is_right, "{cards:?}");
 }
 
 #[test]

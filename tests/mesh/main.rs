@@ -2,6 +2,7 @@
 
 mod closed;
 mod exact;
+mod junctions;
 mod order;
 #[path = "../support/mod.rs"]
 mod support;

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::outline::{Corner, triangulate};
 use super::points::{Points, coordinate};
-use super::survey::{Node, Survey, ends};
+use super::survey::{Edge, Node, Survey, ends};
 use super::triangles::Triangles;
 use crate::Error;
 use crate::exact::{Symbol, SymbolKind};
@@ -103,8 +103,9 @@ impl<'s, 't> Assembler<'s, 't> {
         let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
         let edges = &survey.edges[range.clone()];
         let lines = survey.tree.fragment(survey.fragments[at]).lines();
-        let mut before = edges.last().map(|edge| edge.carrier);
-        for ((edge, &[from, to]), line) in edges.iter().zip(&points.ends[range]).zip(lines) {
+        let places = &points.ends[range];
+        let mut before = last_carrier(edges, places);
+        for ((edge, &[from, to]), line) in edges.iter().zip(places).zip(lines) {
             // Two edges on one line: the polygon's outline runs straight on here.
             let straight = before == Some(edge.carrier);
             if from == to {
@@ -112,6 +113,7 @@ impl<'s, 't> Assembler<'s, 't> {
             }
             before = Some(edge.carrier);
             let vertex = self.own_vertex(face, edge.from)?;
+            reserve(&mut self.outline, 1 + from.abs_diff(to) as usize)?;
             self.outline.push(Corner { vertex, straight });
             if weld {
                 let inside = from.min(to) + 1..from.max(to);
@@ -178,6 +180,7 @@ impl<'s, 't> Assembler<'s, 't> {
         reserve(&mut self.made.weights, weights.len())?;
         self.made.weights.extend(weights);
         reserve(&mut self.made.vertices, 1)?;
+        self.known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
         let (polygon, weights_end) = (self.polygon as u32, self.made.weights.len());
         let vertex = self.made.vertices.len() as u32;
         self.made.vertices.push(Record { point, polygon, weights_end });
@@ -205,6 +208,13 @@ impl<'s, 't> Assembler<'s, 't> {
     }
 }
 
+/// The line of a fragment's last edge, given the places of each edge's ends. Edges without length are
+/// none.
+fn last_carrier(edges: &[Edge], places: &[[u32; 2]]) -> Option<u32> {
+    let long = edges.iter().zip(places).rev().find(|(_, [from, to])| from != to);
+    long.map(|(edge, _)| edge.carrier)
+}
+
 /// Where a vertex is that is no corner, in lattice units: on an edge as given, if it is on one, so
 /// that all faces at the edge agree.
 fn place_of_cut(survey: &Survey<'_>, face: u32, symbol: Symbol) -> [f64; 3] {
@@ -227,4 +237,17 @@ fn edge_numbers(survey: &Survey<'_>, face: u32, k: u32) -> [u32; 2] {
     let faces = &survey.tree.faces;
     let len = faces.corner_range(face).len() as u32;
     [k, if k + 1 == len { 0 } else { k + 1 }].map(|k| faces.corner_number(face, k))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Edge, last_carrier};
+
+    #[test]
+    fn an_edge_without_length_is_not_the_one_before_the_first() {
+        let edges = [7, 8, 9].map(|carrier| Edge { carrier, from: 0 });
+        assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 3]]), Some(9));
+        assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 2]]), Some(8));
+        assert_eq!(last_carrier(&edges, &[[0, 0], [5, 5], [2, 2]]), None);
+    }
 }

@@ -1,6 +1,6 @@
 //! Lines in space that edges run along. Two edges on one line have the same, wherever they begin.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, TryReserveError};
 
 /// A line that carries edges of fragments: that of an edge as given, shared by all faces, or where a
 /// plane cuts one face.
@@ -18,6 +18,10 @@ pub(super) struct Carrier {
 pub(super) struct Lines(HashMap<([i64; 3], [i128; 3]), u32>);
 
 impl Lines {
+    pub(super) fn try_reserve(&mut self, more: usize) -> Result<(), TryReserveError> {
+        self.0.try_reserve(more)
+    }
+
     /// The number of the line through two lattice points; if it is new, it is added to `carriers`.
     pub(super) fn number(&mut self, ends: [[f64; 3]; 2], carriers: &mut Vec<Carrier>) -> u32 {
         let [a, b] = ends.map(|end| end.map(|c| c as i64));

@@ -4,20 +4,25 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::survey::{Node, Survey, ends};
+use super::union::Union;
 use crate::Error;
-use crate::exact::SymbolKind;
 use crate::exact::along::Fraction;
+use crate::exact::{LATTICE_LIMIT, SymbolKind};
 use crate::memory::reserve;
 
-/// Rounded coordinates that differ by more than this share of the larger are in their true order:
-/// each is off by three roundings of its own size at most, and the difference by one. Smaller: wrong
-/// orders; larger: more work for the integers.
+/// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`]
+/// for both, are in their true order: each is off by three roundings of its own size at most, and
+/// the difference by one. Smaller: wrong orders; larger: more work for the integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
+/// How far a rounded coordinate may be off besides, in lattice units, where it is nearly 0: the
+/// numbers that it was computed from were cut off, see `Faces::position`. Smaller: a point at the
+/// centre of the lattice becomes several; larger: more work for the integers.
+const POSITION_OFF: f64 = 6.0 * LATTICE_LIMIT / (1_u128 << 70) as f64;
 
 /// The points of all lines.
 pub(super) struct Points {
-    /// For each node, a node of the same point. Roots name themselves.
-    same: Vec<Node>,
+    /// Which nodes are the same point.
+    same: Union,
     /// A node of each point, line after line, in order along each.
     pub(super) on_lines: Vec<Node>,
     /// For each edge, the places of its two ends in `on_lines`.
@@ -35,9 +40,7 @@ struct End {
 
 impl Points {
     pub(super) fn new(survey: &Survey<'_>) -> Result<Self, Error> {
-        let mut same = Vec::new();
-        reserve(&mut same, survey.nodes())?;
-        same.extend(0..survey.nodes() as u32);
+        let same = Union::new(survey.nodes())?;
         let mut points = Self { same, on_lines: Vec::new(), ends: Vec::new() };
         points.unite_corners(survey)?;
         let (mut all, starts) = by_line(survey)?;
@@ -57,18 +60,9 @@ impl Points {
         Ok(points)
     }
 
-    /// The node that names a node's point.
-    pub(super) fn root(&self, mut node: Node) -> Node {
-        while self.same[node as usize] != node {
-            node = self.same[node as usize];
-        }
-        node
-    }
-
-    fn unite(&mut self, a: Node, b: Node) {
-        let (a, b) = (self.root(a), self.root(b));
-        // The least names the point: a corner if there is one.
-        self.same[a.max(b) as usize] = a.min(b);
+    /// The node that names a node's point: the least, a corner if there is one.
+    pub(super) fn root(&self, node: Node) -> Node {
+        self.same.root(node)
     }
 
     fn unite_corners(&mut self, survey: &Survey<'_>) -> Result<(), Error> {
@@ -77,7 +71,8 @@ impl Points {
         known.try_reserve(faces.corner_count() / 4).map_err(|_| Error::out_of_memory())?;
         for corner in 0..faces.corner_count() as u32 {
             let place = faces.given_corner(corner).map(f64::to_bits);
-            self.same[corner as usize] = *known.entry(place).or_insert(corner);
+            known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+            self.same.unite(*known.entry(place).or_insert(corner), corner);
         }
         Ok(())
     }
@@ -90,7 +85,7 @@ impl Points {
         for end in ends.iter() {
             match last {
                 Some(last) if self.compare(survey, line, &last, end).is_eq() => {
-                    self.unite(last.node, end.node);
+                    self.same.unite(last.node, end.node);
                 }
                 _ => self.on_lines.push(end.node),
             }
@@ -102,7 +97,7 @@ impl Points {
     }
 
     fn compare(&self, survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
-        let slack = ERROR * a.rounded.abs().max(b.rounded.abs());
+        let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
         // A rounded coordinate that is not to be relied on is NaN, and then no difference is large.
         if (a.rounded - b.rounded).abs() > slack {
             return a.rounded.total_cmp(&b.rounded);
@@ -161,7 +156,9 @@ pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fracti
 
 /// The ends of all edges, line by line, and where each line's begin.
 fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
-    let mut starts = vec![0_u32; survey.carriers.len() + 1];
+    let mut starts = Vec::new();
+    reserve(&mut starts, survey.carriers.len() + 1)?;
+    starts.resize(survey.carriers.len() + 1, 0_u32);
     survey.edges.iter().for_each(|edge| starts[edge.carrier as usize] += 2);
     let mut sum = 0;
     for start in &mut starts {

@@ -45,7 +45,8 @@ impl<'t> Survey<'t> {
         let mut names = Names::default();
         for at in 0..survey.fragments.len() {
             let fragment = tree.fragment(survey.fragments[at]);
-            names.enter(&tree.faces, fragment.face());
+            names.enter(&tree.faces, fragment.face())?;
+            survey.make_room(&mut names, fragment.vertex_count())?;
             survey.starts.push(survey.edges.len() as u32);
             for (symbol, line) in fragment.symbols().zip(fragment.lines()) {
                 let from = survey.node(&mut names, symbol);
@@ -58,6 +59,18 @@ impl<'t> Survey<'t> {
         }
         survey.starts.push(survey.edges.len() as u32);
         Ok(survey)
+    }
+
+    /// Makes room for a fragment with so many vertices, whatever is new of it.
+    fn make_room(&mut self, names: &mut Names, vertices: usize) -> Result<(), Error> {
+        reserve(&mut self.cuts, vertices)?;
+        reserve(&mut self.carriers, vertices)?;
+        let rooms = [
+            names.symbols.try_reserve(vertices),
+            names.planes.try_reserve(vertices),
+            names.lines.try_reserve(vertices),
+        ];
+        rooms.into_iter().collect::<Result<(), _>>().map_err(|_| Error::out_of_memory())
     }
 
     fn node(&mut self, names: &mut Names, symbol: Symbol) -> Node {
@@ -118,22 +131,26 @@ struct Names {
 }
 
 impl Names {
-    fn enter(&mut self, faces: &Faces, face: u32) {
+    fn enter(&mut self, faces: &Faces, face: u32) -> Result<(), Error> {
         if face == self.face && !self.edges.is_empty() {
-            return;
+            return Ok(());
         }
         let corners = faces.corner_range(face);
         (self.face, self.first_corner) = (face, corners.start as u32);
         self.symbols.clear();
         self.planes.clear();
         self.edges.clear();
+        reserve(&mut self.edges, corners.len())?;
         self.edges.resize(corners.len(), None);
+        Ok(())
     }
 }
 
 /// The numbers of all fragments, face by face.
 fn by_face(tree: &BspTree) -> Result<Vec<u32>, Error> {
-    let mut ends = vec![0_u32; tree.faces.len()];
+    let mut ends = Vec::new();
+    reserve(&mut ends, tree.faces.len())?;
+    ends.resize(tree.faces.len(), 0_u32);
     tree.records.iter().for_each(|record| ends[record.face as usize] += 1);
     let mut sum = 0;
     for end in &mut ends {

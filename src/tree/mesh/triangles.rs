@@ -79,7 +79,11 @@ impl Triangles {
     }
 
     /// Writes the indices back to front, and returns how many: always the length of
-    /// [`indices`](Self::indices). Inside a fragment the triangles keep their order.
+    /// [`indices`](Self::indices).
+    ///
+    /// `tree` must be the one that the mesh was made of, or a clone: another with as many fragments
+    /// is not noticed, and gives an order that means nothing. Inside a fragment the triangles keep
+    /// their order.
     ///
     /// `indices` may be mapped memory of a device: each place is written once, from the first on,
     /// and none is read. Places beyond are left as they are. `order` is working space, in which the

@@ -1,0 +1,76 @@
+//! Which nodes are the same point.
+
+use std::cell::Cell;
+
+use super::survey::Node;
+use crate::Error;
+use crate::memory::reserve;
+
+/// Sets of nodes, each named by its least (Galler and Fischer 1964).
+pub(super) struct Union {
+    /// For each node, a lesser one of the same set. The least names itself.
+    up: Vec<Cell<Node>>,
+}
+
+impl Union {
+    /// Nodes that are each a set of their own.
+    pub(super) fn new(nodes: usize) -> Result<Self, Error> {
+        let mut up = Vec::new();
+        reserve(&mut up, nodes)?;
+        up.extend((0..nodes as u32).map(Cell::new));
+        Ok(Self { up })
+    }
+
+    /// The least node of a node's set.
+    ///
+    /// Every node on the way is moved to the one after the next, so that long chains are walked
+    /// once and not by every node: O(log n) on average (Tarjan and van Leeuwen 1984).
+    pub(super) fn root(&self, mut node: Node) -> Node {
+        loop {
+            let up = self.up[node as usize].get();
+            if up == node {
+                return node;
+            }
+            let next = self.up[up as usize].get();
+            self.up[node as usize].set(next);
+            node = next;
+        }
+    }
+
+    pub(super) fn unite(&mut self, a: Node, b: Node) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.up[a.max(b) as usize].set(a.min(b));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Union;
+
+    /// Nodes united from the last to the first are one chain, which every node would walk in full.
+    #[test]
+    fn a_long_chain_is_not_walked_by_every_node() {
+        const COUNT: u32 = 100_000;
+        let mut union = Union::new(COUNT as usize).expect("memory");
+        (1..COUNT).rev().for_each(|node| union.unite(node, node - 1));
+        let mut steps = 0_usize;
+        for node in (0..COUNT).rev() {
+            let mut at = node;
+            while union.up[at as usize].get() != at {
+                (at, steps) = (union.up[at as usize].get(), steps + 1);
+                assert!(steps < 20 * COUNT as usize, "after {} nodes", COUNT - node);
+            }
+            assert_eq!(union.root(node), 0);
+        }
+    }
+
+    #[test]
+    fn the_least_names_a_set() {
+        let mut union = Union::new(9).expect("memory");
+        for (a, b) in [(8, 5), (3, 5), (7, 6), (6, 7), (2, 8)] {
+            union.unite(a, b);
+        }
+        let roots: Vec<u32> = (0..9).map(|node| union.root(node)).collect();
+        assert_eq!(roots, [0, 1, 2, 2, 4, 2, 6, 6, 2]);
+    }
+}

@@ -1,0 +1,65 @@
+//! What is under a point of the screen, near edges, and on a screen of another size.
+
+use super::support::dice::Dice;
+use super::{Given, VIEWPORT, pages};
+use binspace::glam::{DMat4, DVec2, dvec3};
+use binspace::layers::{Layer, Layers};
+
+/// A rectangle far from the origin of its own coordinates, where (u, v) are rounded coarsely: a point
+/// of what is painted is hit as soon as it is further from the edges than 10⁻⁹ of the viewport.
+#[test]
+fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() {
+    let mut dice = Dice(51);
+    let mut tried = 0;
+    for exponent in [0, 6, 9, 11] {
+        for _ in 0..200 {
+            let origin = 10f64.powi(exponent) * (1.0 + dice.share());
+            let matrix = DMat4::from_translation(dvec3(960.0, 540.0, 0.0))
+                * DMat4::from_rotation_z(6.3 * dice.share())
+                * DMat4::from_translation(dvec3(-origin, 0.0, 0.0));
+            let layer = Layer::new([[origin, 0.0], [origin + 120.0, 80.0]], matrix);
+            let mut page = Layers::new(VIEWPORT);
+            page.update(&[layer]).unwrap();
+            let piece = page.back_to_front().next().unwrap();
+            let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
+            for (k, &a) in corners.iter().enumerate() {
+                let along = corners[(k + 1) % corners.len()] - a;
+                // To the right of the edge, as y runs down.
+                let inwards = along.perp().normalize();
+                let on_edge = a + along * (0.1 + 0.8 * dice.share());
+                let beside = |distance: f64| (on_edge + inwards * distance).to_array();
+                // 10⁻⁹ of 1920 is 1.92 · 10⁻⁶.
+                assert_eq!(page.hit(beside(2e-6)).map(|hit| hit.0), Some(0), "10^{exponent}");
+                assert_eq!(page.hit(beside(-2e-6)), None, "10^{exponent}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 3000, "{tried}");
+}
+
+/// A page on another screen is the one that would be made for it.
+#[test]
+fn another_viewport_makes_another_page() {
+    let layers: Vec<Layer> =
+        pages::Page::Carousel.layers(12, 3).into_iter().map(|l| Given::from(l).layer()).collect();
+    let pieces = |page: &Layers| -> Vec<(usize, Vec<[f64; 2]>)> {
+        let corners = |v: binspace::layers::LayerVertex| v.position.truncate().to_array();
+        page.back_to_front().map(|p| (p.layer(), p.vertices().map(corners).collect())).collect()
+    };
+    let mut page = Layers::new(VIEWPORT);
+    let mut seen = Vec::new();
+    for viewport in [VIEWPORT, [[100.0, 100.0], [900.0, 500.0]], [[0.0, 0.0], [400.0, 1080.0]]] {
+        page.set_viewport(viewport);
+        assert!(page.is_empty() && page.visible() == 0 && page.hit([960.0, 540.0]).is_none());
+        assert!(page.update(&layers).unwrap());
+        // The same again is no change.
+        page.set_viewport(viewport);
+        assert!(!page.update(&layers).unwrap());
+        let mut new = Layers::new(viewport);
+        new.update(&layers).unwrap();
+        assert_eq!(pieces(&page), pieces(&new));
+        assert!(!seen.contains(&pieces(&page)), "{viewport:?} shows nothing");
+        seen.push(pieces(&page));
+    }
+}
