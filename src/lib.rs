@@ -39,6 +39,7 @@ mod input;
 #[cfg(feature = "layers")]
 pub mod layers;
 mod memory;
+mod overlay;
 mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
@@ -59,6 +60,7 @@ pub use exact::Faces;
 pub use faces::{MAX_CORNERS, Preparation, Tolerance};
 pub use glam;
 pub use input::{Point, Polygon};
+pub use overlay::{Overlaid, Overlay};
 pub use tree::{
     BspTree, Fragment, Fragments, Invalid, Mesh, MeshVertex, Ordered, Partition, Partitions, Stats,
     Triangles,

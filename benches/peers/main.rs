@@ -17,6 +17,7 @@ mod growth;
 mod kernels;
 mod mesh;
 mod order;
+mod overlay;
 mod plane_split;
 mod rulings;
 mod same;
@@ -25,9 +26,10 @@ mod threads;
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 10] = [
+const SECTIONS: [Section; 13] = [
     ("order", order::run),
     ("mesh", mesh::run),
+    ("overlay", overlay::run),
     ("same-order", same::run),
     ("build", build::run),
     ("threads", threads::run),

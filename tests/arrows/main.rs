@@ -16,12 +16,13 @@ use std::path::{Path, PathBuf};
 const GROUND: [&str; 6] = ["error", "input", "memory", "parallel_map", "random", "viewpoint"];
 
 /// The layers that are built on the ground, each with those before it that it may import.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("exact", &[]),
     ("faces", &["exact"]),
     ("tree", &["exact", "faces"]),
     ("build", &["exact", "faces", "tree"]),
     ("layers", &["tree", "build"]),
+    ("overlay", &["exact", "faces", "tree", "build"]),
     ("view", &[]),
     ("scene", &[]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.

@@ -5,7 +5,7 @@ mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
 mod same;
-mod sides;
+pub(crate) mod sides;
 mod twig;
 
 pub use fragments::Ordered;

@@ -2,7 +2,7 @@
 
 use glam::Vec4;
 
-use crate::exact::{Faces, LATTICE_LIMIT};
+use crate::exact::{Faces, LATTICE_LIMIT, PlaneId};
 use crate::parallel_map;
 use crate::tree::node::Node;
 
@@ -17,9 +17,22 @@ const PART: usize = 1024;
 /// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
 /// units. The last group is filled up with zeros.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::tree) struct Planes(pub(super) Vec<[Vec4; 4]>);
+pub(crate) struct Planes(pub(super) Vec<[Vec4; 4]>);
+
+/// A plane, rounded: its unit normal, and its distance from the lattice's origin in 2⁵¹ lattice units.
+pub(crate) fn rounded(faces: &Faces, plane: PlaneId) -> Vec4 {
+    let plane = faces.plane(plane);
+    let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
+    (normal.extend(offset / LATTICE_LIMIT) / normal.length()).as_vec4()
+}
 
 impl Planes {
+    /// The rounded plane of a node, as [`rounded`] has it.
+    pub(crate) fn get(&self, node: usize) -> Vec4 {
+        let group = &self.0[node / GROUP];
+        Vec4::from_array(group.map(|part| part[node % GROUP]))
+    }
+
     pub(in crate::tree) fn clear(&mut self) {
         self.0.clear();
     }
@@ -29,10 +42,7 @@ impl Planes {
         let group = |nodes: &[Node]| {
             let mut group = [Vec4::ZERO; 4];
             for (i, node) in nodes.iter().enumerate() {
-                let plane = faces.plane(node.plane);
-                let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
-                let all = normal.extend(offset / LATTICE_LIMIT) / normal.length();
-                for (part, value) in group.iter_mut().zip(all.as_vec4().to_array()) {
+                for (part, value) in group.iter_mut().zip(rounded(faces, node.plane).to_array()) {
                     part[i] = value;
                 }
             }
