@@ -37,6 +37,11 @@ enum Kind {
         limit: usize,
     },
     Cancelled,
+    Bounds,
+    OffGrid {
+        polygon: usize,
+    },
+    OverlaidTree,
     #[cfg(feature = "layers")]
     Layer {
         layer: usize,
@@ -95,6 +100,18 @@ impl Error {
         Self { kind: Kind::Cancelled }
     }
 
+    pub(crate) const fn bounds() -> Self {
+        Self { kind: Kind::Bounds }
+    }
+
+    pub(crate) const fn off_grid(polygon: usize) -> Self {
+        Self { kind: Kind::OffGrid { polygon } }
+    }
+
+    pub(crate) const fn overlaid_tree() -> Self {
+        Self { kind: Kind::OverlaidTree }
+    }
+
     #[cfg(feature = "layers")]
     pub(crate) const fn layer(layer: usize) -> Self {
         Self { kind: Kind::Layer { layer } }
@@ -120,7 +137,9 @@ impl Error {
     /// The index of the polygon (or layer) to blame, in the order in which the polygons were given.
     pub const fn polygon(&self) -> Option<usize> {
         match self.kind {
-            Kind::NonFinite { polygon } | Kind::PolygonCorners { polygon, .. } => Some(polygon),
+            Kind::NonFinite { polygon }
+            | Kind::PolygonCorners { polygon, .. }
+            | Kind::OffGrid { polygon } => Some(polygon),
             #[cfg(feature = "layers")]
             Kind::Layer { layer } => Some(layer),
             _ => None,
@@ -196,6 +215,17 @@ impl fmt::Display for Error {
                 f,
                 "the tree has {fragments} fragments, but the mesh was made of a tree of \
                  {expected}: make the mesh of this tree"
+            ),
+            Kind::Bounds => f.write_str(
+                "a corner of the bounds (`with_bounds`) has a coordinate that is NaN or infinite",
+            ),
+            Kind::OffGrid { polygon } => write!(
+                f,
+                "polygon {polygon} reaches beyond the tree's grid: build the tree with bounds that \
+                 hold all that will move (`with_bounds`)"
+            ),
+            Kind::OverlaidTree => f.write_str(
+                "the tree is not the one that the overlay was made for: make an overlay for it",
             ),
             Kind::Cancelled => f.write_str("the build was cancelled"),
             #[cfg(feature = "layers")]

@@ -45,6 +45,7 @@ pub mod layers;
 mod memory;
 #[cfg(feature = "raster")]
 mod occlusion;
+mod overlay;
 mod parallel_map;
 mod random;
 #[cfg(feature = "raster")]
@@ -72,6 +73,7 @@ pub use input::{Point, Polygon};
 pub use occlusion::CoverageMask;
 #[cfg(feature = "save")]
 pub use save::LoadError;
+pub use overlay::{Overlaid, Overlay};
 pub use tree::{
     Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
     Nodes, Ordered, Part, Sides, Stats, Triangles,

@@ -18,6 +18,7 @@ mod growth;
 mod kernels;
 mod mesh;
 mod order;
+mod overlay;
 mod plane_split;
 mod rulings;
 mod same;
@@ -30,6 +31,7 @@ type Section = (&'static str, fn());
 const SECTIONS: &[Section] = &[
     ("order", order::run),
     ("mesh", mesh::run),
+    ("overlay", overlay::run),
     ("same-order", same::run),
     ("build", build::run),
     ("threads", threads::run),

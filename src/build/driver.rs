@@ -95,13 +95,10 @@ fn tree<P: Polygon>(
     watch: &Watch<'_>,
 ) -> Result<BspTree, Error> {
     let mut faces = Faces::default();
-    let preparation = Preparer::default().prepare(
-        &mut faces,
-        polygons,
-        options.tolerance,
-        options.max_fragments,
-        watch,
-    )?;
+    let mut preparer = Preparer::default();
+    preparer.hold(options.bounds)?;
+    let preparation =
+        preparer.prepare(&mut faces, polygons, options.tolerance, options.max_fragments, watch)?;
     faces.shrink_to_fit();
     watch.expect(faces.len())?;
     let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
@@ -132,6 +129,7 @@ impl Workshop {
         let (mut faces, parts) = tree.take_parts();
         memory.output.parts = Parts { nodes: take(nodes), ..parts };
         let watch = Watch::default();
+        preparer.hold(options.bounds)?;
         let preparation = preparer.prepare(
             &mut faces,
             polygons,

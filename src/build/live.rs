@@ -4,16 +4,16 @@ use crate::exact::{Faces, Kernel, Piece, SymbolKind, Vertex};
 
 /// A piece of a face on its way down the tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Live {
+pub(crate) struct Live {
     /// The bounding box in lattice units, from rounded vertices.
-    pub(super) min: [f64; 3],
-    pub(super) max: [f64; 3],
-    pub(super) face: u32,
+    pub(crate) min: [f64; 3],
+    pub(crate) max: [f64; 3],
+    pub(crate) face: u32,
     /// The index of its first vertex in the arena, and their number; 0 for a whole face.
     start: u32,
     len: u32,
     /// How many times it was cut; stays at 255.
-    pub(super) cuts: u8,
+    pub(crate) cuts: u8,
     /// On which sides of the box there is a corner of the face: bits 0–2 for the minima along x, y and
     /// z, bits 3–5 for the maxima.
     on_corner: u8,
@@ -21,7 +21,7 @@ pub(super) struct Live {
 
 impl Live {
     /// A whole face.
-    pub(super) fn whole(faces: &Faces, face: u32) -> Self {
+    pub(crate) fn whole(faces: &Faces, face: u32) -> Self {
         let mut live = Self::empty(face, 0, 0);
         for &corner in faces.corners(face) {
             live.include(corner);
@@ -31,7 +31,7 @@ impl Live {
     }
 
     /// A part of a piece that was cut, by its vertices, and where these begin in the arena.
-    pub(super) fn cut<K: Kernel>(whole: &Self, vertices: &[K::Vertex], start: usize) -> Self {
+    pub(crate) fn cut<K: Kernel>(whole: &Self, vertices: &[K::Vertex], start: usize) -> Self {
         let mut live = Self::empty(whole.face, start as u32, vertices.len() as u32);
         live.cuts = whole.cuts.saturating_add(1);
         for vertex in vertices {
@@ -64,31 +64,31 @@ impl Live {
 
     /// The piece with its vertices in the arena.
     #[inline]
-    pub(super) fn piece<'a, V>(&self, arena: &'a [V]) -> Piece<'a, V> {
+    pub(crate) fn piece<'a, V>(&self, arena: &'a [V]) -> Piece<'a, V> {
         let start = self.start as usize;
         let cut = (self.len > 0).then(|| &arena[start..start + self.len as usize]);
         Piece { face: self.face, cut }
     }
 
     /// The same piece, with its vertices elsewhere in an arena.
-    pub(super) fn moved_to(self, start: usize) -> Self {
+    pub(crate) fn moved_to(self, start: usize) -> Self {
         Self { start: start as u32, ..self }
     }
 
     /// Whether a corner of the face lies on the box's lower side along an axis.
     #[inline]
-    pub(super) fn min_is_corner(&self, axis: usize) -> bool {
+    pub(crate) fn min_is_corner(&self, axis: usize) -> bool {
         self.on_corner >> axis & 1 != 0
     }
 
     /// Whether a corner of the face lies on the box's upper side along an axis.
     #[inline]
-    pub(super) fn max_is_corner(&self, axis: usize) -> bool {
+    pub(crate) fn max_is_corner(&self, axis: usize) -> bool {
         self.on_corner >> (axis + 3) & 1 != 0
     }
 
     /// A corner of the face that has the given coordinate along an axis, numbered over all faces.
-    pub(super) fn corner_at(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
+    pub(crate) fn corner_at(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
         let mut range = faces.corner_range(self.face);
         range.find(|&corner| faces.corner(corner as u32)[axis] == coordinate).map(|c| c as u32)
     }

@@ -3,12 +3,14 @@
 mod assemble;
 mod budget;
 mod builder;
+pub(crate) mod cell;
 pub(crate) mod choose;
 pub(crate) mod driver;
 mod frame_builder;
 mod heuristic;
 mod job;
 mod jobs;
+pub(crate) mod knife;
 pub(crate) mod live;
 mod options;
 pub(crate) mod progress;

@@ -1,5 +1,7 @@
 //! The options of a build.
 
+use glam::DVec3;
+
 use super::heuristic::Heuristic;
 use crate::faces::Tolerance;
 
@@ -32,6 +34,10 @@ pub struct BuildOptions {
     /// The most nodes on a path from the root. Exceeding it is an error. Default: unlimited; no code
     /// recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
+    /// Two opposite corners of a box that the grid of exact coordinates has to hold besides the
+    /// polygons: one that holds all that an [`Overlay`](crate::Overlay) will have. It counts as part
+    /// of the scene where the scene's extent matters, as for the default tolerance. Default: none.
+    pub bounds: Option<[DVec3; 2]>,
 }
 
 impl BuildOptions {
@@ -41,6 +47,7 @@ impl BuildOptions {
         tolerance: Tolerance::Default,
         max_fragments: 1 << 25,
         max_depth: usize::MAX,
+        bounds: None,
     };
 
     /// Sets how partition planes are chosen.
@@ -71,6 +78,12 @@ impl BuildOptions {
     #[must_use]
     pub const fn with_max_depth(self, max_depth: usize) -> Self {
         Self { max_depth, ..self }
+    }
+
+    /// Sets two opposite corners of a box that holds all that will move.
+    #[must_use]
+    pub const fn with_bounds(self, corner: DVec3, opposite: DVec3) -> Self {
+        Self { bounds: Some([corner, opposite]), ..self }
     }
 }
 

@@ -184,6 +184,20 @@ impl Faces {
         }
     }
 
+    /// Removes the faces from number `faces` on.
+    pub(crate) fn truncate(&mut self, faces: usize) {
+        let Some(face) = self.faces.get(faces) else { return };
+        let (corners, first) = (face.start, faces as u32);
+        self.faces.truncate(faces);
+        self.corners.truncate(corners as usize);
+        let numbered = self.numbered.partition_point(|&(face, _)| face < first);
+        if let Some(&(_, numbers)) = self.numbered.get(numbered) {
+            self.numbers.truncate(numbers as usize);
+        }
+        self.numbered.truncate(numbered);
+        self.moved.truncate(self.moved.partition_point(|&(corner, _)| corner < corners));
+    }
+
     /// The resident size in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.corners)

@@ -40,4 +40,5 @@ pub use label::{Line, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub(crate) use plane::{Plane, cross};
+pub(crate) use position::OFF as POSITION_OFF;
 pub use split::split;

@@ -1,5 +1,6 @@
 //! Decides what becomes of each input polygon: one face, triangles, or nothing.
 
+mod append;
 mod collect;
 mod planar;
 mod tolerance;
@@ -117,6 +118,8 @@ pub(crate) struct Preparer {
     input: Collected,
     builder: Builder,
     outlines: Outlines,
+    /// What the lattice has to hold besides the polygons.
+    room: Option<[DVec3; 2]>,
 }
 
 impl Preparer {
@@ -134,7 +137,7 @@ impl Preparer {
         kept.clear();
         tolerance.check()?;
         self.input.read(polygons, limit, listener)?;
-        let [min, max] = self.input.bounds();
+        let [min, max] = self.input.bounds(self.room);
         let lattice = Lattice::new(min, max);
         let ground = Ground::new(lattice, [min, max], tolerance, self.input.precision);
         self.builder.faces = kept;
@@ -162,7 +165,7 @@ impl Preparer {
         ground: &Ground,
         listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
-        let Self { input, builder, outlines } = self;
+        let Self { input, builder, outlines, .. } = self;
         reserve(&mut builder.faces.corners, input.corner_count())?;
         reserve(&mut builder.faces.faces, input.len())?;
         if input.len() <= PART {

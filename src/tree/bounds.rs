@@ -124,7 +124,7 @@ impl BspTree {
 
 impl Fragment<'_> {
     fn bounds(&self) -> Flat {
-        let faces = self.tree.faces();
+        let faces = self.faces;
         let mut margin = [0.0; 3];
         if let Some(axis) = faces.upright_axis(self.face) {
             margin[axis] = MOVED;

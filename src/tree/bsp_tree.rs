@@ -206,13 +206,13 @@ use crate::faces::Preparation;
 /// - Not for solids: it does not tell inside from outside, and does no Boolean operations.
 #[derive(Clone)]
 pub struct BspTree {
-    pub(super) faces: Faces,
-    pub(super) preparation: Preparation,
-    pub(super) nodes: Vec<NodeRecord>,
-    pub(super) planes: Planes,
+    pub(crate) faces: Faces,
+    pub(crate) preparation: Preparation,
+    pub(crate) nodes: Vec<NodeRecord>,
+    pub(crate) planes: Planes,
     /// None in a tree for one view.
     pub(super) schedule: Option<Schedule>,
-    pub(super) records: Vec<Record>,
+    pub(crate) records: Vec<Record>,
     pub(super) vertices: Vec<ExactStored>,
     /// Rounded positions of the vertices, in lattice units; only in a tree for one view.
     pub(super) positions: Vec<[f64; 3]>,

@@ -31,7 +31,7 @@ impl Fragment<'_> {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     pub fn facing(&self, viewpoint: Viewpoint) -> Ordering {
-        let faces = &self.tree.faces;
+        let faces = self.faces;
         facing(faces, self.face, &Eye::new(viewpoint, faces.lattice()))
     }
 }

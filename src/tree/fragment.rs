@@ -7,12 +7,13 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::BspTree;
-use crate::exact::{Exact, ExactStored, Kernel, Line, Symbol, Vertex};
+use super::parts::Record;
+use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, Symbol, Vertex};
 
 /// A convex piece of a polygon, or the whole polygon.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<'t> {
-    pub(super) tree: &'t BspTree,
+    pub(super) faces: &'t Faces,
     index: u32,
     pub(super) face: u32,
     stored: &'t [ExactStored],
@@ -27,23 +28,25 @@ impl BspTree {
     ///
     /// If there is no such fragment.
     pub fn fragment(&self, index: u32) -> Fragment<'_> {
-        Fragment::new(self, index)
+        let Self { faces, records, vertices, positions, .. } = self;
+        Fragment::new(faces, (records, vertices, positions), index as usize, index)
     }
 }
 
 impl<'t> Fragment<'t> {
-    pub(super) fn new(tree: &'t BspTree, index: u32) -> Self {
-        let record = tree.records[index as usize];
-        let next = tree.records.get(index as usize + 1);
-        let end = next.map_or(tree.vertices.len(), |next| next.vertices as usize);
-        let range = record.vertices as usize..end;
-        Self {
-            tree,
-            index,
-            face: record.face,
-            stored: &tree.vertices[range.clone()],
-            positions: tree.positions.get(range).unwrap_or_default(),
-        }
+    /// The fragment of a record, by the number that it has in orders.
+    pub(crate) fn new(
+        faces: &'t Faces,
+        (records, vertices, positions): (&'t [Record], &'t [ExactStored], &'t [[f64; 3]]),
+        record: usize,
+        index: u32,
+    ) -> Self {
+        let next = records.get(record + 1);
+        let end = next.map_or(vertices.len(), |next| next.vertices as usize);
+        let Record { face, vertices: start } = records[record];
+        let range = start as usize..end;
+        let positions = positions.get(range.clone()).unwrap_or_default();
+        Self { faces, index, face, stored: &vertices[range], positions }
     }
 
     /// The vertices as the tree stores them; none for a whole face.
@@ -58,7 +61,7 @@ impl<'t> Fragment<'t> {
 
     /// The index, in the input, of the polygon it is a piece of.
     pub fn polygon(&self) -> usize {
-        self.tree.faces.polygon(self.face)
+        self.faces.polygon(self.face)
     }
 
     /// The face it is a piece of, one of [`BspTree::faces`]: the polygon, or a triangle of it.
@@ -75,7 +78,7 @@ impl<'t> Fragment<'t> {
 
     /// How many vertices it has, three or more.
     pub fn vertex_count(&self) -> usize {
-        if self.is_whole() { self.tree.faces.corners(self.face).len() } else { self.stored.len() }
+        if self.is_whole() { self.faces.corners(self.face).len() } else { self.stored.len() }
     }
 
     /// The vertices in the polygon's own orientation: counter-clockwise seen from its front.
@@ -90,7 +93,7 @@ impl<'t> Fragment<'t> {
     pub fn vertices(
         &self,
     ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'t> {
-        let lattice = *self.tree.faces.lattice();
+        let lattice = *self.faces.lattice();
         self.lattice_vertices().map(move |position| lattice.to_world(position))
     }
 
@@ -99,13 +102,13 @@ impl<'t> Fragment<'t> {
     pub fn lattice_vertices(
         &self,
     ) -> impl DoubleEndedIterator<Item = [f64; 3]> + ExactSizeIterator + Clone + use<'t> {
-        let Self { tree, face, stored, .. } = *self;
-        let corners = tree.faces.corners(face);
+        let Self { faces, face, stored, .. } = *self;
+        let corners = faces.corners(face);
         // Those that are at hand: of a whole face, its corners.
         let known = if stored.is_empty() { corners } else { self.positions };
         (0..self.vertex_count()).map(move |i| match (known.get(i), stored.get(i)) {
             (Some(&position), _) => position,
-            (None, Some(stored)) => Exact.restore(&tree.faces, face, stored).position(),
+            (None, Some(stored)) => Exact.restore(faces, face, stored).position(),
             (None, None) => corners[i],
         })
     }
@@ -118,7 +121,7 @@ impl<'t> Fragment<'t> {
     pub fn edges(
         &self,
     ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
-        let (faces, face) = (&self.tree.faces, self.face);
+        let (faces, face) = (self.faces, self.face);
         self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
     }
 
@@ -154,7 +157,7 @@ impl<'t> Fragment<'t> {
         &self,
     ) -> impl DoubleEndedIterator<Item = SmallVec<[(u32, f64); 3]>> + ExactSizeIterator + Clone + use<'t>
     {
-        let (faces, face) = (&self.tree.faces, self.face);
+        let (faces, face) = (self.faces, self.face);
         self.symbols().map(move |symbol| {
             let mut weights = faces.barycentric(face, symbol);
             weights.iter_mut().for_each(|(k, _)| *k = faces.corner_number(face, *k));

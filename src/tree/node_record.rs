@@ -17,43 +17,43 @@ pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
 /// in this order: those on the node's plane, those of a front leaf, those of a back leaf, those of the
 /// front subtree, those of the back subtree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct NodeRecord {
-    pub(super) plane: PlaneId,
+pub(crate) struct NodeRecord {
+    pub(crate) plane: PlaneId,
     own: u32,
     /// How many fragments are in front.
-    pub(super) front_len: u32,
+    pub(crate) front_len: u32,
     /// How many nodes are in front; if none, the front is a leaf.
-    pub(super) front_nodes: u32,
+    pub(crate) front_nodes: u32,
 }
 
 impl NodeRecord {
     /// How many fragments lie on the plane.
     #[inline]
-    pub(super) fn own(&self) -> u32 {
+    pub(crate) fn own(&self) -> u32 {
         self.own & !BACK_IS_NODE
     }
 
     /// Whether the back is a node rather than a leaf.
     #[inline]
-    pub(super) fn back_is_node(&self) -> bool {
+    pub(crate) fn back_is_node(&self) -> bool {
         self.own & BACK_IS_NODE != 0
     }
 
     /// The number of the node in front, given that of this one; `None` if the front is a leaf.
     #[inline]
-    pub(super) fn front_node(&self, index: usize) -> Option<usize> {
+    pub(crate) fn front_node(&self, index: usize) -> Option<usize> {
         (self.front_nodes > 0).then_some(index + 1)
     }
 
     /// The number of the node behind, given that of this one; `None` if the back is a leaf.
     #[inline]
-    pub(super) fn back_node(&self, index: usize) -> Option<usize> {
+    pub(crate) fn back_node(&self, index: usize) -> Option<usize> {
         self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
     }
 
     /// Where the fragments of the subtree of this node are, given the numbers of all of them.
     #[inline]
-    pub(super) fn ranges(&self, all: Range<u32>) -> Ranges {
+    pub(crate) fn ranges(&self, all: Range<u32>) -> Ranges {
         let own = all.start..all.start + self.own();
         // A leaf is numbered before a subtree, so it is only here that the back comes first.
         if self.front_nodes > 0 && !self.back_is_node() {
@@ -68,17 +68,17 @@ impl NodeRecord {
 /// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind,
 /// down to the leaves.
 #[derive(Clone, Debug)]
-pub(super) struct Ranges {
-    pub(super) own: Range<u32>,
-    pub(super) front: Range<u32>,
-    pub(super) back: Range<u32>,
+pub(crate) struct Ranges {
+    pub(crate) own: Range<u32>,
+    pub(crate) front: Range<u32>,
+    pub(crate) back: Range<u32>,
 }
 
 /// The fragments and nodes of a subtree.
 pub(crate) type Sizes = (u32, u32);
 
 /// Computes the sizes of all subtrees, and replaces a list of nodes.
-pub(super) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<NodeRecord>) {
+pub(crate) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<NodeRecord>) {
     // Children come after their parents, so their sizes are known if nodes are read from the last to
     // the first.
     sizes.clear();

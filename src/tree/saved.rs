@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 
 use super::BspTree;
 use super::apart::parts_of_tree;
-use super::node::MOST_FRAGMENTS;
+use super::node_record::MOST_FRAGMENTS;
 use super::order::layout::Schedule;
 use super::parts::{Parts, Record};
 use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, MAX_LABELS, Symbol};

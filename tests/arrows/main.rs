@@ -23,6 +23,7 @@ const LAYERS: [(&str, &[&str]); 10] = [
     ("tree", &["exact", "faces"]),
     ("build", &["exact", "faces", "tree"]),
     ("layers", &["tree", "build"]),
+    ("overlay", &["exact", "faces", "tree", "build"]),
     ("view", &[]),
     ("scene", &[]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.

@@ -3,7 +3,7 @@
 use super::state::Builder;
 use crate::Error;
 use crate::build::live::Live;
-use crate::exact::{Kernel, PlaneId, Side, split};
+use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
 
 /// How many pieces are classified before cancellation is checked. Smaller: time for checking; larger:
@@ -88,36 +88,8 @@ impl<K: Kernel> Builder<'_, K> {
     /// Cuts a piece, and gives the parts in front and behind.
     pub(super) fn cut(&mut self, live: &Live, splitter: &K::Splitter) -> Result<[Live; 2], Error> {
         self.shared.watch.work(CUT)?;
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let scratch = &mut self.scratch;
-        // Copied, because the parts are appended to the arena that the piece's vertices are in.
-        scratch.outline.clear();
-        match live.piece(&self.arena).cut {
-            Some(vertices) => scratch.outline.extend_from_slice(vertices),
-            None => {
-                let corners = 0..faces.corners(live.face).len() as u32;
-                scratch.outline.extend(corners.map(|k| kernel.corner(faces, live.face, k)));
-            }
-        }
-        scratch.front_part.clear();
-        scratch.back_part.clear();
-        split(
-            &kernel,
-            faces,
-            splitter,
-            live.face,
-            &scratch.outline,
-            &mut scratch.front_part,
-            &mut scratch.back_part,
-        );
+        let Self { shared, arena, scratch, .. } = self;
         self.output.parts.cuts += 1;
-        // The piece's own vertices stay behind as garbage until the arena is compacted.
-        let front = self.arena.len();
-        reserve(&mut self.arena, scratch.front_part.len() + scratch.back_part.len())?;
-        self.arena.extend_from_slice(&scratch.front_part);
-        let back = self.arena.len();
-        self.arena.extend_from_slice(&scratch.back_part);
-        let vertices = [&self.arena[front..back], &self.arena[back..]];
-        Ok([Live::cut::<K>(live, vertices[0], front), Live::cut::<K>(live, vertices[1], back)])
+        scratch.knife.cut(&shared.kernel, shared.faces, splitter, live, arena)
     }
 }

@@ -9,6 +9,7 @@ use crate::build::assemble::Output;
 use crate::build::budget::Budget;
 use crate::build::choose::{Chooser, Normals, Rules, Tuning};
 use crate::build::job::Job;
+use crate::build::knife::Knife;
 use crate::build::live::Live;
 use crate::build::options::BuildOptions;
 use crate::build::progress::Watch;
@@ -151,9 +152,7 @@ pub(super) struct Scratch<V> {
     pub(super) front: Vec<Live>,
     pub(super) spanning: Vec<Live>,
     pub(super) sides: Vec<Side>,
-    pub(super) outline: Vec<V>,
-    pub(super) front_part: Vec<V>,
-    pub(super) back_part: Vec<V>,
+    pub(super) knife: Knife<V>,
 }
 
 impl<V> Default for Scratch<V> {
@@ -163,9 +162,7 @@ impl<V> Default for Scratch<V> {
             front: vec![],
             spanning: vec![],
             sides: vec![],
-            outline: vec![],
-            front_part: vec![],
-            back_part: vec![],
+            knife: Knife::default(),
         }
     }
 }

@@ -22,16 +22,25 @@ impl Normals {
 
     /// Replaces the normals by those of other faces.
     pub(crate) fn fill(&mut self, faces: &Faces) {
+        self.fill_from(faces, 0);
+    }
+
+    /// Replaces the normals of the faces from number `first` on.
+    pub(crate) fn fill_from(&mut self, faces: &Faces, first: usize) {
         let normal = |face| faces.plane(PlaneId::face(face)).normal_f64().normalize().as_vec3();
         let n = faces.len();
-        self.0.clear();
-        if n <= PART {
-            self.0.extend((0..n as u32).map(normal));
+        self.0.truncate(first);
+        if n - first <= PART {
+            self.0.extend((first as u32..n as u32).map(normal));
             return;
         }
-        let parts = (0..n).step_by(PART).map(|start| start as u32..n.min(start + PART) as u32);
+        let parts = (first..n).step_by(PART).map(|start| start as u32..n.min(start + PART) as u32);
         let parts = parallel_map::map(parts.collect(), |part| part.map(normal).collect::<Vec<_>>());
-        self.0 = parts.concat();
+        if first == 0 {
+            self.0 = parts.concat();
+        } else {
+            parts.iter().for_each(|part| self.0.extend_from_slice(part));
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::Error;
-use crate::exact::MAX_LABELS;
+use crate::exact::{LATTICE_LIMIT, Lattice, MAX_LABELS};
 use crate::faces::listener::Listener;
 use crate::input::Polygon;
 use crate::memory::reserve;
@@ -49,14 +49,23 @@ impl Collected {
         &self.points[start as usize..self.ends[polygon] as usize]
     }
 
-    /// The corners of the bounding box; zero if there is no corner.
-    pub(super) fn bounds(&self) -> [DVec3; 2] {
-        let Some(&first) = self.points.first() else { return [DVec3::ZERO; 2] };
-        self.points.iter().fold([first; 2], |[min, max], &p| [min.min(p), max.max(p)])
+    /// The corners of the bounding box of the polygons and the corners of a box, if one is given;
+    /// zero if there is nothing.
+    pub(super) fn bounds(&self, room: Option<[DVec3; 2]>) -> [DVec3; 2] {
+        let first = self.points.first().copied().or(room.map(|[corner, _]| corner));
+        let start = [first.unwrap_or_default(); 2];
+        let points = self.points.iter().chain(room.iter().flatten());
+        points.fold(start, |[min, max], &p| [min.min(p), max.max(p)])
     }
 }
 
 impl Collected {
+    /// The first polygon with a corner beyond the ends of a lattice.
+    pub(super) fn first_off(&self, lattice: &Lattice) -> Option<usize> {
+        let is_off = |point: &DVec3| lattice.snap(*point).iter().any(|c| c.abs() > LATTICE_LIMIT);
+        (0..self.len()).find(|&polygon| self.polygon(polygon).iter().any(is_off))
+    }
+
     /// Reads all polygons, and forgets those before; more than `limit` is an error.
     pub(super) fn read<P: Polygon>(
         &mut self,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::Error;
-use crate::exact::{LATTICE_LIMIT, Lattice};
+use crate::exact::{Faces, LATTICE_LIMIT, Lattice};
 
 /// The least default tolerance as a share of the scene's extent, the longest side of its bounding
 /// box; see [`Tolerance::Default`].
@@ -73,6 +73,12 @@ pub(super) struct Ground {
 }
 
 impl Ground {
+    /// That of faces that are prepared.
+    pub(super) fn of(faces: &Faces) -> Self {
+        let Faces { lattice, tolerance, .. } = *faces;
+        Self { lattice, tolerance, rounding: LARGEST_ROUNDING * LATTICE_LIMIT }
+    }
+
     /// For corners in a box, of this precision.
     pub(super) fn new(
         lattice: Lattice,

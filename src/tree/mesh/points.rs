@@ -7,17 +7,13 @@ use super::survey::{Node, Survey, ends};
 use super::union::Union;
 use crate::Error;
 use crate::exact::along::Fraction;
-use crate::exact::{LATTICE_LIMIT, SymbolKind};
+use crate::exact::{POSITION_OFF, SymbolKind};
 use crate::memory::reserve;
 
 /// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`]
 /// for both, are in their true order: each is off by three roundings of its own size at most, and
 /// the difference by one. Smaller: wrong orders; larger: more work for the integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
-/// How far a rounded coordinate may be off besides, in lattice units, where it is nearly 0: the
-/// numbers that it was computed from were cut off, see `Faces::position`. Smaller: a point at the
-/// centre of the lattice becomes several; larger: more work for the integers.
-const POSITION_OFF: f64 = 6.0 * LATTICE_LIMIT / (1_u128 << 70) as f64;
 
 /// The points of all lines.
 pub(super) struct Points {

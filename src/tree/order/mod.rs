@@ -5,7 +5,7 @@ mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
 mod same;
-pub(super) mod sides;
+pub(crate) mod sides;
 mod twig;
 mod walk;
 

@@ -1,6 +1,6 @@
 //! The planes of a tree, rounded and laid out to be held against an eye.
 
-use glam::{DVec3, DVec4, Vec4};
+use glam::{DVec3, Vec4};
 
 use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, PlaneKind};
 use crate::parallel_map;
@@ -17,9 +17,15 @@ const PART: usize = 1024;
 /// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
 /// units. The last group is filled up with zeros.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::tree) struct Planes(pub(super) Vec<[Vec4; 4]>);
+pub(crate) struct Planes(pub(super) Vec<[Vec4; 4]>);
 
 impl Planes {
+    /// The rounded plane of a node, as [`rounded`] has it.
+    pub(crate) fn get(&self, node: usize) -> Vec4 {
+        let group = &self.0[node / GROUP];
+        Vec4::from_array(group.map(|part| part[node % GROUP]))
+    }
+
     pub(in crate::tree) fn clear(&mut self) {
         self.0.clear();
     }
@@ -29,8 +35,7 @@ impl Planes {
         let group = |nodes: &[NodeRecord]| {
             let mut group = [Vec4::ZERO; 4];
             for (i, node) in nodes.iter().enumerate() {
-                let plane = rounded(faces, node.plane).as_vec4();
-                for (part, value) in group.iter_mut().zip(plane.to_array()) {
+                for (part, value) in group.iter_mut().zip(rounded(faces, node.plane).to_array()) {
                     part[i] = value;
                 }
             }
@@ -58,9 +63,9 @@ impl Planes {
     }
 }
 
-/// The unit normal of a plane and its distance from the origin, rounded.
-fn rounded(faces: &Faces, id: PlaneId) -> DVec4 {
-    match id.kind() {
+/// A plane, rounded: its unit normal, and its distance from the lattice's origin in 2⁵¹ lattice units.
+pub(crate) fn rounded(faces: &Faces, id: PlaneId) -> Vec4 {
+    let plane = match id.kind() {
         // The same numbers as below, without integers and a square root.
         PlaneKind::Axis(axis, corner) => {
             DVec3::AXES[axis].extend(faces.corner(corner)[axis] / LATTICE_LIMIT)
@@ -70,5 +75,6 @@ fn rounded(faces: &Faces, id: PlaneId) -> DVec4 {
             let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
             normal.extend(offset / LATTICE_LIMIT) / normal.length()
         }
-    }
+    };
+    plane.as_vec4()
 }

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use glam::{DVec4, Vec4};
 
 use super::planes::{GROUP, WORD};
-use crate::exact::{Exact, Eye, Kernel, LATTICE_LIMIT};
+use crate::exact::{Exact, Eye, Faces, Kernel, LATTICE_LIMIT, PlaneId};
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
@@ -32,7 +32,7 @@ const ERROR: f32 = 1.5 * f32::EPSILON;
 
 /// A viewpoint, prepared to be compared with a tree's planes.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::tree) struct View {
+pub(crate) struct View {
     eye: Eye,
     /// Homogeneous, in units of 2⁵¹ lattice steps, scaled so that the largest coordinate is 1.
     point: Vec4,
@@ -41,7 +41,7 @@ pub(in crate::tree) struct View {
 }
 
 impl View {
-    pub(in crate::tree) fn new(tree: &BspTree, viewpoint: Viewpoint) -> Self {
+    pub(crate) fn new(tree: &BspTree, viewpoint: Viewpoint) -> Self {
         let eye = Eye::new(viewpoint, tree.faces.lattice());
         let (e, w) = eye.homogeneous();
         let point = DVec4::new(e[0], e[1], e[2], w * LATTICE_LIMIT);
@@ -61,6 +61,18 @@ impl View {
     pub(in crate::tree) fn is_in_front(&self, tree: &BspTree, node: usize) -> bool {
         let distance = self.distances(&tree.planes.0[node / GROUP])[node % GROUP];
         if distance.abs() > self.bound { distance > 0.0 } else { self.decide(tree, node) }
+    }
+
+    /// Whether the eye is in front of a plane that is given rounded as well, as by
+    /// [`rounded`](super::planes::rounded).
+    pub(crate) fn is_in_front_of(&self, faces: &Faces, plane: PlaneId, rounded: Vec4) -> bool {
+        let [x, y, z, offset] = rounded.to_array();
+        let p = self.point;
+        let distance = x * p.x + y * p.y + z * p.z - offset * p.w;
+        if distance.abs() > self.bound {
+            return distance > 0.0;
+        }
+        Exact.eye_side(faces, plane, &self.eye) == Ordering::Greater
     }
 
     /// As [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.

@@ -3,7 +3,7 @@
 use crate::exact::PlaneId;
 use crate::exact::label::bits::Known;
 use crate::save::{LoadError, invalid};
-use crate::tree::parts::{Child, RawNode, Record};
+use crate::tree::parts::{RawChild, RawNode, Record};
 
 const EMPTY: u32 = 0;
 const FRAGMENT: u32 = 1;
@@ -13,18 +13,18 @@ const NODE: u32 = 2;
 /// most, and fewer than 2²⁷ faces.)
 pub(super) fn shape(node: &RawNode) -> u32 {
     let side = |child| match child {
-        Child::Leaf(0) => EMPTY,
-        Child::Leaf(_) => FRAGMENT,
-        Child::Node => NODE,
+        RawChild::Leaf(0) => EMPTY,
+        RawChild::Leaf(_) => FRAGMENT,
+        RawChild::Node => NODE,
     };
     node.own << 4 | side(node.front) << 2 | side(node.back)
 }
 
-fn child(bits: u32) -> Option<Child> {
+fn child(bits: u32) -> Option<RawChild> {
     match bits {
-        EMPTY => Some(Child::Leaf(0)),
-        FRAGMENT => Some(Child::Leaf(1)),
-        NODE => Some(Child::Node),
+        EMPTY => Some(RawChild::Leaf(0)),
+        FRAGMENT => Some(RawChild::Leaf(1)),
+        NODE => Some(RawChild::Node),
         _ => None,
     }
 }
@@ -51,10 +51,10 @@ pub(super) fn check(
             return Err(fault("has a side of an unknown kind"));
         };
         let own = shape >> 4;
-        if own == 0 && [front, back].contains(&Child::Leaf(0)) {
+        if own == 0 && [front, back].contains(&RawChild::Leaf(0)) {
             return Err(fault("parts nothing"));
         }
-        let sides = [front, back].map(|side| usize::from(side == Child::Node));
+        let sides = [front, back].map(|side| usize::from(side == RawChild::Node));
         to_come =
             (to_come + sides[0] + sides[1]).checked_sub(1).ok_or_else(|| fault("is none's"))?;
         let on_plane = records.get(next..next + own as usize);
@@ -62,7 +62,7 @@ pub(super) fn check(
         if on_plane.windows(2).any(|pair| pair[0].face >= pair[1].face) {
             return Err(fault("has fragments on its plane that are not in input order"));
         }
-        let leaves = [front, back].into_iter().filter(|&side| side == Child::Leaf(1)).count();
+        let leaves = [front, back].into_iter().filter(|&side| side == RawChild::Leaf(1)).count();
         next += own as usize + leaves;
         nodes.push(RawNode { plane, own, front, back });
     }

@@ -1,0 +1,68 @@
+//! Small trees of pieces that meet in one cell of a larger tree.
+
+use std::mem::take;
+
+use super::assemble::assemble;
+use super::builder::{Memory, Shared};
+use super::choose::{Normals, Tuning};
+use super::job::Job;
+use super::jobs;
+use super::live::Live;
+use super::options::BuildOptions;
+use super::progress::Watch;
+use crate::error::Error;
+use crate::exact::{Exact, ExactStored, ExactVertex, Faces};
+use crate::memory::reserve;
+use crate::tree::node_record::MOST_FRAGMENTS;
+use crate::tree::parts::Parts;
+
+/// Builds a tree of the pieces in each cell, in memory that it keeps.
+#[derive(Default)]
+pub(crate) struct CellBuilder {
+    normals: Normals,
+    memory: Memory<Exact>,
+}
+
+impl CellBuilder {
+    /// Makes ready for faces of which those before `first` are as they were.
+    pub(crate) fn prepare(&mut self, faces: &Faces, first: usize) {
+        self.normals.fill_from(faces, first);
+    }
+
+    /// A tree of some pieces, with the positions of its vertices. Give the parts back to
+    /// [`keep`](Self::keep) when they are read.
+    ///
+    /// # Errors
+    ///
+    /// If there are too many fragments, or memory runs out.
+    pub(crate) fn build(
+        &mut self,
+        faces: &Faces,
+        pieces: &[Live],
+        arena: &[ExactVertex],
+    ) -> Result<Parts<ExactStored>, Error> {
+        let Self { normals, memory } = self;
+        let mut job =
+            Job { pieces: take(&mut memory.pieces), arena: take(&mut memory.arena), depth: 0 };
+        job.pieces.clear();
+        job.arena.clear();
+        reserve(&mut job.pieces, pieces.len())?;
+        for piece in pieces {
+            let start = job.arena.len();
+            let vertices = piece.piece(arena).cut.unwrap_or_default();
+            reserve(&mut job.arena, vertices.len())?;
+            job.arena.extend_from_slice(vertices);
+            job.pieces.push(piece.moved_to(start));
+        }
+        let (watch, options) = (Watch::default(), BuildOptions::DEFAULT);
+        // The budget counts all faces, the tree's among them.
+        let options = options.with_max_fragments(MOST_FRAGMENTS);
+        let shared = Shared::new(Exact, (faces, normals), &options, &Tuning::DEFAULT, &watch)?;
+        assemble(jobs::run(&shared.with_positions(), job, memory)?)
+    }
+
+    /// Keeps the memory of a tree for the next.
+    pub(crate) fn keep(&mut self, parts: Parts<ExactStored>) {
+        self.memory.output.parts = parts;
+    }
+}

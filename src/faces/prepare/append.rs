@@ -1,0 +1,47 @@
+//! Faces behind those of a finished scene, and room on its lattice for them.
+
+use glam::DVec3;
+
+use super::tolerance::Ground;
+use super::{Preparation, Preparer};
+use crate::Error;
+use crate::exact::Faces;
+use crate::faces::listener::Unheard;
+use crate::input::Polygon;
+
+impl Preparer {
+    /// Makes the lattices of the scenes to come hold a box, by its lower and upper corner.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate is not finite.
+    pub(crate) fn hold(&mut self, room: Option<[DVec3; 2]>) -> Result<(), Error> {
+        if room.iter().flatten().any(|corner| !corner.is_finite()) {
+            return Err(Error::bounds());
+        }
+        self.room = room;
+        Ok(())
+    }
+
+    /// Appends the faces of more polygons to those of a finished scene, on its lattice and with its
+    /// tolerance. The polygons are numbered from `first` on. After an error, some of their faces may
+    /// have been appended.
+    pub(crate) fn append<P: Polygon>(
+        &mut self,
+        faces: &mut Faces,
+        polygons: impl IntoIterator<Item = P>,
+        first: usize,
+    ) -> Result<Preparation, Error> {
+        self.input.read(polygons, usize::MAX, &Unheard)?;
+        if let Some(polygon) = self.input.first_off(faces.lattice()) {
+            return Err(Error::off_grid(polygon));
+        }
+        self.outlines.clear();
+        let (before, ground) = (faces.len(), Ground::of(faces));
+        self.builder.faces = std::mem::take(faces);
+        let report = self.prepare_all(&ground, &Unheard);
+        *faces = std::mem::take(&mut self.builder.faces);
+        faces.faces[before..].iter_mut().for_each(|face| face.polygon += first as u32);
+        report
+    }
+}

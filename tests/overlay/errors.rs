@@ -1,0 +1,93 @@
+//! What an overlay refuses, and what is left of it then.
+
+use binspace::glam::DVec3;
+use binspace::{BspTree, BuildOptions, Overlay, Polygon, Viewpoint, scene};
+
+fn triangle(at: DVec3) -> [DVec3; 3] {
+    [at, at + DVec3::X, at + DVec3::Y]
+}
+
+#[test]
+fn polygons_beyond_the_grid_are_named() {
+    let scene = scene::city(100, 1);
+    let tree = BspTree::build(scene.polygons()).expect("within budget");
+    let (low, high) = scene.bounds().expect("corners");
+    let inside = triangle((low + high) * 0.5);
+    let mut overlay = Overlay::new(&tree);
+    let extent = (high - low).max_element();
+    for far in [3.0 * extent, -5.0 * extent, 1e300, -1e308] {
+        overlay.replace(&tree, [inside]).expect("on the grid");
+        let outside = triangle(DVec3::new(0.0, far, 1.0));
+        let error = overlay.replace(&tree, [inside, outside]).expect_err("beyond the grid");
+        assert_eq!(error.polygon(), Some(1), "{error}");
+        assert!(error.to_string().contains("with_bounds"), "{error}");
+        check_empty(&overlay, &tree);
+    }
+    // Where the message leads.
+    let far = low - (high - low) * 5.0;
+    let roomy =
+        BuildOptions::DEFAULT.with_bounds(far, high).build(scene.polygons()).expect("built");
+    assert!(roomy.len() >= tree.len() && roomy.stats().polygons == tree.stats().polygons);
+    let mut overlay = Overlay::new(&roomy);
+    overlay.replace(&roomy, [inside, triangle(far)]).expect("on the larger grid");
+    assert!(overlay.len() >= 2);
+}
+
+fn check_empty(overlay: &Overlay, tree: &BspTree) {
+    assert!(overlay.is_empty() && overlay.piece(tree.len() as u32).is_none());
+    let (mut order, mut still) = (Vec::new(), Vec::new());
+    let eye = Viewpoint::eye([1.0, 2.0, 3.0]);
+    overlay.back_to_front_into(tree, eye, &mut order).expect("its own tree");
+    tree.back_to_front_into(eye, &mut still);
+    assert_eq!(order, still);
+    assert_eq!(overlay.faces().len(), tree.faces().len());
+}
+
+#[test]
+fn polygons_that_a_tree_refuses_are_refused() {
+    let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
+    let mut overlay = Overlay::new(&tree);
+    let inside = triangle(DVec3::ONE);
+    for bad in [f64::NAN, f64::INFINITY] {
+        overlay.replace(&tree, [inside]).expect("on the grid");
+        let error = overlay.replace(&tree, [inside, inside, [DVec3::splat(bad); 3]]);
+        assert_eq!(error.expect_err("not finite").polygon(), Some(2));
+        check_empty(&overlay, &tree);
+    }
+    overlay.replace(&tree, [inside, [DVec3::ONE; 3], inside]).expect("one has no area");
+    assert_eq!(overlay.preparation().dropped, 1);
+    let tree_polygons = tree.preparation().polygons;
+    let piece = overlay.piece(tree.len() as u32).expect("a piece");
+    assert!(piece.polygon() == tree_polygons || piece.polygon() == tree_polygons + 2);
+}
+
+#[test]
+fn bounds_must_be_finite() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let options = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::new(1.0, bad, 1.0));
+        let error = options.build([triangle(DVec3::ZERO)]).expect_err("no box");
+        assert!(error.to_string().contains("with_bounds"), "{error}");
+    }
+}
+
+#[test]
+fn another_tree_is_refused() {
+    let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
+    let other = BspTree::build(scene::city(150, 1).polygons()).expect("within budget");
+    let moved = scene::city(100, 1);
+    let moved = moved.polygons().map(|p| p.corners().map(|c| c * 3.0).collect::<Vec<_>>());
+    let moved = BspTree::build(moved).expect("within budget");
+    let mut overlay = Overlay::new(&tree);
+    let (eye, mut order) = (Viewpoint::eye([1.0, 2.0, 3.0]), Vec::new());
+    for other in [&other, &moved] {
+        overlay.replace(&tree, [triangle(DVec3::ONE)]).expect("on the grid");
+        assert!(overlay.back_to_front_into(other, eye, &mut order).is_err());
+        assert!(overlay.front_to_back_into(other, eye, &mut order).is_err());
+        assert!(overlay.back_to_front(other, eye).is_err());
+        assert!(overlay.front_to_back(other, eye).is_err());
+        let error = overlay.replace(other, [triangle(DVec3::ONE)]).expect_err("another tree");
+        assert!(error.to_string().contains("overlay"), "{error}");
+        check_empty(&overlay, &tree);
+    }
+    overlay.replace(&tree.clone(), [triangle(DVec3::ONE)]).expect("a copy is the same");
+}

@@ -1,0 +1,137 @@
+//! Judges an overlay's order: the painter's picture of both parts against an exact depth buffer of
+//! all faces.
+
+use std::collections::HashMap;
+
+use binspace::internals::Line;
+use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
+use binspace::view::Camera;
+use binspace::{BspTree, Fragment, Overlay};
+
+use crate::support::model::Face;
+use crate::support::rational::{self, Point};
+
+type Verdict = Result<(), String>;
+
+fn ensure(condition: bool, what: impl FnOnce() -> String) -> Verdict {
+    if condition { Ok(()) } else { Err(what()) }
+}
+
+/// What was compared.
+#[derive(Debug, Default)]
+pub(crate) struct Judged {
+    pub(crate) pictures: usize,
+    /// Pixels that show something, and those of them that show what moves.
+    pub(crate) covered: usize,
+    pub(crate) moving: usize,
+    pub(crate) contested: usize,
+}
+
+impl Judged {
+    /// Looks at both from a camera that may not fit the grid.
+    pub(crate) fn look(&mut self, tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Verdict {
+        let faces = overlay.faces();
+        let Ok(rays) = Rays::new(camera, faces) else { return Ok(()) };
+        let order = forms(tree, overlay, camera)?;
+        let mut painter = Painter::new(&rays, faces, Order::BackToFront);
+        let mut painted: HashMap<(u32, u32, u32), usize> = HashMap::new();
+        for &number in &order {
+            let fragment = overlay.piece(number).unwrap_or_else(|| tree.fragment(number));
+            let lines: Vec<Line> = fragment.lines().collect();
+            let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
+            let outline = if fragment.is_whole() {
+                Outline::Whole
+            } else {
+                Outline::Lines { lines: &lines, vertices: &vertices }
+            };
+            let piece = Piece { face: fragment.face(), outline };
+            painter.draw(piece);
+            if number as usize >= tree.len() {
+                for_each_run(&rays, faces, piece, |y, columns| {
+                    for x in columns {
+                        *painted.entry((piece.face, x, y)).or_default() += 1;
+                    }
+                });
+            }
+        }
+        let truth = zbuffer(&rays, faces);
+        let result = compare(&rays, faces, &painter.finish(), truth.image());
+        let wrong = [result.wrong_order, result.holes, result.spills];
+        ensure(wrong == [0; 3], || format!("wrong order, holes, spills {wrong:?}: {camera:?}"))?;
+        for face in tree.faces().len() as u32..faces.len() as u32 {
+            let whole = Piece { face, outline: Outline::Whole };
+            let mut miscounted = 0;
+            for_each_run(&rays, faces, whole, |y, columns| {
+                miscounted += columns.filter(|&x| painted.remove(&(face, x, y)) != Some(1)).count();
+            });
+            ensure(miscounted == 0, || format!("{miscounted} pixels of face {face}: {camera:?}"))?;
+        }
+        ensure(painted.is_empty(), || format!("pieces beyond their faces: {camera:?}"))?;
+        self.pictures += 1;
+        self.covered += result.covered;
+        self.contested += result.contested;
+        let is_moving = |face: &&u32| **face != u32::MAX && **face as usize >= tree.faces().len();
+        self.moving += truth.image().faces().iter().filter(is_moving).count();
+        Ok(())
+    }
+
+    /// At least so many pictures, pixels, and pixels that show what moves; a tenth contested at most.
+    pub(crate) fn assert_floor(&self, pictures: usize, covered: usize, moving: usize) {
+        let is_enough = self.pictures >= pictures && self.covered >= covered;
+        assert!(
+            is_enough && self.moving >= moving && self.contested * 10 < self.covered,
+            "{self:?}"
+        );
+    }
+}
+
+/// The order as a list, if all forms agree, each number comes once, and the tree's fragments come as
+/// in the tree.
+fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>, String> {
+    let viewpoint = camera.viewpoint();
+    let (mut order, mut still, mut near) = (vec![7], Vec::new(), Vec::new());
+    let error = |error: binspace::Error| error.to_string();
+    overlay.back_to_front_into(tree, viewpoint, &mut order).map_err(error)?;
+    overlay.front_to_back_into(tree, viewpoint, &mut near).map_err(error)?;
+    tree.back_to_front_into(viewpoint, &mut still);
+    let of_tree = order.iter().copied().filter(|&number| (number as usize) < tree.len());
+    ensure(of_tree.eq(still), || "the tree's fragments come in another order".into())?;
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    let count = (tree.len() + overlay.len()) as u32;
+    ensure(sorted.into_iter().eq(0..count), || "not every number comes once".into())?;
+    ensure(near.iter().rev().eq(&order), || "front to back is not the reverse".into())?;
+    let number = |fragment: Fragment<'_>| fragment.index();
+    let far_first = overlay.back_to_front(tree, viewpoint).map_err(error)?;
+    let near_first = overlay.front_to_back(tree, viewpoint).map_err(error)?;
+    ensure(far_first.len() == order.len(), || "another length".into())?;
+    ensure(far_first.map(number).eq(order.iter().copied()), || "another back to front".into())?;
+    ensure(near_first.map(number).eq(near), || "another front to back".into())?;
+    Ok(order)
+}
+
+/// Whether the pieces of every moving face have its area, exactly; how many faces there are.
+pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> {
+    let faces = overlay.faces();
+    let first = tree.faces().len() as u32;
+    let models: Vec<Face> =
+        (first..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
+    let mut sums: Vec<Option<Point>> = vec![None; models.len()];
+    for number in tree.len()..tree.len() + overlay.len() {
+        let piece = overlay.piece(number as u32).expect("a piece");
+        let at = (piece.face() - first) as usize;
+        let points: Vec<Point> =
+            piece.symbols().map(|symbol| models[at].resolve(faces, symbol)).collect();
+        let area = rational::area(&points);
+        // Pieces have their face's orientation: none counts against another.
+        let along = rational::scalar(&area, &models[at].plane.normal);
+        ensure(rational::sign(&along).is_gt(), || format!("piece {number} is turned over"))?;
+        sums[at] =
+            Some(sums[at].as_ref().map_or_else(|| area.clone(), |sum| rational::sum(sum, &area)));
+    }
+    for (model, sum) in models.iter().zip(sums) {
+        let corners = &model.corners;
+        ensure(sum == Some(rational::area(corners)), || format!("another area: {corners:?}"))?;
+    }
+    Ok(models.len())
+}

@@ -1,0 +1,95 @@
+//! Movers on random walks, frame after frame: no pixel is wrong.
+
+use binspace::glam::{DMat3, DVec3};
+use binspace::scene::{self, Scene};
+use binspace::view::Camera;
+use binspace::{BuildOptions, Overlay};
+
+use crate::judge::{self, Judged};
+use crate::support::dice::Dice;
+
+/// A polygon that walks and turns.
+struct Mover {
+    at: DVec3,
+    turn: DMat3,
+    outline: Vec<DVec3>,
+}
+
+impl Mover {
+    fn new(low: DVec3, high: DVec3, dice: &mut Dice) -> Self {
+        let corners = 3 + dice.below(4);
+        let size = 0.1 * (high - low).max_element() * (0.2 + dice.share());
+        let corner = |k: usize| {
+            let angle = k as f64 / corners as f64 * std::f64::consts::TAU;
+            DVec3::new(angle.cos(), angle.sin(), 0.0) * size
+        };
+        let share = DVec3::new(dice.share(), dice.share(), dice.share());
+        Self {
+            at: low + (high - low) * share,
+            turn: DMat3::IDENTITY,
+            outline: (0..corners).map(corner).collect(),
+        }
+    }
+
+    fn step(&mut self, low: DVec3, high: DVec3, dice: &mut Dice) {
+        let any = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+        let length = 0.03 * (high - low).max_element();
+        self.at = (self.at + any(dice) * length).clamp(low, high);
+        self.turn *= DMat3::from_axis_angle((any(dice) + DVec3::Z).normalize(), dice.share());
+        // Now and then flat on the ground, where much is coplanar.
+        if dice.below(8) == 0 {
+            self.at.z = low.z;
+            self.turn = DMat3::IDENTITY;
+        }
+    }
+
+    fn corners(&self) -> Vec<DVec3> {
+        self.outline.iter().map(|&corner| self.at + self.turn * corner).collect()
+    }
+}
+
+/// How many pixels showed what moved, over so many frames.
+fn walk(scene: &Scene, tolerance: Option<f64>, frames: usize, movers: usize) -> Judged {
+    let (low, high) = scene.bounds().expect("corners");
+    let margin = DVec3::splat((high - low).max_element() * 0.2);
+    let mut options = BuildOptions::DEFAULT.with_bounds(low - margin, high + margin);
+    options.tolerance = tolerance.into();
+    let tree = options.build(scene.polygons()).expect("within budget");
+    let mut overlay = Overlay::new(&tree);
+    let mut dice = Dice(11);
+    let mut movers: Vec<Mover> = (0..movers).map(|_| Mover::new(low, high, &mut dice)).collect();
+    let mut judged = Judged::default();
+    for frame in 0..frames {
+        movers.iter_mut().for_each(|mover| mover.step(low, high, &mut dice));
+        overlay.replace(&tree, movers.iter().map(Mover::corners)).expect("on the grid");
+        if frame % 10 == 0 {
+            judge::areas(&tree, &overlay).expect("tiles");
+        }
+        let angle = frame as f64 * 0.7;
+        let middle = (low + high) * 0.5;
+        let away = DVec3::new(angle.cos(), angle.sin(), 0.3 + 0.2 * angle.sin()) * margin * 3.0;
+        let camera = Camera::perspective(middle + away, middle, DVec3::Z, 0.9, [160, 120])
+            .expect("a camera");
+        judged.look(&tree, &overlay, &camera).expect("a right picture");
+    }
+    judged
+}
+
+#[test]
+fn movers_in_a_city_are_right_in_every_pixel() {
+    let judged = walk(&scene::city(600, 2), Some(0.0), 60, 50);
+    judged.assert_floor(60, 500_000, 30_000);
+}
+
+#[test]
+fn movers_among_crossing_triangles_are_right_in_every_pixel() {
+    let judged = walk(&scene::random_triangles(100, 5), Some(0.0), 12, 40);
+    judged.assert_floor(12, 50_000, 10_000);
+}
+
+/// With the default tolerance, what it contests is counted.
+#[test]
+fn movers_under_the_default_tolerance_are_right_in_every_pixel() {
+    let judged = walk(&scene::city(300, 3), None, 20, 30);
+    judged.assert_floor(20, 100_000, 8_000);
+}
