@@ -91,7 +91,7 @@ impl BspTree {
     /// Reads a tree that [`write`](Self::write) has written. Takes up no more than the tree's bytes,
     /// so that something else may follow them.
     ///
-    /// Takes O(n) time, about a tenth of what building takes, or less; a `BufReader` makes it no
+    /// Takes O(n) time, a tenth to a seventh of what building takes; a `BufReader` makes it no
     /// faster.
     ///
     /// # Files from strangers
