@@ -25,7 +25,7 @@ mod threads;
 /// A section's name on the command line, and what it does.
 type Section = (&'static str, fn());
 
-const SECTIONS: [Section; 10] = [
+const SECTIONS: [Section; 12] = [
     ("order", order::run),
     ("mesh", mesh::run),
     ("same-order", same::run),
