@@ -12,8 +12,8 @@ use crate::terminal::note;
 
 /// The longer side, in pixels, of the small picture by which backs are counted.
 const SIDE: u32 = 128;
-/// Of this many pixels more than so many show backs. A surface that is open, or triangles at
-/// random, may show as many backs as fronts. Smaller: notes on those; larger: rooms are missed.
+/// Note if more than 3 of 4 pixels show backs. A surface that is open, or triangles at random, may
+/// show as many backs as fronts. Smaller: notes on those; larger: rooms are missed.
 const MOSTLY: [usize; 2] = [4, 3];
 
 /// Notes that a picture from outside a scene shows mostly backs of faces, as of a room whose walls

@@ -26,7 +26,6 @@ pub(crate) fn scene() -> Result<Loaded, Failure> {
     if bytes.starts_with(saved_file::BEGINNING) {
         return Ok(saved_file::read(NAME, &bytes[..])?.into());
     }
-    memory::check_file(NAME, bytes.len() as u64)?;
     let (scene, mut report) = Scene::from_obj(NAME, &bytes, |_| None)
         .map_err(|error| Failure::Message(error.to_string()))?;
     drop(progress);
@@ -50,7 +49,8 @@ pub(crate) fn scene() -> Result<Loaded, Failure> {
     Ok(scene.into())
 }
 
-/// All of standard input. Too little memory is an error.
+/// All of standard input. Too little memory for it, or for the scene in it, is an error as soon as it
+/// shows.
 fn bytes() -> Result<Vec<u8>, Failure> {
     let mut bytes: Vec<u8> = Vec::new();
     let mut input = io::stdin().lock();
@@ -62,5 +62,6 @@ fn bytes() -> Result<Vec<u8>, Failure> {
         if read.map_err(|error| Failure::about(NAME, format!("cannot be read: {error}")))? == 0 {
             return Ok(bytes);
         }
+        memory::check_file(NAME, bytes.len() as u64)?;
     }
 }
