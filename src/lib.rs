@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built |
 //! | [`FrameBuilder`] | trees built anew every frame |
+//! | [`Overlay`], [`Overlaid`] | polygons that move, in one order with a tree that stays |
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Partition`] | what it consists of |

@@ -10,8 +10,8 @@ use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
     BspTree, BuildOptions, Error, Fragment, FrameBuilder, Heuristic, Invalid, Mesh, Ordered,
-    ParseHeuristicError, Partition, Preparation, Progress, Stats, Triangles, Verification,
-    Viewpoint,
+    Overlaid, Overlay, ParseHeuristicError, Partition, Preparation, Progress, Stats, Triangles,
+    Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -25,7 +25,7 @@ macro_rules! assert_shared {
 }
 
 // Trees, and what they hand out.
-assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
+assert_shared!(Overlay, Overlaid<'_>, Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Partition, Stats, Triangles, Viewpoint,);
 
 // Building, and what can go wrong.
