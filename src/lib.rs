@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built |
 //! | [`FrameBuilder`] | trees built anew every frame |
+//! | [`Overlay`], [`Overlaid`] | polygons that move, in one order with a tree that stays |
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Node`] | what it consists of |
@@ -71,9 +72,9 @@ pub use glam;
 pub use input::{Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
+pub use overlay::{Overlaid, Overlay};
 #[cfg(feature = "save")]
 pub use save::LoadError;
-pub use overlay::{Overlaid, Overlay};
 pub use tree::{
     Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
     Nodes, Ordered, Part, Sides, Stats, Triangles,

@@ -1,5 +1,6 @@
 //! Polygons that move, beside a tree that stays as it is.
 
+mod indices;
 mod order;
 mod place;
 mod skeleton;
@@ -121,7 +122,7 @@ impl Overlay {
             preparer: Preparer::default(),
             placer,
             pieces: Parts::default(),
-            skeleton: Skeleton::of_tree(tree),
+            skeleton: Skeleton::new(tree.len()),
             preparation: Preparation::default(),
         }
     }
@@ -210,6 +211,7 @@ impl fmt::Debug for Overlay {
             .field("tree_fragments", &self.base.fragments)
             .field("polygons", &self.preparation.polygons)
             .field("pieces", &self.pieces.records.len())
+            .field("planes", &self.skeleton.branches.len())
             .finish_non_exhaustive()
     }
 }

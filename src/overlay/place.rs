@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::skeleton::{Branch, Part, Place, Skeleton, append};
+use super::skeleton::{self, Branch, Place, Skeleton};
 use crate::build::cell::CellBuilder;
 use crate::build::knife::Knife;
 use crate::build::live::Live;
@@ -69,6 +69,7 @@ impl Placer {
             work.placer.arena.truncate(pending.arena);
             work.step(pending)?;
         }
+        work.skeleton.finish();
         Ok(())
     }
 }
@@ -111,13 +112,12 @@ impl Work<'_> {
         self.divide(start, branch.plane)?;
         // Coplanar polygons are painted in input order.
         self.placer.own.sort_by_key(|piece| piece.face);
-        branch.first = self.pieces.records.len() as u32;
-        branch.len = self.placer.own.len() as u32;
+        let first = self.pieces.records.len() as u32;
         for i in 0..self.placer.own.len() {
             self.store(self.placer.own[i])?;
         }
-        let number = self.skeleton.push(branch)?;
-        self.skeleton.hang(place, Part::Branch(number));
+        branch.pieces = self.skeleton.group(first..self.pieces.records.len() as u32)?;
+        let number = self.skeleton.push(place, branch)?;
         let Placer { pieces, arena, pending, front, .. } = &mut *self.placer;
         let [in_front, behind] = sides;
         if pieces.len() > start {
@@ -152,9 +152,10 @@ impl Work<'_> {
             let nothing = Region { node: None, fragments: all.end..all.end };
             (plane, rounded(faces, plane), all, [nothing.clone(), nothing])
         };
-        let [front, back] = sides.each_ref().map(|side| Part::Static(side.fragments.len() as u32));
-        let own = own.len() as u32;
-        Some((Branch { plane, rounded, own, first: 0, len: 0, front, back }, sides))
+        let [front, back] =
+            sides.each_ref().map(|side| skeleton::Side::still(side.fragments.len()));
+        let (own, pieces) = (own.len() as u32, skeleton::Side::still(0));
+        Some((Branch { rounded, plane, own, pieces, front, back }, sides))
     }
 
     /// Divides the set on top of the stack: pieces behind stay on the stack, pieces in front go to
@@ -196,12 +197,13 @@ impl Work<'_> {
         let first = self.pieces.records.len() as u32;
         if self.placer.pieces.len() == start + 1 {
             self.store(self.placer.pieces[start])?;
-            self.skeleton.hang(place, Part::Pieces { first, len: 1 });
+            let side = self.skeleton.group(first..first + 1)?;
+            self.skeleton.hang(place, side);
             return Ok(());
         }
         let Placer { cells, pieces, arena, .. } = &mut *self.placer;
         let tree = cells.build(self.faces, &pieces[start..], arena)?;
-        let numbers = append(self.pieces, &tree)?;
+        let numbers = skeleton::append(self.pieces, &tree)?;
         self.skeleton.graft(place, self.faces, &tree, numbers.start)?;
         cells.keep(tree);
         Ok(())

@@ -7,40 +7,59 @@ use glam::Vec4;
 use crate::error::Error;
 use crate::exact::{ExactStored, Faces, PlaneId};
 use crate::memory::reserve;
-use crate::tree::BspTree;
 use crate::tree::order::planes::rounded;
-use crate::tree::parts::{RawChild, Parts, Record};
+use crate::tree::parts::{Parts, RawChild, Record};
+
+/// Pieces that need no plane between them: one, or coplanar ones in input order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Group {
+    /// The first of their numbers in the overlay.
+    pub(super) first: u32,
+    pub(super) len: u32,
+}
 
 /// What is on one side of a plane.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Part {
-    /// So many fragments of the tree, and no piece.
-    Static(u32),
-    /// Pieces that need no plane, by their numbers in the overlay: at most one, or coplanar ones.
-    Pieces { first: u32, len: u32 },
-    /// More of the skeleton.
-    Branch(u32),
+pub(super) struct Side {
+    /// What it is: see [`Skeleton::part`].
+    pub(super) slot: u32,
+    /// How many fragments and pieces it has.
+    pub(super) len: u32,
 }
 
-impl Default for Part {
-    fn default() -> Self {
-        Self::Static(0)
+/// Marks a slot, while the skeleton grows, as that of a group.
+const GROUP: u32 = 1 << 31;
+/// The slot, while the skeleton grows, of what has no pieces.
+const STILL: u32 = u32::MAX;
+
+impl Side {
+    /// So many fragments of the tree, and no piece.
+    pub(super) fn still(len: usize) -> Self {
+        Self { slot: STILL, len: len as u32 }
     }
+}
+
+/// What a slot stands for.
+pub(super) enum Part {
+    /// Fragments of the tree, and no piece.
+    Still,
+    Pieces(Group),
+    /// More of the skeleton, by its number.
+    Branch(u32),
 }
 
 /// A plane with pieces on it or around it: of a node of the tree, of the fragment in a leaf, or of a
 /// small tree in a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Branch {
-    pub(super) plane: PlaneId,
     pub(super) rounded: Vec4,
+    pub(super) plane: PlaneId,
     /// How many fragments of the tree lie on the plane.
     pub(super) own: u32,
     /// The pieces on the plane, which come after those fragments.
-    pub(super) first: u32,
-    pub(super) len: u32,
-    pub(super) front: Part,
-    pub(super) back: Part,
+    pub(super) pieces: Side,
+    pub(super) front: Side,
+    pub(super) back: Side,
 }
 
 /// Where a part hangs.
@@ -51,41 +70,107 @@ pub(super) enum Place {
     Back(u32),
 }
 
-/// The skeleton of an overlay.
-#[derive(Debug, Default)]
+/// The skeleton of an overlay. Branches come after those that they hang on.
+#[derive(Debug)]
 pub(super) struct Skeleton {
-    pub(super) root: Part,
+    root: Side,
     pub(super) branches: Vec<Branch>,
+    pub(super) groups: Vec<Group>,
     /// The sides that a small tree's nodes are still to be hung on.
     open: Vec<Place>,
 }
 
 impl Skeleton {
-    /// That of an overlay of nothing.
-    pub(super) fn of_tree(tree: &BspTree) -> Self {
-        Self { root: Part::Static(tree.len() as u32), ..Self::default() }
+    /// That of an overlay of nothing on a tree of so many fragments.
+    pub(super) fn new(fragments: usize) -> Self {
+        let root = Side { slot: 0, len: fragments as u32 };
+        Self { root, branches: vec![], groups: vec![], open: vec![] }
     }
 
     /// Removes all branches; `fragments` is how many the tree has.
     pub(super) fn clear(&mut self, fragments: usize) {
-        self.root = Part::Static(fragments as u32);
+        self.root = Side { slot: 0, len: fragments as u32 };
         self.branches.clear();
+        self.groups.clear();
     }
 
-    /// Hangs a part where it belongs.
-    pub(super) fn hang(&mut self, place: Place, part: Part) {
-        match place {
-            Place::Root => self.root = part,
-            Place::Front(branch) => self.branches[branch as usize].front = part,
-            Place::Back(branch) => self.branches[branch as usize].back = part,
+    /// All of it.
+    pub(super) fn root(&self) -> Side {
+        self.root
+    }
+
+    /// How many slots there are: those of branches, those of groups, and a last one for what has no
+    /// pieces.
+    pub(super) fn slots(&self) -> usize {
+        self.branches.len() + self.groups.len() + 1
+    }
+
+    /// What a slot stands for.
+    pub(super) fn part(&self, slot: u32) -> Part {
+        let slot = slot as usize;
+        match slot.checked_sub(self.branches.len()) {
+            None => Part::Branch(slot as u32),
+            Some(group) => self.groups.get(group).map_or(Part::Still, |&group| Part::Pieces(group)),
         }
     }
 
-    /// Adds a branch, and gives its number.
-    pub(super) fn push(&mut self, branch: Branch) -> Result<u32, Error> {
+    /// A side of these pieces alone.
+    pub(super) fn group(&mut self, pieces: Range<u32>) -> Result<Side, Error> {
+        let len = pieces.len() as u32;
+        if len == 0 {
+            return Ok(Side::still(0));
+        }
+        reserve(&mut self.groups, 1)?;
+        self.groups.push(Group { first: pieces.start, len });
+        Ok(Side { slot: GROUP | (self.groups.len() as u32 - 1), len })
+    }
+
+    /// Hangs something where it belongs.
+    pub(super) fn hang(&mut self, place: Place, side: Side) {
+        match place {
+            Place::Root => self.root = side,
+            Place::Front(branch) => self.branches[branch as usize].front = side,
+            Place::Back(branch) => self.branches[branch as usize].back = side,
+        }
+    }
+
+    /// Adds a branch, hangs it, and gives its number.
+    pub(super) fn push(&mut self, place: Place, branch: Branch) -> Result<u32, Error> {
         reserve(&mut self.branches, 1)?;
+        let slot = self.branches.len() as u32;
         self.branches.push(branch);
-        Ok(self.branches.len() as u32 - 1)
+        // Its length is not known before all that hangs on it is.
+        self.hang(place, Side { slot, len: 0 });
+        Ok(slot)
+    }
+
+    /// Numbers the slots, and computes the lengths of all sides.
+    pub(super) fn finish(&mut self) {
+        let (groups, last) = (self.branches.len() as u32, self.slots() as u32 - 1);
+        let number = |side: &mut Side| {
+            if side.slot == STILL {
+                side.slot = last;
+            } else if side.slot & GROUP != 0 {
+                side.slot = groups + (side.slot & !GROUP);
+            }
+        };
+        // From the last to the first, so that the lengths of what hangs on a branch are known.
+        for i in (0..self.branches.len()).rev() {
+            let Branch { mut pieces, mut front, mut back, .. } = self.branches[i];
+            number(&mut pieces);
+            for side in [&mut front, &mut back] {
+                match self.branches.get(side.slot as usize) {
+                    Some(child) => side.len = child.len(),
+                    None => number(side),
+                }
+            }
+            let branch = &mut self.branches[i];
+            (branch.pieces, branch.front, branch.back) = (pieces, front, back);
+        }
+        match self.branches.first() {
+            Some(first) => self.root.len = first.len(),
+            None => number(&mut self.root),
+        }
     }
 
     /// Hangs the small tree of a cell, whose fragments are to be the pieces from `first` on.
@@ -98,28 +183,24 @@ impl Skeleton {
     ) -> Result<(), Error> {
         self.open.clear();
         self.open.push(place);
+        let mut take = |len: u32| {
+            let start = first;
+            first += len;
+            start..first
+        };
         for node in &tree.nodes {
-            let own = node.own;
-            let mut branch = Branch {
-                plane: node.plane,
-                rounded: rounded(faces, node.plane),
-                own: 0,
-                first,
-                len: own,
-                front: Part::default(),
-                back: Part::default(),
-            };
-            first += own;
-            // Fragments are numbered in this order: on the plane, front leaf, back leaf, the rest.
-            for (side, child) in [(&mut branch.front, node.front), (&mut branch.back, node.back)] {
-                if let RawChild::Leaf(len) = child {
-                    *side = Part::Pieces { first, len };
-                    first += len;
-                }
-            }
-            let number = self.push(branch)?;
             let Some(place) = self.open.pop() else { return Ok(()) };
-            self.hang(place, Part::Branch(number));
+            // Fragments are numbered in this order: on the plane, front leaf, back leaf, the rest.
+            let pieces = self.group(take(node.own))?;
+            let mut side = |skeleton: &mut Self, child| match child {
+                RawChild::Leaf(len) => skeleton.group(take(len)),
+                RawChild::Node => Ok(Side::still(0)),
+            };
+            let (front, back) = (side(self, node.front)?, side(self, node.back)?);
+            let plane = node.plane;
+            let rounded = rounded(faces, plane);
+            let branch = Branch { rounded, plane, own: 0, pieces, front, back };
+            let number = self.push(place, branch)?;
             // Nodes stand depth first, the front before the back.
             if node.back == RawChild::Node {
                 self.open.push(Place::Back(number));
@@ -129,6 +210,12 @@ impl Skeleton {
             }
         }
         Ok(())
+    }
+}
+
+impl Branch {
+    fn len(&self) -> u32 {
+        self.own + self.pieces.len + self.front.len + self.back.len
     }
 }
 

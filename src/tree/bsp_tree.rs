@@ -27,8 +27,8 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// Build the tree once for static polygons, then ask it for an order every frame. When polygons
-/// move, build it again.
+/// Build the tree once for static polygons, then ask it for an order every frame. An [`Overlay`](crate::Overlay) holds
+/// what moves; where most polygons do, build the tree again.
 ///
 /// # What it holds
 ///
@@ -200,7 +200,8 @@ use crate::faces::Preparation;
 ///
 /// - Not a renderer: it gives an order, and you draw. (The feature `raster` has a painter that
 ///   checks orders.)
-/// - Not dynamic: polygons cannot be added, moved or removed.
+/// - Not dynamic: polygons cannot be added, moved or removed. An [`Overlay`](crate::Overlay) puts moving polygons in one
+///   order with the tree's.
 /// - Not a spatial index: for ray casts, overlaps or nearest neighbours take a bounding volume
 ///   hierarchy, which is much faster to build.
 /// - Not for solids: it does not tell inside from outside, and does no Boolean operations.

@@ -17,7 +17,7 @@ const GROUND: [&str; 8] =
     ["error", "frustum", "input", "memory", "parallel_map", "random", "save", "viewpoint"];
 
 /// The layers that are built on the ground, each with those before it that it may import.
-const LAYERS: [(&str, &[&str]); 10] = [
+const LAYERS: &[(&str, &[&str])] = &[
     ("exact", &[]),
     ("faces", &["exact"]),
     ("tree", &["exact", "faces"]),

@@ -3,7 +3,7 @@
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, Mesh, Viewpoint, verify, verify_fronts, view};
+use binspace::{BspTree, Mesh, Node, Viewpoint, verify, verify_fronts, view};
 
 /// A tree's file.
 pub(crate) fn bytes(tree: &BspTree) -> Vec<u8> {
@@ -44,14 +44,17 @@ pub(crate) fn use_all(tree: &BspTree) -> Verdict {
         tree.same_order(viewpoint, EYES[0]);
     }
     use_fragments(tree)?;
-    let partitions: Vec<_> = tree.partitions().collect();
-    let mut backwards: Vec<_> = tree.partitions().rev().collect();
-    backwards.reverse();
     // Not the rounded normals: a forged plane may have none.
-    let places = |list: &[binspace::Partition]| -> Vec<_> {
-        list.iter().map(|p| (p.on.clone(), p.front.clone(), p.back.clone(), p.depth)).collect()
-    };
-    ensure(places(&partitions) == places(&backwards), || "partitions".into())?;
+    let places = |node: Node<'_>| (node.index(), node.depth(), node.on(), node.fragments());
+    let nodes: Vec<_> = tree.nodes().map(places).collect();
+    let mut backwards: Vec<_> = tree.nodes().rev().map(places).collect();
+    backwards.reverse();
+    ensure(nodes == backwards, || "nodes".into())?;
+    for node in tree.nodes() {
+        let _ = (node.normal(), node.offset(), node.polygon(), node.front(), node.back());
+    }
+    let bounds = tree.bounds().map_err(|error| error.to_string())?;
+    let _ = (bounds.all(), bounds.bytes());
     for mesh in [tree.mesh(), tree.welded_mesh()] {
         use_mesh(tree, &mesh.map_err(|error| error.to_string())?)?;
     }
