@@ -21,7 +21,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
     ("faces", &["exact"]),
     ("tree", &["exact", "faces"]),
     ("build", &["exact", "faces", "tree"]),
-    ("layers", &["tree", "build"]),
+    ("layers", &["faces", "tree", "build"]),
     ("view", &[]),
     ("scene", &[]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.
