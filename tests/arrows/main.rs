@@ -22,7 +22,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("faces", &["exact"]),
     ("tree", &["exact", "faces"]),
     ("build", &["exact", "faces", "tree"]),
-    ("layers", &["tree", "build"]),
+    ("layers", &["faces", "tree", "build"]),
     ("overlay", &["exact", "faces", "tree", "build"]),
     ("view", &[]),
     ("scene", &[]),
