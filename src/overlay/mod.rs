@@ -73,7 +73,7 @@ use crate::tree::{BspTree, Fragment};
 /// The overlay's polygons are rounded to the tree's grid, and have the tree's tolerance. The grid is
 /// a cube about the middle of the tree's bounding box, with sides at least as long as the longest of
 /// the box. A polygon that reaches beyond it is an error:
-/// [`BuildOptions::with_bounds`] makes the grid of a tree larger.
+/// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
 ///
 /// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 24 a polygon.
 pub struct Overlay {

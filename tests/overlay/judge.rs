@@ -135,3 +135,20 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
     }
     Ok(models.len())
 }
+
+/// Whether two overlays have the same pieces: what one had before leaves no trace.
+pub(crate) fn same(tree: &BspTree, overlays: [&Overlay; 2]) -> Verdict {
+    let [bytes, others] = overlays.map(|overlay| overlay.faces().bytes());
+    ensure(bytes == others, || format!("faces of {bytes} and {others} bytes"))?;
+    for number in 0..=(tree.len() + overlays[0].len()) as u32 {
+        let [piece, other] = overlays.map(|overlay| {
+            let piece = overlay.piece(number)?;
+            let vertices: Vec<_> = piece.vertices().zip(piece.weights()).collect();
+            let edges: Vec<_> = piece.edges().zip(piece.lines()).collect();
+            Some((piece.index(), piece.polygon(), vertices, edges))
+        });
+        let is_piece = (tree.len()..tree.len() + overlays[0].len()).contains(&(number as usize));
+        ensure(piece == other && piece.is_some() == is_piece, || format!("piece {number}"))?;
+    }
+    Ok(())
+}
