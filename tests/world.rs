@@ -3,6 +3,7 @@
 
 mod support;
 
+use binspace::glam::DVec3;
 use binspace::internals::{Faces, Line, PlaneId, PlaneKind, SymbolKind};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use num_traits::{Signed, ToPrimitive};
@@ -24,10 +25,15 @@ struct World {
 impl World {
     fn of(faces: &Faces, scene: &HardScene) -> Self {
         let step = rational::exact(faces.lattice().length_to_world(1.0));
-        let corner = scene.polygons[0][0];
-        let on_lattice = faces.lattice().snap(corner);
+        let (half, zero) = (rational::exact(0.5), rational::exact(0.0));
         let origin = std::array::from_fn(|axis| {
-            (rational::exact(corner[axis]) / &step).round() - rational::exact(on_lattice[axis])
+            let corners = || scene.polygons.iter().flatten();
+            let place = |corner: &DVec3| rational::exact(corner[axis]) / &step;
+            // Halfway between two grid points, a corner may be rounded to either.
+            let is_halfway = |corner: &&DVec3| (place(corner).fract().abs() - &half) == zero;
+            let told = corners().find(|corner| !is_halfway(corner)).or(corners().next());
+            let corner = told.expect("a scene has corners");
+            place(corner).round() - rational::exact(faces.lattice().snap(*corner)[axis])
         });
         Self { step, origin }
     }
