@@ -106,7 +106,7 @@ fn accuracy_of(kernel: Float<f64>, scene: &Scene) -> Accuracy {
 fn a_kernel_that_is_far_off_misplaces_vertices_and_moves_them() {
     let scene = Family::Penetration.scene(30.0, 2);
     let far = accuracy_of(Float::new(0.05), &scene);
-    assert!(far.misplaced > 100, "{far:?}");
+    assert!(far.misplaced > 50, "{far:?}");
     assert!(far.drift_max > 1e10 && far.torn > 0, "{far:?}");
     let near = accuracy_of(Float::new(1e-12), &scene);
     assert!(near.misplaced < far.misplaced / 10, "{near:?}");
