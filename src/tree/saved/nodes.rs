@@ -55,8 +55,9 @@ pub(super) fn check(
             return Err(fault("parts nothing"));
         }
         let sides = [front, back].map(|side| usize::from(side == RawChild::Node));
-        to_come =
-            (to_come + sides[0] + sides[1]).checked_sub(1).ok_or_else(|| fault("is none's"))?;
+        // Its own place first: a node that none has may not stand for itself.
+        let others = to_come.checked_sub(1).ok_or_else(|| fault("is none's"))?;
+        to_come = others + sides[0] + sides[1];
         let on_plane = records.get(next..next + own as usize);
         let on_plane = on_plane.ok_or_else(|| fault("has more fragments than there are"))?;
         if on_plane.windows(2).any(|pair| pair[0].face >= pair[1].face) {
