@@ -1,18 +1,11 @@
 //! A second order into the same list allocates nothing, and a second frame next to nothing. Alone in its program, as it counts what all
 //! threads allocate.
 
+#[path = "support/counted.rs"]
+mod counted;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Viewpoint, scene};
-use dhat::{HeapStats, Profiler};
-
-#[global_allocator]
-static COUNTING: dhat::Alloc = dhat::Alloc;
-
-/// How often memory was asked for while something ran.
-fn allocations(work: impl FnOnce()) -> u64 {
-    let before = HeapStats::get().total_blocks;
-    work();
-    HeapStats::get().total_blocks - before
-}
+use counted::allocations;
+use dhat::Profiler;
 
 #[test]
 fn a_second_order_allocates_nothing_and_a_second_frame_once() {

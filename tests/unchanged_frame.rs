@@ -1,23 +1,16 @@
 //! A frame whose layers did not change allocates nothing, nor does reading it. Alone in its program,
 //! as it counts what all threads allocate.
 
+#[path = "support/counted.rs"]
+mod counted;
 #[path = "../benches/support/pages.rs"]
 #[allow(dead_code, unreachable_pub, reason = "made for benches too")]
 mod pages;
 
 use binspace::layers::{Layer, Layers};
-use dhat::{HeapStats, Profiler};
+use counted::allocations;
+use dhat::Profiler;
 use pages::{Page, SCREEN};
-
-#[global_allocator]
-static COUNTING: dhat::Alloc = dhat::Alloc;
-
-/// How often memory was asked for while something ran.
-fn allocations(work: impl FnOnce()) -> u64 {
-    let before = HeapStats::get().total_blocks;
-    work();
-    HeapStats::get().total_blocks - before
-}
 
 /// Reads all of a page, so that nothing of it is left out.
 fn read(page: &Layers) -> usize {

@@ -139,7 +139,7 @@ impl Workshop {
         )?;
         let tuning = &Tuning::DEFAULT;
         normals.fill(&faces);
-        let shared = Shared::new(Exact, (&faces, &*normals), options, tuning, &watch)?;
+        let shared = Shared::new(Exact, &faces, normals, options, tuning, &watch)?;
         let parts = divide_all(&shared.with_positions(), &faces, memory)?;
         *nodes = tree.refill(faces, preparation, parts, sizes);
         Ok(())
@@ -196,7 +196,7 @@ fn watched_parts<K: Kernel>(
     watch: &Watch<'_>,
 ) -> Result<Parts<K::Stored>, Error> {
     let normals = Normals::of(faces);
-    let shared = Shared::new(kernel, (faces, &normals), options, tuning, watch)?;
+    let shared = Shared::new(kernel, faces, &normals, options, tuning, watch)?;
     divide_all(&shared, faces, &mut Memory::default())
 }
 

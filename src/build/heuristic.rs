@@ -51,13 +51,18 @@ pub enum Heuristic {
     ///
     /// The candidates are free planes and the planes of a sample of the polygons. The cost of a
     /// plane estimates the work left on both sides, n^1.25 for n polygons in front and n^1.25 for n
-    /// behind, where a polygon that the plane cuts counts on both. A free
-    /// plane that cuts nothing is taken at once. In sets of 256 polygons or more, an own plane that
-    /// cuts nothing has no other advantage; in smaller sets it is preferred to every plane that cuts,
-    /// and sets below 64 try no free plane that cuts. The plane of a large polygon gets a reward,
-    /// because a wall or floor that is not taken early is cut again and again. Where only planes at
-    /// the rim of a set cut nothing, as in a convex body, the polygons at the rim are taken off one
-    /// after the other in a single search.
+    /// behind, where a polygon that the plane cuts counts on both. The plane of a large polygon gets
+    /// a reward, because a wall or floor that is not taken early is cut again and again.
+    ///
+    /// | set | how it is divided |
+    /// |---|---|
+    /// | up to 32 polygons | from a table of where each lies against the plane of each: by an own plane that cuts nothing, else by a free plane that cuts nothing, else by the best own plane |
+    /// | up to 255 | by an own plane that cuts nothing and divides it evenly, if one of four does; else by a free plane that cuts nothing; else by the best, where no plane that cuts is preferred to one that does not |
+    /// | more | by a free plane that cuts nothing, else by the best |
+    ///
+    /// Sets below 64 try no free plane that cuts. Where only planes at the rim of a set cut nothing,
+    /// as in a convex body, the polygons at the rim are taken off one after the other in a single
+    /// search.
     #[default]
     Auto,
 }

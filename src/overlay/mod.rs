@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::exact::{ExactStored, Faces};
 use crate::faces::{Preparation, Preparer};
 use crate::input::Polygon;
-use crate::tree::parts::Parts;
+use crate::tree::parts::{Parts, Stored};
 use crate::tree::{BspTree, Fragment};
 
 /// Polygons that move, in one exact order with a tree that stays as it is: doors, characters, a
@@ -127,7 +127,8 @@ impl Overlay {
         }
     }
 
-    /// Replaces the overlay's polygons, and cuts them down to the leaves of the tree.
+    /// Replaces the overlay's polygons, and cuts them down to the leaves of the tree. (It is made for
+    /// what a frame moves: it has no budget, and cannot be cancelled.)
     ///
     /// # Errors
     ///
@@ -182,7 +183,8 @@ impl Overlay {
         let record = (number as usize).checked_sub(self.base.fragments)?;
         let Self { faces, pieces: Parts { records, vertices, positions, .. }, .. } = self;
         let is_piece = record < records.len();
-        is_piece.then(|| Fragment::new(faces, (records, vertices, positions), record, number))
+        is_piece
+            .then(|| Fragment::new(faces, Stored { records, vertices, positions }, record, number))
     }
 
     /// How many of the overlay's polygons were dropped or triangulated. (Duplicates are not counted.)

@@ -74,8 +74,9 @@ impl BspTree {
         let mut normals = Vec::new();
         reserve(&mut normals, self.nodes.len())?;
         normals.resize(self.nodes.len(), Normals::NONE);
-        let faces: Vec<Normals> =
-            (0..self.faces.len() as u32).map(|face| Normals::of(&self.faces, face)).collect();
+        let mut faces = Vec::new();
+        reserve(&mut faces, self.faces.len())?;
+        faces.extend((0..self.faces.len() as u32).map(|face| Normals::of(&self.faces, face)));
         // Children come after their parents, so they are summed up before them from the last on.
         for node in self.nodes().rev() {
             let index = node.index();

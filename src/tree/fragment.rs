@@ -7,7 +7,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::BspTree;
-use super::parts::Record;
+use super::parts::{Record, Stored};
 use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, Symbol, Vertex};
 
 /// A convex piece of a polygon, or the whole polygon.
@@ -29,7 +29,7 @@ impl BspTree {
     /// If there is no such fragment.
     pub fn fragment(&self, index: u32) -> Fragment<'_> {
         let Self { faces, records, vertices, positions, .. } = self;
-        Fragment::new(faces, (records, vertices, positions), index as usize, index)
+        Fragment::new(faces, Stored { records, vertices, positions }, index as usize, index)
     }
 }
 
@@ -37,10 +37,11 @@ impl<'t> Fragment<'t> {
     /// The fragment of a record, by the number that it has in orders.
     pub(crate) fn new(
         faces: &'t Faces,
-        (records, vertices, positions): (&'t [Record], &'t [ExactStored], &'t [[f64; 3]]),
+        stored: Stored<'t, ExactStored>,
         record: usize,
         index: u32,
     ) -> Self {
+        let Stored { records, vertices, positions } = stored;
         let next = records.get(record + 1);
         let end = next.map_or(vertices.len(), |next| next.vertices as usize);
         let Record { face, vertices: start } = records[record];

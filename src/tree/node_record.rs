@@ -74,29 +74,35 @@ pub(crate) struct Ranges {
     pub(crate) back: Range<u32>,
 }
 
-/// The fragments and nodes of a subtree.
-pub(crate) type Sizes = (u32, u32);
+/// How many fragments and nodes a subtree has.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sizes {
+    fragments: u32,
+    nodes: u32,
+}
 
 /// Computes the sizes of all subtrees, and replaces a list of nodes.
 pub(crate) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<NodeRecord>) {
     // Children come after their parents, so their sizes are known if nodes are read from the last to
     // the first.
     sizes.clear();
-    sizes.resize(raw.len(), (0, 0));
+    sizes.resize(raw.len(), Sizes::default());
     nodes.clear();
     nodes.reserve_exact(raw.len());
     for (i, node) in raw.iter().enumerate().rev() {
-        let (front_len, front_nodes) = match node.front {
-            RawChild::Leaf(len) => (len, 0),
-            RawChild::Node => sizes[i + 1],
+        let size = |child, at: usize| match child {
+            RawChild::Leaf(fragments) => Sizes { fragments, nodes: 0 },
+            RawChild::Node => sizes[at],
         };
-        let (back_len, back_nodes) = match node.back {
-            RawChild::Leaf(len) => (len, 0),
-            RawChild::Node => sizes[i + 1 + front_nodes as usize],
+        let front = size(node.front, i + 1);
+        let back = size(node.back, i + 1 + front.nodes as usize);
+        sizes[i] = Sizes {
+            fragments: node.own + front.fragments + back.fragments,
+            nodes: 1 + front.nodes + back.nodes,
         };
-        sizes[i] = (node.own + front_len + back_len, 1 + front_nodes + back_nodes);
         let back_is_node = if node.back == RawChild::Node { BACK_IS_NODE } else { 0 };
         let own = node.own | back_is_node;
+        let Sizes { fragments: front_len, nodes: front_nodes } = front;
         nodes.push(NodeRecord { plane: node.plane, own, front_len, front_nodes });
     }
     nodes.reverse();

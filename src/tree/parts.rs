@@ -33,6 +33,15 @@ pub struct Record {
     pub vertices: u32,
 }
 
+/// Stored fragments, by reference.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stored<'t, S> {
+    pub(crate) records: &'t [Record],
+    pub(crate) vertices: &'t [S],
+    /// The rounded positions of the vertices, if they are kept.
+    pub(crate) positions: &'t [[f64; 3]],
+}
+
 /// Nodes and fragments, both depth first and the front before the back. The fragments of a node come
 /// in this order: those on its plane, those of a front leaf, those of a back leaf, those of the
 /// nodes below.

@@ -3,7 +3,10 @@
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, Mesh, Node, Viewpoint, verify, verify_fronts, view};
+use binspace::{
+    BspTree, Culling, Flow, Frustum, Mesh, Node, Overlay, Part, Sides, Viewpoint, verify,
+    verify_fronts, view,
+};
 
 /// A tree's file.
 pub(crate) fn bytes(tree: &BspTree) -> Vec<u8> {
@@ -53,8 +56,8 @@ pub(crate) fn use_all(tree: &BspTree) -> Verdict {
     for node in tree.nodes() {
         let _ = (node.normal(), node.offset(), node.polygon(), node.front(), node.back());
     }
-    let bounds = tree.bounds().map_err(|error| error.to_string())?;
-    let _ = (bounds.all(), bounds.bytes());
+    use_walks(tree)?;
+    use_overlay(tree);
     for mesh in [tree.mesh(), tree.welded_mesh()] {
         use_mesh(tree, &mesh.map_err(|error| error.to_string())?)?;
     }
@@ -63,6 +66,46 @@ pub(crate) fn use_all(tree: &BspTree) -> Verdict {
     ensure(bytes(&again) == written, || "a copy is another tree".into())?;
     let again = BspTree::read(&written[..]).map_err(|error| error.to_string())?;
     ensure(Snapshot::of(&again) == Snapshot::of(tree), || "it is not the same again".into())
+}
+
+fn use_walks(tree: &BspTree) -> Verdict {
+    let bounds = tree.bounds().map_err(|error| error.to_string())?;
+    let _ = (bounds.all(), bounds.bytes());
+    let slab = Frustum::new([(DVec3::X, -0.5), (DVec3::NEG_X, -0.5)]);
+    for viewpoint in EYES {
+        let mut walked = Vec::new();
+        let _ = tree.walk_back_to_front(viewpoint, |part| {
+            match part {
+                Part::Subtree(node) => drop((bounds.of(node), bounds.facing(node, viewpoint))),
+                Part::Fragment(fragment) => walked.push(fragment.index()),
+            }
+            Flow::<()>::Descend
+        });
+        let mut order = Vec::new();
+        tree.back_to_front_into(viewpoint, &mut order);
+        ensure(walked == order, || "a walk has another order".into())?;
+        for sides in [Sides::Both, Sides::Front, Sides::Back] {
+            let culling = Culling::new(&bounds).with_frustum(slab.clone()).with_sides(sides);
+            tree.culled_back_to_front_into(viewpoint, &culling, &mut order);
+            ensure(order.len() <= tree.len(), || "more than all is left".into())?;
+        }
+    }
+    Ok(())
+}
+
+fn use_overlay(tree: &BspTree) {
+    let mut overlay = Overlay::new(tree);
+    let corners = tree.fragments().flat_map(|fragment| fragment.vertices()).take(9);
+    let corners: Vec<DVec3> = corners.collect();
+    // Polygons from place to place of the tree; they may well be none.
+    let polygons: Vec<[DVec3; 3]> = corners.as_chunks::<3>().0.to_vec();
+    let mut order = Vec::new();
+    if overlay.replace(tree, &polygons).is_ok() {
+        for viewpoint in EYES {
+            let written = overlay.back_to_front_into(tree, viewpoint, &mut order);
+            assert!(written.is_ok() && order.len() == tree.len() + overlay.len());
+        }
+    }
 }
 
 fn use_fragments(tree: &BspTree) -> Verdict {

@@ -21,7 +21,7 @@ impl<K: Kernel> Builder<'_, K> {
         let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
         self.scratch.sides.clear();
         for pieces in self.pieces[start..].chunks(AT_ONCE) {
-            self.shared.watch.work(pieces.len())?;
+            self.shared.rules.watch.work(pieces.len())?;
             self.scratch.sides.extend(pieces.iter().map(side));
         }
         Ok(())
@@ -87,7 +87,7 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// Cuts a piece, and gives the parts in front and behind.
     pub(super) fn cut(&mut self, live: &Live, splitter: &K::Splitter) -> Result<[Live; 2], Error> {
-        self.shared.watch.work(CUT)?;
+        self.shared.rules.watch.work(CUT)?;
         let Self { shared, arena, scratch, .. } = self;
         self.output.parts.cuts += 1;
         scratch.knife.cut(&shared.kernel, shared.faces, splitter, live, arena)

@@ -24,7 +24,7 @@ impl<K: Kernel> Builder<'_, K> {
         if self.shared.keeps_positions {
             self.output.push_positions(vertices.iter().map(K::Vertex::position))?;
         }
-        self.shared.watch.finish(live.cuts);
+        self.shared.rules.watch.finish(live.cuts);
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use super::leaf::is_small_leaf;
 use super::state::{Builder, Pending, Shared};
-use super::table::{Row, SLOTS, Slot, slots};
+use super::table::{Open, Row, SLOTS, Slot, slots};
 use crate::Error;
 use crate::build::choose::{Best, Set};
 use crate::exact::{Kernel, PlaneId, Side};
@@ -10,17 +10,18 @@ use crate::memory::reserve;
 use crate::tree::parts::{RawChild, RawNode};
 
 impl<K: Kernel> Builder<'_, K> {
-    /// Divides the set on top of the stack, of at most [`MOST_IN_TABLE`](crate::build::choose::MOST_IN_TABLE) pieces, down to the leaves.
+    /// Divides the set on top of the stack, of at most half as many pieces as a table has slots, down
+    /// to the leaves.
     pub(super) fn divide_small(&mut self, start: usize, depth: usize) -> Result<(), Error> {
         self.fill_table(start)?;
         let all = u64::MAX >> (SLOTS - self.table.slots.len());
-        self.table.sets.push((all, depth));
-        while let Some((set, depth)) = self.table.sets.pop() {
+        self.table.sets.push(Open { set: all, depth });
+        while let Some(Open { set, depth }) = self.table.sets.pop() {
             let row = self.best_of_table(set)?;
             let spanning = set & row.front & row.back;
             if spanning.count_ones() > self.table.free.count_ones() {
                 // There are not enough slots, so smaller sets get tables of their own.
-                self.table.sets.push((set, depth));
+                self.table.sets.push(Open { set, depth });
                 return self.leave_table();
             }
             self.shared.budget.check_depth(depth + 1)?;
@@ -36,7 +37,7 @@ impl<K: Kernel> Builder<'_, K> {
         Ok(())
     }
 
-    /// Moves the pieces on top of the stack into slots, and holds each against the planes of all.
+    /// Moves the pieces on top of the stack into slots, and prepares the planes of their faces.
     fn fill_table(&mut self, start: usize) -> Result<(), Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let table = &mut self.table;
@@ -69,7 +70,7 @@ impl<K: Kernel> Builder<'_, K> {
         for slot in slots(set) {
             let Slot { piece, row } = &table.slots[slot];
             let plane = &mut table.planes[*row];
-            self.shared.watch.work((set & !plane.known).count_ones() as usize)?;
+            self.shared.rules.watch.work((set & !plane.known).count_ones() as usize)?;
             for other in slots(set & !plane.known) {
                 let piece = table.slots[other].piece.piece(&self.arena);
                 plane.set(other, kernel.classify(faces, &plane.splitter, piece));
@@ -170,7 +171,7 @@ impl<K: Kernel> Builder<'_, K> {
         self.output.push_node(RawNode { plane: row.plane, own: own_len, front, back })?;
         // The front comes off first, as nodes stand depth first.
         let kept = sides.into_iter().rev().filter(|&side| !is_small_leaf(side));
-        self.table.sets.extend(kept.map(|side| (side, depth)));
+        self.table.sets.extend(kept.map(|set| Open { set, depth }));
         Ok(())
     }
 
@@ -178,7 +179,7 @@ impl<K: Kernel> Builder<'_, K> {
     fn leave_table(&mut self) -> Result<(), Error> {
         let arena = self.arena.len();
         for i in 0..self.table.sets.len() {
-            let (set, depth) = self.table.sets[i];
+            let Open { set, depth } = self.table.sets[i];
             let start = self.pieces.len();
             reserve(&mut self.pieces, set.count_ones() as usize)?;
             self.pieces.extend(slots(set).map(|slot| self.table.slots[slot].piece));

@@ -25,7 +25,6 @@ pub(in crate::build) struct Shared<'a, K> {
     pub(super) normals: &'a Normals,
     pub(super) options: &'a BuildOptions,
     pub(super) rules: Rules<'a>,
-    pub(super) watch: &'a Watch<'a>,
     pub(super) budget: Budget,
     /// Whether the rounded positions of vertices go into the output.
     pub(super) keeps_positions: bool,
@@ -35,14 +34,15 @@ impl<'a, K> Shared<'a, K> {
     /// An error if there are more faces than the budget allows fragments.
     pub(in crate::build) fn new(
         kernel: K,
-        (faces, normals): (&'a Faces, &'a Normals),
+        faces: &'a Faces,
+        normals: &'a Normals,
         options: &'a BuildOptions,
         tuning: &'a Tuning,
         watch: &'a Watch<'a>,
     ) -> Result<Self, Error> {
         let budget = Budget::new(options, faces.len())?;
         let rules = Rules { heuristic: options.heuristic, tuning, watch };
-        Ok(Self { kernel, faces, normals, options, rules, watch, budget, keeps_positions: false })
+        Ok(Self { kernel, faces, normals, options, rules, budget, keeps_positions: false })
     }
 
     /// The same, with positions in the output.

@@ -19,8 +19,16 @@ pub(super) struct Table<K: Kernel> {
     /// Slots that hold no piece.
     pub(super) free: u64,
     pub(super) planes: Vec<Row<K>>,
-    /// The sets that are still to be divided, with their depths; the next one on top.
-    pub(super) sets: Vec<(u64, usize)>,
+    /// The sets that are still to be divided, the next one on top.
+    pub(super) sets: Vec<Open>,
+}
+
+/// A set that is still to be divided.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Open {
+    pub(super) set: u64,
+    /// How many nodes lie above it.
+    pub(super) depth: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
