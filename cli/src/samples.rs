@@ -41,8 +41,8 @@ fn linear(value: f64) -> f64 {
 /// `samples` wide and high: the light of each pixel is the mean of the light of its samples.
 ///
 /// Averages are of light and not of the numbers, as screens and eyes average light: dark edges on a
-/// bright ground would come out too thick. Sums of integers do not depend on their order. The table of light
-/// is rounded from `powf`, which on another machine may differ by 1 of 2²⁴ in a place.
+/// bright ground would come out too thick. Sums of integers do not depend on their order. The table
+/// of light is rounded from `powf`, which on another machine may differ by 1 of 2²⁴ in a place.
 pub(crate) fn averaged(rgb: Vec<u8>, width: usize, samples: usize) -> Vec<u8> {
     if samples == 1 {
         return rgb;

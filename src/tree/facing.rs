@@ -40,8 +40,8 @@ impl Fragment<'_> {
 /// its terms.
 ///
 /// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of its
-/// two products; the eye, rounded, less a corner by 2u of both,
-/// and a direction by u, whatever its size; the products and sums add 3u.
+/// two products; the eye, rounded, less a corner by 2u of both, and a direction by u, whatever its
+/// size; the products and sums add 3u.
 /// Smaller: wrong signs pass. Larger: more faces are decided by integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 

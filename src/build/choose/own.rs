@@ -164,7 +164,8 @@ impl Best {
     }
 }
 
-/// Compares candidates with more and more pieces, and keeps the best of them (successive halving: Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+/// Compares candidates with more and more pieces, and keeps the best of them (successive halving:
+/// Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
 pub(super) struct Contest {
     field: Vec<Entrant>,

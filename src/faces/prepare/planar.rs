@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::Builder;
+use super::builder::Builder;
 use crate::Error;
 use crate::exact::{Plane, cross, is_convex};
 use crate::memory::reserve;

@@ -1,0 +1,226 @@
+//! Makes faces of polygons, one after the other.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::Preparation;
+use super::collect::Collected;
+use super::tolerance::Ground;
+use crate::Error;
+use crate::exact::faces::{Face, Frame, INNER};
+use crate::exact::{Faces, MAX_LABELS, Plane, cross};
+use crate::faces::duplicates::Outlines;
+use crate::faces::listener::Listener;
+use crate::faces::triangulate;
+use crate::memory::reserve;
+
+/// Triangles that are made between two checks for a cancel. Smaller: time for checks; larger: a
+/// cancel takes longer.
+const TRIANGLES_AT_ONCE: usize = 1024;
+/// Corners of a polygon that count as one step of work.
+const STEP_CORNERS: usize = 4;
+
+/// What became of a polygon.
+enum Outcome {
+    /// One face, with a corner so far off the plane of the others, in lattice units.
+    Whole {
+        off: f64,
+    },
+    /// Triangles; of a convex polygon, a corner is so far off the plane of the others.
+    Triangulated {
+        crosses_itself: bool,
+        off: f64,
+    },
+    Dropped,
+}
+
+/// Makes faces of polygons, one after the other.
+#[derive(Debug, Default)]
+pub(super) struct Builder {
+    pub(super) faces: Faces,
+    /// The corners of the current polygon on the lattice, each with its number. Of equal corners in
+    /// a row one is kept.
+    pub(super) kept: Vec<([f64; 3], u32)>,
+    /// How many corners it was given with.
+    given: usize,
+    /// For each kept corner, how many corners the straight run of the outline that begins there
+    /// passes or ends at; at least 1. Empty if the polygon is not triangulated.
+    pub(super) runs: Vec<u32>,
+}
+
+impl Builder {
+    pub(super) fn new(ground: &Ground) -> Self {
+        let Ground { lattice, tolerance, .. } = *ground;
+        let faces = Faces { lattice, tolerance, ..Faces::default() };
+        Self { faces, ..Self::default() }
+    }
+
+    /// Adds a range of the input's polygons.
+    pub(super) fn add_all(
+        &mut self,
+        ground: &Ground,
+        input: &Collected,
+        polygons: Range<usize>,
+        outlines: &mut Outlines,
+        listener: &dyn Listener,
+    ) -> Result<Preparation, Error> {
+        let mut report = Preparation::default();
+        reserve(&mut outlines.seen, polygons.len())?;
+        for polygon in polygons {
+            report.polygons += 1;
+            match self.add(polygon, input.polygon(polygon), listener)? {
+                Outcome::Whole { off } => {
+                    report.flattened += usize::from(off > 0.0);
+                    report.flattened_by = report.flattened_by.max(off);
+                }
+                Outcome::Triangulated { crosses_itself, off } => {
+                    report.triangulated += 1;
+                    report.crossing += usize::from(crosses_itself);
+                    if off > 0.0 && off <= ground.rounding {
+                        report.bent += 1;
+                        report.bent_by = report.bent_by.max(off);
+                    }
+                }
+                Outcome::Dropped => {
+                    report.dropped += 1;
+                    continue;
+                }
+            }
+            outlines.add(polygon, self.kept.iter().map(|&(corner, _)| corner));
+        }
+        Ok(report)
+    }
+
+    fn add(
+        &mut self,
+        polygon: usize,
+        points: &[DVec3],
+        listener: &dyn Listener,
+    ) -> Result<Outcome, Error> {
+        listener.work(points.len() / STEP_CORNERS)?;
+        self.keep_distinct(points)?;
+        let Some(([second, third], plane)) = self.widest_triangle() else {
+            return Ok(Outcome::Dropped);
+        };
+        if self.kept.len() == 3 {
+            self.push(polygon, 0..3, Frame::TRIANGLE)?;
+            return Ok(Outcome::Whole { off: 0.0 });
+        }
+        let convex = self.is_convex(&plane);
+        let off = if convex { self.off_plane(&plane, [0, second, third]) } else { 0.0 };
+        if convex && self.kept.len() <= Frame::MAX_CORNERS && off <= self.faces.tolerance {
+            let axis = (off > 0.0).then(|| plane.main_axis());
+            self.push(polygon, 0..self.kept.len(), Frame::new(second, third, axis))?;
+            if let Some(axis) = axis {
+                reserve(&mut self.faces.moved, self.kept.len())?;
+                self.faces.flatten_last(axis, &plane);
+            }
+            return Ok(Outcome::Whole { off });
+        }
+        let crosses_itself = self.triangulate(polygon, convex, &plane, listener)?;
+        Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
+            crosses_itself,
+            off,
+        }))
+    }
+
+    /// Adds triangles in place of a polygon; tells whether it crosses itself, or nothing if there
+    /// are no triangles with area.
+    fn triangulate(
+        &mut self,
+        polygon: usize,
+        convex: bool,
+        plane: &Plane,
+        listener: &dyn Listener,
+    ) -> Result<Option<bool>, Error> {
+        let mut corners: Vec<[f64; 3]> = Vec::new();
+        reserve(&mut corners, self.kept.len())?;
+        corners.extend(self.kept.iter().map(|&(point, _)| point));
+        let found = if convex {
+            triangulate::convex(&corners)
+        } else {
+            triangulate::any(&corners, plane, &|steps| listener.work(steps))?
+        };
+        self.find_runs()?;
+        let before = self.faces.len();
+        for (index, triple) in found.triangles.iter().enumerate() {
+            if index % TRIANGLES_AT_ONCE == 0 {
+                listener.work(TRIANGLES_AT_ONCE)?;
+            }
+            let triple = triple.map(|k| k as usize);
+            let [p, q, r] = triple.map(|k| corners[k]);
+            if cross(p, q, r) != [0; 3] {
+                self.push(polygon, triple.into_iter(), Frame::TRIANGLE)?;
+            }
+        }
+        Ok((self.faces.len() > before).then_some(found.crosses_itself))
+    }
+
+    pub(super) fn keep_distinct(&mut self, points: &[DVec3]) -> Result<(), Error> {
+        self.kept.clear();
+        self.runs.clear();
+        self.given = points.len();
+        reserve(&mut self.kept, points.len())?;
+        for (number, &point) in points.iter().enumerate() {
+            let point = self.faces.lattice.snap(point);
+            match self.kept.last_mut() {
+                // Of equal corners the last is kept: its edge is the one that leads on from here.
+                Some((last, kept)) if *last == point => *kept = number as u32,
+                _ => self.kept.push((point, number as u32)),
+            }
+        }
+        while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
+            self.kept.pop();
+        }
+        Ok(())
+    }
+
+    /// Adds a face made of some of the polygon's kept corners, in order around it.
+    fn push(
+        &mut self,
+        polygon: usize,
+        kept: impl ExactSizeIterator<Item = usize> + Clone,
+        frame: Frame,
+    ) -> Result<(), Error> {
+        let faces = &mut self.faces;
+        let start = faces.corners.len();
+        if start + kept.len() >= MAX_LABELS {
+            return Err(Error::too_many_corners(MAX_LABELS));
+        }
+        reserve(&mut faces.corners, kept.len())?;
+        reserve(&mut faces.faces, 1)?;
+        faces.corners.extend(kept.clone().map(|k| self.kept[k].0));
+        faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
+        // Most polygons become one face with the same corners, which needs no numbers.
+        if frame == Frame::TRIANGLE || self.kept.len() < self.given {
+            self.number_last(kept)?;
+        }
+        Ok(())
+    }
+
+    /// Numbers the corners of the last face, if they are not the first of the polygon in order, with
+    /// its edges for edges.
+    fn number_last(
+        &mut self,
+        kept: impl ExactSizeIterator<Item = usize> + Clone,
+    ) -> Result<(), Error> {
+        let Some(first) = kept.clone().next() else { return Ok(()) };
+        let number = |(from, to): (usize, usize)| {
+            self.kept[from].1 | if self.is_outline(from, to) { 0 } else { INNER }
+        };
+        let ends = kept.clone().skip(1).chain([first]);
+        let numbers = kept.clone().zip(ends).map(number);
+        if (0..).zip(numbers.clone()).all(|(k, number)| number == k) {
+            return Ok(());
+        }
+        let numbers: SmallVec<[u32; 8]> = numbers.collect();
+        let faces = &mut self.faces;
+        reserve(&mut faces.numbered, 1)?;
+        reserve(&mut faces.numbers, kept.len())?;
+        faces.numbered.push((faces.faces.len() as u32 - 1, faces.numbers.len() as u32));
+        faces.numbers.extend(numbers);
+        Ok(())
+    }
+}

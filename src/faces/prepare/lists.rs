@@ -1,0 +1,48 @@
+//! The lists of faces: emptied, put together, cut to size.
+
+use crate::Error;
+use crate::exact::faces::Face;
+use crate::exact::{Faces, MAX_LABELS};
+use crate::memory::reserve;
+
+impl Faces {
+    pub(super) fn clear(&mut self) {
+        self.corners.clear();
+        self.numbers.clear();
+        self.numbered.clear();
+        self.faces.clear();
+        self.moved.clear();
+    }
+
+    /// Gives memory back that is not needed.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.corners.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.numbered.shrink_to_fit();
+        self.faces.shrink_to_fit();
+        self.moved.shrink_to_fit();
+    }
+
+    /// Adds the faces of the polygons that follow.
+    pub(super) fn append(&mut self, next: Self) -> Result<(), Error> {
+        let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
+        if corners + next.corners.len() >= MAX_LABELS {
+            return Err(Error::too_many_corners(MAX_LABELS));
+        }
+        let first = self.faces.len() as u32;
+        reserve(&mut self.numbered, next.numbered.len())?;
+        reserve(&mut self.numbers, next.numbers.len())?;
+        let numbered = next.numbered.iter();
+        self.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
+        self.numbers.extend(next.numbers);
+        reserve(&mut self.corners, next.corners.len())?;
+        self.corners.extend(next.corners);
+        reserve(&mut self.faces, next.faces.len())?;
+        let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
+        self.faces.extend(next.faces.into_iter().map(moved));
+        reserve(&mut self.moved, next.moved.len())?;
+        let moved = next.moved.into_iter();
+        self.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
+        Ok(())
+    }
+}
