@@ -3,7 +3,7 @@
 use std::mem::take;
 use std::ops::ControlFlow;
 
-use super::assemble::assemble;
+use super::assemble::{Output, assemble};
 use super::builder::{Memory, Shared};
 use super::choose::{Normals, Tuning};
 use super::job::Job;
@@ -94,16 +94,25 @@ fn tree<P: Polygon>(
     polygons: impl IntoIterator<Item = P>,
     watch: &Watch<'_>,
 ) -> Result<BspTree, Error> {
-    let mut faces = Faces::default();
-    let mut preparer = Preparer::default();
-    preparer.hold(options.bounds)?;
-    let preparation =
-        preparer.prepare(&mut faces, polygons, options.tolerance, options.max_fragments, watch)?;
-    faces.shrink_to_fit();
+    let (faces, preparation) = prepared(options, polygons, watch)?;
     watch.expect(faces.len())?;
     let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
     watch.end()?;
     Ok(BspTree::new(faces, preparation, parts))
+}
+
+/// Prepares polygons. What that needs is freed before the faces are divided.
+fn prepared<P: Polygon>(
+    options: &BuildOptions,
+    polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
+) -> Result<(Faces, Preparation), Error> {
+    let (mut faces, mut preparer) = (Faces::default(), Preparer::default());
+    preparer.hold(options.bounds)?;
+    let preparation =
+        preparer.prepare(&mut faces, polygons, options.tolerance, options.max_fragments, watch)?;
+    faces.shrink_to_fit();
+    Ok((faces, preparation))
 }
 
 /// What trees are built in, kept for the next.
@@ -140,7 +149,7 @@ impl Workshop {
         let tuning = &Tuning::DEFAULT;
         normals.fill(&faces);
         let shared = Shared::new(Exact, &faces, normals, options, tuning, &watch)?;
-        let parts = divide_all(&shared.with_positions(), &faces, memory)?;
+        let parts = assemble(divide_all(&shared.with_positions(), &faces, memory)?)?;
         *nodes = tree.refill(faces, preparation, parts, sizes);
         Ok(())
     }
@@ -197,7 +206,9 @@ fn watched_parts<K: Kernel>(
 ) -> Result<Parts<K::Stored>, Error> {
     let normals = Normals::of(faces);
     let shared = Shared::new(kernel, faces, &normals, options, tuning, watch)?;
-    divide_all(&shared, faces, &mut Memory::default())
+    // The memory is freed before the outputs are copied.
+    let outputs = divide_all(&shared, faces, &mut Memory::default())?;
+    assemble(outputs)
 }
 
 /// Divides the set of all faces, down to the leaves.
@@ -205,11 +216,11 @@ fn divide_all<K: Kernel>(
     shared: &Shared<'_, K>,
     faces: &Faces,
     memory: &mut Memory<K>,
-) -> Result<Parts<K::Stored>, Error> {
+) -> Result<Vec<Output<K::Stored>>, Error> {
     let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
     pieces.clear();
     arena.clear();
     reserve(&mut pieces, faces.len())?;
     pieces.extend((0..faces.len() as u32).map(|face| Live::whole(faces, face)));
-    assemble(jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)?)
+    jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
 }
