@@ -13,7 +13,8 @@ use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
-use support::{Table, check, print_head, random_quads, scene, small_triangles};
+use support::pages::Page;
+use support::{SEED, Table, check, print_head, random_quads, scene, small_triangles};
 
 const BUILTIN: [&str; 13] = [
     "crossing:100",
@@ -63,9 +64,9 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 42] = changes! {
-    table: "0" => 0, "½" => 16;
-    probes: "0" => 0, "×2" => 8;
+const CHANGES: [Change; 40] = changes! {
+    table: "32" => 32;
+    probes: "4" => 4;
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
@@ -81,6 +82,12 @@ const CHANGES: [Change; 42] = changes! {
     groups_per_box: "½" => 32, "×2" => 128, "all" => 1 << 30;
 };
 
+/// Those that frames have of their own.
+const OF_FRAMES: [Change; 4] = changes! {
+    table: "0" => 0, "½" => 16;
+    probes: "0" => 0, "×2" => 8;
+};
+
 fn main() {
     print_head("Ablation of choosing", "cargo bench -p binspace-benches --bench ablation");
     let scenes = scenes();
@@ -91,12 +98,18 @@ fn main() {
     println!(
         "- fragments are exact; times are off by some 5 % on a machine at rest, by more on others"
     );
+    ablate("Each field changed", &Tuning::DEFAULT, &CHANGES, &scenes);
+    let title = "Each field that frames have of their own changed, over pages of layers";
+    ablate(title, &Tuning::FRAMES, &OF_FRAMES, &pages());
+}
+
+fn ablate(title: &str, base: &Tuning, changes: &[Change], scenes: &[Scene]) {
     let columns = ["field", "change", "fragments", "most", "on", "time", "longest", "on"];
-    let table = Table::new("Each field changed", &columns);
-    for &(field, how, change) in &CHANGES {
-        let mut tuning = Tuning::DEFAULT;
+    let table = Table::new(title, &columns);
+    for &(field, how, change) in changes {
+        let mut tuning = *base;
         change(&mut tuning);
-        let rows: Vec<_> = scenes.iter().map(|scene| compare(scene, &tuning)).collect();
+        let rows: Vec<_> = scenes.iter().map(|scene| compare(scene, [base, &tuning])).collect();
         let mean = |of: fn(&[f64; 2]) -> f64| {
             (rows.iter().map(|row| of(row).ln()).sum::<f64>() / rows.len() as f64).exp()
         };
@@ -122,8 +135,8 @@ fn main() {
     }
 }
 
-/// The fragments and the time with another tuning, each divided by that with the default.
-fn compare(scene: &Scene, tuning: &Tuning) -> [f64; 2] {
+/// The fragments and the time with the second tuning, each divided by that with the first.
+fn compare(scene: &Scene, tunings: [&Tuning; 2]) -> [f64; 2] {
     let mut shortest = [Duration::MAX; 2];
     let mut fragments = [0; 2];
     let (mut spent, mut builds) = (Duration::ZERO, 0);
@@ -131,10 +144,10 @@ fn compare(scene: &Scene, tuning: &Tuning) -> [f64; 2] {
         for turn in 0..2 {
             // The one that comes first finds other caches.
             let i = (turn + builds) % 2;
-            let tuning = [&Tuning::DEFAULT, tuning][i];
             let start = Instant::now();
             let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");
-            let tree = tree_of(&BuildOptions::DEFAULT, tuning, faces, preparation).expect("a tree");
+            let tree =
+                tree_of(&BuildOptions::DEFAULT, tunings[i], faces, preparation).expect("a tree");
             let time = start.elapsed();
             shortest[i] = shortest[i].min(time);
             fragments[i] = tree.stats().fragments;
@@ -155,6 +168,19 @@ fn scenes() -> Vec<Scene> {
     scenes.extend([random_quads(200), random_quads(300), small_triangles(5000)]);
     scenes.extend(FILES.into_iter().filter_map(scene));
     scenes
+}
+
+/// The pages of the bench of frames.
+fn pages() -> Vec<Scene> {
+    let counts = [12, 30, 100, 200];
+    let page = |(page, count): (Page, usize)| {
+        let mut scene = Scene::new(format!("{}:{count}", page.name()), DVec3::Y);
+        for layer in page.layers(count, SEED) {
+            scene.push(layer.outline(), 0);
+        }
+        scene
+    };
+    Page::ALL.into_iter().flat_map(|page| counts.map(|count| (page, count))).map(page).collect()
 }
 
 /// A copy of a scene in which nothing is perpendicular to an axis.

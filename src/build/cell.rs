@@ -57,7 +57,7 @@ impl CellBuilder {
         let (watch, options) = (Watch::default(), BuildOptions::DEFAULT);
         // The budget counts all faces, the tree's among them.
         let options = options.with_max_fragments(MOST_FRAGMENTS);
-        let shared = Shared::new(Exact, faces, normals, &options, &Tuning::DEFAULT, &watch)?;
+        let shared = Shared::new(Exact, faces, normals, &options, &Tuning::FRAMES, &watch)?;
         assemble(jobs::run(&shared.with_positions(), job, memory)?)
     }
 

@@ -146,7 +146,7 @@ impl Workshop {
             options.max_fragments,
             &watch,
         )?;
-        let tuning = &Tuning::DEFAULT;
+        let tuning = &Tuning::FRAMES;
         normals.fill(&faces);
         let shared = Shared::new(Exact, &faces, normals, options, tuning, &watch)?;
         let parts = assemble(divide_all(&shared.with_positions(), &faces, memory)?)?;

@@ -11,9 +11,9 @@ use crate::tree::BspTree;
 /// Builds a tree for every frame, in memory that it keeps.
 ///
 /// Take it where polygons move every frame and each tree is drawn once or twice, as in a compositor
-/// of layers. Its trees have the same fragments as those of [`BspTree::build`], with the same numbers
-/// and orders, but are made for one view: the rounded positions of cut vertices are stored rather
-/// than computed at each reading, and the layout from which
+/// of layers. Its trees are as exact as those of [`BspTree::build`], but made for one view: planes of
+/// small sets are chosen in less time, so that there may be other fragments; the rounded positions of
+/// cut vertices are stored rather than computed at each reading; and the layout from which
 /// [`back_to_front_into`](BspTree::back_to_front_into) writes order after order is left out, so that
 /// an order takes a few times longer; so it does for a clone of such a tree. Once its lists have grown
 /// to the size of a scene, a frame of few layers allocates next to nothing. They do not shrink again:

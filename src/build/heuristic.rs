@@ -54,15 +54,15 @@ pub enum Heuristic {
     /// behind, where a polygon that the plane cuts counts on both. The plane of a large polygon gets
     /// a reward, because a wall or floor that is not taken early is cut again and again.
     ///
-    /// | set | how it is divided |
-    /// |---|---|
-    /// | up to 32 polygons | from a table of where each lies against the plane of each: by an own plane that cuts nothing, else by a free plane that cuts nothing, else by the best own plane |
-    /// | up to 255 | by an own plane that cuts nothing and divides it evenly, if one of four does; else by a free plane that cuts nothing; else by the best, where no plane that cuts is preferred to one that does not |
-    /// | more | by a free plane that cuts nothing, else by the best |
+    /// A set is divided by a free plane that cuts nothing, else by the best. Of up to 255 polygons, no
+    /// plane that cuts is preferred to one that does not; below 64, no free plane that cuts is tried.
+    /// Where only planes at the rim of a set cut nothing, as in a convex body, the polygons at the rim
+    /// are taken off one after the other in a single search.
     ///
-    /// Sets below 64 try no free plane that cuts. Where only planes at the rim of a set cut nothing,
-    /// as in a convex body, the polygons at the rim are taken off one after the other in a single
-    /// search.
+    /// A [`FrameBuilder`](crate::FrameBuilder) tries the planes of polygons first, which takes less
+    /// time: in sets of up to 255 polygons, those of four of them, if one cuts nothing and divides the
+    /// set evenly; in sets of up to 32, all of them, from a table of where each polygon lies against
+    /// the plane of each.
     #[default]
     Auto,
 }

@@ -1,7 +1,7 @@
 //! Scenes of whole numbers: what the judge knows, and what the library is given.
 
 use binspace::glam::DVec3;
-use binspace::{BuildOptions, Error, Heuristic};
+use binspace::{BspTree, BuildOptions, Error, FrameBuilder, Heuristic};
 
 use crate::support::dice::Dice;
 
@@ -38,13 +38,25 @@ impl Scene {
         &self,
         heuristic: Heuristic,
         max_fragments: usize,
-    ) -> Result<binspace::BspTree, Error> {
-        let options = BuildOptions::DEFAULT
+    ) -> Result<BspTree, Error> {
+        self.options(heuristic, max_fragments).build(self.corners())
+    }
+
+    /// The tree of a frame, whose planes are chosen in another way.
+    pub(crate) fn frame(&self, max_fragments: usize) -> Result<BspTree, Error> {
+        let options = self.options(Heuristic::Auto, max_fragments);
+        FrameBuilder::new(options).build(self.corners()).cloned()
+    }
+
+    fn options(&self, heuristic: Heuristic, max_fragments: usize) -> BuildOptions {
+        BuildOptions::DEFAULT
             .with_heuristic(heuristic)
             .with_tolerance(self.tolerance)
-            .with_max_fragments(max_fragments);
-        let corners = |polygon: &Vec<Point>| polygon.iter().map(|&p| world(p)).collect::<Vec<_>>();
-        options.build(self.polygons.iter().map(corners))
+            .with_max_fragments(max_fragments)
+    }
+
+    fn corners(&self) -> impl Iterator<Item = Vec<DVec3>> {
+        self.polygons.iter().map(|polygon| polygon.iter().map(|&p| world(p)).collect())
     }
 
     /// Turns polygons that face other ways into any order: some start at another corner, some run

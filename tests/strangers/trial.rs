@@ -37,7 +37,14 @@ impl Trial<'_> {
         heuristic: Heuristic,
     ) -> Result<Score, String> {
         let scene = targets.scene;
-        match scene.build(heuristic, self.most * scene.len()) {
+        let most = self.most * scene.len();
+        if heuristic == Heuristic::Auto
+            && let Ok(frame) = scene.frame(most)
+        {
+            let judged = Court::new(targets, &frame).judge(shots);
+            judged.map_err(|what| format!("of a frame: {what}"))?;
+        }
+        match scene.build(heuristic, most) {
             Ok(tree) => Court::new(targets, &tree).judge(shots),
             Err(error) if error.is_over_budget() => Ok(Score { given_up: 1, ..Score::default() }),
             Err(error) => Err(error.to_string()),

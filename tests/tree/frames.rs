@@ -1,7 +1,8 @@
 //! One builder, scene after scene, against trees that are built alone.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Viewpoint};
+use binspace::internals::{Faces, Tuning, tree_of};
+use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Polygon, Viewpoint};
 use proptest::prelude::*;
 
 use crate::support::dice::Dice;
@@ -28,6 +29,16 @@ fn assert_same(one: &BspTree, other: &BspTree, viewpoint: Viewpoint) {
     assert_eq!(order(one), order(other));
 }
 
+/// The tree of a frame, built alone and to stay.
+fn alone<P: Polygon>(
+    options: &BuildOptions,
+    tolerance: Option<f64>,
+    polygons: impl IntoIterator<Item = P>,
+) -> Result<BspTree, Error> {
+    let (faces, preparation) = Faces::new(polygons, tolerance)?;
+    tree_of(options, &Tuning::FRAMES, faces, preparation)
+}
+
 #[test]
 fn a_frame_has_the_tree_that_is_built_alone() {
     let scenes = (prop::collection::vec(hard::scene(), 1..5), heuristic(), any::<u64>());
@@ -38,8 +49,8 @@ fn a_frame_has_the_tree_that_is_built_alone() {
             let options = options(&scenes[0], by);
             let mut builder = FrameBuilder::new(options);
             for scene in &scenes {
-                let alone =
-                    options.build(&scene.polygons).map_err(|error| fail(error.to_string()))?;
+                let alone = alone(&options, scenes[0].tolerance(), &scene.polygons)
+                    .map_err(|error| fail(error.to_string()))?;
                 let tree =
                     builder.build(&scene.polygons).map_err(|error| fail(error.to_string()))?;
                 tree.validate().map_err(|invalid| fail(invalid.to_string()))?;
@@ -84,7 +95,7 @@ fn after_an_error_the_tree_is_empty_and_the_builder_goes_on() -> Result<(), Erro
 fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     for scene in [binspace::scene::terrain(9000, 1), binspace::scene::random_triangles(300, 2)] {
-        let alone = BspTree::build(scene.polygons())?;
+        let alone = alone(&BuildOptions::DEFAULT, None, scene.polygons())?;
         let tree = builder.build(scene.polygons())?;
         assert_same(tree, &alone, Viewpoint::eye([0.3, 0.2, 4.0]));
         tree.validate()?;
@@ -108,18 +119,16 @@ fn crossing_cards_of_every_small_number_keep_their_budgets()
         .collect();
     for count in (2..40).filter(|count| count % 6 < 2 || (30..35).contains(count)) {
         let cards = &cards[..count];
-        let tree = BspTree::build(cards)?;
+        let options = BuildOptions::DEFAULT;
+        let build = |options| FrameBuilder::new(options).build(cards).cloned();
+        let tree = build(options)?;
         tree.validate()?;
         let (pieces, depth) = (tree.len(), tree.stats().depth_max);
-        let options = BuildOptions::DEFAULT;
-        assert_eq!(
-            options.with_max_fragments(pieces).with_max_depth(depth).build(cards)?.len(),
-            pieces
-        );
-        assert!(
-            options.with_max_fragments(pieces - 1).build(cards).is_err_and(|e| e.is_over_budget())
-        );
-        assert!(options.with_max_depth(depth - 1).build(cards).is_err_and(|e| e.is_over_budget()));
+        let enough = options.with_max_fragments(pieces).with_max_depth(depth);
+        assert_eq!(build(enough)?.len(), pieces);
+        for less in [options.with_max_fragments(pieces - 1), options.with_max_depth(depth - 1)] {
+            assert!(build(less).is_err_and(|error| error.is_over_budget()));
+        }
         if count > 25 {
             assert!(pieces > 300, "{pieces} pieces of {count}");
         }

@@ -4,6 +4,8 @@ use super::super::dice::Dice;
 use super::super::rays::Rays;
 use super::super::{decode, judge, orders, views};
 use arbitrary::{Result, Unstructured};
+use binspace::glam::DVec3;
+use binspace::{BspTree, FrameBuilder};
 
 /// A scene of at most twelve polygons: fragments by exact rationals, orders by rays.
 pub(crate) fn run(data: &[u8]) {
@@ -25,19 +27,30 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
         }
     };
     assert_eq!(infinite, None, "a coordinate that is no number passed");
-    if let Err(what) = judge::judge(&tree, &polygons) {
-        panic!("{what}: {options:?} {polygons:?}");
+    let mut frames = FrameBuilder::new(options);
+    let frame = frames.build(&polygons).expect("what the tree was built of");
+    for tree in [&tree, frame] {
+        if let Err(what) = check(tree, &polygons, &mut Dice(seed)) {
+            panic!("{what}: {options:?} {polygons:?}");
+        }
     }
+    Ok(())
+}
+
+fn check(
+    tree: &BspTree,
+    polygons: &[Vec<DVec3>],
+    dice: &mut Dice,
+) -> std::result::Result<(), String> {
+    judge::judge(tree, polygons)?;
     if tree.is_empty() {
         return Ok(());
     }
-    let (mut dice, mut rays) = (Dice(seed), Rays::new(&tree));
+    let mut rays = Rays::new(tree);
     for _ in 0..4 {
-        let view = views::some_view(tree.faces(), &rays, &mut dice);
-        let order = orders::check(&tree, view.viewpoint);
-        if let Err(what) = order.and_then(|()| rays.check(&view, 6, &mut dice)) {
-            panic!("{what}: {options:?} {polygons:?}");
-        }
+        let view = views::some_view(tree.faces(), &rays, dice);
+        orders::check(tree, view.viewpoint)?;
+        rays.check(&view, 6, dice)?;
     }
     Ok(())
 }
