@@ -5,14 +5,15 @@
 mod rooms;
 
 use binspace::glam::DVec3;
+use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, Culling, Frustum, Sides};
+use binspace::{Bounds, BspTree, CoverageMask, Culling, Flow, Frustum, Part, Sides};
 use rooms::{HEIGHT, ROOM};
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, time};
 
 /// The rooms on a side of each level.
-const SIDES: [usize; 4] = [40, 100, 200, 395];
+const SIDES: [usize; 4] = [40, 100, 200, 475];
 
 /// Eyes of a level.
 const EYES: usize = 8;
@@ -34,6 +35,7 @@ pub(crate) fn run() {
             "fronts in view",
         ],
     );
+    let mut steps = Vec::new();
     for side in SIDES {
         let level: Vec<_> = rooms::rooms(side).into_iter().map(|(_, quad)| quad).collect();
         let tree = BspTree::build(&level).expect("memory");
@@ -43,6 +45,9 @@ pub(crate) fn run() {
         let (mut share, mut times) = (0.0, [Duration::ZERO; 3]);
         for k in 0..EYES {
             let camera = camera(side, k);
+            if k == 0 {
+                steps.push(what_is_left(&tree, &bounds, &camera, side));
+            }
             let (kept, measured) = measure(&tree, &bounds, &camera);
             share += kept as f64 / tree.len() as f64 / EYES as f64;
             times.iter_mut().zip(measured).for_each(|(sum, time)| *sum += time / EYES as u32);
@@ -63,6 +68,60 @@ pub(crate) fn run() {
             time(times[2]),
         ]);
     }
+    let table = Table::new(
+        "Fragments left by each step of culling, from one eye, one thread",
+        &["rooms", "all", "in view", "time", "fronts of these", "time", "not hidden", "time"],
+    );
+    steps.iter().for_each(|row| table.row(row));
+}
+
+/// The size of the picture, in pixels.
+const PICTURE: [u32; 2] = [320, 180];
+
+/// How many fragments are left in view, of which the front is seen, and that own a pixel, each with
+/// the time that finding them took.
+fn what_is_left(tree: &BspTree, bounds: &Bounds, camera: &Camera, side: usize) -> [String; 8] {
+    let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
+    let culling = Culling::new(bounds).with_frustum(frustum.clone());
+    let fronts = culling.clone().with_sides(Sides::Front);
+    let mut lists = [vec![], vec![]];
+    let mut times = [Duration::MAX; 3];
+    for _ in 0..5 {
+        for ((list, culling), shortest) in lists.iter_mut().zip([&culling, &fronts]).zip(&mut times)
+        {
+            let begin = Instant::now();
+            tree.culled_back_to_front_into(viewpoint, culling, list);
+            *shortest = begin.elapsed().min(*shortest);
+        }
+    }
+    let begin = Instant::now();
+    let rays = Rays::new(camera, tree.faces()).expect("a picture");
+    let (mut mask, mut seen) = (CoverageMask::new(tree, &rays, 1), 0);
+    let _ = tree.walk_front_to_back(viewpoint, |part| {
+        match part {
+            Part::Subtree(node) => {
+                let region = bounds.of(node);
+                if !frustum.meets(region) || mask.hides(region) {
+                    return Flow::Skip;
+                }
+            }
+            Part::Fragment(fragment) => seen += usize::from(mask.cover(&fragment)),
+        }
+        if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
+    });
+    times[2] = begin.elapsed();
+    let [in_view, of_fronts] = lists.map(|list| list.len());
+    assert!(seen <= in_view && of_fronts <= in_view && seen > 0);
+    [
+        (side * side).to_string(),
+        tree.len().to_string(),
+        in_view.to_string(),
+        time(times[0]),
+        of_fronts.to_string(),
+        time(times[1]),
+        seen.to_string(),
+        time(times[2]),
+    ]
 }
 
 /// An eye in a room, and a direction of view, with such an angle that about a hundredth is in view.
@@ -73,7 +132,7 @@ fn camera(side: usize, k: usize) -> Camera {
     // Looks outwards: to there it is 0.3 sides, and a wedge of 0.115 radians is about a
     // hundredth of the square.
     let target = eye + (eye - middle).with_z(0.0);
-    Camera::perspective(eye, target, DVec3::Z, 0.065, [320, 180]).expect("a camera")
+    Camera::perspective(eye, target, DVec3::Z, 0.065, PICTURE).expect("a camera")
 }
 
 /// How many fragments are in view; the shortest times of the whole order, of those in view, and of
