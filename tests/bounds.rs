@@ -304,3 +304,24 @@ fn without_a_tolerance_one_step_off_a_plane_is_off_it() {
     }
     assert_eq!(decided, 6);
 }
+
+/// The same of a plane perpendicular to an axis, from which distances are whole numbers.
+#[test]
+fn a_corner_beyond_the_tolerance_of_an_axis_s_plane_by_less_than_a_step_is_beyond_it() {
+    let flat = [[0, 0, 0], [1, 0, 0], [0, 1, 0]];
+    for (value, beyond) in [(2, false), (3, true)] {
+        let across = [[0, 0, value], [100, 0, -value], [0, 9000, 0]];
+        let above = [[0, 0, value], [0, 100, 0], [9000, 0, 0]];
+        let below = above.map(|[x, y, z]| [x, y, -z]);
+        let scene = [[[-EDGE; 3], [EDGE; 3], [EDGE, -EDGE, 0]], flat, across, above, below];
+        let scene: Vec<_> = scene.iter().map(floats).collect();
+        let (faces, _) = Faces::new(&scene, Some(2.5)).expect("finite");
+        assert_eq!(faces.tolerance(), 2.5);
+        let corner = faces.corner_range(1).start as u32;
+        let splitter = Exact.splitter(&faces, PlaneId::axis(2, corner));
+        let side = |face| Exact.classify(&faces, &splitter, Piece { face, cut: None });
+        let expected =
+            if beyond { [Side::Spanning, Side::Front, Side::Back] } else { [Side::Coplanar; 3] };
+        assert_eq!([2, 3, 4].map(side), expected, "{value} off");
+    }
+}

@@ -4,5 +4,6 @@
 mod support;
 
 mod damage;
+mod refused;
 mod same;
 mod scenes;

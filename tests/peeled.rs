@@ -1,0 +1,52 @@
+//! Trees of convex bodies, which are taken apart piece by piece: valid, uncut, in input order on
+//! each plane, and within their budgets.
+
+use binspace::glam::{DQuat, DVec3, EulerRot};
+use binspace::{BspTree, BuildOptions};
+
+/// A turned cube, each side a grid of squares that face one way, in no order.
+fn cube(side: usize, inwards: bool) -> Vec<[DVec3; 4]> {
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+    let mut squares = Vec::new();
+    for (axis, end) in (0..3).flat_map(|axis| [(axis, -1.0), (axis, 1.0)]) {
+        for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+            let corner = |u: usize, v: usize| {
+                let at = |k: usize| 2.0 * k as f64 / side as f64 - 1.0;
+                let mut p = [end, at(i + u), at(j + v)];
+                p.rotate_right(axis);
+                turn * DVec3::from_array(p)
+            };
+            let mut square = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            if (end > 0.0) == inwards {
+                square.reverse();
+            }
+            squares.push(square);
+        }
+    }
+    let n = squares.len();
+    let step = (n * 3 / 8..n).find(|step| (2..=*step).all(|d| n % d > 0 || step % d > 0));
+    (0..n).map(|k| squares[k * step.expect("a step") % n]).collect()
+}
+
+#[test]
+fn convex_bodies_are_taken_apart_in_input_order_within_their_depth() {
+    let (mut shared, mut single) = (0, 0);
+    for (side, inwards) in [1, 2, 3, 5, 7, 8, 12].into_iter().flat_map(|n| [(n, false), (n, true)])
+    {
+        let cube = cube(side, inwards);
+        for count in [cube.len(), cube.len() - 1, cube.len() / 2 + 1] {
+            let polygons = &cube[..count];
+            let options = BuildOptions::DEFAULT.with_tolerance(1e-9);
+            let tree: BspTree = options.build(polygons).expect("within budget");
+            assert_eq!(tree.validate(), Ok(()), "{count} of {side}");
+            assert_eq!(tree.len(), count, "{side}");
+            let depth = tree.stats().depth_max;
+            assert!(options.with_max_depth(depth).build(polygons).is_ok());
+            let less = options.with_max_depth(depth - 1).build(polygons);
+            assert!(less.is_err_and(|error| error.is_over_budget()), "{count} of {side}");
+            shared += tree.nodes().filter(|node| node.on().len() > 2).count();
+            single += tree.nodes().filter(|node| node.on().len() == 1).count();
+        }
+    }
+    assert!(shared > 50 && single > 10, "{shared} {single}");
+}

@@ -1,0 +1,91 @@
+//! Each check of a file of a tree: a file that is wrong in that alone is refused, and says so.
+
+use crate::support::saved::{bytes, seal};
+use binspace::{BspTree, BuildOptions};
+
+/// Where the parts of the file are; `BspTree::write` describes the layout.
+const TOLERANCE: usize = 72;
+const FACES: usize = 88;
+const CORNERS: usize = FACES + 2 * 12;
+const COUNTS: usize = CORNERS + 8 * 24 + 3 * 8;
+const NODES: usize = COUNTS + 5 * 8 + 2 * 8 + 8;
+const FRAGMENTS: usize = NODES + 8 + 8;
+const VERTICES: usize = FRAGMENTS + 3 * 8;
+
+/// Two squares that cross: the first is whole, the second is cut in two.
+fn file() -> Vec<u8> {
+    let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let upright = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
+    let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build([flat, upright]).unwrap();
+    let file = bytes(&tree);
+    assert_eq!(file.len(), VERTICES + 8 * 12 + 4, "the layout");
+    file
+}
+
+fn get(file: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(file[at..at + 4].try_into().unwrap())
+}
+
+fn put(file: &mut [u8], at: usize, value: u32) {
+    file[at..at + 4].copy_from_slice(&value.to_le_bytes());
+}
+
+fn corner(k: usize) -> usize {
+    CORNERS + 24 * k
+}
+
+/// The first vertex whose line to the next is a cut, or an edge.
+fn vertex(file: &[u8], is_cut: bool) -> usize {
+    let mut places = (0..8).map(|vertex| VERTICES + 12 * vertex);
+    places.find(|&at| (get(file, at + 8) >> 28 & 7 != 0) == is_cut).unwrap()
+}
+
+#[test]
+fn what_is_wrong_in_one_thing_is_refused_for_that() {
+    let faults: [(&str, fn(&mut Vec<u8>)); 12] = [
+        ("its tolerance is negative", |file| {
+            file[TOLERANCE..TOLERANCE + 8].copy_from_slice(&(-1f64).to_le_bytes());
+        }),
+        ("comes before one of an earlier polygon", |file| {
+            put(file, FACES, 1);
+            put(file, FACES + 12, 0);
+        }),
+        ("is not convex", |file| {
+            let second = file[corner(1)..corner(2)].to_vec();
+            file.copy_within(corner(2)..corner(3), corner(1));
+            file[corner(2)..corner(3)].copy_from_slice(&second);
+        }),
+        ("is not planar", |file| file[corner(1) + 16] ^= 4),
+        ("has no area", |file| {
+            file.copy_within(corner(0)..corner(1), corner(2));
+            file.copy_within(corner(0)..corner(1), corner(3));
+        }),
+        ("are impossible", |file| put(file, COUNTS, 3)),
+        ("parts nothing", |file| put(file, NODES + 4, 1)),
+        ("names a face or corner that does not exist", |file| put(file, NODES, 1 << 28 | 2)),
+        ("is of a face that is there as a whole", |file| put(file, FRAGMENTS, 1)),
+        ("has a vertex on the wrong side of a cut", |file| {
+            let line = vertex(file, true) + 8;
+            let other = get(file, line) ^ 1 << 31;
+            put(file, line, other);
+        }),
+        ("has a vertex that is not on its line", |file| {
+            // Another corner in place of the cut's first end.
+            let at = vertex(file, true);
+            [at, at + 4].map(|at| put(file, at, 0));
+        }),
+        ("has a vertex that is not on its edge", |file| {
+            let line = vertex(file, false) + 8;
+            let other = (get(file, line) + 2) % 4;
+            put(file, line, other);
+        }),
+    ];
+    assert!(BspTree::read(&file()[..]).is_ok());
+    for (expected, spoil) in faults {
+        let mut file = file();
+        spoil(&mut file);
+        seal(&mut file);
+        let message = BspTree::read(&file[..]).expect_err(expected).to_string();
+        assert!(message.contains(expected), "{message}, not {expected}");
+    }
+}
