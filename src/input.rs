@@ -2,6 +2,10 @@
 
 use glam::{DVec3, Vec3, Vec3A};
 
+/// The most corners of one polygon, about 4 million. Larger: an endless polygon takes more memory
+/// before it is noticed; smaller: coast lines have to be divided.
+pub const MAX_CORNERS: usize = 1 << 22;
+
 /// A point of an input polygon.
 pub trait Point: Copy {
     /// How precise a coordinate is: the distance from 1 to the next number that it could be.

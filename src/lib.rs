@@ -66,10 +66,10 @@ pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError, Prog
 pub use error::Error;
 #[cfg(feature = "raster")]
 pub use exact::Faces;
-pub use faces::{MAX_CORNERS, Preparation, Tolerance};
+pub use faces::{Preparation, Tolerance};
 pub use frustum::Frustum;
 pub use glam;
-pub use input::{Point, Polygon};
+pub use input::{MAX_CORNERS, Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
 pub use overlay::{Overlaid, Overlay};

@@ -2,7 +2,7 @@
 
 use crate::Error;
 
-/// Who hears of a preparation, from any thread, and may stop it by an error.
+/// Is told how far a preparation has come, from any thread, and may stop it by an error.
 pub(crate) trait Listener: Sync {
     /// This many polygons have been read so far.
     fn read(&self, polygons: usize) -> Result<(), Error>;
@@ -11,7 +11,7 @@ pub(crate) trait Listener: Sync {
     fn work(&self, steps: usize) -> Result<(), Error>;
 }
 
-/// Nobody.
+/// Ignores all, and stops nothing.
 pub(super) struct Unheard;
 
 impl Listener for Unheard {

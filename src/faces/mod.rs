@@ -7,4 +7,4 @@ mod triangulate;
 
 pub(crate) use listener::Listener;
 pub(crate) use prepare::Preparer;
-pub use prepare::{DEFAULT_TOLERANCE, MAX_CORNERS, Preparation, Tolerance};
+pub use prepare::{DEFAULT_TOLERANCE, Preparation, Tolerance};

@@ -11,7 +11,6 @@ use glam::DVec3;
 
 use builder::Builder;
 use collect::Collected;
-pub use collect::MAX_CORNERS;
 use tolerance::Ground;
 pub use tolerance::{DEFAULT_TOLERANCE, Tolerance};
 
@@ -90,7 +89,7 @@ impl Faces {
     /// # Errors
     ///
     /// If a coordinate is not finite, the tolerance is negative or NaN, a polygon has more than
-    /// [`MAX_CORNERS`] corners, there are more than 2²⁸ polygons or corners in total, or memory
+    /// [`MAX_CORNERS`](crate::MAX_CORNERS) corners, there are more than 2²⁸ polygons or corners in total, or memory
     /// runs out.
     pub fn new<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,

@@ -19,7 +19,7 @@ use normals::{Arms, Normals};
 /// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common:
 /// [`BspTree::bounds`].
 ///
-/// A tree has none of its own: who needs them makes them once and keeps them beside the tree. They
+/// A tree has none of its own: make them once if you need them, and keep them beside the tree. They
 /// take about 130 bytes a fragment.
 ///
 /// Boxes are `[low, high]` in the polygons' unit, rounded outwards: each contains the exact vertices

@@ -50,7 +50,7 @@ impl fmt::Display for CameraError {
             ),
             Kind::Samples { samples } => write!(
                 f,
-                "{samples} samples each way in a pixel are none, or more than 32-bit numbers count"
+                "{samples} samples each way in a pixel: there must be 1 or more, and fewer than 2³² across the picture"
             ),
             Kind::TooFar => f.write_str("the eye is too far from the scene: use a parallel camera"),
             Kind::TooNarrow => f.write_str(

@@ -1,6 +1,7 @@
 //! What is refused, and what the error says.
 
 use crate::{CORNERS, read, with_corners};
+use binspace::MAX_CORNERS;
 use binspace::scene::Scene;
 
 /// Line, face and message of the error.
@@ -87,6 +88,16 @@ fn bad_corners_are_refused_with_line_and_face() {
         assert!(message.starts_with("test.obj, line 8, face 1 (from 0): "), "{message}");
         assert!(message.contains(reason), "{message}");
     }
+}
+
+#[test]
+fn a_face_of_more_corners_than_a_tree_takes_is_refused_where_it_is_read() {
+    let face = |corners: usize| {
+        format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{}\n", " 1 2 3 1".repeat(corners / 4))
+    };
+    let (line, face, message) = refused(face(MAX_CORNERS + 4));
+    assert_eq!((line, face), (Some(4), Some(0)), "{message}");
+    assert!(message.contains("corners"), "{message}");
 }
 
 #[test]

@@ -61,9 +61,9 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
             file.copy_within(corner(0)..corner(1), corner(3));
         }),
         ("are impossible", |file| put(file, COUNTS, 3)),
-        ("parts nothing", |file| put(file, NODES + 4, 1)),
+        ("has a plane that separates no fragments", |file| put(file, NODES + 4, 1)),
         ("names a face or corner that does not exist", |file| put(file, NODES, 1 << 28 | 2)),
-        ("is of a face that is there as a whole", |file| put(file, FRAGMENTS, 1)),
+        ("is of a face that is there uncut", |file| put(file, FRAGMENTS, 1)),
         ("has a vertex on the wrong side of a cut", |file| {
             let line = vertex(file, true) + 8;
             let other = get(file, line) ^ 1 << 31;

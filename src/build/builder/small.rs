@@ -145,7 +145,7 @@ impl<K: Kernel> Builder<'_, K> {
         Ok([slot, other])
     }
 
-    /// Writes a node with what is on its plane and in its leaves, and keeps its other sides.
+    /// Writes a node with what is on its plane and in its leaves, and puts its other sides on the stack.
     fn emit_small(
         &mut self,
         row: &Row<K>,

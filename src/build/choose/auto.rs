@@ -30,8 +30,7 @@ impl Auto {
         is_peeled: bool,
     ) -> Choice {
         let Rules { tuning, watch, .. } = *rules;
-        self.sample.sketch.reset(set);
-        if let Some(plane) = common_plane(set, &self.sample.sketch) {
+        if let Some(plane) = self.common_plane(set) {
             return Choice::Split(plane);
         }
         if set.len() < tuning.small
@@ -54,6 +53,20 @@ impl Auto {
         } else {
             self.best_of_large(rules, set, free)
         }
+    }
+
+    /// The plane on which all pieces lie, if the first one's is such a plane. Of one piece as well.
+    pub(super) fn common_plane<K: Kernel>(&mut self, set: &Set<'_, K>) -> Option<PlaneId> {
+        let sketch = &mut self.sample.sketch;
+        sketch.reset(set);
+        // The last is likely to be far from the first.
+        let pieces = || (0..set.len()).rev();
+        if !pieces().all(|piece| sketch.may_be_on(set, 0, piece)) {
+            return None;
+        }
+        let plane = set.own_plane(0);
+        let splitter = set.splitter(plane);
+        pieces().all(|piece| set.classify(&splitter, piece) == Side::Coplanar).then_some(plane)
     }
 
     fn best_of_small<K: Kernel>(
@@ -127,7 +140,7 @@ fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Cand
 }
 
 /// An own plane that cuts nothing and divides the set evenly, among those of a few pieces. Layers of a
-/// stack have such planes, and other sets are soon found to be cut.
+/// stack have such planes; in other sets a few pieces are enough to see that one is cut.
 fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
     set.sample(tuning.probes).map(|piece| set.own_plane(piece)).find(|&plane| {
@@ -144,23 +157,10 @@ fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
     })
 }
 
-/// The plane on which all pieces lie, if the first one's is such a plane.
-fn common_plane<K: Kernel>(set: &Set<'_, K>, sketch: &Sketch) -> Option<PlaneId> {
-    // The last is likely to be far from the first.
-    let pieces = || (0..set.len()).rev();
-    if !pieces().all(|piece| sketch.may_be_on(set, 0, piece)) {
-        return None;
-    }
-    let plane = set.own_plane(0);
-    let splitter = set.splitter(plane);
-    pieces().all(|piece| set.classify(&splitter, piece) == Side::Coplanar).then_some(plane)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::sketch::Sketch;
     use super::super::tests::{Fixture, grid};
-    use super::common_plane;
+    use super::Auto;
     use crate::random::SplitMix64;
 
     #[test]
@@ -171,10 +171,8 @@ mod tests {
             let mut random = SplitMix64::new(1);
             let polygons = grid(4, |_| height * random.point(-1.0, 1.0).x);
             let fixture = Fixture::new(&polygons, tolerance);
-            let (set, mut sketch) = (fixture.set(), Sketch::default());
-            sketch.reset(&set);
-            let name = format!("{height} within {tolerance}");
-            assert_eq!(common_plane(&set, &sketch).is_some(), expected, "{name}");
+            let plane = Auto::default().common_plane(&fixture.set());
+            assert_eq!(plane.is_some(), expected, "{height} within {tolerance}");
         }
     }
 }

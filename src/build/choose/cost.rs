@@ -30,7 +30,7 @@ impl AddAssign for Counts {
 /// What it costs to divide a set by a plane. The lower cost is the better.
 ///
 /// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later.
-/// (Whatever tree there is of all pieces, its parts on either side are trees of those.) In large sets
+/// (Any tree of a set, restricted to one side of a plane, is a tree of that side.) In large sets
 /// this is not applied to own planes: those at the rim cut nothing too, and would make a list of the
 /// set (see `Terms::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -74,6 +74,9 @@ impl Chooser {
                 self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)
             }
             Heuristic::FreePlanes => {
+                if let Some(plane) = self.auto.common_plane(set) {
+                    return Choice::Split(plane);
+                }
                 let free = self.sweep.best(set, rules.tuning, rules.watch);
                 free.map_or(set.own_plane(0), |free| free.plane)
             }

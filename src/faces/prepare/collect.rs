@@ -5,12 +5,8 @@ use glam::DVec3;
 use crate::Error;
 use crate::exact::{LATTICE_LIMIT, Lattice, MAX_LABELS};
 use crate::faces::listener::Listener;
-use crate::input::Polygon;
+use crate::input::{MAX_CORNERS, Polygon};
 use crate::memory::reserve;
-
-/// The most corners of one polygon, about 4 million. Larger: an endless polygon takes more memory
-/// before it is noticed; smaller: coast lines have to be divided.
-pub const MAX_CORNERS: usize = 1 << 22;
 
 /// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
 /// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.

@@ -1,4 +1,4 @@
-//! The lists of faces: emptied, put together, cut to size.
+//! The lists of faces: clear, append and shrink.
 
 use crate::Error;
 use crate::exact::faces::Face;

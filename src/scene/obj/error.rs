@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::input::MAX_CORNERS;
+
 /// Why an OBJ file cannot be read. The message names the file, the line and the face where they are
 /// known, and says what to do.
 #[derive(Debug)]
@@ -19,6 +21,7 @@ pub(super) enum Kind {
     ZeroByte,
     NoFace,
     TooManyFaces,
+    TooManyCorners,
     FewCoordinates(usize),
     Coordinate(String),
     NotFinite(String),
@@ -78,6 +81,9 @@ impl fmt::Display for Kind {
             ),
             Self::NoFace => write!(f, "no faces: there must be at least one `f` line"),
             Self::TooManyFaces => write!(f, "more than {} faces; divide the file", u32::MAX),
+            Self::TooManyCorners => {
+                write!(f, "more than {MAX_CORNERS} corners; divide the polygon")
+            }
             Self::FewCoordinates(found) => {
                 write!(f, "{found} coordinates; a `v` line must give x, y and z")
             }

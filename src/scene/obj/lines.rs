@@ -5,6 +5,7 @@ use super::decimals::Decimals;
 use super::error::{Kind, ObjError};
 use super::report::ObjReport;
 use super::text::lines;
+use crate::input::MAX_CORNERS;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::str::SplitWhitespace;
@@ -133,7 +134,10 @@ impl Scan {
             return Err(Kind::TooManyFaces.at(Some(line), None));
         }
         self.cleaned.push('f');
-        for token in words.take_while(|word| !word.starts_with('#')) {
+        for (corner, token) in words.take_while(|word| !word.starts_with('#')).enumerate() {
+            if corner == MAX_CORNERS {
+                return Err(Kind::TooManyCorners.at(Some(line), Some(face)));
+            }
             let index =
                 self.vertex_number(token).map_err(|kind| kind.at(Some(line), Some(face)))?;
             let highest = self.ahead.as_ref().map_or(self.vertices, |ahead| ahead.index);

@@ -52,11 +52,11 @@ pub(super) fn check(
         };
         let own = shape >> 4;
         if own == 0 && [front, back].contains(&RawChild::Leaf(0)) {
-            return Err(fault("parts nothing"));
+            return Err(fault("has a plane that separates no fragments"));
         }
         let sides = [front, back].map(|side| usize::from(side == RawChild::Node));
-        // Its own place first: a node that none has may not stand for itself.
-        let others = to_come.checked_sub(1).ok_or_else(|| fault("is none's"))?;
+        // Its own place first: a node without a parent must not count as its own child.
+        let others = to_come.checked_sub(1).ok_or_else(|| fault("has no parent"))?;
         to_come = others + sides[0] + sides[1];
         let on_plane = records.get(next..next + own as usize);
         let on_plane = on_plane.ok_or_else(|| fault("has more fragments than there are"))?;

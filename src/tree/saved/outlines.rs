@@ -82,12 +82,12 @@ fn check_numbers(faces: &Faces, parts: &Parts<ExactStored>) -> Result<(), LoadEr
             (NONE, true) => WHOLE,
             (NONE, false) => FIRST,
             (FIRST | MORE, false) => MORE,
-            _ => return Err(fault("is of a face that is there as a whole")),
+            _ => return Err(fault("is of a face that is there uncut")),
         };
     }
     let is_part = |&found: &u8| found != WHOLE && found != MORE;
     match found.iter().position(is_part) {
-        Some(face) => Err(invalid("face", face, "is not there in all its parts")),
+        Some(face) => Err(invalid("face", face, "has only some of its fragments, or none")),
         None => Ok(()),
     }
 }
