@@ -1,0 +1,12 @@
+//! What rays hit, what blocks a line of sight, and where points are, against exact rationals: every ray
+//! against every polygon.
+
+mod cases;
+mod hard;
+mod large;
+mod locate;
+mod oracle;
+mod real;
+mod shots;
+#[path = "../support/mod.rs"]
+mod support;
