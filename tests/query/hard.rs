@@ -1,9 +1,9 @@
 //! Small scenes full of coincidences.
 
-use super::oracle::{Oracle, Score};
-use super::shots::Shots;
 use super::support::dice::Dice;
 use super::support::hard::{self, HardScene};
+use super::support::hits::{Oracle, Score};
+use super::support::shots::Shots;
 use super::support::tally::tally;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
 use proptest::prelude::*;
@@ -20,14 +20,14 @@ fn rays_hit_what_rationals_say() {
         }
         let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
         let mut dice = Dice(seed);
-        for _ in 0..50 {
+        for _ in 0..24 {
             oracle.check(shots.ray(&mut dice), score).map_err(TestCaseError::fail)?;
         }
         Ok(())
     });
-    assert!(score.rays > 10_000 && score.hits > 10_000, "{score:?}");
-    assert!(score.in_plane > 2000 && score.ties > 2000 && score.at_ends > 2000, "{score:?}");
-    assert!(score.blocked.min(score.clear) > 3000, "{score:?}");
+    assert!(score.rays > 5000 && score.hits > 5000, "{score:?}");
+    assert!(score.in_plane > 1000 && score.ties > 1000 && score.at_ends > 1000, "{score:?}");
+    assert!(score.blocked.min(score.clear) > 1500, "{score:?}");
 }
 
 fn build(

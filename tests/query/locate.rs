@@ -1,8 +1,8 @@
 //! Where points are, by planes in rationals.
 
-use super::oracle::Oracle;
-use super::shots::Shots;
 use super::support::dice::Dice;
+use super::support::hits::Oracle;
+use super::support::shots::Shots;
 use super::support::{model, rational};
 use binspace::glam::DVec3;
 use binspace::scene;

@@ -5,8 +5,6 @@ mod cases;
 mod hard;
 mod large;
 mod locate;
-mod oracle;
 mod real;
-mod shots;
 #[path = "../support/mod.rs"]
 mod support;

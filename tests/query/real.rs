@@ -6,9 +6,9 @@
 
 #![allow(clippy::print_stderr, reason = "what is left out is said")]
 
-use super::oracle::{Oracle, Score};
-use super::shots::Shots;
 use super::support::dice::Dice;
+use super::support::hits::{Oracle, Score};
+use super::support::shots::Shots;
 use binspace::BspTree;
 use binspace::scene::Scene;
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{LIMIT, Lattice, exponent_of};
+use super::{LIMIT, Lattice, exponent_of, two_sum};
 
 /// Points in units of 2^−`bits` lattice steps. Coordinates are below 2¹²⁴ in magnitude, and so are
 /// those of all lattice points in this unit.
@@ -24,7 +24,10 @@ impl Lattice {
         let origin = self.origin.map(|c| fixed(c, bits));
         let points = points.map(|point| {
             let steps = self.in_steps(point);
-            std::array::from_fn(|axis| fixed(steps[axis], bits) - origin[axis])
+            std::array::from_fn(|axis| {
+                let [sum, lost] = steps[axis].map(|part| fixed(part, bits));
+                sum + lost - origin[axis]
+            })
         });
         Some(FinePoints { points, bits })
     }
@@ -33,7 +36,7 @@ impl Lattice {
     /// most 2⁻¹²² of this. `None` where [`fine_points`](Self::fine_points) has none.
     pub(crate) fn largest_in_steps(&self, points: &[DVec3]) -> Option<f64> {
         let mut largest = self.origin.iter().fold(2.0 * LIMIT, |largest, c| largest.max(c.abs()));
-        for c in points.iter().flat_map(|&point| self.in_steps(point)) {
+        for [c, _] in points.iter().flat_map(|&point| self.in_steps(point)) {
             if !c.is_finite() {
                 return None;
             }
@@ -48,10 +51,13 @@ impl Lattice {
     }
 
     /// A point in lattice steps from the world's origin, or along an axis along which the scene is far
-    /// out, from the scene.
-    fn in_steps(&self, point: DVec3) -> [f64; 3] {
+    /// out, from the scene: each coordinate as a number and what its rounding has lost.
+    fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
         let world = point.to_array();
-        std::array::from_fn(|axis| self.steps.times(world[axis] - self.far[axis]))
+        std::array::from_fn(|axis| {
+            let (sum, lost) = two_sum(world[axis], -self.far[axis]);
+            [sum, lost].map(|part| self.steps.times(part))
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a ray hits, found from the faces alone, in rationals.
 
-use super::support::model::{self, Face};
-use super::support::rational::{self, Point, Rational};
+use super::model::{self, Face};
+use super::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{BspTree, Hit, Ray};
@@ -155,8 +155,7 @@ impl<'t> Oracle<'t> {
         let axis = model::main_axis(plane);
         let [enter, leave] = if !slope.is_zero() {
             let t = -start / slope;
-            let point: Point = std::array::from_fn(|i| &line.from[i] + &line.direction[i] * &t);
-            contains(corners, &point, axis).then(|| [t.clone(), t])?
+            contains(corners, &line.at(&t), axis).then(|| [t.clone(), t])?
         } else if start.is_zero() {
             through(corners, line, axis)?
         } else {
@@ -205,6 +204,10 @@ impl<'t> Oracle<'t> {
         let line = self.line(ray);
         for (hit, truth) in hits.iter().zip(&truth) {
             self.check_place(&line, hit, truth).map_err(|what| fault(&what))?;
+            // Rationals of a fragment's vertices are large, so only some are looked at.
+            if score.rays % 8 == 0 {
+                self.check_fragment(&line, hit, truth).map_err(|what| fault(&what))?;
+            }
         }
         for (pair, truths) in hits.windows(2).zip(truth.windows(2)) {
             if pair[0].compare(&pair[1]) != truths[0].t.cmp(&truths[1].t) {
@@ -229,7 +232,7 @@ impl<'t> Oracle<'t> {
         if (rounded - exact).abs() > exact.abs() * 2f64.powi(-52) && exact.is_normal() {
             return Err(format!("the parameter is {rounded:e}, not {exact:e}"));
         }
-        let place: Point = std::array::from_fn(|i| &line.from[i] + &line.direction[i] * &truth.t);
+        let place = line.at(&truth.t);
         let found = hit.point().to_array();
         for axis in 0..3 {
             let world = &place[axis] * &self.step + &self.origin[axis];
@@ -240,16 +243,24 @@ impl<'t> Oracle<'t> {
                 return Err(format!("the point is off by {off} along axis {axis}"));
             }
         }
-        let vertices: Vec<Point> = hit
-            .fragment()
-            .symbols()
-            .map(|symbol| self.faces[truth.face as usize].resolve(self.faces(), symbol))
-            .collect();
-        let axis = model::main_axis(&self.faces[truth.face as usize].plane);
-        if !contains(&vertices, &place, axis) {
+        Ok(())
+    }
+
+    /// The fragment has the point.
+    fn check_fragment(&self, line: &Line, hit: &Hit<'_>, truth: &Truth) -> Result<(), String> {
+        let face = &self.faces[truth.face as usize];
+        let resolve = |symbol| face.resolve(self.faces(), symbol);
+        let vertices: Vec<Point> = hit.fragment().symbols().map(resolve).collect();
+        if !contains(&vertices, &line.at(&truth.t), model::main_axis(&face.plane)) {
             return Err("the fragment does not have the point".into());
         }
         Ok(())
+    }
+}
+
+impl Line {
+    fn at(&self, t: &Rational) -> Point {
+        std::array::from_fn(|i| &self.from[i] + &self.direction[i] * t)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Rays that are hard to decide.
 
-use super::support::dice::Dice;
+use super::dice::Dice;
 use binspace::Ray;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
@@ -49,8 +49,15 @@ impl<'t> Shots<'t> {
         [0, 1].map(|_| world(self.faces, (range.start + dice.below(range.len())) as u32))
     }
 
-    /// Any of all kinds of rays.
+    /// Any of all kinds of rays, of numbers.
     pub(crate) fn ray(&self, dice: &mut Dice) -> Ray {
+        let ray = self.any_ray(dice);
+        let (Ray::Segment { from: a, to: b } | Ray::Endless { from: a, direction: b }) = ray;
+        // In a scene as large as numbers go, some would begin beyond.
+        if a.is_finite() && b.is_finite() { ray } else { Ray::new(self.corner(dice), DVec3::X) }
+    }
+
+    fn any_ray(&self, dice: &mut Dice) -> Ray {
         let (from, to) = self.ends(dice);
         match dice.below(4) {
             0 | 1 => Ray::between(from, to),
