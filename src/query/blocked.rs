@@ -7,7 +7,7 @@ use super::walk::Walk;
 use crate::exact::Faces;
 use crate::exact::exact_ray::{ExactRay, Parameter};
 use crate::ray::Ray;
-use crate::tree::{BspTree, Fragment};
+use crate::tree::{Bounds, BspTree, Fragment};
 
 /// Whether a ray meets a fragment between its ends.
 fn is_between(probe: &mut Probe, fragment: &Fragment<'_>, faces: &Faces) -> bool {
@@ -57,15 +57,29 @@ impl BspTree {
     /// It stops at the first polygon that it finds, which need not be the nearest. Nothing is allocated
     /// unless a hundred parts of the tree are pending at once.
     pub fn is_blocked(&self, ray: Ray) -> bool {
-        let Some(mut probe) = Probe::new(ray, self.faces.lattice()) else { return false };
-        let mut walk = Walk::new(self, &probe);
-        while let Some(run) = walk.next(self, f64::INFINITY) {
-            for fragment in run {
-                if is_between(&mut probe, &self.fragment(fragment), &self.faces) {
-                    return true;
-                }
-            }
-        }
-        false
+        is_blocked(self, None, ray)
     }
+}
+
+impl Bounds {
+    /// Whether a polygon lies between two points: the same as [`BspTree::is_blocked`], with the boxes of
+    /// the tree, and several times as fast in scenes of thousands of polygons.
+    ///
+    /// # Panics
+    ///
+    /// If the bounds are those of another, smaller tree.
+    pub fn is_blocked(&self, tree: &BspTree, ray: Ray) -> bool {
+        is_blocked(tree, Some(self), ray)
+    }
+}
+
+fn is_blocked(tree: &BspTree, bounds: Option<&Bounds>, ray: Ray) -> bool {
+    let Some(mut probe) = Probe::new(ray, tree.faces.lattice()) else { return false };
+    let mut walk = Walk::new(tree, bounds, &probe);
+    while let Some(fragment) = walk.next(f64::INFINITY) {
+        if is_between(&mut probe, &tree.fragment(fragment), &tree.faces) {
+            return true;
+        }
+    }
+    false
 }

@@ -9,7 +9,7 @@ use super::meeting::{Depth, Meeting};
 use super::probe::Probe;
 use super::walk::Walk;
 use crate::ray::Ray;
-use crate::tree::BspTree;
+use crate::tree::{Bounds, BspTree};
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
@@ -20,13 +20,13 @@ pub struct Hits<'t> {
     tree: &'t BspTree,
     ray: Ray,
     /// None if the ray meets nothing.
-    search: Option<Search>,
+    search: Option<Search<'t>>,
 }
 
 #[derive(Clone, Debug)]
-struct Search {
+struct Search<'t> {
     probe: Probe,
-    walk: Walk,
+    walk: Walk<'t>,
     /// What the ray meets of what it has come to, the nearest last.
     found: SmallVec<[Meeting; 2]>,
     /// Of polygons that were hit: how far what was hit goes on.
@@ -40,23 +40,21 @@ struct Extent {
     end: Depth,
 }
 
-impl Search {
+impl Search<'_> {
     /// The next fragment that the ray meets.
     fn next(&mut self, tree: &BspTree) -> Option<Meeting> {
         let Self { probe, walk, found, .. } = self;
         loop {
             // What comes no nearer than the nearest that is found need not be looked at.
             let limit = found.last().map_or(f64::INFINITY, |nearest| nearest.enter.high);
-            let Some(run) = walk.next(tree, limit) else { return found.pop() };
-            for fragment in run {
-                let fragment = tree.fragment(fragment);
-                if let Some(meeting) = Meeting::new(probe, &fragment, &tree.faces) {
-                    let mut at = found.len();
-                    while at > 0 && found[at - 1].compare(&meeting, probe, &tree.faces).is_lt() {
-                        at -= 1;
-                    }
-                    found.insert(at, meeting);
+            let Some(fragment) = walk.next(limit) else { return found.pop() };
+            let fragment = tree.fragment(fragment);
+            if let Some(meeting) = Meeting::new(probe, &fragment, &tree.faces) {
+                let mut at = found.len();
+                while at > 0 && found[at - 1].compare(&meeting, probe, &tree.faces).is_lt() {
+                    at -= 1;
                 }
+                found.insert(at, meeting);
             }
         }
     }
@@ -75,6 +73,18 @@ impl Search {
             known.end = meeting.leave;
         }
         is_apart
+    }
+}
+
+impl<'t> Hits<'t> {
+    fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, ray: Ray) -> Self {
+        let search = Probe::new(ray, tree.faces.lattice()).map(|probe| Search {
+            walk: Walk::new(tree, bounds, &probe),
+            probe,
+            found: SmallVec::new(),
+            hit: SmallVec::new(),
+        });
+        Self { tree, ray, search }
     }
 }
 
@@ -135,15 +145,36 @@ impl BspTree {
     /// Hits at the same point come in input order. All of this is exact: which polygons are hit, in which
     /// order, and from which side. So hits do not depend on how a tree was built.
     ///
-    /// Takes time for what surrounds the ray as far as it is read: the nodes whose regions it crosses,
-    /// and the fragments on their planes where it crosses these.
+    /// It takes time for the nodes whose regions the ray crosses, as far as it is read, and for the fragments
+    /// on the planes where it crosses them. These regions reach far into empty space: who has many rays for
+    /// a large scene makes [`Bounds`] once and asks [`Bounds::hits`].
     pub fn hits(&self, ray: Ray) -> Hits<'_> {
-        let search = Probe::new(ray, self.faces.lattice()).map(|probe| Search {
-            walk: Walk::new(self, &probe),
-            probe,
-            found: SmallVec::new(),
-            hit: SmallVec::new(),
-        });
-        Hits { tree: self, ray, search }
+        Hits::new(self, None, ray)
+    }
+}
+
+impl Bounds {
+    /// What a ray or a segment hits, the nearest first: the same as [`BspTree::hits`], with the boxes of
+    /// the tree, so that what the ray passes by is left out as a whole. In scenes of thousands of polygons
+    /// that is several times as fast.
+    ///
+    /// ```
+    /// use binspace::{BspTree, Ray, scene};
+    ///
+    /// let tree = BspTree::build(scene::terrain(5000, 1).polygons())?;
+    /// // Once.
+    /// let bounds = tree.bounds()?;
+    /// // For each ray.
+    /// let ray = Ray::new([-9.0, 0.0, 90.0], [0.1, 0.02, -1.0]);
+    /// let nearest = bounds.hits(&tree, ray).next().expect("a hit");
+    /// assert_eq!(tree.hits(ray).next().map(|hit| hit.polygon()), Some(nearest.polygon()));
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If the bounds are those of another, smaller tree.
+    pub fn hits<'t>(&'t self, tree: &'t BspTree, ray: Ray) -> Hits<'t> {
+        Hits::new(tree, Some(self), ray)
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `probe` | how a ray is prepared, in floats and in integers |
 //! | `walk` | which parts of a tree a ray may meet, and in which order they are looked at |
+//! | `boxes` | the same by bounding boxes, where the caller has them |
 //! | `chord` | where a ray meets a fragment: exactly |
 //! | `filter` | the same in floats, where they are certain |
 //! | `meeting` | which of two meetings comes first |
@@ -12,6 +13,7 @@
 //! | `locate` | in which leaf a point is |
 
 mod blocked;
+mod boxes;
 mod chord;
 mod filter;
 mod hit;

@@ -10,14 +10,17 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
+use super::boxes::Boxes;
 use super::probe::{CORNERS, Probe};
 use crate::exact::LATTICE_LIMIT;
-use crate::tree::BspTree;
 use crate::tree::node_record::Ranges;
+use crate::tree::{Bounds, BspTree};
 
 /// The parts of a tree that a ray has not come to.
 #[derive(Clone, Debug)]
-pub(super) struct Walk {
+pub(super) struct Walk<'t> {
+    tree: &'t BspTree,
+    boxes: Option<Boxes<'t>>,
     /// The one to be looked at next is on top.
     pending: SmallVec<[Part; 24]>,
     /// The ray in units of 2⁵¹ lattice steps, as the tree's planes are given.
@@ -25,6 +28,9 @@ pub(super) struct Walk {
     direction: [f64; 3],
     /// How far beyond a plane fragments may be that count as in front, behind or on it.
     slack: f64,
+    /// Fragments that the ray has come to and may meet between these parameters.
+    run: Range<u32>,
+    span: [f64; 2],
 }
 
 /// A subtree, or fragments alone, and between which parameters the ray may meet them.
@@ -50,15 +56,21 @@ const PLANE_ERROR: f64 = 2.2e-7;
 /// Rounding of a plane's distance at a point of the ray, as a share of the probe's reach.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
-impl Walk {
-    /// The whole tree.
-    pub(super) fn new(tree: &BspTree, probe: &Probe) -> Self {
+impl<'t> Walk<'t> {
+    /// The whole tree. With boxes, what the ray passes by is left out.
+    pub(super) fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, probe: &Probe) -> Self {
         let unit = 1.0 / LATTICE_LIMIT;
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
-        let slack = PLANE_ERROR + tolerance + ROUNDED * probe.reach * unit;
-        let (origin, direction) =
-            (probe.origin.map(|c| c * unit), probe.direction.map(|c| c * unit));
-        let mut walk = Self { pending: SmallVec::new(), origin, direction, slack };
+        let mut walk = Self {
+            tree,
+            boxes: bounds.map(|bounds| Boxes::new(probe, bounds)),
+            pending: SmallVec::new(),
+            origin: probe.origin.map(|c| c * unit),
+            direction: probe.direction.map(|c| c * unit),
+            slack: PLANE_ERROR + tolerance + ROUNDED * probe.reach * unit,
+            run: 0..0,
+            span: [0.0; 2],
+        };
         if let Some([from, to]) = walk.within_reach(probe) {
             let node = if tree.nodes.is_empty() { LEAF } else { 0 };
             walk.push(node, 0..tree.len() as u32, [from, to]);
@@ -66,50 +78,74 @@ impl Walk {
         walk
     }
 
-    /// The next run of fragments; `None` if none is left that is met before a limit or at it.
-    pub(super) fn next(&mut self, tree: &BspTree, limit: f64) -> Option<Range<u32>> {
-        while self.pending.last()?.floor <= limit {
-            let part = self.pending.pop()?;
-            if let Some(run) = self.descend(tree, part) {
-                return Some(run);
+    /// The next fragment that the ray may meet; `None` if none is left that it meets at a limit or
+    /// before.
+    #[inline]
+    pub(super) fn next(&mut self, limit: f64) -> Option<u32> {
+        loop {
+            let next = match &self.boxes {
+                Some(boxes) => boxes.next(&mut self.run, self.span),
+                None => self.run.next(),
+            };
+            if next.is_some() {
+                return next;
             }
+            if self.pending.last()?.floor > limit {
+                return None;
+            }
+            let part = self.pending.pop()?;
+            self.descend(part, limit);
         }
-        None
     }
 
     /// Goes down the near side of a subtree to the first fragments, and leaves the rest on the stack.
-    fn descend(&mut self, tree: &BspTree, part: Part) -> Option<Range<u32>> {
-        let Part { mut node, first, end, from, mut to, .. } = part;
+    fn descend(&mut self, part: Part, limit: f64) {
+        let Part { mut node, first, end, mut from, mut to, .. } = part;
         let mut all = first..end;
         while node != LEAF {
             let index = node as usize;
-            let record = &tree.nodes[index];
+            if let Some(boxes) = &self.boxes {
+                let [enter, leave] = boxes.of_node(index);
+                from = if enter > from { enter } else { from };
+                to = if leave < to { leave } else { to };
+                if from > to {
+                    return;
+                }
+                let below = self.pending.last().map_or(f64::INFINITY, |part| part.floor);
+                if from > limit && below > limit {
+                    self.push(node, all, [from, to]);
+                    return;
+                }
+            }
+            let record = &self.tree.nodes[index];
             let Ranges { own, front, back } = record.ranges(all);
             let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
             let (front, back) =
                 ((front, child(record.front_node(index))), (back, child(record.back_node(index))));
-            let Crossing { enter, leave, is_forwards } = self.crossing(tree, index);
+            let Crossing { enter, leave, is_forwards } = self.crossing(index);
             let (near, far) = if is_forwards { (back, front) } else { (front, back) };
             let begin = if enter > from { enter } else { from };
+            let is_near = from <= leave;
+            let end = if leave < to { leave } else { to };
             if begin <= to {
                 self.push(far.1, far.0, [begin, to]);
-                if from <= leave {
-                    self.push(LEAF, own, [begin, if leave < to { leave } else { to }]);
+                if is_near {
+                    self.push(LEAF, own, [begin, end]);
                 }
             }
-            if from > leave {
-                return None;
+            if !is_near {
+                return;
             }
-            to = if leave < to { leave } else { to };
+            to = end;
             (all, node) = near;
         }
-        (!all.is_empty()).then_some(all)
+        (self.run, self.span) = (all, [from, to]);
     }
 
     /// Between which parameters the ray is near a node's plane.
     #[inline]
-    fn crossing(&self, tree: &BspTree, node: usize) -> Crossing {
-        let [x, y, z, offset] = tree.planes.get(node).to_array().map(f64::from);
+    fn crossing(&self, node: usize) -> Crossing {
+        let [x, y, z, offset] = self.tree.planes.get(node).to_array().map(f64::from);
         let ([a, b, c], [d, e, f]) = (self.origin, self.direction);
         let start = x * a + y * b + z * c - offset;
         let slope = x * d + y * e + z * f;

@@ -4,13 +4,14 @@ use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use binspace::{BspTree, Hit, Ray};
+use binspace::{Bounds, BspTree, Hit, Ray};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 
 /// A tree's faces, made ready for rays.
 pub(crate) struct Oracle<'t> {
     tree: &'t BspTree,
+    bounds: Bounds,
     faces: Vec<Face>,
     /// The same in floats, with balls around them, to pass over what is far from a ray.
     rough: Vec<Rough>,
@@ -92,6 +93,7 @@ impl<'t> Oracle<'t> {
         };
         Self {
             tree,
+            bounds: tree.bounds().expect("memory"),
             faces: (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect(),
             rough: (0..faces.len() as u32).map(rough).collect(),
             step: rational::exact(lattice.length_to_world(1.0)),
@@ -197,6 +199,15 @@ impl<'t> Oracle<'t> {
         let expected = truth.iter().map(|hit| (hit.polygon, hit.face, hit.facing));
         if !hits.iter().map(polygons).eq(expected) {
             return Err(fault("wrong hits"));
+        }
+        // By boxes, the same.
+        let same = |hit: &Hit<'_>| (hit.fragment().index(), hit.facing(), hit.spot());
+        let by_boxes = self.bounds.hits(self.tree, ray).take(2 * truth.len() + 9);
+        if !by_boxes.map(|hit| same(&hit)).eq(hits.iter().map(same)) {
+            return Err(fault("wrong hits by boxes"));
+        }
+        if self.bounds.is_blocked(self.tree, ray) != is_blocked {
+            return Err(fault("wrongly blocked by boxes, or not"));
         }
         if self.tree.is_blocked(ray) != is_blocked {
             return Err(fault(if is_blocked { "not blocked" } else { "blocked" }));

@@ -7,7 +7,7 @@ mod truth;
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use binspace::{BspTree, Ray};
+use binspace::{Bounds, BspTree, Ray};
 use peers::{Bvh, Parry32, Parry64, Peer};
 use std::hint::black_box;
 use std::time::Instant;
@@ -41,6 +41,7 @@ pub(crate) fn run() {
 struct Case {
     name: String,
     tree: BspTree,
+    bounds: Bounds,
     triangles: Vec<[DVec3; 3]>,
 }
 
@@ -56,16 +57,16 @@ impl Case {
             [0, 1, 2].map(|k| lattice.to_world(corners[k]))
         };
         let triangles = (0..faces.len() as u32).map(triangle).collect();
-        Some(Self { name: name.to_owned(), tree, triangles })
+        let bounds = tree.bounds().expect("memory");
+        Some(Self { name: name.to_owned(), tree, bounds, triangles })
     }
 
-    fn bounds(&self) -> [DVec3; 2] {
-        let corners = || self.triangles.iter().flatten().copied();
-        [corners().reduce(DVec3::min), corners().reduce(DVec3::max)].map(|c| c.expect("corners"))
+    fn extent(&self) -> [DVec3; 2] {
+        self.bounds.all().expect("triangles")
     }
 
     fn nearest(&self, [from, direction]: [DVec3; 2]) -> Option<f64> {
-        Some(self.tree.hits(Ray::new(from, direction)).next()?.parameter())
+        Some(self.bounds.hits(&self.tree, Ray::new(from, direction)).next()?.parameter())
     }
 }
 
@@ -124,7 +125,7 @@ fn times(cases: &[Case]) {
     ];
     let table = Table::new("Rays, one thread, against parry3d and bvh", &columns);
     for case in cases {
-        let mut points = Points::new(case.bounds());
+        let mut points = Points::new(case.extent());
         // From around the scene through it, and between points in it.
         let rays: Vec<[DVec3; 2]> = (0..TIMED)
             .map(|_| {
@@ -147,7 +148,7 @@ fn times(cases: &[Case]) {
         );
         let sight = measure(
             &sights,
-            |[from, to]| case.tree.is_blocked(Ray::between(from, to)),
+            |[from, to]| case.bounds.is_blocked(&case.tree, Ray::between(from, to)),
             &peers,
             |peer, ends| peer.is_blocked(ends),
         );
@@ -204,7 +205,7 @@ fn errors(cases: &[Case]) {
     let table = Table::new("Nearest hits of rays through corners and edges", &columns);
     for case in cases.iter().filter(|case| case.triangles.len() < 30_000) {
         let truth = Truth::new(&case.triangles);
-        let mut points = Points::new(case.bounds());
+        let mut points = Points::new(case.extent());
         let peers: [Box<dyn Peer>; 3] = [
             Box::new(Parry64::new(&case.triangles)),
             Box::new(Parry32::new(&case.triangles)),

@@ -2,7 +2,7 @@
 
 use binspace::glam::DVec3;
 use bvh::aabb::{Aabb, Bounded};
-use bvh::bounding_hierarchy::{BHShape, BoundingHierarchy};
+use bvh::bounding_hierarchy::BHShape;
 use nalgebra::{Point3, Vector3};
 use parry3d::query::RayCast as _;
 use parry3d_f64::query::RayCast as _;
