@@ -102,9 +102,13 @@ impl<'t> Walk<'t> {
     fn descend(&mut self, part: Part, limit: f64) {
         let Part { mut node, first, end, mut from, mut to, .. } = part;
         let mut all = first..end;
+        // How many fragments the last box that was looked at has; at first none was.
+        let mut boxed = u32::MAX;
         while node != LEAF {
             let index = node as usize;
-            if let Some(boxes) = &self.boxes {
+            let len = all.end - all.start;
+            if let Some(boxes) = self.boxes.as_ref().filter(|_| len < boxed - boxed / 4) {
+                boxed = len;
                 let [enter, leave] = boxes.of_node(index);
                 from = if enter > from { enter } else { from };
                 to = if leave < to { leave } else { to };
@@ -122,7 +126,17 @@ impl<'t> Walk<'t> {
             let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
             let (front, back) =
                 ((front, child(record.front_node(index))), (back, child(record.back_node(index))));
-            let Crossing { enter, leave, is_forwards } = self.crossing(index);
+            let distance = self.distance(index);
+            let [begin, end] = [from, to].map(|t| distance.start + distance.slope * t);
+            if begin > self.slack && end > self.slack {
+                (all, node) = front;
+                continue;
+            }
+            if begin < -self.slack && end < -self.slack {
+                (all, node) = back;
+                continue;
+            }
+            let Crossing { enter, leave, is_forwards } = distance.crossing(self.slack);
             let (near, far) = if is_forwards { (back, front) } else { (front, back) };
             let begin = if enter > from { enter } else { from };
             let is_near = from <= leave;
@@ -142,17 +156,12 @@ impl<'t> Walk<'t> {
         (self.run, self.span) = (all, [from, to]);
     }
 
-    /// Between which parameters the ray is near a node's plane.
+    /// How far the ray is from a node's plane.
     #[inline]
-    fn crossing(&self, node: usize) -> Crossing {
+    fn distance(&self, node: usize) -> Distance {
         let [x, y, z, offset] = self.tree.planes.get(node).to_array().map(f64::from);
         let ([a, b, c], [d, e, f]) = (self.origin, self.direction);
-        let start = x * a + y * b + z * c - offset;
-        let slope = x * d + y * e + z * f;
-        let (toward, speed) = (if slope < 0.0 { start } else { -start }, slope.abs());
-        // Without a slope these are infinite, or not a number, with which every comparison is false.
-        let (enter, leave) = ((toward - self.slack) / speed, (toward + self.slack) / speed);
-        Crossing { enter, leave, is_forwards: slope >= 0.0 }
+        Distance { start: x * a + y * b + z * c - offset, slope: x * d + y * e + z * f }
     }
 
     fn push(&mut self, node: u32, fragments: Range<u32>, [from, to]: [f64; 2]) {
@@ -177,10 +186,28 @@ impl<'t> Walk<'t> {
     }
 }
 
+/// The distance of a point of a ray from a plane: `start` + t · `slope`, positive in front.
+struct Distance {
+    start: f64,
+    slope: f64,
+}
+
 /// Where a ray crosses a plane, give or take the slack.
 struct Crossing {
     enter: f64,
     leave: f64,
     /// Whether the ray goes to the front.
     is_forwards: bool,
+}
+
+impl Distance {
+    /// Between which parameters the ray is within the slack of the plane.
+    #[inline]
+    fn crossing(&self, slack: f64) -> Crossing {
+        let is_forwards = self.slope >= 0.0;
+        let toward = if is_forwards { -self.start } else { self.start };
+        // Without a slope these are infinite, or not a number, with which every comparison is false.
+        let speed = self.slope.abs();
+        Crossing { enter: (toward - slack) / speed, leave: (toward + slack) / speed, is_forwards }
+    }
 }
