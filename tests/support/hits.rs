@@ -216,7 +216,7 @@ impl<'t> Oracle<'t> {
         for (hit, truth) in hits.iter().zip(&truth) {
             self.check_place(&line, hit, truth).map_err(|what| fault(&what))?;
             // Rationals of a fragment's vertices are large, so only some are looked at.
-            if score.rays % 8 == 0 {
+            if score.rays.is_multiple_of(8) {
                 self.check_fragment(&line, hit, truth).map_err(|what| fault(&what))?;
             }
         }
