@@ -32,6 +32,31 @@ impl Frustum {
         Self { planes: planes.into_iter().collect() }
     }
 
+    /// The box between two corners, given by its least and largest coordinates: with a
+    /// [`Culling`](crate::Culling), orders have the fragments whose boxes meet it.
+    ///
+    /// ```
+    /// use binspace::glam::DVec3;
+    /// use binspace::{BspTree, Culling, Frustum, Viewpoint};
+    ///
+    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
+    /// let bounds = tree.bounds()?;
+    /// let region = Frustum::of_box([DVec3::new(0.2, 0.2, 6.5), DVec3::new(0.7, 0.4, 9.0)]);
+    /// let (mut inside, below) = (Vec::new(), Viewpoint::direction([0.0, 0.0, 1.0]));
+    /// let culling = Culling::new(&bounds).with_frustum(region);
+    /// tree.culled_front_to_back_into(below, &culling, &mut inside);
+    /// assert!(inside.iter().map(|&f| tree.fragment(f).polygon()).eq([7, 8, 9]));
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    pub fn of_box([low, high]: [DVec3; 2]) -> Self {
+        let sides = |axis: usize| {
+            let normal = DVec3::AXES[axis];
+            [(normal, low[axis]), (-normal, -high[axis])]
+        };
+        Self::new([0, 1, 2].map(sides).into_iter().flatten())
+    }
+
     /// What a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w: the sides of a picture, as a projection
     /// matrix of OpenGL, Vulkan, Direct3D or WebGPU has them. Its depths are left alone, so there is
     /// no near and no far plane.

@@ -11,6 +11,7 @@
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Node`] | what it consists of |
 //! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
+//! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
 //! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
 //!
 //! # Conventions
@@ -48,9 +49,11 @@ mod memory;
 mod occlusion;
 mod overlay;
 mod parallel_map;
+mod query;
 mod random;
 #[cfg(feature = "raster")]
 pub mod raster;
+mod ray;
 #[cfg(feature = "save")]
 mod save;
 #[cfg(feature = "scene")]
@@ -73,6 +76,8 @@ pub use input::{MAX_CORNERS, Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
 pub use overlay::{Overlaid, Overlay};
+pub use query::{Hit, Hits, Location};
+pub use ray::Ray;
 #[cfg(feature = "save")]
 pub use save::LoadError;
 pub use tree::{
@@ -96,6 +101,7 @@ pub mod internals {
         Line, Piece, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, split,
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
+    pub use crate::query::Spot;
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]
     pub use crate::scene::cuboid::cuboid;

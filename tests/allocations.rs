@@ -3,7 +3,7 @@
 
 #[path = "support/counted.rs"]
 mod counted;
-use binspace::{BspTree, BuildOptions, FrameBuilder, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, FrameBuilder, Ray, Viewpoint, scene};
 use counted::allocations;
 use dhat::Profiler;
 
@@ -52,6 +52,23 @@ fn a_second_order_allocates_nothing_and_a_second_frame_once() {
         assert!(allocations(|| write(viewpoints[0])) > 0, "{}", scene.name());
         let again = allocations(|| viewpoints.into_iter().for_each(&mut write));
         assert_eq!(again, 0, "indices of {}", scene.name());
+    }
+
+    // Rays: those that a filter decides and those that integers do.
+    for scene in [scene::random_triangles(300, 1), scene::city(3000, 1), scene::terrain(3000, 1)] {
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        let (low, high) = scene.bounds().unwrap();
+        let mut hits = 0;
+        let used = allocations(|| {
+            for corner in scene.polygons().take(200).map(|polygon| polygon[0]) {
+                for from in [low, high * 2.0, corner] {
+                    hits += tree.hits(Ray::between(from, corner)).take(3).count();
+                    hits += usize::from(tree.is_blocked(Ray::new(from, high - corner)));
+                }
+                hits += usize::from(tree.locate(corner).is_some());
+            }
+        });
+        assert!(used == 0 && hits > 500, "{}: {used} times, {hits} hits", scene.name());
     }
 
     // A frame of few layers that are all moved: the list of jobs is all that is not kept.

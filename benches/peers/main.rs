@@ -20,6 +20,7 @@ mod mesh;
 mod order;
 mod overlay;
 mod plane_split;
+mod rays;
 mod rulings;
 mod same;
 mod saved;
@@ -44,6 +45,7 @@ const SECTIONS: &[Section] = &[
     ("exactness", kernels::run),
     ("rulings", rulings::run),
     ("saved", saved::run),
+    ("rays", rays::run),
 ];
 
 fn main() {

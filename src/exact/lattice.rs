@@ -1,5 +1,6 @@
 //! The scene lattice: corners are rounded to it once, and everything after that is exact.
 
+mod fine;
 #[cfg(feature = "save")]
 mod saved;
 
@@ -134,7 +135,7 @@ fn nearest(value: f64) -> f64 {
 }
 
 /// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.
-fn exponent_of(value: f64) -> i32 {
+pub(crate) fn exponent_of(value: f64) -> i32 {
     let bits = (value.to_bits() >> 52) as i32;
     if bits > 0 { bits - 1023 } else { exponent_of(value * 2f64.powi(64)) - 64 }
 }

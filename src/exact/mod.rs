@@ -11,10 +11,12 @@
 //! | `convex` | whether an outline is convex |
 //! | `along` | in which order points of one line come |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
+//! | `exact_ray` | where a ray meets planes, and in which order |
 
 pub(crate) mod along;
 mod convex;
 pub(crate) mod exact_kernel;
+pub(crate) mod exact_ray;
 mod eye;
 pub(crate) mod faces;
 mod filter;

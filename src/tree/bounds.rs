@@ -28,17 +28,17 @@ use normals::{Arms, Normals};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bounds {
     /// Of each node's subtree.
-    pub(super) nodes: Vec<Flat>,
+    pub(crate) nodes: Vec<Flat>,
     pub(super) normals: Vec<Normals>,
     /// Of each fragment; then of each [`BLOCK`] fragments with consecutive numbers, of each
     /// [`BLOCK`] of these, and so on.
-    pub(super) levels: Vec<Vec<Flat>>,
+    pub(crate) levels: Vec<Vec<Flat>>,
     all: Flat,
 }
 
 /// How many boxes are summed up in one, for planes with many fragments. Smaller: more memory; larger:
 /// more boxes are looked at where few are met.
-pub(super) const BLOCK: usize = 16;
+pub(crate) const BLOCK: usize = 16;
 
 /// How many fragments one thread takes at a time.
 const PART: usize = 4096;
@@ -200,14 +200,14 @@ impl Bounds {
     }
 
     /// The largest magnitudes of coordinates.
-    pub(super) fn reach(&self) -> DVec3 {
+    pub(crate) fn reach(&self) -> DVec3 {
         let [low, high] = unflat(&self.all);
         if self.fragments().is_empty() { DVec3::ZERO } else { low.abs().max(high.abs()) }
     }
 
     /// The largest aligned block that begins with a run of fragments and is within it: its level,
     /// and how many fragments it has.
-    pub(super) fn block(&self, run: &Range<u32>) -> (usize, u32) {
+    pub(crate) fn block(&self, run: &Range<u32>) -> (usize, u32) {
         let (mut level, mut len) = (0, 1_u32);
         while level + 1 < self.levels.len()
             && run.start.is_multiple_of(len * BLOCK as u32)

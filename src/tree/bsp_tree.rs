@@ -103,6 +103,26 @@ use crate::faces::Preparation;
 /// what is outside of a camera's [`Frustum`](crate::Frustum) or seen from the wrong side, in a time that
 /// follows what is left. The feature `raster` has a mask that leaves out what is hidden.
 ///
+/// # Rays, lines of sight and points
+///
+/// [`hits`](Self::hits) gives what a [`Ray`](crate::Ray) hits, the nearest first, as far as you read it;
+/// [`is_blocked`](Self::is_blocked) tells whether anything lies between two points, and
+/// [`locate`](Self::locate) in which leaf a point is. All of them decide exactly for the numbers that they
+/// are given: a ray through an edge or a corner never slips between two polygons that share it.
+///
+/// ```
+/// use binspace::{BspTree, Ray};
+///
+/// # let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+/// # let tree = BspTree::build([square(2.0), square(0.0), square(1.0)])?;
+/// // What is under the mouse.
+/// let ray = Ray::new([0.25, 0.25, 9.0], [0.0, 0.0, -1.0]);
+/// assert_eq!(tree.hits(ray).next().map(|hit| hit.polygon()), Some(0));
+/// // Whether one point is seen from another.
+/// assert!(tree.is_blocked(Ray::between([0.5, 0.5, 3.0], [0.5, 0.5, 1.5])));
+/// # Ok::<(), binspace::Error>(())
+/// ```
+///
 /// # Attributes
 ///
 /// A cut vertex needs texture coordinates, colours or normals as the corners have them.

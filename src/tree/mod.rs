@@ -20,6 +20,7 @@ mod tests;
 mod validate;
 pub(crate) mod walk;
 
+pub(crate) use bounds::BLOCK;
 pub use bounds::Bounds;
 pub use bsp_tree::BspTree;
 pub use culling::{Culling, Sides};

@@ -13,8 +13,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What every layer may import.
-const GROUND: [&str; 8] =
-    ["error", "frustum", "input", "memory", "parallel_map", "random", "save", "viewpoint"];
+const GROUND: [&str; 9] =
+    ["error", "frustum", "input", "memory", "parallel_map", "random", "ray", "save", "viewpoint"];
 
 /// The layers that are built on the ground, each with those before it that it may import.
 const LAYERS: &[(&str, &[&str])] = &[
@@ -24,6 +24,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("build", &["exact", "faces", "tree"]),
     ("layers", &["faces", "tree", "build"]),
     ("overlay", &["exact", "faces", "tree", "build"]),
+    ("query", &["exact", "tree"]),
     ("view", &[]),
     ("scene", &[]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.

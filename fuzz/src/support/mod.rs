@@ -4,6 +4,8 @@
 pub(crate) mod decode;
 #[path = "../../../tests/support/dice.rs"]
 pub(crate) mod dice;
+#[path = "../../../tests/support/hits.rs"]
+pub(crate) mod hits;
 #[path = "../../../tests/support/homogeneous.rs"]
 pub(crate) mod homogeneous;
 #[path = "../../../tests/support/judge.rs"]
@@ -18,6 +20,8 @@ pub(crate) mod rational;
 pub(crate) mod rays;
 #[path = "../../../tests/support/saved.rs"]
 pub(crate) mod saved;
+#[path = "../../../tests/support/shots.rs"]
+pub(crate) mod shots;
 #[path = "../../../tests/support/snapshot.rs"]
 pub(crate) mod snapshot;
 #[path = "../../../tests/support/targets/mod.rs"]

@@ -3,7 +3,7 @@
 
 use std::io::{self, Read, Write};
 
-use super::{FAR, Lattice, PowerOfTwo, exponent_of};
+use super::{FAR, Lattice, PowerOfTwo};
 use crate::save::{LoadError, Reader, Writer};
 
 /// What messages call it.
@@ -13,8 +13,7 @@ const EXPONENTS: std::ops::RangeInclusive<i32> = -1000..=1150;
 
 impl Lattice {
     pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
-        let exponent: i32 = self.steps.factors.map(exponent_of).iter().sum();
-        file.u32(exponent as u32)?;
+        file.u32(self.exponent() as u32)?;
         file.items(self.origin.into_iter().chain(self.far), |file, number| file.f64(number))
     }
 
@@ -32,7 +31,7 @@ impl Lattice {
 
     /// An error unless the lattice is one that some scene could have.
     pub(crate) fn check(&self) -> Result<(), LoadError> {
-        let exponent: i32 = self.steps.factors.map(exponent_of).iter().sum();
+        let exponent = self.exponent();
         let is_possible = |axis: usize| {
             let (origin, far) = (self.origin[axis], self.far[axis]);
             let is_whole = origin.abs() <= FAR && origin.fract() == 0.0;

@@ -1,13 +1,16 @@
 //! A tree of any scene, by any heuristic, judged.
 
 use super::super::dice::Dice;
+use super::super::hits::{Oracle, Score};
 use super::super::rays::Rays;
+use super::super::shots::Shots;
 use super::super::{decode, judge, orders, views};
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::{BspTree, FrameBuilder};
 
-/// A scene of at most twelve polygons: fragments by exact rationals, orders by rays.
+/// A scene of at most twelve polygons: fragments by exact rationals, orders by rays, and what rays hit by
+/// exact rationals.
 pub(crate) fn run(data: &[u8]) {
     // Bytes that run out make no scene.
     let _ = try_run(&mut Unstructured::new(data));
@@ -31,6 +34,12 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
     let frame = frames.build(&polygons).expect("what the tree was built of");
     for tree in [&tree, frame] {
         if let Err(what) = check(tree, &polygons, &mut Dice(seed)) {
+            panic!("{what}: {options:?} {polygons:?}");
+        }
+    }
+    let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
+    for _ in 0..8 {
+        if let Err(what) = oracle.check(shots.ray(&mut dice), &mut Score::default()) {
             panic!("{what}: {options:?} {polygons:?}");
         }
     }

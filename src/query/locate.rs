@@ -1,0 +1,93 @@
+//! In which leaf of a tree a point is.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use crate::exact::exact_ray::ExactRay;
+use crate::ray::Ray;
+use crate::tree::{BspTree, Child, Node};
+
+/// Where a point is in a tree: [`BspTree::locate`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Location<'t> {
+    node: Option<Node<'t>>,
+    is_in_front: bool,
+    fragments: Range<u32>,
+    planes: SmallVec<[Node<'t>; 3]>,
+}
+
+impl<'t> Location<'t> {
+    /// The node whose front or back is the leaf. `None` if the tree has no nodes: then it is one leaf.
+    pub fn node(&self) -> Option<Node<'t>> {
+        self.node
+    }
+
+    /// Whether the leaf is the front of the node, rather than its back.
+    pub fn is_in_front(&self) -> bool {
+        self.is_in_front
+    }
+
+    /// The numbers of the fragments of the leaf: one, or none.
+    pub fn fragments(&self) -> Range<u32> {
+        self.fragments.clone()
+    }
+
+    /// The nodes on the way to the leaf in whose planes the point lies, exactly, from the top down. What
+    /// lies [`on`](Node::on) them is in the same plane as the point, or within the tolerance.
+    pub fn planes(&self) -> &[Node<'t>] {
+        &self.planes
+    }
+}
+
+impl BspTree {
+    /// The leaf that a point is in, and the partition planes that it is on: exact for the point as it is
+    /// given, as for a [`Ray`] from it. A point on a plane counts as in front of it. `None` if a
+    /// coordinate is NaN, infinite, or beyond 2⁶⁸ extents. O(depth).
+    ///
+    /// A leaf is a convex region that no partition plane divides, with a fragment in it or none.
+    ///
+    /// ```
+    /// use binspace::{BspTree, Ray};
+    ///
+    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    /// let tree = BspTree::build([square(0.0), square(2.0), square(1.0)])?;
+    ///
+    /// let between = tree.locate([0.2, 0.3, 1.5]).expect("a number");
+    /// assert_eq!(between, tree.locate([-7.0, 5.0, 1.1]).expect("a number"));
+    /// assert_ne!(between, tree.locate([0.2, 0.3, 2.5]).expect("a number"));
+    /// // The polygons that contain a point are those that a ray of no length hits.
+    /// let point = [0.2, 0.3, 1.0];
+    /// assert!(tree.hits(Ray::between(point, point)).map(|hit| hit.polygon()).eq([2]));
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    pub fn locate(&self, point: impl Into<DVec3>) -> Option<Location<'_>> {
+        let point = point.into();
+        let exact = ExactRay::new(Ray::between(point, point), self.faces.lattice())?;
+        let mut location = Location {
+            node: None,
+            is_in_front: false,
+            fragments: 0..self.len() as u32,
+            planes: SmallVec::new(),
+        };
+        let mut next = self.root();
+        while let Some(node) = next {
+            let side = exact.at(&self.faces.plane(node.plane())).start();
+            if side == Ordering::Equal {
+                location.planes.push(node);
+            }
+            let child = if side.is_ge() { node.front() } else { node.back() };
+            (location.node, location.is_in_front) = (Some(node), side.is_ge());
+            next = match child {
+                Child::Node(node) => Some(node),
+                Child::Leaf(fragments) => {
+                    location.fragments = fragments;
+                    None
+                }
+            };
+        }
+        Some(location)
+    }
+}

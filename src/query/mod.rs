@@ -1,0 +1,29 @@
+//! Questions to a finished tree: where a point is, and what a ray meets.
+//!
+//! | file | decides |
+//! |---|---|
+//! | `probe` | how a ray is prepared, in floats and in integers |
+//! | `walk` | which parts of a tree a ray may meet, and in which order they are looked at |
+//! | `boxes` | the same by bounding boxes, where the caller has them |
+//! | `chord` | where a ray meets a fragment: exactly |
+//! | `filter` | the same in floats, where they are certain |
+//! | `meeting` | which of two meetings comes first |
+//! | `hits` | what is one hit |
+//! | `blocked` | whether there is any |
+//! | `locate` | in which leaf a point is |
+
+mod blocked;
+mod boxes;
+mod chord;
+mod filter;
+mod hit;
+mod hits;
+mod locate;
+mod meeting;
+mod probe;
+mod walk;
+
+pub use chord::Spot;
+pub use hit::Hit;
+pub use hits::Hits;
+pub use locate::Location;

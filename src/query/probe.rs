@@ -1,0 +1,96 @@
+//! A ray, prepared to be held against a tree.
+
+use glam::DVec3;
+
+use crate::exact::exact_ray::{ExactRay, Parameter, scaled};
+use crate::exact::lattice::exponent_of;
+use crate::exact::{LATTICE_LIMIT, Lattice};
+use crate::ray::Ray;
+
+/// A ray in lattice units, rounded, and in integers as soon as they are needed.
+#[derive(Clone, Debug)]
+pub(super) struct Probe {
+    ray: Ray,
+    lattice: Lattice,
+    exact: Option<ExactRay>,
+    pub(super) origin: [f64; 3],
+    /// The point of parameter t is at origin + t · direction. For an endless ray t has a unit of its
+    /// own, in which the largest coordinate here is from 2⁵¹ to 2⁵².
+    pub(super) direction: [f64; 3],
+    /// More than any coordinate of the origin less one of a corner.
+    pub(super) reach: f64,
+    /// The largest magnitude in the direction.
+    pub(super) speed: f64,
+    pub(super) is_endless: bool,
+    /// Whether each coordinate above is off by no more than one rounding and a thousandth of one.
+    pub(super) is_precise: bool,
+}
+
+/// Bits of the largest coordinate of an endless ray's rounded direction.
+const SPEED_BITS: i32 = 52;
+
+/// Corners, moved by the tolerance or not, have no coordinates beyond this.
+pub(super) const CORNERS: f64 = 1.02 * LATTICE_LIMIT;
+
+/// The grid of a segment's ends has steps of up to 2⁻¹²² of its largest coordinate. Segments that are
+/// shorter than this share of it lose more of their direction than a thousandth of a rounding.
+const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
+/// So far out, floats and integers may differ by more, because both round.
+const FAR: f64 = (1u128 << 100) as f64;
+
+impl Probe {
+    /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
+    pub(super) fn new(ray: Ray, lattice: &Lattice) -> Option<Self> {
+        let (from, direction, least) = match ray {
+            Ray::Segment { from, to } => {
+                let largest = lattice.largest_in_steps(&[from, to])?;
+                // Halved, so that nothing overflows.
+                let half = to * 0.5 - from * 0.5;
+                let direction = half.to_array().map(|c| 2.0 * lattice.length_to_lattice(c));
+                (from, direction, largest * SHORT)
+            }
+            Ray::Endless { from, direction } => {
+                lattice.largest_in_steps(&[from])?;
+                if !direction.is_finite() {
+                    return None;
+                }
+                let largest = direction.abs().max_element();
+                let up = if largest > 0.0 { SPEED_BITS - 1 - exponent_of(largest) } else { 0 };
+                (from, direction.to_array().map(|c| scaled(c, up)), f64::MIN_POSITIVE)
+            }
+        };
+        let origin = lattice.to_lattice(from);
+        let largest = |v: [f64; 3]| v.into_iter().fold(0.0, |max: f64, c| max.max(c.abs()));
+        let (reach, speed) = (largest(origin) + CORNERS, largest(direction));
+        Some(Self {
+            ray,
+            lattice: *lattice,
+            exact: None,
+            origin,
+            direction,
+            reach,
+            speed,
+            is_endless: matches!(ray, Ray::Endless { .. }),
+            is_precise: speed >= least && reach < FAR,
+        })
+    }
+
+    /// The origin and the direction in the polygons' unit, the latter rounded once.
+    pub(super) fn in_world(&self) -> (DVec3, DVec3) {
+        let (Ray::Segment { from, .. } | Ray::Endless { from, .. }) = self.ray;
+        (from, self.direction.map(|c| self.lattice.length_to_world(c)).into())
+    }
+
+    /// The ray in integers. Never `None`, as there is a probe.
+    pub(super) fn exact(&mut self) -> Option<&ExactRay> {
+        if self.exact.is_none() {
+            self.exact = ExactRay::new(self.ray, &self.lattice);
+        }
+        self.exact.as_ref()
+    }
+
+    /// A parameter in the unit of the floats here, rounded.
+    pub(super) fn rounded(exact: &ExactRay, t: &Parameter) -> f64 {
+        exact.rescaled(t, SPEED_BITS)
+    }
+}

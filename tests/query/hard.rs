@@ -1,0 +1,49 @@
+//! Small scenes full of coincidences.
+
+use super::support::dice::Dice;
+use super::support::hard::{self, HardScene};
+use super::support::hits::{Oracle, Score};
+use super::support::shots::Shots;
+use super::support::tally::tally;
+use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+
+#[test]
+fn rays_hit_what_rationals_say() {
+    let heuristic = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), heuristic, any::<u64>(), any::<bool>());
+    let score = tally(file!(), 256, cases, |score: &mut Score, (scene, heuristic, seed, one)| {
+        let tree = build(&scene, heuristic, one)?;
+        if tree.is_empty() {
+            return Ok(());
+        }
+        let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
+        let mut dice = Dice(seed);
+        for _ in 0..24 {
+            oracle.check(shots.ray(&mut dice), score).map_err(TestCaseError::fail)?;
+        }
+        Ok(())
+    });
+    assert!(score.rays > 5000 && score.hits > 5000, "{score:?}");
+    assert!(score.in_plane > 1000 && score.ties > 1000 && score.at_ends > 1000, "{score:?}");
+    assert!(score.blocked.min(score.clear) > 1500, "{score:?}");
+}
+
+fn build(
+    scene: &HardScene,
+    heuristic: Heuristic,
+    one_view: bool,
+) -> Result<BspTree, TestCaseError> {
+    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    let options = match scene.tolerance() {
+        Some(tolerance) => options.with_tolerance(tolerance),
+        None => options,
+    };
+    let fail = |error: binspace::Error| TestCaseError::fail(error.to_string());
+    if one_view {
+        let mut builder = FrameBuilder::new(options);
+        return Ok(builder.build(&scene.polygons).map_err(fail)?.clone());
+    }
+    options.build(&scene.polygons).map_err(fail)
+}

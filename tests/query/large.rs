@@ -1,0 +1,147 @@
+//! Scenes of hundreds and thousands of faces.
+
+use super::support::dice::Dice;
+use super::support::hits::{Oracle, Score};
+use super::support::shapes;
+use super::support::shots::Shots;
+use binspace::glam::{DMat3, DVec3};
+use binspace::scene::{self, Scene};
+use binspace::{BspTree, BuildOptions, Heuristic};
+use rayon::prelude::*;
+
+type Polygons = Vec<Vec<DVec3>>;
+
+fn polygons(scene: &Scene) -> Polygons {
+    scene.polygons().map(|polygon| polygon.to_vec()).collect()
+}
+
+/// Unit squares of a cubic lattice, most of the walls between its cells: rays meet many at once.
+fn cells(n: usize, dice: &mut Dice) -> Polygons {
+    let mut polygons = Vec::new();
+    for at in 0..n * n * n {
+        let corner = [at % n, at / n % n, at / n / n].map(|c| c as f64);
+        for axis in 0..3 {
+            if dice.below(4) > 0 {
+                let [u, v] = [DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]];
+                let corner = DVec3::from_array(corner);
+                polygons.push(vec![corner, corner + u, corner + u + v, corner + v]);
+            }
+        }
+    }
+    polygons
+}
+
+/// Squares through one line.
+fn sheaf(n: u32) -> Polygons {
+    let wing = |k: u32| {
+        let arm = DVec3::new(f64::from(2 * k) - f64::from(n), f64::from(n), 0.0);
+        vec![-arm, arm, arm + DVec3::Z * 40.0, DVec3::Z * 40.0 - arm]
+    };
+    (0..n).map(wing).collect()
+}
+
+/// Layers, each with holes: many thin gaps, and every polygon coplanar with others.
+fn sheets(layers: usize, gap: f64, dice: &mut Dice) -> Polygons {
+    let mut polygons = Vec::new();
+    for at in 0..36 * layers {
+        if dice.below(3) > 0 {
+            let (x, y, z) = (at % 6, at / 6 % 6, at / 36);
+            let centre = DVec3::new(2.0 * x as f64, 2.0 * y as f64, gap * z as f64);
+            polygons.push(shapes::square(DMat3::IDENTITY, centre));
+        }
+    }
+    // Some twice, and some reversed.
+    for k in 0..polygons.len() / 8 {
+        let mut copy = polygons[8 * k].clone();
+        if k % 2 == 0 {
+            copy.reverse();
+        }
+        polygons.push(copy);
+    }
+    polygons
+}
+
+/// Stars and bent squares, which are triangulated.
+fn stars(n: usize, dice: &mut Dice) -> Polygons {
+    let star = |_| {
+        let centre = DVec3::from_array([0; 3].map(|_| dice.around_zero(20)));
+        let bend = dice.below(2) as f64;
+        let corner = |k: usize| {
+            let turn = shapes::regular(10, DMat3::IDENTITY, DVec3::ZERO)[k];
+            let lift = if k == 3 { bend } else { 0.0 };
+            centre + turn * if k % 2 == 0 { 6.0 } else { 2.0 } + DVec3::Z * lift
+        };
+        (0..10).map(corner).collect()
+    };
+    (0..n).map(star).collect()
+}
+
+/// Scenes, with how many rays are shot at each.
+fn scenes() -> Vec<(&'static str, Polygons, usize)> {
+    let mut dice = Dice(3);
+    vec![
+        ("cells", cells(8, &mut dice), 450),
+        ("sheaf", sheaf(40), 450),
+        ("sheets", sheets(30, 1e-7, &mut dice), 450),
+        ("stars", stars(60, &mut dice), 450),
+        ("random", polygons(&scene::random_triangles(250, 1)), 450),
+        ("city", polygons(&scene::city(3000, 1)), 450),
+        ("terrain", polygons(&scene::terrain(4000, 1)), 450),
+        ("sphere", polygons(&scene::sphere(3000)), 450),
+        ("teapot", polygons(&scene::teapot(4)), 450),
+        ("crossing", polygons(&scene::crossing(24)), 300),
+        ("chain", polygons(&scene::chain(300)), 150),
+    ]
+}
+
+#[test]
+fn rays_through_large_scenes_hit_what_rationals_say() {
+    let shoot = |(name, polygons, rays): &(&'static str, Polygons, usize)| {
+        let mut score = Score::default();
+        for (tolerance, heuristic) in [
+            (None, Heuristic::Auto),
+            (Some(0.0), Heuristic::FreePlanes),
+            (Some(1e-3), Heuristic::Sampled { candidates: 16 }),
+        ] {
+            let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+            let options = tolerance.map_or(options.clone(), |t: f64| options.with_tolerance(t));
+            let tree = options.build(polygons).unwrap();
+            check(&tree, rays / 3, &mut score)
+                .unwrap_or_else(|what| panic!("{name} by {heuristic}, {tolerance:?}: {what}"));
+        }
+        (*name, score)
+    };
+    let scores: Vec<(&str, Score)> = scenes().par_iter().map(shoot).collect();
+    let all = scores.iter().map(|(_, score)| *score).fold(Score::default(), Score::add);
+    assert!(all.rays > 4000 && all.hits > 15_000, "{scores:#?}");
+    assert!(all.in_plane > 1500 && all.ties > 6000 && all.at_ends > 1500, "{scores:#?}");
+    assert!(all.blocked.min(all.clear) > 600, "{scores:#?}");
+}
+
+pub(crate) fn check(tree: &BspTree, rays: usize, score: &mut Score) -> Result<(), String> {
+    let (oracle, shots) = (Oracle::new(tree), Shots::new(tree.faces()));
+    let mut dice = Dice(17);
+    (0..rays).try_for_each(|_| oracle.check(shots.ray(&mut dice), score))
+}
+
+/// What is hit does not depend on how the tree was built.
+#[test]
+fn hits_are_the_same_in_every_tree() {
+    let scene = polygons(&scene::random_triangles(120, 5));
+    let trees: Vec<BspTree> = Heuristic::ALL
+        .iter()
+        .map(|&heuristic| BuildOptions::DEFAULT.with_heuristic(heuristic).build(&scene).unwrap())
+        .collect();
+    let (shots, mut dice, mut hits) = (Shots::new(trees[0].faces()), Dice(9), 0);
+    for _ in 0..2000 {
+        let ray = shots.ray(&mut dice);
+        let of = |tree: &BspTree| -> Vec<(usize, f64, [f64; 3])> {
+            let hits = tree.hits(ray);
+            hits.map(|hit| (hit.polygon(), hit.parameter(), hit.point().to_array())).collect()
+        };
+        let first = of(&trees[0]);
+        hits += first.len();
+        assert!(trees.iter().all(|tree| of(tree) == first), "{ray:?}");
+    }
+    assert!(hits > 2000, "{hits}");
+}
