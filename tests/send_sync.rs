@@ -10,8 +10,9 @@ use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
     Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FrameBuilder,
-    Frustum, Heuristic, Invalid, Mesh, Node, Nodes, Ordered, Overlaid, Overlay,
-    ParseHeuristicError, Part, Preparation, Progress, Stats, Triangles, Verification, Viewpoint,
+    Frustum, Heuristic, Invalid, Marker, Mesh, Node, Nodes, Ordered, Overlaid, Overlay,
+    ParseHeuristicError, Part, Preparation, Progress, Segment, Shape, Stats, Triangles,
+    Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -28,7 +29,7 @@ macro_rules! assert_shared {
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint,);
-assert_shared!(Overlay, Overlaid<'_>);
+assert_shared!(Overlay, Overlaid<'_>, Shape<'_>, Segment<'_>, Marker);
 
 // Building, and what can go wrong.
 assert_shared!(BuildOptions, Heuristic, Progress, Error, Invalid, ParseHeuristicError, CameraError,);

@@ -99,6 +99,16 @@ fn tree<P: Polygon>(
     preparer.hold(options.bounds)?;
     let preparation =
         preparer.prepare(&mut faces, polygons, options.tolerance, options.max_fragments, watch)?;
+    tree_of_faces(options, faces, preparation, watch)
+}
+
+/// Builds a tree of prepared faces.
+pub(super) fn tree_of_faces(
+    options: &BuildOptions,
+    mut faces: Faces,
+    preparation: Preparation,
+    watch: &Watch<'_>,
+) -> Result<BspTree, Error> {
     faces.shrink_to_fit();
     watch.expect(faces.len())?;
     let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use binspace::internals::Line;
 use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
 use binspace::view::Camera;
-use binspace::{BspTree, Fragment, Overlay};
+use binspace::{BspTree, Overlay, Shape};
 
 use crate::support::model::Face;
 use crate::support::rational::{self, Point};
@@ -101,7 +101,7 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     let count = (tree.len() + overlay.len()) as u32;
     ensure(sorted.into_iter().eq(0..count), || "not every number comes once".into())?;
     ensure(near.iter().rev().eq(&order), || "front to back is not the reverse".into())?;
-    let number = |fragment: Fragment<'_>| fragment.index();
+    let number = |shape: Shape<'_>| shape.index();
     let far_first = overlay.back_to_front(tree, viewpoint).map_err(error)?;
     let near_first = overlay.front_to_back(tree, viewpoint).map_err(error)?;
     ensure(far_first.len() == order.len(), || "another length".into())?;

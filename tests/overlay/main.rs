@@ -5,6 +5,8 @@ mod coplanar;
 mod cost;
 mod errors;
 mod judge;
+mod lines;
+mod oracle;
 #[path = "../support/mod.rs"]
 mod support;
 mod walks;
