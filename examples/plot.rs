@@ -108,7 +108,7 @@ fn marks() -> Vec<Mark> {
     }
     for (axis, name) in DVec3::AXES.into_iter().zip(["x", "y", "z"]) {
         let beside = if axis == DVec3::Z { DVec3::X * 0.2 } else { DVec3::Z * -0.22 };
-        for tick in ticks(axis) {
+        for tick in ticks(axis).filter(|tick| tick.length() > 1.5) {
             marks.push(Mark { at: tick + beside, text: axis.dot(tick).to_string() });
         }
         let end = if axis == DVec3::Z { 2.3 } else { 2.8 };
@@ -122,7 +122,7 @@ fn project(point: DVec3) -> DVec2 {
     let ahead = TOWARDS_EYE.normalize();
     let right = DVec3::Z.cross(ahead).normalize();
     let down = right.cross(ahead);
-    dvec2(right.dot(point), down.dot(point)) * 150.0 + dvec2(480.0, 322.0)
+    dvec2(right.dot(point), down.dot(point)) * 128.0 + dvec2(480.0, 284.0)
 }
 
 fn stroke(canvas: &mut Canvas, a: DVec2, b: DVec2, width: f64, colour: Colour) {
@@ -151,7 +151,6 @@ fn glyph(letter: char) -> Vec<[DVec2; 2]> {
     let bars = |of: &[usize]| of.iter().map(|&bar| BARS[bar]).collect();
     let [left, right] = [0.0, 1.0].map(|x| move |y: f64| dvec2(x, y));
     match letter {
-        '1' => bars(&[1, 2]),
         '2' => bars(&[0, 1, 6, 4, 3]),
         '-' => bars(&[6]),
         'x' => vec![[left(0.6), right(2.0)], [right(0.6), left(2.0)]],
@@ -264,4 +263,39 @@ fn main() -> Result<(), Box<dyn Error>> {
         plot.paint()?.write_png(&path)?;
     }
     Ok(())
+}
+
+/// Whether a surface is between a place and the eye, by steps along the ray; `None` where it is close.
+#[cfg(test)]
+fn is_hidden(place: DVec3) -> Option<bool> {
+    let step = TOWARDS_EYE.normalize() * 0.002;
+    [ripple, saddle].into_iter().try_fold(false, |hidden, height: fn(f64, f64) -> f64| {
+        let above = |p: DVec3| p.z - height(p.x, p.y);
+        let inside = |p: DVec3| p.x.abs().max(p.y.abs()) < 2.0;
+        let ray = (0..3000).map(|k| place + step * f64::from(k)).take_while(|&p| inside(p));
+        let heights: Vec<f64> = ray.map(above).collect();
+        let crossed = heights.windows(2).any(|pair| pair[0] * pair[1] <= 0.0);
+        let is_close = heights[0].abs() < 0.1 || !crossed && heights.iter().any(|h| h.abs() < 0.04);
+        (!is_close).then_some(hidden || crossed)
+    })
+}
+
+#[test]
+fn markers_show_where_no_surface_is_in_front_of_them() {
+    let plot = Plot::new().unwrap();
+    let canvas = plot.paint().unwrap();
+    let mut found = [0; 2];
+    for mark in plot.marks.iter().filter(|mark| mark.text.is_empty()) {
+        let Some(hidden) = is_hidden(mark.at) else { continue };
+        // Beside the middle, where the curve may be in front.
+        let yellow = (0..8).filter(|&k| {
+            let at = project(mark.at) + DVec2::from_angle(TAU * f64::from(k) / 8.0) * 3.5;
+            let [red, _, blue] = canvas.pixel(at.to_array().map(|x| x as usize));
+            red > 240 && (60..100).contains(&blue)
+        });
+        let yellow = yellow.count();
+        assert!(if hidden { yellow == 0 } else { yellow > 3 }, "{yellow} of 8: {}", mark.at);
+        found[usize::from(hidden)] += 1;
+    }
+    assert!(found[0] > 3 && found[1] > 1, "{found:?}");
 }

@@ -1,5 +1,6 @@
 //! Polygons that move, lines and points, beside a tree that stays as it is.
 
+mod anchors;
 mod indices;
 mod order;
 mod place;
@@ -109,7 +110,9 @@ use crate::tree::{BspTree, Fragment};
 /// something else are in one place of it, too. What is in one place in *space* depends on the plane
 /// that it lies in: on one plane first come the polygons, then the lines in input order, then the
 /// points. So an axis drawn on a wall is painted over the wall. A line that goes through a plane is
-/// cut there; a point at that place comes between its two parts. The tolerance counts as for polygons:
+/// cut there; a point at that place comes between its two parts. Only where lines and points meet
+/// between polygons, a point at a corner of a line comes after both segments there, if the line has no
+/// point at its next corners either way. The tolerance counts as for polygons:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on it;
 /// - a segment that reaches further on one side only goes whole to that side.
@@ -120,7 +123,7 @@ use crate::tree::{BspTree, Fragment};
 ///
 /// | | time |
 /// |---|---|
-/// | [`replace`](Self::replace) | O(p · depth) for p pieces, and small trees where they meet |
+/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
 /// | [`back_to_front_into`](Self::back_to_front_into) | that of the tree, and a copy of its list |
 /// | [`back_to_front`](Self::back_to_front), an iterator | O(n + p) if read to its end |
 ///

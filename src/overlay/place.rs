@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::anchors::Anchors;
 use super::planes;
 use super::region::{Cell, Opened, Region, Whose};
 use super::skeleton::{self, Place, Skeleton};
@@ -39,6 +40,7 @@ struct Pending {
 pub(super) struct Placer {
     cells: CellBuilder,
     cell: Cell,
+    anchors: Anchors,
     /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
     /// polygons, then lines, then points.
     pieces: Vec<Live>,
@@ -95,7 +97,8 @@ struct Work<'a> {
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
         let Self { tree, faces, .. } = *self;
-        let Placer { pieces, arena, pending, first, thin, .. } = &mut *self.placer;
+        let Placer { pieces, arena, pending, anchors, first, thin, .. } = &mut *self.placer;
+        anchors.fill(faces)?;
         pieces.clear();
         arena.clear();
         pending.clear();
@@ -233,7 +236,7 @@ impl Work<'_> {
     /// Puts the set on top of the stack, of at least one piece, into a cell without fragments; or gives
     /// a plane to divide it by.
     fn enter_cell(&mut self, start: usize, place: Place) -> Result<Option<Opened>, Error> {
-        let Placer { cells, cell, pieces, arena, own, thin, .. } = &mut *self.placer;
+        let Placer { cells, cell, anchors, pieces, arena, own, thin, .. } = &mut *self.placer;
         let set = &pieces[start..];
         if let [piece] = *set {
             own.clear();
@@ -244,7 +247,7 @@ impl Work<'_> {
         }
         let polygons = set.partition_point(|piece| piece.face < *thin);
         if polygons == 0 {
-            let plane = planes::between(self.faces, set, arena);
+            let plane = planes::between(self.faces, anchors, set, arena);
             return Ok(Some(Opened::empty(self.faces, plane)));
         }
         let tree = cells.build(self.faces, &set[..polygons], arena, self.watch)?;

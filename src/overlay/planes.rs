@@ -2,6 +2,7 @@
 
 use smallvec::SmallVec;
 
+use super::anchors::Anchors;
 use crate::build::live::Live;
 use crate::exact::{Exact, ExactVertex, Faces, Kernel, PlaneId, Side, SymbolKind, Vertex};
 
@@ -19,8 +20,18 @@ type Sample<'a> = SmallVec<[&'a Live; SAMPLE]>;
 
 /// Chooses the plane that divides a set of pieces, not none, without area. On either side there are
 /// fewer pieces than in the set.
-pub(super) fn between(faces: &Faces, pieces: &[Live], arena: &[ExactVertex]) -> PlaneId {
+pub(super) fn between(
+    faces: &Faces,
+    anchors: &Anchors,
+    pieces: &[Live],
+    arena: &[ExactVertex],
+) -> PlaneId {
     let sample: Sample<'_> = spread(pieces, SAMPLE).collect();
+    let anchored = anchored(anchors, pieces, arena).map(PlaneId::face);
+    let costs = anchored.filter_map(|plane| Some((cost(faces, &sample, arena, plane)?, plane)));
+    if let Some((_, plane)) = costs.min_by_key(|&(cost, _)| cost) {
+        return plane;
+    }
     let first = own_plane(faces, sample[0].face);
     let own = spread(pieces, OWN).skip(1).map(|piece| own_plane(faces, piece.face));
     let (mut best, mut least) = (first, usize::MAX);
@@ -41,6 +52,18 @@ pub(super) fn between(faces: &Faces, pieces: &[Live], arena: &[ExactVertex]) -> 
 fn spread(pieces: &[Live], most: usize) -> impl Iterator<Item = &Live> {
     let count = pieces.len().min(most);
     (0..count).map(move |i| &pieces[i * pieces.len() / count])
+}
+
+/// Some segments that end at points of the set, if there are any.
+fn anchored(
+    anchors: &Anchors,
+    pieces: &[Live],
+    arena: &[ExactVertex],
+) -> impl Iterator<Item = u32> {
+    let points = anchors.points(pieces);
+    let parts = points.chunks(points.len().div_ceil(OWN).max(1));
+    parts
+        .filter_map(move |part| part.iter().find_map(|point| anchors.segment(point, pieces, arena)))
 }
 
 /// A plane that a segment or a point lies in.

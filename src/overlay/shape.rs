@@ -69,7 +69,8 @@ impl Segment<'_> {
         [(); 2].map(|()| ends.next().unwrap_or_default())
     }
 
-    /// Where its ends are on the segment, from 0 at the first corner to 1 at the second, rounded.
+    /// Where its ends are on the segment, from 0 at the first corner to 1 at the second, rounded: of a
+    /// piece shorter than a rounding, the first may be larger than the second.
     pub fn shares(&self) -> [f64; 2] {
         let mut ends = self.piece.weights().map(|weights| {
             weights.iter().map(|&(corner, weight)| f64::from(corner) * weight).sum()

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use binspace::internals::Line;
+use binspace::internals::{Faces, Line};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
 use binspace::view::Camera;
 use binspace::{BspTree, Overlay, Shape};
@@ -30,13 +30,26 @@ pub(crate) struct Judged {
 impl Judged {
     /// Looks at both from a camera that may not fit the grid.
     pub(crate) fn look(&mut self, tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Verdict {
-        let faces = overlay.faces();
+        self.look_at_polygons(tree, overlay, overlay.faces(), camera)
+    }
+
+    /// The same, where `faces` are those of the tree and of the overlay's polygons, without lines and
+    /// points.
+    pub(crate) fn look_at_polygons(
+        &mut self,
+        tree: &BspTree,
+        overlay: &Overlay,
+        faces: &Faces,
+        camera: &Camera,
+    ) -> Verdict {
         let Ok(rays) = Rays::new(camera, faces) else { return Ok(()) };
         let order = forms(tree, overlay, camera)?;
         let mut painter = Painter::new(&rays, faces, Order::BackToFront);
         let mut painted: HashMap<(u32, u32, u32), usize> = HashMap::new();
         for &number in &order {
-            let fragment = overlay.piece(number).unwrap_or_else(|| tree.fragment(number));
+            let shape = overlay.shape(number);
+            let shape = shape.unwrap_or_else(|| Shape::Fragment(tree.fragment(number)));
+            let Some(fragment) = shape.fragment() else { continue };
             let lines: Vec<Line> = fragment.lines().collect();
             let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
             let outline = if fragment.is_whole() {

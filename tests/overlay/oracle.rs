@@ -18,6 +18,8 @@ const NEAR: f64 = 1e-7;
 const GRID: f64 = (1u64 << 51) as f64;
 /// How many places of each piece are looked at.
 const PLACES: u32 = 3;
+/// How many pieces of segments are held against polygons, about, of each order.
+const MOST: usize = 60;
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -41,6 +43,8 @@ pub(crate) struct Given {
     pub(crate) segments: Vec<(usize, usize, [Point; 2])>,
     pub(crate) points: Vec<Point>,
     faces: Vec<Face>,
+    /// The ends of the segments, rounded.
+    rounded: Vec<[DVec3; 2]>,
     /// Of the faces, rounded.
     corners: Vec<Vec<DVec3>>,
 }
@@ -61,7 +65,8 @@ impl Given {
         let faces: Vec<Face> =
             (0..count as u32).map(|face| Face::new(overlay.faces(), face)).collect();
         let corners = faces.iter().map(|face| face.corners.iter().map(to_f64).collect()).collect();
-        Self { segments, points: points.iter().map(snap).collect(), faces, corners }
+        let rounded = segments.iter().map(|(_, _, ends)| ends.each_ref().map(to_f64)).collect();
+        Self { segments, points: points.iter().map(snap).collect(), faces, rounded, corners }
     }
 }
 
@@ -152,11 +157,6 @@ fn ratio(eye: &Point, a: &Point, b: &Point) -> Rational {
 /// Where the ray from the eye meets both of two segments, as shares of these, and how much further the
 /// second is; `None` if there is no such ray through the inside of both.
 fn crossing(eye: &Point, a: &[Point; 2], b: &[Point; 2]) -> Option<([Rational; 2], Rational)> {
-    let [near_eye, near_a, near_b] =
-        [&[eye.clone(), eye.clone()], a, b].map(|e| e.each_ref().map(to_f64));
-    if !may_cross(near_eye[0], near_a, near_b) || !may_cross(near_eye[0], near_b, near_a) {
-        return None;
-    }
     let share = |of: &[Point; 2], by: &[Point; 2]| {
         let plane = Plane::through([eye, &by[0], &by[1]]);
         let [from, to] = of.each_ref().map(|end| plane.at(end));
@@ -188,10 +188,7 @@ fn may_hit(eye: DVec3, through: DVec3, corners: &[DVec3]) -> bool {
 }
 
 /// Where the ray from the eye through a point meets the inside of a face: 1 at the point.
-fn hit(eye: &Point, through: &Point, face: &Face, corners: &[DVec3]) -> Option<Rational> {
-    if !may_hit(to_f64(eye), to_f64(through), corners) {
-        return None;
-    }
+fn hit(eye: &Point, through: &Point, face: &Face) -> Option<Rational> {
     let (from, to) = (face.plane.at(eye), face.plane.at(through));
     if from.is_zero() || from == to {
         return None;
@@ -210,8 +207,7 @@ fn hit(eye: &Point, through: &Point, face: &Face, corners: &[DVec3]) -> Option<R
     is_inside.then_some(ratio)
 }
 
-/// Judges the order of a viewpoint at a place of the grid. `lines` of pairs are compared, and `rays`
-/// from points to others, which are edge on, not.
+/// Judges the order of an eye at a place of the grid; an eye that is rounded again is left out.
 pub(crate) fn judge(
     tree: &BspTree,
     overlay: &Overlay,
@@ -247,9 +243,14 @@ impl Judge<'_> {
     }
 
     fn lines(&self, counts: &mut Counts) -> Verdict {
-        let segments = &self.given.segments;
+        let (segments, rounded) = (&self.given.segments, &self.given.rounded);
+        let eye = to_f64(&self.eye);
         for (i, (_, _, a)) in segments.iter().enumerate() {
             for (j, (_, _, b)) in segments.iter().enumerate().skip(i + 1) {
+                let may_cross = |i: usize, j: usize| may_cross(eye, rounded[i], rounded[j]);
+                if !may_cross(i, j) || !may_cross(j, i) {
+                    continue;
+                }
                 let Some((shares, ratio)) = crossing(&self.eye, a, b) else { continue };
                 let [of_a, of_b] = shares.map(|share| share.to_f64().expect("in range"));
                 let pieces = (self.painted.piece_at(i, of_a), self.painted.piece_at(j, of_b));
@@ -267,10 +268,14 @@ impl Judge<'_> {
     }
 
     fn polygons(&self, counts: &mut Counts) -> Verdict {
-        for piece in &self.painted.segments {
+        let step = 1 + self.painted.segments.len() / MOST;
+        for piece in self.painted.segments.iter().step_by(step) {
             let ends = &self.given.segments[piece.segment].2;
+            let [from, to] = piece.shares;
+            if to - from < f64::from(PLACES + 1) * NEAR {
+                continue;
+            }
             for k in 1..=PLACES {
-                let [from, to] = piece.shares;
                 let share = from + (to - from) * f64::from(k) / f64::from(PLACES + 1);
                 let at = between(ends, &rational::exact(share));
                 let [on, off] = self.against_faces(&at, piece.place, Some(ends))?;
@@ -297,9 +302,12 @@ impl Judge<'_> {
         if *at == self.eye {
             return Ok(judged);
         }
+        let [eye, through] = [&self.eye, at].map(to_f64);
         for (number, face) in self.given.faces.iter().enumerate() {
-            let corners = &self.given.corners[number];
-            let Some(ratio) = hit(&self.eye, at, face, corners) else { continue };
+            if !may_hit(eye, through, &self.given.corners[number]) {
+                continue;
+            }
+            let Some(ratio) = hit(&self.eye, at, face) else { continue };
             let seen = between(&[self.eye.clone(), at.clone()], &ratio);
             let Some(fragment) = self.painted.fragment_at(number, &seen) else { continue };
             let is_on = ratio.is_one();
@@ -418,6 +426,9 @@ fn is_in_one_plane(overlay: &Overlay, points: &[&Point]) -> bool {
     (0..faces.len() as u32).any(is_of)
 }
 
+/// The shares of a piece's ends, where they are, and whether they were cut.
+type SegmentEnds = ([f64; 2], [DVec3; 2], [bool; 2]);
+
 /// Whether the pieces of each segment tile it, and share the bits of their ends.
 pub(crate) fn tiles(
     tree: &BspTree,
@@ -426,8 +437,7 @@ pub(crate) fn tiles(
     counts: &mut Counts,
 ) -> Verdict {
     let lattice = overlay.faces().lattice();
-    let mut pieces: Vec<Vec<([f64; 2], [DVec3; 2], [bool; 2])>> =
-        vec![vec![]; given.segments.len()];
+    let mut pieces: Vec<Vec<SegmentEnds>> = vec![vec![]; given.segments.len()];
     let mut markers = vec![0; given.points.len()];
     for number in tree.len()..tree.len() + overlay.len() {
         match overlay.shape(number as u32).expect("a shape") {
@@ -454,13 +464,23 @@ pub(crate) fn tiles(
         return Err("a point that does not come once".into());
     }
     for (pieces, (_, _, segment)) in pieces.iter_mut().zip(&given.segments) {
-        pieces.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        counts.pieces += pieces.len();
+        // From end to end: by their shares alone, pieces shorter than a rounding may seem out of order.
         let mut end = (0.0, None);
-        for &(shares, ends, cuts) in pieces.iter() {
-            let is_next = shares[0] == end.0 && end.1.is_none_or(|point| point == ends[0]);
-            let is_cut = [shares[0] != 0.0, shares[1] != 1.0];
-            if !is_next || is_cut != cuts {
-                return Err(format!("pieces do not tile: {pieces:?}"));
+        while !pieces.is_empty() {
+            let joins = |piece: &SegmentEnds| {
+                piece.0[0] == end.0 && end.1.is_none_or(|point| point == piece.1[0])
+            };
+            let is_nothing =
+                |piece: &SegmentEnds| piece.0[0] == piece.0[1] && piece.1[0] == piece.1[1];
+            let next = pieces.iter().position(|piece| joins(piece) && is_nothing(piece));
+            let next = next.or_else(|| pieces.iter().position(joins));
+            let Some(next) = next else {
+                return Err(format!("pieces do not tile: {end:?}, {pieces:?}"));
+            };
+            let (shares, ends, cuts) = pieces.swap_remove(next);
+            if cuts != [shares[0] != 0.0, shares[1] != 1.0] {
+                return Err(format!("cut or not: {shares:?}, {cuts:?}"));
             }
             for (share, point) in shares.into_iter().zip(ends) {
                 let exact = between(segment, &rational::exact(share));
@@ -472,9 +492,8 @@ pub(crate) fn tiles(
             end = (shares[1], Some(ends[1]));
         }
         if end.0 != 1.0 {
-            return Err(format!("the end of a segment is missing: {pieces:?}"));
+            return Err(format!("the end of a segment is missing: {end:?}"));
         }
-        counts.pieces += pieces.len();
     }
     counts.segments += given.segments.len();
     Ok(())
