@@ -329,64 +329,62 @@ impl Judge<'_> {
 
     /// Points in front of points, and of lines, as seen from an eye that is in line with both.
     fn points(&self, overlay: &Overlay, counts: &mut Counts) -> Verdict {
+        let eye = to_f64(&self.eye);
         let points = self.given.points.iter().zip(&self.painted.points);
         for (i, (x, &place)) in points.clone().enumerate() {
+            let near = to_f64(x);
             for (y, &other) in points.clone().skip(i + 1) {
-                let (x, y) = ([x, x], [y, y]);
-                self.in_line(
-                    overlay,
-                    (&x, place),
-                    (&y, other),
-                    &mut counts.points,
-                    &mut counts.edge_on,
-                )?;
+                let arms = [near, to_f64(y)].map(|point| (point - eye).normalize_or_zero());
+                if arms[0].cross(arms[1]).length() < 1e-6 {
+                    let ends = [y, y].map(Point::clone);
+                    let [off, on] = self.in_line(overlay, (x, place), (&ends, other))?;
+                    counts.points += off;
+                    counts.edge_on += on;
+                }
             }
             for piece in &self.painted.segments {
                 let ends = &self.given.segments[piece.segment].2;
+                let [p, q] = self.given.rounded[piece.segment];
+                let arms = [near, p, q].map(|point| (point - eye).normalize_or_zero());
+                if arms[0].dot(arms[1].cross(arms[2])).abs() > 1e-6 {
+                    continue;
+                }
                 let Some(share) = share_in_line(&self.eye, x, ends) else { continue };
                 let share = share.to_f64().expect("in range");
                 let [from, to] = piece.shares;
                 if from + NEAR < share && share < to - NEAR {
-                    let (x, ends) = ([x, x], [&ends[0], &ends[1]]);
-                    self.in_line(
-                        overlay,
-                        (&x, place),
-                        (&ends, piece.place),
-                        &mut counts.point_line,
-                        &mut counts.edge_on,
-                    )?;
+                    let [off, on] = self.in_line(overlay, (x, place), (ends, piece.place))?;
+                    counts.point_line += off;
+                    counts.edge_on += on;
                 }
             }
         }
         Ok(())
     }
 
+    /// Holds a point against a segment, or another point, that it may be in line with: how many were
+    /// compared, and how many lie in one plane with it and the eye.
     fn in_line(
         &self,
         overlay: &Overlay,
-        (a, place): (&[&Point; 2], usize),
-        (b, other): (&[&Point; 2], usize),
-        count: &mut usize,
-        edge_on: &mut usize,
-    ) -> Verdict {
-        let x = a[0];
+        (x, place): (&Point, usize),
+        (ends, other): (&[Point; 2], usize),
+    ) -> Result<[usize; 2], String> {
         if *x == self.eye {
-            return Ok(());
+            return Ok([0, 0]);
         }
-        let ends = b.map(Point::clone);
-        let Some(share) = share_in_line(&self.eye, x, &ends) else { return Ok(()) };
-        let ratio = ratio(&self.eye, x, &between(&ends, &share));
+        let Some(share) = share_in_line(&self.eye, x, ends) else { return Ok([0, 0]) };
+        let ratio = ratio(&self.eye, x, &between(ends, &share));
         if !ratio.is_positive() || ratio.is_one() {
-            return Ok(());
+            return Ok([0, 0]);
         }
         // A plane that holds both holds the eye as well.
-        if is_in_one_plane(overlay, &[a[0], b[0], b[1]]) {
-            *edge_on += 1;
-            return Ok(());
+        if is_in_one_plane(overlay, &[x, &ends[0], &ends[1]]) {
+            return Ok([0, 1]);
         }
         let (far, near) = if ratio > Rational::one() { (other, place) } else { (place, other) };
-        *count += 1;
-        self.ensure(far, near, || format!("a point and {:?}", b.map(to_f64)))
+        self.ensure(far, near, || format!("a point and {:?}", ends.each_ref().map(to_f64)))?;
+        Ok([1, 0])
     }
 }
 
