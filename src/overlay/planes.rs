@@ -27,18 +27,31 @@ pub(super) fn between(
     arena: &[ExactVertex],
 ) -> PlaneId {
     let sample: Sample<'_> = spread(pieces, SAMPLE).collect();
-    let anchored = anchored(anchors, pieces, arena).map(PlaneId::face);
-    let costs = anchored.filter_map(|plane| Some((cost(faces, &sample, arena, plane)?, plane)));
-    if let Some((_, plane)) = costs.min_by_key(|&(cost, _)| cost) {
-        return plane;
-    }
     let first = own_plane(faces, sample[0].face);
     let own = spread(pieces, OWN).skip(1).map(|piece| own_plane(faces, piece.face));
-    let (mut best, mut least) = (first, usize::MAX);
-    for plane in [first].into_iter().chain(medians(faces, &sample, arena)).chain(own) {
-        let Some(cost) = cost(faces, &sample, arena, plane) else { continue };
-        if cost < least {
-            (best, least) = (plane, cost);
+    let own = medians(faces, &sample, arena).chain(own);
+    let plain = cheapest(faces, &sample, arena, [first].into_iter().chain(own));
+    // All of them lie in one plane.
+    if let Some((0, plane)) = plain {
+        return plane;
+    }
+    let anchored = anchored(anchors, pieces, arena).map(PlaneId::face);
+    let best = cheapest(faces, &sample, arena, anchored).or(plain);
+    best.map_or(first, |(_, plane)| plane)
+}
+
+/// The cheapest of some planes, with what it costs.
+fn cheapest(
+    faces: &Faces,
+    sample: &Sample<'_>,
+    arena: &[ExactVertex],
+    planes: impl Iterator<Item = PlaneId>,
+) -> Option<(usize, PlaneId)> {
+    let mut best: Option<(usize, PlaneId)> = None;
+    for plane in planes {
+        let cost = cost(faces, sample, arena, plane).unwrap_or(usize::MAX);
+        if best.is_none_or(|(least, _)| cost < least) {
+            best = Some((cost, plane));
         }
         // It cuts nothing, and leaves at most half of them on either side.
         if cost <= sample.len() / 2 {

@@ -88,8 +88,8 @@ fn point(scene: &Scene, dice: &mut Dice) -> DVec3 {
 }
 
 fn scene(dice: &mut Dice) -> Scene {
-    let mut scene = Scene::default();
-    scene.polygons = (0..1 + dice.below(10)).map(|_| polygon(dice)).collect();
+    let polygons = (0..1 + dice.below(10)).map(|_| polygon(dice)).collect();
+    let mut scene = Scene { polygons, ..Scene::default() };
     for _ in 0..1 + dice.below(10) {
         let line = line(&scene, dice);
         scene.lines.push(line);
