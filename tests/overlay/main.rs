@@ -3,6 +3,7 @@
 
 mod coplanar;
 mod cost;
+mod crowd;
 mod errors;
 mod judge;
 mod lines;
