@@ -11,10 +11,12 @@ pub struct Error {
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     NonFinite {
-        polygon: usize,
+        shape: Shape,
+        number: usize,
     },
-    PolygonCorners {
-        polygon: usize,
+    Corners {
+        shape: Shape,
+        number: usize,
         limit: usize,
     },
     TooManyCorners {
@@ -39,7 +41,8 @@ enum Kind {
     Cancelled,
     Bounds,
     OffGrid {
-        polygon: usize,
+        shape: Shape,
+        number: usize,
     },
     OverlaidTree,
     #[cfg(feature = "layers")]
@@ -59,13 +62,42 @@ enum Kind {
     },
 }
 
+/// What an error may name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    Polygon,
+    Line,
+    Point,
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Polygon => "polygon",
+            Self::Line => "line",
+            Self::Point => "point",
+        })
+    }
+}
+
 impl Error {
-    pub(crate) const fn non_finite(polygon: usize) -> Self {
-        Self { kind: Kind::NonFinite { polygon } }
+    pub(crate) const fn non_finite(number: usize) -> Self {
+        Self { kind: Kind::NonFinite { shape: Shape::Polygon, number } }
     }
 
-    pub(crate) const fn polygon_corners(polygon: usize, limit: usize) -> Self {
-        Self { kind: Kind::PolygonCorners { polygon, limit } }
+    pub(crate) const fn polygon_corners(number: usize, limit: usize) -> Self {
+        Self { kind: Kind::Corners { shape: Shape::Polygon, number, limit } }
+    }
+
+    /// The same, where the polygon to blame is a shape of another kind.
+    pub(crate) const fn of(mut self, kind: Shape) -> Self {
+        match &mut self.kind {
+            Kind::NonFinite { shape, .. }
+            | Kind::Corners { shape, .. }
+            | Kind::OffGrid { shape, .. } => *shape = kind,
+            _ => {}
+        }
+        self
     }
 
     pub(crate) const fn too_many_corners(limit: usize) -> Self {
@@ -104,8 +136,8 @@ impl Error {
         Self { kind: Kind::Bounds }
     }
 
-    pub(crate) const fn off_grid(polygon: usize) -> Self {
-        Self { kind: Kind::OffGrid { polygon } }
+    pub(crate) const fn off_grid(number: usize) -> Self {
+        Self { kind: Kind::OffGrid { shape: Shape::Polygon, number } }
     }
 
     pub(crate) const fn overlaid_tree() -> Self {
@@ -137,11 +169,31 @@ impl Error {
     /// The index of the polygon (or layer) to blame, in the order in which the polygons were given.
     pub const fn polygon(&self) -> Option<usize> {
         match self.kind {
-            Kind::NonFinite { polygon }
-            | Kind::PolygonCorners { polygon, .. }
-            | Kind::OffGrid { polygon } => Some(polygon),
             #[cfg(feature = "layers")]
             Kind::Layer { layer } => Some(layer),
+            _ => self.number_of(Shape::Polygon),
+        }
+    }
+
+    /// The index of the overlay's line to blame, in the order in which the lines were given.
+    pub const fn line(&self) -> Option<usize> {
+        self.number_of(Shape::Line)
+    }
+
+    /// The index of the overlay's point to blame, in the order in which the points were given.
+    pub const fn point(&self) -> Option<usize> {
+        self.number_of(Shape::Point)
+    }
+
+    const fn number_of(&self, kind: Shape) -> Option<usize> {
+        match self.kind {
+            Kind::NonFinite { shape, number }
+            | Kind::Corners { shape, number, .. }
+            | Kind::OffGrid { shape, number }
+                if shape as u8 == kind as u8 =>
+            {
+                Some(number)
+            }
             _ => None,
         }
     }
@@ -169,12 +221,12 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.kind {
-            Kind::NonFinite { polygon } => {
-                write!(f, "polygon {polygon} has a coordinate that is NaN or infinite")
+            Kind::NonFinite { shape, number } => {
+                write!(f, "{shape} {number} has a coordinate that is NaN or infinite")
             }
-            Kind::PolygonCorners { polygon, limit } => write!(
+            Kind::Corners { shape, number, limit } => write!(
                 f,
-                "polygon {polygon} has more than {limit} corners: divide it into smaller polygons"
+                "{shape} {number} has more than {limit} corners: divide it into smaller {shape}s"
             ),
             Kind::TooManyPolygons { limit } => {
                 write!(f, "there are more than {limit} polygons: divide the scene")
@@ -219,9 +271,9 @@ impl fmt::Display for Error {
             Kind::Bounds => f.write_str(
                 "a corner of the bounds (`with_bounds`) has a coordinate that is NaN or infinite",
             ),
-            Kind::OffGrid { polygon } => write!(
+            Kind::OffGrid { shape, number } => write!(
                 f,
-                "polygon {polygon} reaches beyond the tree's grid: build the tree with bounds that \
+                "{shape} {number} reaches beyond the tree's grid: build the tree with bounds that \
                  hold all that will move (`with_bounds`)"
             ),
             Kind::OverlaidTree => f.write_str(

@@ -6,7 +6,8 @@
 //! |---|---|
 //! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built |
 //! | [`FrameBuilder`] | trees built anew every frame |
-//! | [`Overlay`], [`Overlaid`] | polygons that move, in one order with a tree that stays |
+//! | [`Overlay`], [`Shapes`], [`Shape`], [`Overlaid`] | polygons that move, lines and points, in one order with a tree that stays |
+//! | [`Segment`], [`Marker`] | what lines and points become there |
 //! | [`Polygon`], [`Point`] | what it is built from |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Node`] | what it consists of |
@@ -75,7 +76,7 @@ pub use glam;
 pub use input::{MAX_CORNERS, Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
-pub use overlay::{Overlaid, Overlay};
+pub use overlay::{Marker, Overlaid, Overlay, Segment, Shape, Shapes};
 pub use query::{Hit, Hits, Location};
 pub use ray::Ray;
 #[cfg(feature = "save")]

@@ -10,9 +10,9 @@ use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
     Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FrameBuilder,
-    Frustum, Heuristic, Hit, Hits, Invalid, Location, Mesh, Node, Nodes, Ordered, Overlaid,
-    Overlay, ParseHeuristicError, Part, Preparation, Progress, Ray, Stats, Triangles, Verification,
-    Viewpoint,
+    Frustum, Heuristic, Hit, Hits, Invalid, Location, Marker, Mesh, Node, Nodes, Ordered, Overlaid,
+    Overlay, ParseHeuristicError, Part, Preparation, Progress, Ray, Segment, Shape, Stats,
+    Triangles, Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -29,7 +29,7 @@ macro_rules! assert_shared {
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint,);
-assert_shared!(Overlay, Overlaid<'_>);
+assert_shared!(Overlay, Overlaid<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(Hit<'_>, Hits<'_>, Location<'_>, Ray);
 
 // Building, and what can go wrong.

@@ -1,10 +1,10 @@
-//! Polygons that move in a tree that stays: what a frame costs, against building the tree of all anew
-//! and against the order of the tree alone.
+//! Polygons that move, lines, points and a body in a tree that stays: what a frame costs, against
+//! building the tree of all anew and against the order of the tree alone.
 
 use binspace::glam::{DMat3, DVec3};
-use binspace::{BspTree, BuildOptions, Overlay, Viewpoint};
+use binspace::{BspTree, BuildOptions, Overlay, Shapes, Viewpoint, scene};
 use std::time::{Duration, Instant};
-use support::{SEED, Table, Target, against, check, scene, time, viewpoints};
+use support::{SEED, Table, Target, against, check, scene as named, time, viewpoints};
 
 const SCENES: [&str; 6] = [
     "city:10000",
@@ -17,7 +17,19 @@ const SCENES: [&str; 6] = [
 const MOVERS: usize = 200;
 const FRAMES: usize = 20;
 
+/// Lines of so many segments, and points.
+const LINES: usize = 200;
+const SEGMENTS: usize = 50;
+const POINTS: usize = 1000;
+/// Faces of a body, about.
+const BODY: u32 = 10_000;
+
 pub(crate) fn run() {
+    moving();
+    lines_and_bodies();
+}
+
+fn moving() {
     let table = Table::new(
         "200 polygons that move, each frame: replace / rebuild, merged order / the tree's own",
         &[
@@ -38,7 +50,7 @@ pub(crate) fn run() {
         ],
     );
     for name in SCENES {
-        let Some(scene) = scene(name) else { continue };
+        let Some(scene) = named(name) else { continue };
         let (low, high) = scene.bounds().expect("a scene with polygons");
         let margin = (high - low) * 0.1;
         let options = BuildOptions::DEFAULT.with_bounds(low - margin, high + margin);
@@ -133,4 +145,94 @@ fn judge(overlay: &Overlay, tree: &BspTree, eye: Viewpoint) {
     assert!(listed.map(|fragment| fragment.index()).eq(order.iter().copied()));
     order.sort_unstable();
     assert!(order.into_iter().eq(0..(tree.len() + overlay.len()) as u32));
+}
+
+/// What an overlay of one kind costs, where its shapes are anywhere in a scene, or all in one leaf.
+fn lines_and_bodies() {
+    let table = Table::new(
+        "200 lines of 50 segments and 1000 points, and a body of 10 000 faces, each frame",
+        &["scene", "overlay", "shapes", "pieces", "rebuild", "replace", "order", "merged", "ratio"],
+    );
+    for name in ["empty", "city:100000", "terrain:100000", "sphere:100000"] {
+        let still = if name == "empty" {
+            scene::Scene::new("empty", DVec3::Z)
+        } else {
+            let Some(scene) = named(name) else { continue };
+            scene
+        };
+        let (low, high) = still.bounds().unwrap_or((DVec3::ZERO, DVec3::ONE));
+        let margin = (high - low).max_element() * 0.1;
+        let options = BuildOptions::DEFAULT.with_bounds(low - margin, high + margin);
+        let start = Instant::now();
+        let tree = options.build(still.polygons()).expect("within budget");
+        let rebuild = start.elapsed();
+        let eye = Viewpoint::Eye(low - (high - low) * 0.3);
+        let (lines, points) = curves(low, high);
+        let body = |at: DVec3| {
+            let size = margin * 0.4;
+            let place = move |corner: &DVec3| at + *corner * size;
+            let sphere = scene::sphere(BODY);
+            let faces = sphere.polygons().map(|face| face.iter().map(place).collect::<Vec<_>>());
+            faces.collect::<Vec<_>>()
+        };
+        let (none, no_lines): (Vec<Vec<DVec3>>, &[Vec<DVec3>]) = (vec![], &[]);
+        let no_points: &[DVec3] = &[];
+        let above =
+            DVec3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, high.z + margin / 2.0);
+        let kinds = [
+            ("lines", &none, &lines[..], no_points),
+            ("points", &none, no_lines, &points[..]),
+            ("body, above", &body(above), no_lines, no_points),
+            ("body, inside", &body((low + high) / 2.0), no_lines, no_points),
+        ];
+        for (kind, polygons, lines, points) in kinds {
+            let mut overlay = Overlay::new(&tree);
+            let shapes = Shapes::NONE.with_polygons(polygons).with_lines(lines);
+            let shapes = shapes.with_points(points.iter().copied());
+            let count = polygons.len() + lines.len() * SEGMENTS + points.len();
+            let (mut alone, mut both) = (Vec::new(), Vec::new());
+            let [mut replacing, mut ordering, mut merging] = [Duration::MAX; 3];
+            for _ in 0..7 {
+                let start = Instant::now();
+                overlay.replace_with(&tree, shapes.clone()).expect("on the grid");
+                replacing = replacing.min(start.elapsed());
+                let start = Instant::now();
+                tree.back_to_front_into(eye, &mut alone);
+                ordering = ordering.min(start.elapsed());
+                let start = Instant::now();
+                overlay.back_to_front_into(&tree, eye, &mut both).expect("its own tree");
+                merging = merging.min(start.elapsed());
+            }
+            judge(&overlay, &tree, eye);
+            table.row(&[
+                name.to_owned(),
+                kind.to_owned(),
+                count.to_string(),
+                overlay.len().to_string(),
+                time(rebuild),
+                time(replacing),
+                time(ordering),
+                time(merging),
+                format!("{:.2}", merging.as_secs_f64() / ordering.as_secs_f64()),
+            ]);
+        }
+    }
+}
+
+/// Curves that wind through a box, and points anywhere in it.
+fn curves(low: DVec3, high: DVec3) -> (Vec<Vec<DVec3>>, Vec<DVec3>) {
+    let mut random = binspace::internals::SplitMix64::new(SEED);
+    let mut any = || DVec3::from_array([0; 3].map(|_| random.range(0.0, 1.0)));
+    let place = |share: DVec3| low + (high - low) * share.clamp(DVec3::ZERO, DVec3::ONE);
+    let curve = |_| {
+        let (at, turn) = (any(), any());
+        let point = |k: usize| {
+            let along = k as f64 / SEGMENTS as f64;
+            let angle = turn * (2.0 + 6.0 * along);
+            place(at + DVec3::new(angle.x.cos(), angle.y.sin(), (2.0 * angle.z).cos()) * 0.1)
+        };
+        (0..=SEGMENTS).map(point).collect()
+    };
+    let lines = (0..LINES).map(curve).collect();
+    (lines, (0..POINTS).map(|_| place(any())).collect())
 }

@@ -34,12 +34,13 @@ impl CellBuilder {
     ///
     /// # Errors
     ///
-    /// If there are too many fragments, or memory runs out.
+    /// If there are too many fragments, if it is cancelled, or if memory runs out.
     pub(crate) fn build(
         &mut self,
         faces: &Faces,
         pieces: &[Live],
         arena: &[ExactVertex],
+        watch: &Watch<'_>,
     ) -> Result<Parts<ExactStored>, Error> {
         let Self { normals, memory } = self;
         let mut job =
@@ -54,10 +55,9 @@ impl CellBuilder {
             job.arena.extend_from_slice(vertices);
             job.pieces.push(piece.moved_to(start));
         }
-        let (watch, options) = (Watch::default(), BuildOptions::DEFAULT);
         // The budget counts all faces, the tree's among them.
-        let options = options.with_max_fragments(MOST_FRAGMENTS);
-        let shared = Shared::new(Exact, faces, normals, &options, &Tuning::FRAMES, &watch)?;
+        let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
+        let shared = Shared::new(Exact, faces, normals, &options, &Tuning::FRAMES, watch)?;
         assemble(jobs::run(&shared.with_positions(), job, memory)?)
     }
 

@@ -95,6 +95,16 @@ fn tree<P: Polygon>(
     watch: &Watch<'_>,
 ) -> Result<BspTree, Error> {
     let (faces, preparation) = prepared(options, polygons, watch)?;
+    tree_of_faces(options, faces, preparation, watch)
+}
+
+/// Builds a tree of prepared faces.
+pub(super) fn tree_of_faces(
+    options: &BuildOptions,
+    faces: Faces,
+    preparation: Preparation,
+    watch: &Watch<'_>,
+) -> Result<BspTree, Error> {
     watch.expect(faces.len())?;
     let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
     watch.end()?;

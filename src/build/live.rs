@@ -49,6 +49,13 @@ impl Live {
         live
     }
 
+    /// A segment or a point, by its vertices, and where these begin in the arena.
+    pub(crate) fn thin<V: Vertex>(face: u32, vertices: &[V], start: usize) -> Self {
+        let mut live = Self::empty(face, start as u32, vertices.len() as u32);
+        vertices.iter().for_each(|vertex| live.include(vertex.position()));
+        live
+    }
+
     fn empty(face: u32, start: u32, len: u32) -> Self {
         let (min, max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         Self { min, max, face, start, len, cuts: 0, on_corner: 0 }

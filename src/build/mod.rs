@@ -6,6 +6,7 @@ mod builder;
 pub(crate) mod cell;
 pub(crate) mod choose;
 pub(crate) mod driver;
+mod extend;
 mod frame_builder;
 mod heuristic;
 mod job;

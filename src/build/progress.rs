@@ -33,7 +33,7 @@ pub struct Progress {
 ///
 /// A thread that finds the callback busy continues without calling it. If it waited it could wait
 /// forever: the callback may run further down this thread's own stack, waiting for the thread pool.
-pub(super) fn one_at_a_time(
+pub(crate) fn one_at_a_time(
     progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
 ) -> impl Fn(&Watch<'_>) -> ControlFlow<()> + Sync {
     let progress = Mutex::new(progress);
@@ -58,7 +58,7 @@ type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
 
 /// Shared by the jobs of a build: counts their work, calls the callback, and tells them to stop.
 #[derive(Default)]
-pub(super) struct Watch<'a> {
+pub(crate) struct Watch<'a> {
     callback: Option<Callback<'a>>,
     total: AtomicUsize,
     /// In units of 1/`FACE`.
@@ -69,19 +69,19 @@ pub(super) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    pub(super) fn new(callback: Callback<'a>) -> Self {
+    pub(crate) fn new(callback: Callback<'a>) -> Self {
         Self { callback: Some(callback), ..Self::default() }
     }
 
     /// Sets the number of polygons or faces, and calls the callback.
-    pub(super) fn expect(&self, total: usize) -> Result<(), Error> {
+    pub(crate) fn expect(&self, total: usize) -> Result<(), Error> {
         self.total.store(total, Ordering::Relaxed);
         self.call()
     }
 
     /// Counts pieces that are about to be examined; an error if the build was cancelled.
     #[inline]
-    pub(super) fn work(&self, pieces: usize) -> Result<(), Error> {
+    pub(crate) fn work(&self, pieces: usize) -> Result<(), Error> {
         if self.callback.is_none() {
             return Ok(());
         }
@@ -94,7 +94,7 @@ impl<'a> Watch<'a> {
 
     /// Counts a piece that has been stored in the tree, and was cut so many times.
     #[inline]
-    pub(super) fn finish(&self, cuts: u8) {
+    pub(crate) fn finish(&self, cuts: u8) {
         if self.callback.is_some() {
             let share = FACE.checked_shr(cuts.into()).unwrap_or(0);
             self.done.fetch_add(share, Ordering::Relaxed);
@@ -102,7 +102,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Reports that all is done.
-    pub(super) fn end(&self) -> Result<(), Error> {
+    pub(crate) fn end(&self) -> Result<(), Error> {
         // Shares of pieces cut more than 32 times were rounded to nothing, so the sum may fall short.
         let total = self.total.load(Ordering::Relaxed) as u64;
         self.done.store(total * FACE, Ordering::Relaxed);

@@ -27,6 +27,18 @@ pub struct Faces {
     /// The corners, counted over all faces, that were moved onto their face's plane, and where they
     /// were. In ascending order.
     pub(crate) moved: Vec<(u32, [f64; 3])>,
+    pub(crate) thin: Thin,
+}
+
+/// How many of the last faces have no area: first segments, then points.
+///
+/// A segment has three corners: its ends, and one that is on it with no line through both. The third
+/// is never drawn: it only says which plane through the segment is meant by the face's. A point has
+/// one corner, and no plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Thin {
+    pub(crate) segments: usize,
+    pub(crate) points: usize,
 }
 
 /// Marks a corner if the edge from it to the next is not an edge of the polygon.
@@ -50,6 +62,8 @@ impl Frame {
     pub(crate) const MAX_CORNERS: usize = 1 << 15;
     /// The frame of a triangle.
     pub(crate) const TRIANGLE: Self = Self::new(1, 2, None);
+    /// The frame of a point, which has no plane.
+    pub(crate) const POINT: Self = Self::new(0, 0, None);
 
     pub(crate) const fn new(second: usize, third: usize, drop: Option<usize>) -> Self {
         let axis = match drop {
@@ -111,6 +125,19 @@ impl Faces {
         let face = face as usize;
         let end = self.faces.get(face + 1).map_or(self.corners.len(), |next| next.start as usize);
         self.faces[face].start as usize..end
+    }
+
+    /// How many of a face's corners, from the first on, are part of it: all, but two of a segment.
+    pub(crate) fn reach(&self, face: u32) -> usize {
+        let Thin { segments, points } = self.thin;
+        let from_end = self.len() - face as usize;
+        if from_end <= points {
+            1
+        } else if from_end <= points + segments {
+            2
+        } else {
+            self.corner_range(face).len()
+        }
     }
 
     /// The lattice point of a corner, counted over all faces.
@@ -184,8 +211,9 @@ impl Faces {
         }
     }
 
-    /// Removes the faces from number `faces` on.
+    /// Removes the faces from number `faces` on, and with them all that have no area.
     pub(crate) fn truncate(&mut self, faces: usize) {
+        self.thin = Thin::default();
         let Some(face) = self.faces.get(faces) else { return };
         let (corners, first) = (face.start, faces as u32);
         self.faces.truncate(faces);

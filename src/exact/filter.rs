@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::kernel::Vertex;
+use super::kernel::{Side, Vertex};
 use super::label::{Line, PlaneId, PlaneKind, Symbol};
 use super::lattice::LIMIT;
 use super::plane::Plane;
@@ -57,6 +57,23 @@ impl ExactSplitter {
     pub fn distance(&self, p: [f64; 3]) -> f64 {
         let n = self.normal;
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
+    }
+
+    /// The side of the plane, by the rules of [`Exact`](super::Exact), of every piece whose rounded
+    /// vertices lie in a box; `None` if the box does not tell.
+    pub(crate) fn side_of_box(&self, [low, high]: [[f64; 3]; 2]) -> Option<Side> {
+        let lowest = std::array::from_fn(|i| if self.normal[i] > 0.0 { low[i] } else { high[i] });
+        let highest = std::array::from_fn(|i| if self.normal[i] > 0.0 { high[i] } else { low[i] });
+        // The bound is for a vertex at the corner of the box. Others have larger coordinates and so are
+        // rounded by more: by three roundings of the largest, a third of another bound.
+        let far = self.band + 2.0 * self.bound;
+        if self.distance(lowest) > far {
+            Some(Side::Front)
+        } else if self.distance(highest) < -far {
+            Some(Side::Back)
+        } else {
+            None
+        }
     }
 
     /// The largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a

@@ -13,6 +13,8 @@ use super::{Faces, Line};
 /// Vertices on the plane go to both parts. A new vertex is made only on an edge whose ends lie
 /// strictly on opposite sides. Both parts define it by the same line and plane, so they share it
 /// bit for bit. A convex piece gets at most two new vertices. O(n) for a piece of `n` vertices.
+///
+/// A piece of two vertices is one of a segment, whose ends are on different sides.
 pub fn split<K: Kernel>(
     kernel: &K,
     faces: &Faces,
@@ -25,6 +27,14 @@ pub fn split<K: Kernel>(
     let cut = |side: Ordering| Line::cut(K::plane(splitter), side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
         vertices.iter().map(|vertex| kernel.side(faces, splitter, face, vertex)).collect();
+    // A segment: an outline would come back along it.
+    if let [a, b] = vertices {
+        let middle = kernel.cut(faces, splitter, face, [a, b]);
+        let parts = if sides[0].is_gt() { [front, back] } else { [back, front] };
+        parts[0].extend([*a, middle]);
+        parts[1].extend([middle, *b]);
+        return;
+    }
     for (i, vertex) in vertices.iter().enumerate() {
         let j = if i + 1 == vertices.len() { 0 } else { i + 1 };
         let (here, next) = (sides[i], sides[j]);

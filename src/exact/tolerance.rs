@@ -57,7 +57,8 @@ fn classify_exactly(
     let corner = |k: usize, threshold| {
         compare(faces, splitter, face, Symbol::corner(k as u32), corners[k], threshold)
     };
-    let count = corners.len();
+    // The third corner of a segment is no part of it.
+    let count = faces.reach(face);
     let band = splitter.band;
     // First the whole face decides, so that all of its pieces are treated alike: pieces that are
     // tested one by one would be coplanar here and spanning there.
@@ -83,8 +84,7 @@ fn classify_exactly(
         (true, true) => Side::Spanning,
         (true, false) => Side::Front,
         (false, true) => Side::Back,
-        // This does not occur: the piece has three vertices that are not on one line, and its face
-        // is not coplanar.
+        // This does not occur: the piece has vertices that span it, and its face is not coplanar.
         (false, false) => Side::Coplanar,
     }
 }

@@ -5,6 +5,7 @@ mod builder;
 mod collect;
 mod lists;
 mod planar;
+mod thin;
 mod tolerance;
 
 use glam::DVec3;
@@ -68,7 +69,7 @@ pub struct Preparation {
 
 impl Preparation {
     /// Adds what became of other polygons of the same input.
-    fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         self.polygons += other.polygons;
         self.dropped += other.dropped;
         self.duplicates += other.duplicates;
@@ -78,6 +79,14 @@ impl Preparation {
         self.flattened_by = self.flattened_by.max(other.flattened_by);
         self.bent += other.bent;
         self.bent_by = self.bent_by.max(other.bent_by);
+    }
+
+    /// The same with lengths in the polygons' unit, where they are in that of the lattice.
+    fn in_world(mut self, lattice: &Lattice) -> Self {
+        for length in [&mut self.flattened_by, &mut self.bent_by] {
+            *length = lattice.length_to_world(*length);
+        }
+        self
     }
 }
 
@@ -147,11 +156,8 @@ impl Preparer {
             builder.keep_distinct(input.polygon(polygon))?;
             Ok(builder.kept.iter().map(|&(corner, _)| corner).collect())
         })?;
-        for length in [&mut report.flattened_by, &mut report.bent_by] {
-            *length = lattice.length_to_world(*length);
-        }
         *faces = std::mem::take(&mut self.builder.faces);
-        Ok(report)
+        Ok(report.in_world(&lattice))
     }
 
     /// Prepares all polygons: few on this thread, more in parts, which are put together in input

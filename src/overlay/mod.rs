@@ -1,25 +1,35 @@
-//! Polygons that move, beside a tree that stays as it is.
+//! Polygons that move, lines and points, beside a tree that stays as it is.
 
+mod anchors;
 mod indices;
 mod order;
 mod place;
+mod planes;
+mod region;
+mod shape;
+mod shapes;
 mod skeleton;
 
 use std::fmt;
+use std::ops::ControlFlow;
 
 pub use order::Overlaid;
 use place::Placer;
+pub use shape::{Marker, Segment, Shape};
+pub use shapes::Shapes;
 use skeleton::Skeleton;
 
+use crate::build::Progress;
+use crate::build::progress::{Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::{ExactStored, Faces};
 use crate::faces::{Preparation, Preparer};
-use crate::input::Polygon;
-use crate::tree::parts::{Parts, Stored};
+use crate::input::{Point, Polygon};
+use crate::tree::parts::{Parts, Record, Stored};
 use crate::tree::{BspTree, Fragment};
 
-/// Polygons that move, in one exact order with a tree that stays as it is: doors, characters, a
-/// cursor.
+/// What moves and what has no area, in one exact order with a tree that stays as it is: doors,
+/// characters, a cursor; axes, curves, markers and labels.
 ///
 /// # Use
 ///
@@ -49,14 +59,46 @@ use crate::tree::{BspTree, Fragment};
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
+/// Lines and points come with [`replace_with`](Self::replace_with), and an order tells which
+/// [`Shape`] is next:
+///
+/// ```
+/// use binspace::{BspTree, Overlay, Shape, Shapes, Viewpoint};
+///
+/// let square = |z: f64| [[0.0, 0.0, z], [2.0, 0.0, z], [2.0, 2.0, z], [0.0, 2.0, z]];
+/// let tree = BspTree::build([square(0.0), square(2.0)])?;
+/// let post = [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 2.0]];
+/// let mut overlay = Overlay::new(&tree);
+/// overlay.replace_with(&tree, Shapes::NONE.with_lines([post]).with_points([post[1]]))?;
+///
+/// let from_above = Viewpoint::direction([0.0, 0.0, -1.0]);
+/// let mut painted = Vec::new();
+/// for shape in overlay.back_to_front(&tree, from_above)? {
+///     painted.push(match shape {
+///         Shape::Fragment(fragment) => format!("polygon {}", fragment.polygon()),
+///         Shape::Segment(segment) => format!("line {}.{}", segment.line(), segment.number()),
+///         Shape::Marker(marker) => format!("point {}", marker.point()),
+///         _ => unreachable!(),
+///     });
+/// }
+/// assert_eq!(painted[0], "polygon 0");
+/// assert_eq!(painted[4], "polygon 1");
+/// # assert_eq!(painted.len(), 5);
+/// # Ok::<(), binspace::Error>(())
+/// ```
+///
 /// # What it holds
 ///
 /// Each polygon is cut by the planes of the tree on the way to the leaves that it lies in. Pieces
 /// that meet in one leaf are ordered by a small tree of their own. The tree itself is never cut or
-/// changed. A piece is a [`Fragment`]; pieces are numbered from the tree's
-/// [`len`](BspTree::len) on, and their polygons from the number of the tree's polygons on, as if
-/// they had been given after these. All numbers are valid until the next
+/// changed. A piece of a polygon is a [`Fragment`]; their polygons are numbered from the number of the
+/// tree's polygons on, as if they had been given after these. Pieces, of whatever kind, are numbered
+/// from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
 /// [`replace`](Self::replace).
+///
+/// Lines and points are cut and placed likewise. No polygon is cut because of them. Where some of
+/// them meet between polygons, planes through themselves or perpendicular to an axis divide them.
+/// Segments of no length have no piece.
 ///
 /// # Order
 ///
@@ -64,15 +106,35 @@ use crate::tree::{BspTree, Fragment};
 /// those of both. Coplanar polygons come in input order, those of the overlay after those of the
 /// tree. The tree's fragments come in the tree's own order, with pieces between them.
 ///
+/// Where lines cross each other or polygons in a picture, the nearer comes later; where a point and
+/// something else are in one place of it, too. What is in one place in *space* depends on the plane
+/// that it lies in: on one plane first come the polygons, then the lines in input order, then the
+/// points. So an axis drawn on a wall is painted over the wall. A line that goes through a plane is
+/// cut there; a point at that place comes between its two parts. Only where lines and points meet
+/// between polygons, a point at a corner of a line comes after both segments there, if the line has no
+/// point at its next corners either way. The tolerance counts as for polygons:
+///
+/// - a segment or point that reaches no further from a plane than the tolerance lies on it;
+/// - a segment that reaches further on one side only goes whole to that side.
+///
+/// Lines that are drawn with a width, and points drawn as marks, have it in the picture only: no order
+/// can know of it. Where the edge of a wide line reaches over a polygon that the line itself only
+/// touches, as at the edge where two walls meet, it may be painted over.
+///
 /// | | time |
 /// |---|---|
-/// | [`replace`](Self::replace) | O(p · depth) for p pieces, and small trees where they meet |
+/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
 /// | [`back_to_front_into`](Self::back_to_front_into) | that of the tree, and a copy of its list |
 /// | [`back_to_front`](Self::back_to_front), an iterator | O(n + p) if read to its end |
 ///
-/// The overlay's polygons are rounded to the tree's grid, and have the tree's tolerance. The grid is
-/// a cube about the middle of the tree's bounding box, with sides at least as long as the longest of
-/// the box. A polygon that reaches beyond it is an error:
+/// While many faces, as those of a body, lie on one side of a plane by their bounding box, they go
+/// there at once: such a body costs little until it meets the leaf that it is in. Give the faces of a
+/// body in a row. Its own small tree is built anew each time, so one of thousands of faces takes
+/// milliseconds.
+///
+/// All is rounded to the tree's grid, and has the tree's tolerance. The grid is a cube about the middle
+/// of the tree's bounding box, with sides at least as long as the longest of the box. What reaches
+/// beyond it is an error:
 /// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
 ///
 /// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 24 a polygon.
@@ -86,6 +148,8 @@ pub struct Overlay {
     pieces: Parts<ExactStored>,
     skeleton: Skeleton,
     preparation: Preparation,
+    /// For each face that is a segment, its number in its line.
+    segments: Vec<u32>,
 }
 
 /// What tells whether a tree is the one that an overlay was made for.
@@ -124,11 +188,11 @@ impl Overlay {
             pieces: Parts::default(),
             skeleton: Skeleton::new(tree.len()),
             preparation: Preparation::default(),
+            segments: vec![],
         }
     }
 
-    /// Replaces the overlay's polygons, and cuts them down to the leaves of the tree. (It is made for
-    /// what a frame moves: it has no budget, and cannot be cancelled.)
+    /// Replaces all that the overlay has by polygons, and cuts them down to the leaves of the tree.
     ///
     /// # Errors
     ///
@@ -140,32 +204,99 @@ impl Overlay {
         tree: &BspTree,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<(), Error> {
+        self.replace_with(tree, Shapes::NONE.with_polygons(polygons))
+    }
+
+    /// Replaces all that the overlay has by polygons, lines and points, and cuts them down to the
+    /// leaves of the tree.
+    ///
+    /// # Errors
+    ///
+    /// As for [`replace`](Self::replace). [`Error::line`] or [`Error::point`] is what is to blame, if
+    /// it is no polygon.
+    pub fn replace_with<P, L, Q>(
+        &mut self,
+        tree: &BspTree,
+        shapes: Shapes<P, L, Q>,
+    ) -> Result<(), Error>
+    where
+        P: IntoIterator<Item: Polygon>,
+        L: IntoIterator<Item: Polygon>,
+        Q: IntoIterator<Item: Point>,
+    {
+        self.refill(tree, shapes, &Watch::default())
+    }
+
+    /// The same, with progress reported to a callback that can cancel, as
+    /// [`BuildOptions::build_with_progress`](crate::BuildOptions::build_with_progress) does.
+    ///
+    /// # Errors
+    ///
+    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. The overlay is empty then.
+    pub fn replace_with_progress<P, L, Q>(
+        &mut self,
+        tree: &BspTree,
+        shapes: Shapes<P, L, Q>,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<(), Error>
+    where
+        P: IntoIterator<Item: Polygon>,
+        L: IntoIterator<Item: Polygon>,
+        Q: IntoIterator<Item: Point>,
+    {
+        let progress = one_at_a_time(progress);
+        self.refill(tree, shapes, &Watch::new(&progress))
+    }
+
+    fn refill<P, L, Q>(
+        &mut self,
+        tree: &BspTree,
+        shapes: Shapes<P, L, Q>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error>
+    where
+        P: IntoIterator<Item: Polygon>,
+        L: IntoIterator<Item: Polygon>,
+        Q: IntoIterator<Item: Point>,
+    {
         self.clear();
         self.expect(tree)?;
-        let replaced = self.fill(tree, polygons);
+        let replaced = self.fill(tree, shapes, watch);
         if replaced.is_err() {
             self.clear();
         }
         replaced
     }
 
-    fn fill<P: Polygon>(
+    fn fill<P, L, Q>(
         &mut self,
         tree: &BspTree,
-        polygons: impl IntoIterator<Item = P>,
-    ) -> Result<(), Error> {
-        let Self { faces, base, preparer, placer, pieces, skeleton, .. } = self;
-        self.preparation = preparer.append(faces, polygons, base.polygons)?;
+        shapes: Shapes<P, L, Q>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error>
+    where
+        P: IntoIterator<Item: Polygon>,
+        L: IntoIterator<Item: Polygon>,
+        Q: IntoIterator<Item: Point>,
+    {
+        let Self { faces, base, preparer, placer, pieces, skeleton, segments, .. } = self;
+        let Shapes { polygons, lines, points } = shapes;
+        self.preparation = preparer.append(faces, polygons, base.polygons, watch)?;
         placer.prepare(faces, base.faces);
-        placer.place(tree, faces, pieces, skeleton)
+        preparer.append_lines(faces, lines, segments, watch)?;
+        preparer.append_points(faces, points, watch)?;
+        watch.expect(faces.len() - base.faces)?;
+        placer.place(tree, faces, pieces, skeleton, watch)?;
+        watch.end()
     }
 
-    /// Removes all polygons.
+    /// Removes all that the overlay has.
     pub fn clear(&mut self) {
         self.faces.truncate(self.base.faces);
         self.pieces.clear();
         self.skeleton.clear(self.base.fragments);
         self.preparation = Preparation::default();
+        self.segments.clear();
     }
 
     /// How many pieces there are.
@@ -178,13 +309,15 @@ impl Overlay {
         self.pieces.records.is_empty()
     }
 
-    /// The piece of a number; `None` if it is that of a fragment of the tree, or of nothing.
-    pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
-        let record = (number as usize).checked_sub(self.base.fragments)?;
+    fn record(&self, number: u32) -> Option<&Record> {
+        self.pieces.records.get((number as usize).checked_sub(self.base.fragments)?)
+    }
+
+    /// What is stored of a piece.
+    fn stored(&self, number: u32) -> Fragment<'_> {
+        let record = number as usize - self.base.fragments;
         let Self { faces, pieces: Parts { records, vertices, positions, .. }, .. } = self;
-        let is_piece = record < records.len();
-        is_piece
-            .then(|| Fragment::new(faces, Stored { records, vertices, positions }, record, number))
+        Fragment::new(faces, Stored { records, vertices, positions }, record, number)
     }
 
     /// How many of the overlay's polygons were dropped or triangulated. (Duplicates are not counted.)
@@ -212,6 +345,8 @@ impl fmt::Debug for Overlay {
         f.debug_struct("Overlay")
             .field("tree_fragments", &self.base.fragments)
             .field("polygons", &self.preparation.polygons)
+            .field("segments", &self.segments.len())
+            .field("points", &self.faces.thin.points)
             .field("pieces", &self.pieces.records.len())
             .field("planes", &self.skeleton.branches.len())
             .finish_non_exhaustive()

@@ -6,10 +6,11 @@ use std::ops::Range;
 use smallvec::{SmallVec, smallvec};
 
 use super::Overlay;
+use super::shape::Shape;
 use super::skeleton::{Branch, Group, Part, Side};
 use crate::error::Error;
 use crate::tree::order::sides::View;
-use crate::tree::{BspTree, Fragment, Ordered};
+use crate::tree::{BspTree, Ordered};
 use crate::viewpoint::Viewpoint;
 
 /// What comes next in an order.
@@ -87,21 +88,21 @@ impl<'a> Overlaid<'a> {
 }
 
 impl<'a> Iterator for Overlaid<'a> {
-    type Item = Fragment<'a>;
+    type Item = Shape<'a>;
 
-    fn next(&mut self) -> Option<Fragment<'a>> {
+    fn next(&mut self) -> Option<Shape<'a>> {
         loop {
             if self.ahead > 0 {
                 self.ahead -= 1;
                 self.left -= 1;
-                return self.fragments.next();
+                return self.fragments.next().map(Shape::Fragment);
             }
             let piece =
                 if self.steps.near_first { self.pieces.next_back() } else { self.pieces.next() };
             if let Some(piece) = piece {
                 self.left -= 1;
                 let overlay = self.steps.overlay;
-                return overlay.piece(overlay.base.fragments as u32 + piece);
+                return overlay.shape(overlay.base.fragments as u32 + piece);
             }
             match self.steps.next()? {
                 Step::Fragments(len) => self.ahead = len,

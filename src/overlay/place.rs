@@ -1,25 +1,27 @@
-//! Cuts polygons by the planes of a tree, down to its leaves.
+//! Cuts what is to be placed by the planes of a tree, down to its leaves.
 
 use std::ops::Range;
 
-use super::skeleton::{self, Branch, Place, Skeleton};
+use super::anchors::Anchors;
+use super::planes;
+use super::region::{Cell, Opened, Region, Whose};
+use super::skeleton::{self, Place, Skeleton};
 use crate::build::cell::CellBuilder;
 use crate::build::knife::Knife;
 use crate::build::live::Live;
+use crate::build::progress::Watch;
 use crate::error::Error;
-use crate::exact::{Exact, ExactStored, ExactVertex, Faces, Kernel, PlaneId, Side, Vertex};
+use crate::exact::{
+    Exact, ExactSplitter, ExactStored, ExactVertex, Faces, Kernel, Line, Side, Vertex,
+};
 use crate::memory::reserve;
 use crate::tree::BspTree;
-use crate::tree::node_record::Ranges;
-use crate::tree::order::planes::rounded;
+use crate::tree::node_record::MOST_FRAGMENTS;
 use crate::tree::parts::{Parts, Record};
 
-/// A part of the tree, by its fragments: below a node, or a leaf.
-#[derive(Clone, Debug)]
-struct Region {
-    node: Option<usize>,
-    fragments: Range<u32>,
-}
+/// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
+/// time to look at boxes; larger: time to look at the pieces of a body one by one.
+const CROWD: usize = 64;
 
 /// A set of pieces that is still to be divided: a range of the stack of pieces.
 #[derive(Debug)]
@@ -29,13 +31,18 @@ struct Pending {
     arena: usize,
     region: Region,
     place: Place,
+    /// The box of a crowd, if it is known.
+    bounds: Option<[[f64; 3]; 2]>,
 }
 
-/// Places polygons in a tree; its lists are kept to be used again.
+/// Places polygons, lines and points in a tree; its lists are kept to be used again.
 #[derive(Default)]
 pub(super) struct Placer {
     cells: CellBuilder,
-    /// A stack of the sets still to be divided, the next one on top.
+    cell: Cell,
+    anchors: Anchors,
+    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
+    /// polygons, then lines, then points.
     pieces: Vec<Live>,
     /// The vertices of cut pieces, in the order of the cuts.
     arena: Vec<ExactVertex>,
@@ -45,13 +52,15 @@ pub(super) struct Placer {
     knife: Knife<ExactVertex>,
     /// The face to begin with: those before it are the tree's.
     first: u32,
+    /// The first face without area.
+    thin: u32,
 }
 
 impl Placer {
-    /// Makes ready for faces of which those before `first` are as they were.
+    /// Makes ready for polygons' faces of which those before `first` are as they were.
     pub(super) fn prepare(&mut self, faces: &Faces, first: usize) {
         self.cells.prepare(faces, first);
-        self.first = first as u32;
+        (self.first, self.thin) = (first as u32, faces.len() as u32);
     }
 
     /// Places all faces behind the tree's.
@@ -61,8 +70,9 @@ impl Placer {
         faces: &Faces,
         pieces: &mut Parts<ExactStored>,
         skeleton: &mut Skeleton,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let mut work = Work { tree, faces, placer: self, pieces, skeleton };
+        let mut work = Work { tree, faces, placer: self, pieces, skeleton, watch };
         work.begin()?;
         while let Some(pending) = work.placer.pending.pop() {
             work.placer.pieces.truncate(pending.pieces.end);
@@ -81,94 +91,125 @@ struct Work<'a> {
     placer: &'a mut Placer,
     pieces: &'a mut Parts<ExactStored>,
     skeleton: &'a mut Skeleton,
+    watch: &'a Watch<'a>,
 }
 
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
-        let Placer { pieces, arena, pending, first, .. } = &mut *self.placer;
+        let Self { tree, faces, .. } = *self;
+        let Placer { pieces, arena, pending, anchors, first, thin, .. } = &mut *self.placer;
+        anchors.fill(faces)?;
         pieces.clear();
         arena.clear();
         pending.clear();
-        let new = *first..self.faces.len() as u32;
-        if new.is_empty() {
+        let (new, thin) = (faces.len() - *first as usize, *thin);
+        reserve(pieces, new)?;
+        pieces.extend((*first..thin).map(|face| Live::whole(faces, face)));
+        reserve(arena, 2 * (faces.len() - thin as usize))?;
+        for face in thin..faces.len() as u32 {
+            let start = arena.len();
+            let ends = 0..faces.reach(face) as u32;
+            // Both ends are on the segment, which is the first edge of its face.
+            let end = |k| Exact.corner(faces, face, k).with_line(Line::edge(0));
+            arena.extend(ends.map(end));
+            pieces.push(Live::thin(face, &arena[start..], start));
+        }
+        if new > 0 {
+            let region = Region::root(Whose::Tree, tree.nodes.len(), tree.len());
+            self.push(Place::Root, region, 0..new, None)?;
+        }
+        Ok(())
+    }
+
+    /// Puts a set on the stack of those to be divided, unless nothing is to be put in place there.
+    fn push(
+        &mut self,
+        place: Place,
+        region: Region,
+        pieces: Range<usize>,
+        bounds: Option<[[f64; 3]; 2]>,
+    ) -> Result<(), Error> {
+        let Placer { arena, pending, .. } = &mut *self.placer;
+        if !pieces.is_empty() || region.has_pieces() {
+            reserve(pending, 1)?;
+            pending.push(Pending { pieces, arena: arena.len(), region, place, bounds });
+        }
+        Ok(())
+    }
+
+    /// Divides a set by the plane of its region, and puts both sides on the stack.
+    fn step(&mut self, pending: Pending) -> Result<(), Error> {
+        let Pending { pieces, region, place, mut bounds, .. } = pending;
+        let start = pieces.start;
+        self.watch.work(pieces.len())?;
+        if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
+            return Err(Error::fragments(MOST_FRAGMENTS));
+        }
+        if pieces.is_empty() && region.node.is_none() {
+            // Polygons of a cell that no line or point comes to.
+            let pieces = self.store_all(region.fragments, 0)?;
+            self.skeleton.hang(place, pieces);
             return Ok(());
         }
-        reserve(pieces, new.len())?;
-        pieces.extend(new.map(|face| Live::whole(self.faces, face)));
-        let node = (!self.tree.nodes.is_empty()).then_some(0);
-        let region = Region { node, fragments: 0..self.tree.len() as u32 };
-        pending.push(Pending { pieces: 0..pieces.len(), arena: 0, region, place: Place::Root });
-        Ok(())
-    }
-
-    /// Divides a set of at least one piece by the plane of its region, and puts both sides on the
-    /// stack.
-    fn step(&mut self, pending: Pending) -> Result<(), Error> {
-        let Pending { pieces, region, place, .. } = pending;
-        let start = pieces.start;
-        let Some((mut branch, sides)) = self.open(&region) else {
-            return self.fill_cell(start, place);
+        let opened = Opened::of(&region, self.tree, &self.placer.cell, self.faces);
+        let opened = if opened.is_some() { opened } else { self.enter_cell(start, place)? };
+        let Some(Opened { mut branch, own, sides: [in_front, behind] }) = opened else {
+            return Ok(());
         };
-        self.divide(start, branch.plane)?;
-        // Coplanar polygons are painted in input order.
-        self.placer.own.sort_by_key(|piece| piece.face);
-        let first = self.pieces.records.len() as u32;
-        for i in 0..self.placer.own.len() {
-            self.store(self.placer.own[i])?;
+        let splitter = Exact.splitter(self.faces, branch.plane);
+        let side = self.side_of_all(start, &mut bounds, &splitter);
+        self.placer.front.clear();
+        self.placer.own.clear();
+        if side.is_none() {
+            self.divide(start, &splitter)?;
         }
-        branch.pieces = self.skeleton.group(first..self.pieces.records.len() as u32)?;
+        let own = if in_front.of == Whose::Cell { own } else { 0..0 };
+        branch.pieces = self.store_all(own, self.placer.own.len())?;
         let number = self.skeleton.push(place, branch)?;
-        let Placer { pieces, arena, pending, front, .. } = &mut *self.placer;
-        let [in_front, behind] = sides;
-        if pieces.len() > start {
-            let place = Place::Back(number);
-            let pieces = start..pieces.len();
-            pending.push(Pending { pieces, arena: arena.len(), region: behind, place });
+        let [front, back] = [Place::Front(number), Place::Back(number)];
+        let rest = start..self.placer.pieces.len();
+        if side == Some(Side::Front) {
+            self.push(back, behind, start..start, None)?;
+            return self.push(front, in_front, rest, bounds);
         }
-        if !front.is_empty() {
-            let (start, place) = (pieces.len(), Place::Front(number));
-            reserve(pieces, front.len())?;
-            pieces.extend_from_slice(front);
-            let pieces = start..pieces.len();
-            pending.push(Pending { pieces, arena: arena.len(), region: in_front, place });
-        }
-        Ok(())
+        self.push(back, behind, rest, bounds.filter(|_| side.is_some()))?;
+        let Placer { pieces, front: list, .. } = &mut *self.placer;
+        let start = pieces.len();
+        reserve(pieces, list.len())?;
+        pieces.extend_from_slice(list);
+        let rest = start..pieces.len();
+        self.push(front, in_front, rest, None)
     }
 
-    /// The plane of a region, with both sides as they are without pieces; `None` for an empty cell.
-    /// The plane of a leaf is that of its fragment, so that no piece crosses it.
-    fn open(&self, region: &Region) -> Option<(Branch, [Region; 2])> {
-        let (tree, faces) = (self.tree, self.faces);
-        let all = region.fragments.clone();
-        let (plane, rounded, own, sides) = if let Some(index) = region.node {
-            let node = &tree.nodes[index];
-            let Ranges { own, front, back } = node.ranges(all);
-            let front = Region { node: node.front_node(index), fragments: front };
-            let back = Region { node: node.back_node(index), fragments: back };
-            (node.plane, tree.planes.get(index), own, [front, back])
-        } else {
-            let record = tree.records[all.clone().next()? as usize];
-            let plane = PlaneId::face(record.face);
-            let nothing = Region { node: None, fragments: all.end..all.end };
-            (plane, rounded(faces, plane), all, [nothing.clone(), nothing])
+    /// The side of a plane on which all of a crowd on top of the stack certainly lies, if it does.
+    fn side_of_all(
+        &self,
+        start: usize,
+        bounds: &mut Option<[[f64; 3]; 2]>,
+        splitter: &ExactSplitter,
+    ) -> Option<Side> {
+        let set = &self.placer.pieces[start..];
+        if set.len() < CROWD {
+            return None;
+        }
+        let union = |[low, high]: [[f64; 3]; 2], piece: &Live| {
+            let corner = |i: usize| (low[i].min(piece.min[i]), high[i].max(piece.max[i]));
+            let [x, y, z] = [corner(0), corner(1), corner(2)];
+            [[x.0, y.0, z.0], [x.1, y.1, z.1]]
         };
-        let [front, back] =
-            sides.each_ref().map(|side| skeleton::Side::still(side.fragments.len()));
-        let (own, pieces) = (own.len() as u32, skeleton::Side::still(0));
-        Some((Branch { rounded, plane, own, pieces, front, back }, sides))
+        let first = [set[0].min, set[0].max];
+        let bounds = bounds.get_or_insert_with(|| set.iter().fold(first, union));
+        splitter.side_of_box(*bounds)
     }
 
     /// Divides the set on top of the stack: pieces behind stay on the stack, pieces in front go to
     /// `front`, and pieces on the plane to `own`.
-    fn divide(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
+    fn divide(&mut self, start: usize, splitter: &ExactSplitter) -> Result<(), Error> {
         let Placer { pieces, arena, front, own, knife, .. } = &mut *self.placer;
-        let splitter = Exact.splitter(self.faces, plane);
-        front.clear();
-        own.clear();
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
-            let behind = match Exact.classify(self.faces, &splitter, piece.piece(arena)) {
+            let behind = match Exact.classify(self.faces, splitter, piece.piece(arena)) {
                 Side::Back => piece,
                 Side::Front => {
                     front.push(piece);
@@ -179,7 +220,7 @@ impl Work<'_> {
                     continue;
                 }
                 Side::Spanning => {
-                    let parts = knife.cut(&Exact, self.faces, &splitter, &piece, arena)?;
+                    let parts = knife.cut(&Exact, self.faces, splitter, &piece, arena)?;
                     front.push(parts[0]);
                     parts[1]
                 }
@@ -192,33 +233,77 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Puts the set on top of the stack, of at least one piece, into a cell without fragments.
-    fn fill_cell(&mut self, start: usize, place: Place) -> Result<(), Error> {
-        let first = self.pieces.records.len() as u32;
-        if self.placer.pieces.len() == start + 1 {
-            self.store(self.placer.pieces[start])?;
-            let side = self.skeleton.group(first..first + 1)?;
+    /// Puts the set on top of the stack, of at least one piece, into a cell without fragments; or gives
+    /// a plane to divide it by.
+    fn enter_cell(&mut self, start: usize, place: Place) -> Result<Option<Opened>, Error> {
+        let Placer { cells, cell, anchors, pieces, arena, own, thin, .. } = &mut *self.placer;
+        let set = &pieces[start..];
+        if let [piece] = *set {
+            own.clear();
+            own.push(piece);
+            let side = self.store_all(0..0, 1)?;
             self.skeleton.hang(place, side);
-            return Ok(());
+            return Ok(None);
         }
-        let Placer { cells, pieces, arena, .. } = &mut *self.placer;
-        let tree = cells.build(self.faces, &pieces[start..], arena)?;
+        let polygons = set.partition_point(|piece| piece.face < *thin);
+        if polygons == 0 {
+            let plane = planes::between(self.faces, anchors, set, arena);
+            return Ok(Some(Opened::empty(self.faces, plane)));
+        }
+        let tree = cells.build(self.faces, &set[..polygons], arena, self.watch)?;
+        if polygons < set.len() {
+            // Lines and points go on down the small tree, after which it is read to its end.
+            pieces.drain(start..start + polygons);
+            cells.keep(std::mem::take(&mut cell.parts));
+            let region = cell.fill(tree);
+            return Ok(Opened::of(&region, self.tree, cell, self.faces));
+        }
         let numbers = skeleton::append(self.pieces, &tree)?;
         self.skeleton.graft(place, self.faces, &tree, numbers.start)?;
         cells.keep(tree);
-        Ok(())
+        Ok(None)
     }
 
-    /// Adds a piece to those that are in place.
-    fn store(&mut self, live: Live) -> Result<(), Error> {
-        let Parts { records, vertices, positions, .. } = &mut *self.pieces;
-        reserve(records, 1)?;
-        records.push(Record { face: live.face, vertices: vertices.len() as u32 });
-        let cut = live.piece(&self.placer.arena).cut.unwrap_or_default();
-        reserve(vertices, cut.len())?;
-        vertices.extend(cut.iter().map(|vertex| Exact.store(vertex)));
-        reserve(positions, cut.len())?;
-        positions.extend(cut.iter().map(Vertex::position));
-        Ok(())
+    /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
+    /// order.
+    fn store_all(&mut self, fragments: Range<u32>, own: usize) -> Result<skeleton::Side, Error> {
+        let first = self.pieces.records.len() as u32;
+        for fragment in fragments {
+            let fragment = fragment as usize;
+            let Parts { records, vertices, positions, .. } = &self.placer.cell.parts;
+            let end =
+                records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
+            let range = records[fragment].vertices as usize..end;
+            let (symbols, places) = (&vertices[range.clone()], &positions[range]);
+            let face = records[fragment].face;
+            add(self.pieces, face, symbols.iter().copied(), places.iter().copied())?;
+        }
+        let Placer { own: list, arena, .. } = &mut *self.placer;
+        // Coplanar polygons are painted in input order.
+        list.sort_by_key(|piece| piece.face);
+        for live in &list[..own] {
+            let cut = live.piece(arena).cut.unwrap_or_default();
+            let symbols = cut.iter().map(|vertex| Exact.store(vertex));
+            add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position))?;
+            self.watch.finish(live.cuts);
+        }
+        self.skeleton.group(first..self.pieces.records.len() as u32)
     }
+}
+
+/// Adds a piece to those that are in place.
+fn add(
+    pieces: &mut Parts<ExactStored>,
+    face: u32,
+    symbols: impl ExactSizeIterator<Item = ExactStored>,
+    places: impl ExactSizeIterator<Item = [f64; 3]>,
+) -> Result<(), Error> {
+    let Parts { records, vertices, positions, .. } = pieces;
+    reserve(records, 1)?;
+    records.push(Record { face, vertices: vertices.len() as u32 });
+    reserve(vertices, symbols.len())?;
+    vertices.extend(symbols);
+    reserve(positions, places.len())?;
+    positions.extend(places);
+    Ok(())
 }

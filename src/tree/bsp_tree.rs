@@ -28,7 +28,7 @@ use crate::faces::Preparation;
 /// ```
 ///
 /// Build the tree once for static polygons, then ask it for an order every frame. An [`Overlay`](crate::Overlay) holds
-/// what moves; where most polygons do, build the tree again.
+/// what moves, and lines and points; where most polygons move, build the tree again.
 ///
 /// # What it holds
 ///
@@ -220,7 +220,8 @@ use crate::faces::Preparation;
 ///
 /// - Not a renderer: it gives an order, and you draw. (The feature `raster` has a painter that
 ///   checks orders.)
-/// - Not dynamic: polygons cannot be added, moved or removed. An [`Overlay`](crate::Overlay) puts moving polygons in one
+/// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds some,
+///   builds the tree anew. An [`Overlay`](crate::Overlay) puts moving polygons, lines and points in one
 ///   order with the tree's.
 /// - Not a spatial index: for ray casts, overlaps or nearest neighbours take a bounding volume
 ///   hierarchy, which is much faster to build.

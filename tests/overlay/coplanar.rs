@@ -1,7 +1,8 @@
-//! Coplanar polygons come in input order, and an overlay of nothing changes nothing.
+//! What lies in one plane comes in input order: polygons, lines, points. And an overlay of nothing
+//! changes nothing.
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, BuildOptions, Overlay, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint, scene};
 
 fn square(x: f64, z: f64) -> Vec<DVec3> {
     let point = |a: f64, b: f64| dvec3(x + a, b, z);
@@ -23,6 +24,7 @@ fn decals_come_after_what_they_lie_on() {
     for z in [9.0, -9.0] {
         for viewpoint in [Viewpoint::eye([7.0, 1.0, z]), Viewpoint::direction([0.0, 0.1, -z])] {
             let order = overlay.back_to_front(&tree, viewpoint).expect("its own tree");
+            let order = order.filter_map(Shape::fragment);
             let layer = |z: f64| (z - 1.0).abs() < 1e-6;
             let level = order.filter(|f| layer(f.vertices().next().expect("a vertex").z));
             let near = level.filter(|f| (5..=8).contains(&f.polygon()) || f.polygon() >= 40);
@@ -68,5 +70,153 @@ fn an_empty_tree_can_have_an_overlay() {
     let mut overlay = Overlay::new(&tree);
     overlay.replace(&tree, [square(0.0, 0.5), square(0.0, 0.25), square(0.0, 0.75)]).expect("fits");
     let order = overlay.back_to_front(&tree, Viewpoint::direction([0.0, 0.0, -1.0])).expect("own");
-    assert!(order.map(|f| f.polygon()).eq([1, 0, 2]));
+    assert!(order.filter_map(Shape::fragment).map(|f| f.polygon()).eq([1, 0, 2]));
+}
+
+/// Names in the order of painting: polygons, lines as `l`, points as `p`.
+fn painted(tree: &BspTree, overlay: &Overlay, viewpoint: Viewpoint) -> String {
+    let name = |shape: Shape<'_>| match shape {
+        Shape::Fragment(fragment) => fragment.polygon().to_string(),
+        Shape::Segment(segment) => format!("l{}", segment.line()),
+        Shape::Marker(marker) => format!("p{}", marker.point()),
+        _ => unreachable!(),
+    };
+    let order = overlay.back_to_front(tree, viewpoint).expect("its own tree");
+    order.map(name).collect::<Vec<_>>().join(" ")
+}
+
+const BOTH_SIDES: [f64; 2] = [9.0, -9.0];
+
+fn from(z: f64) -> Viewpoint {
+    Viewpoint::eye([0.5, 0.25, z])
+}
+
+fn tree_of(squares: &[f64], tolerance: f64) -> BspTree {
+    let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+    let options = options.with_bounds(DVec3::splat(-4.0), DVec3::splat(4.0));
+    options.build(squares.iter().map(|&z| square(0.0, z))).expect("a tree")
+}
+
+#[test]
+fn lines_and_points_of_a_plane_come_after_its_polygons_in_input_order() {
+    let tree = tree_of(&[0.0], 0.0);
+    let mut overlay = Overlay::new(&tree);
+    let mut decal = square(1.0, 0.0);
+    decal.reverse();
+    let cross = [
+        [dvec3(0.0, 0.0, 0.0), dvec3(2.0, 2.0, 0.0)],
+        [dvec3(0.0, 2.0, 0.0), dvec3(2.0, 0.0, 0.0)],
+    ];
+    // Beyond the polygons, but in their plane; and on a corner.
+    let points = [dvec3(3.0, 3.0, 0.0), dvec3(1.0, 1.0, 0.0), dvec3(0.0, 0.0, 0.0)];
+    let shapes = Shapes::NONE.with_polygons([decal]).with_lines(cross).with_points(points);
+    overlay.replace_with(&tree, shapes).expect("on the grid");
+    for z in BOTH_SIDES {
+        assert_eq!(painted(&tree, &overlay, from(z)), "0 1 l0 l1 p0 p1 p2");
+    }
+    // The same where the polygons move, and nothing stays: in one cell.
+    let tree = tree_of(&[], 0.0);
+    let mut overlay = Overlay::new(&tree);
+    let shapes = Shapes::NONE.with_polygons([square(0.0, 0.0), square(1.0, 0.0)]);
+    let shapes = shapes.with_lines(cross).with_points(points);
+    overlay.replace_with(&tree, shapes).expect("on the grid");
+    for z in BOTH_SIDES {
+        assert_eq!(painted(&tree, &overlay, from(z)), "0 1 l0 l1 p0 p1 p2");
+    }
+    // And without a polygon.
+    let shapes = Shapes::NONE.with_lines(cross).with_points(points);
+    overlay.replace_with(&tree, shapes).expect("on the grid");
+    for z in BOTH_SIDES {
+        assert_eq!(painted(&tree, &overlay, from(z)), "l0 l1 p0 p1 p2");
+    }
+}
+
+/// A flat drawing needs no cuts, wherever its lines cross, even if its plane is tilted and rounded.
+#[test]
+fn lines_of_one_plane_do_not_cut_each_other() {
+    let tree = tree_of(&[], 1e-9);
+    let (u, v) = (dvec3(0.3, 0.8, -0.1), dvec3(-0.7, 0.2, 0.55));
+    let star: Vec<DVec3> = (0..=25)
+        .map(|k| {
+            let angle = f64::from(k * 7 % 25) / 25.0 * std::f64::consts::TAU;
+            u * angle.cos() + v * angle.sin()
+        })
+        .collect();
+    let mut overlay = Overlay::new(&tree);
+    let rules = (0..9).map(|k| {
+        let at = 0.25 * f64::from(k) - 1.0;
+        vec![dvec3(at, -1.0, 1.5), dvec3(at, 1.0, 1.5)]
+    });
+    let across = rules.clone().map(|ends| ends.iter().map(|p| dvec3(p.y, p.x, p.z)).collect());
+    let lines: Vec<Vec<DVec3>> = [star].into_iter().chain(rules).chain(across).collect();
+    overlay.replace_with(&tree, Shapes::NONE.with_lines(&lines)).expect("on the grid");
+    assert_eq!(overlay.len(), 25 + 18);
+}
+
+#[test]
+fn a_line_goes_through_a_polygon_in_two_pieces() {
+    let tree = tree_of(&[0.0], 0.0);
+    let mut overlay = Overlay::new(&tree);
+    let post = [dvec3(1.0, 1.0, -1.0), dvec3(1.0, 1.5, 3.0)];
+    let shapes = Shapes::NONE.with_lines([post]).with_points([dvec3(1.0, 1.125, 0.0)]);
+    overlay.replace_with(&tree, shapes).expect("on the grid");
+    for (z, shares) in [(9.0, [[0.0, 0.25], [0.25, 1.0]]), (-9.0, [[0.25, 1.0], [0.0, 0.25]])] {
+        let order = overlay.back_to_front(&tree, from(z)).expect("its own tree");
+        let mut found = Vec::new();
+        for shape in order {
+            if let Shape::Segment(piece) = shape {
+                assert_eq!((piece.line(), piece.number()), (0, 0));
+                let at = |share: f64| post[0] + (post[1] - post[0]) * share;
+                assert_eq!(piece.ends(), piece.shares().map(at));
+                assert_eq!(piece.cuts(), piece.shares().map(|share| share == 0.25));
+                found.push(piece.shares());
+            }
+        }
+        assert_eq!(found, shares);
+        assert_eq!(painted(&tree, &overlay, from(z)), "l0 0 p0 l0");
+    }
+}
+
+/// What reaches no further from a plane than the tolerance lies on it; what reaches further on one side
+/// is not cut for less than the tolerance on the other.
+#[test]
+fn the_tolerance_counts_for_lines_and_points_as_for_polygons() {
+    let tree = tree_of(&[0.0], 0.01);
+    let mut overlay = Overlay::new(&tree);
+    let line = |low: f64, high: f64| [dvec3(0.5, 0.5, low), dvec3(1.5, 1.5, high)];
+    for (ends, [above, below]) in [
+        ([-0.009, 0.009], ["0 l0", "0 l0"]),
+        ([-0.009, -0.009], ["0 l0", "0 l0"]),
+        ([-0.009, 0.5], ["0 l0", "l0 0"]),
+        ([-0.5, 0.009], ["l0 0", "0 l0"]),
+        ([0.011, 0.011], ["0 l0", "l0 0"]),
+        ([-0.011, 0.011], ["l0 0 l0", "l0 0 l0"]),
+    ] {
+        let shapes = Shapes::NONE.with_lines([line(ends[0], ends[1])]);
+        overlay.replace_with(&tree, shapes).expect("on the grid");
+        assert_eq!(painted(&tree, &overlay, from(9.0)), above, "{ends:?}");
+        assert_eq!(painted(&tree, &overlay, from(-9.0)), below, "{ends:?}");
+    }
+    for (z, [above, below]) in
+        [(0.009, ["0 p0", "0 p0"]), (-0.009, ["0 p0", "0 p0"]), (0.011, ["0 p0", "p0 0"])]
+    {
+        let shapes = Shapes::NONE.with_points([dvec3(1.0, 1.0, z)]);
+        overlay.replace_with(&tree, shapes).expect("on the grid");
+        assert_eq!(painted(&tree, &overlay, from(9.0)), above, "{z}");
+        assert_eq!(painted(&tree, &overlay, from(-9.0)), below, "{z}");
+    }
+}
+
+#[test]
+fn lines_of_no_length_have_no_piece() {
+    let tree = tree_of(&[0.0], 0.0);
+    let mut overlay = Overlay::new(&tree);
+    let at = dvec3(1.0, 1.0, 1.0);
+    let lines: [Vec<DVec3>; 4] =
+        [vec![], vec![at], vec![at, at], vec![at, at, at + DVec3::X, at + DVec3::X]];
+    overlay.replace_with(&tree, Shapes::NONE.with_lines(&lines)).expect("on the grid");
+    assert_eq!(overlay.len(), 1);
+    let Some(Shape::Segment(piece)) = overlay.shape(1) else { panic!("no segment") };
+    assert_eq!((piece.line(), piece.number(), piece.index()), (3, 1, 1));
+    assert!(overlay.piece(1).is_none() && overlay.shape(0).is_none() && overlay.shape(2).is_none());
 }

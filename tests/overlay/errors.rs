@@ -1,7 +1,9 @@
 //! What an overlay refuses, and what is left of it then.
 
+use std::ops::ControlFlow;
+
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Overlay, Polygon, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, Overlay, Polygon, Shapes, Viewpoint, scene};
 
 fn triangle(at: DVec3) -> [DVec3; 3] {
     [at, at + DVec3::X, at + DVec3::Y]
@@ -90,4 +92,60 @@ fn another_tree_is_refused() {
         check_empty(&overlay, &tree);
     }
     overlay.replace(&tree.clone(), [triangle(DVec3::ONE)]).expect("a copy is the same");
+}
+
+#[test]
+fn lines_and_points_to_blame_are_named() {
+    let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
+    let mut overlay = Overlay::new(&tree);
+    let inside = triangle(DVec3::ONE);
+    for (bad, says) in [(f64::NAN, "NaN"), (f64::INFINITY, "infinite"), (1e9, "with_bounds")] {
+        let bad = DVec3::new(1.0, bad, 1.0);
+        let shapes = Shapes::NONE.with_polygons([inside]).with_lines([inside]);
+        overlay.replace_with(&tree, shapes.with_points(inside)).expect("on the grid");
+        let lines = [vec![DVec3::ONE], vec![DVec3::ONE, bad]];
+        let error = overlay.replace_with(&tree, shapes.with_lines(lines)).expect_err("a bad line");
+        assert_eq!((error.polygon(), error.line(), error.point()), (None, Some(1), None));
+        assert!(error.to_string().starts_with("line 1") && error.to_string().contains(says));
+        check_empty(&overlay, &tree);
+        let points = [DVec3::ONE, DVec3::ONE, bad];
+        let error = overlay.replace_with(&tree, shapes.with_points(points)).expect_err("a point");
+        assert_eq!((error.polygon(), error.line(), error.point()), (None, None, Some(2)));
+        assert!(error.to_string().starts_with("point 2") && error.to_string().contains(says));
+        check_empty(&overlay, &tree);
+    }
+}
+
+#[test]
+fn a_replacement_says_how_far_it_is_and_can_be_cancelled() {
+    let scene = scene::random_triangles(400, 1);
+    let tree = BspTree::build(scene.polygons()).expect("within budget");
+    let mut overlay = Overlay::new(&tree);
+    let lines = scene.polygons().map(|p| p.corners().collect::<Vec<_>>());
+    let points = scene.polygons().flat_map(|p| p.corners().collect::<Vec<_>>());
+    let shapes = Shapes::NONE.with_polygons(scene.polygons());
+    let shapes = shapes.with_lines(lines).with_points(points);
+    let mut heard = Vec::new();
+    let replaced = overlay.replace_with_progress(&tree, shapes.clone(), |progress| {
+        heard.push(progress);
+        ControlFlow::Continue(())
+    });
+    replaced.expect("on the grid");
+    let (whole, last) = (overlay.len(), heard[heard.len() - 1]);
+    assert_eq!((last.done, last.total), (overlay.faces().len() - tree.faces().len(), last.done));
+    assert_eq!(last.total, 400 + 800 + 1200);
+    let placed = heard.iter().filter(|p| p.total == last.total && p.done > 0 && p.done < p.total);
+    assert!(placed.count() > 0, "{heard:?}");
+    for stop in [0, heard.len() / 2, heard.len() - 2] {
+        let mut calls = 0;
+        let cancelled = overlay.replace_with_progress(&tree, shapes.clone(), |_| {
+            calls += 1;
+            if calls > stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert!(cancelled.is_err_and(|error| error.is_cancelled()), "{stop}");
+        assert_eq!(calls, stop + 1);
+        check_empty(&overlay, &tree);
+    }
+    overlay.replace_with(&tree, shapes).expect("on the grid");
+    assert_eq!(overlay.len(), whole);
 }

@@ -3,10 +3,10 @@
 
 use std::collections::HashMap;
 
-use binspace::internals::Line;
+use binspace::internals::{Faces, Line};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
 use binspace::view::Camera;
-use binspace::{BspTree, Fragment, Overlay};
+use binspace::{BspTree, Overlay, Shape};
 
 use crate::support::model::Face;
 use crate::support::rational::{self, Point};
@@ -30,13 +30,26 @@ pub(crate) struct Judged {
 impl Judged {
     /// Looks at both from a camera that may not fit the grid.
     pub(crate) fn look(&mut self, tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Verdict {
-        let faces = overlay.faces();
+        self.look_at_polygons(tree, overlay, overlay.faces(), camera)
+    }
+
+    /// The same, where `faces` are those of the tree and of the overlay's polygons, without lines and
+    /// points.
+    pub(crate) fn look_at_polygons(
+        &mut self,
+        tree: &BspTree,
+        overlay: &Overlay,
+        faces: &Faces,
+        camera: &Camera,
+    ) -> Verdict {
         let Ok(rays) = Rays::new(camera, faces) else { return Ok(()) };
         let order = forms(tree, overlay, camera)?;
         let mut painter = Painter::new(&rays, faces, Order::BackToFront);
         let mut painted: HashMap<(u32, u32, u32), usize> = HashMap::new();
         for &number in &order {
-            let fragment = overlay.piece(number).unwrap_or_else(|| tree.fragment(number));
+            let shape = overlay.shape(number);
+            let shape = shape.unwrap_or_else(|| Shape::Fragment(tree.fragment(number)));
+            let Some(fragment) = shape.fragment() else { continue };
             let lines: Vec<Line> = fragment.lines().collect();
             let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
             let outline = if fragment.is_whole() {
@@ -101,7 +114,7 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     let count = (tree.len() + overlay.len()) as u32;
     ensure(sorted.into_iter().eq(0..count), || "not every number comes once".into())?;
     ensure(near.iter().rev().eq(&order), || "front to back is not the reverse".into())?;
-    let number = |fragment: Fragment<'_>| fragment.index();
+    let number = |shape: Shape<'_>| shape.index();
     let far_first = overlay.back_to_front(tree, viewpoint).map_err(error)?;
     let near_first = overlay.front_to_back(tree, viewpoint).map_err(error)?;
     ensure(far_first.len() == order.len(), || "another length".into())?;

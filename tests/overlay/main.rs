@@ -3,8 +3,11 @@
 
 mod coplanar;
 mod cost;
+mod crowd;
 mod errors;
 mod judge;
+mod lines;
+mod oracle;
 #[path = "../support/mod.rs"]
 mod support;
 mod walks;

@@ -3,9 +3,10 @@
 use binspace::glam::{DMat3, DVec3};
 use binspace::scene::{self, Scene};
 use binspace::view::Camera;
-use binspace::{BuildOptions, Overlay};
+use binspace::{BuildOptions, Overlay, Shapes};
 
 use crate::judge::{self, Judged};
+use crate::oracle::{self, Counts, Given};
 use crate::support::dice::Dice;
 
 /// A polygon that walks and turns.
@@ -92,4 +93,46 @@ fn movers_among_crossing_triangles_are_right_in_every_pixel() {
 fn movers_under_the_default_tolerance_are_right_in_every_pixel() {
     let judged = walk(&scene::city(300, 3), None, 20, 30);
     judged.assert_floor(20, 100_000, 8_000);
+}
+
+/// 200 movers of all kinds: polygons against the depth buffer, lines and points against rays.
+#[test]
+fn movers_of_all_kinds_are_in_order() {
+    let scene = scene::city(300, 5);
+    let (low, high) = scene.bounds().expect("corners");
+    let margin = DVec3::splat((high - low).max_element() * 0.2);
+    let options = BuildOptions::DEFAULT.with_bounds(low - margin, high + margin);
+    let tree = options.with_tolerance(0.0).build(scene.polygons()).expect("within budget");
+    let [mut overlay, mut alone] = [Overlay::new(&tree), Overlay::new(&tree)];
+    let mut dice = Dice(12);
+    let mut movers: Vec<Mover> = (0..200).map(|_| Mover::new(low, high, &mut dice)).collect();
+    let (mut judged, mut counts) = (Judged::default(), Counts::default());
+    for frame in 0..16 {
+        movers.iter_mut().for_each(|mover| mover.step(low, high, &mut dice));
+        let polygons: Vec<_> = movers[..110].iter().map(Mover::corners).collect();
+        let lines: Vec<_> = movers[110..150].iter().map(Mover::corners).collect();
+        let points: Vec<_> = movers[150..].iter().map(|mover| mover.at).collect();
+        alone.replace(&tree, &polygons).expect("on the grid");
+        let shapes = Shapes::NONE.with_polygons(&polygons).with_lines(&lines);
+        let shapes = shapes.with_points(points.iter().copied());
+        overlay.replace_with(&tree, shapes).expect("on the grid");
+        let given = Given::new(&overlay, &lines, &points);
+        oracle::tiles(&tree, &overlay, &given, &mut counts).expect("tiles");
+        let angle = f64::from(frame) * 0.7;
+        let middle = (low + high) * 0.5;
+        let away = DVec3::new(angle.cos(), angle.sin(), 0.3 + 0.2 * angle.sin()) * margin * 3.0;
+        let camera = Camera::perspective(middle + away, middle, DVec3::Z, 0.9, [160, 120])
+            .expect("a camera");
+        judged.look_at_polygons(&tree, &overlay, alone.faces(), &camera).expect("a right picture");
+        let lattice = overlay.faces().lattice();
+        let among = low + (high - low) * DVec3::new(dice.share(), dice.share(), dice.share());
+        for eye in [middle + away, among] {
+            let eye = lattice.to_lattice(eye).map(f64::round);
+            oracle::judge(&tree, &overlay, &given, eye, &mut counts).expect("a right order");
+        }
+    }
+    judged.assert_floor(16, 130_000, 8_000);
+    assert!(counts.lines > 500 && counts.line_polygon > 5_000, "{counts:?}");
+    assert!(counts.point_polygon > 1_000 && counts.line_on_polygon > 10, "{counts:?}");
+    assert!(counts.pieces > counts.segments * 3 / 2, "{counts:?}");
 }

@@ -2,6 +2,7 @@
 //! rays in big integers for the order.
 
 mod cases;
+mod extend;
 mod faults;
 mod frames;
 mod input;

@@ -8,7 +8,7 @@ use super::peel::{Peeler, arrange};
 use super::rules::Rules;
 use super::sample::Sample;
 use super::set::Set;
-use super::sketch::{LANES, Sketch};
+use super::sketch::LANES;
 use super::tuning::Tuning;
 use crate::exact::{Kernel, PlaneId, Side};
 

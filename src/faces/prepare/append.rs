@@ -6,7 +6,7 @@ use super::tolerance::Ground;
 use super::{Preparation, Preparer};
 use crate::Error;
 use crate::exact::Faces;
-use crate::faces::listener::Unheard;
+use crate::faces::listener::Listener;
 use crate::input::Polygon;
 
 impl Preparer {
@@ -31,17 +31,18 @@ impl Preparer {
         faces: &mut Faces,
         polygons: impl IntoIterator<Item = P>,
         first: usize,
+        listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
-        self.input.read(polygons, usize::MAX, &Unheard)?;
+        self.input.read(polygons, usize::MAX, listener)?;
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
             return Err(Error::off_grid(polygon));
         }
         self.outlines.clear();
         let (before, ground) = (faces.len(), Ground::of(faces));
         self.builder.faces = std::mem::take(faces);
-        let report = self.prepare_all(&ground, &Unheard);
+        let report = self.prepare_all(&ground, listener);
         *faces = std::mem::take(&mut self.builder.faces);
         faces.faces[before..].iter_mut().for_each(|face| face.polygon += first as u32);
-        report
+        Ok(report?.in_world(&ground.lattice))
     }
 }

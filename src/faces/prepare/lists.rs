@@ -1,7 +1,7 @@
 //! The lists of faces: clear, append and shrink.
 
 use crate::Error;
-use crate::exact::faces::Face;
+use crate::exact::faces::{Face, Thin};
 use crate::exact::{Faces, MAX_LABELS};
 use crate::memory::reserve;
 
@@ -12,6 +12,7 @@ impl Faces {
         self.numbered.clear();
         self.faces.clear();
         self.moved.clear();
+        self.thin = Thin::default();
     }
 
     /// Gives memory back that is not needed.

@@ -1,0 +1,134 @@
+//! Chooses planes between lines and points.
+
+use smallvec::SmallVec;
+
+use super::anchors::Anchors;
+use crate::build::live::Live;
+use crate::exact::{Exact, ExactVertex, Faces, Kernel, PlaneId, Side, SymbolKind, Vertex};
+
+/// How many pieces of a set a plane is tried on, spread evenly over the set. More: time; fewer: worse
+/// planes for large sets.
+const SAMPLE: usize = 64;
+/// How many planes of segments are tried. More: time; fewer: more cuts where lines cross each other in
+/// a tangle.
+const OWN: usize = 6;
+/// A cut costs as much as this many pieces more on one side. Smaller: more pieces; larger: trees that
+/// are lists, and take the square of the time.
+const CUT: usize = 4;
+
+type Sample<'a> = SmallVec<[&'a Live; SAMPLE]>;
+
+/// Chooses the plane that divides a set of pieces, not none, without area. On either side there are
+/// fewer pieces than in the set.
+pub(super) fn between(
+    faces: &Faces,
+    anchors: &Anchors,
+    pieces: &[Live],
+    arena: &[ExactVertex],
+) -> PlaneId {
+    let sample: Sample<'_> = spread(pieces, SAMPLE).collect();
+    let first = own_plane(faces, sample[0].face);
+    let own = spread(pieces, OWN).skip(1).map(|piece| own_plane(faces, piece.face));
+    let own = medians(faces, &sample, arena).chain(own);
+    let plain = cheapest(faces, &sample, arena, [first].into_iter().chain(own));
+    // All of them lie in one plane.
+    if let Some((0, plane)) = plain {
+        return plane;
+    }
+    let anchored = anchored(anchors, pieces, arena).map(PlaneId::face);
+    let best = cheapest(faces, &sample, arena, anchored).or(plain);
+    best.map_or(first, |(_, plane)| plane)
+}
+
+/// The cheapest of some planes, with what it costs.
+fn cheapest(
+    faces: &Faces,
+    sample: &Sample<'_>,
+    arena: &[ExactVertex],
+    planes: impl Iterator<Item = PlaneId>,
+) -> Option<(usize, PlaneId)> {
+    let mut best: Option<(usize, PlaneId)> = None;
+    for plane in planes {
+        let cost = cost(faces, sample, arena, plane).unwrap_or(usize::MAX);
+        if best.is_none_or(|(least, _)| cost < least) {
+            best = Some((cost, plane));
+        }
+        // It cuts nothing, and leaves at most half of them on either side.
+        if cost <= sample.len() / 2 {
+            break;
+        }
+    }
+    best
+}
+
+/// So many pieces of a set, or all, spread evenly.
+fn spread(pieces: &[Live], most: usize) -> impl Iterator<Item = &Live> {
+    let count = pieces.len().min(most);
+    (0..count).map(move |i| &pieces[i * pieces.len() / count])
+}
+
+/// Some segments that end at points of the set, if there are any.
+fn anchored(
+    anchors: &Anchors,
+    pieces: &[Live],
+    arena: &[ExactVertex],
+) -> impl Iterator<Item = u32> {
+    let points = anchors.points(pieces);
+    let parts = points.chunks(points.len().div_ceil(OWN).max(1));
+    parts
+        .filter_map(move |part| part.iter().find_map(|point| anchors.segment(point, pieces, arena)))
+}
+
+/// A plane that a segment or a point lies in.
+fn own_plane(faces: &Faces, face: u32) -> PlaneId {
+    if faces.reach(face) > 1 {
+        PlaneId::face(face)
+    } else {
+        PlaneId::axis(2, faces.corner_range(face).start as u32)
+    }
+}
+
+/// The planes perpendicular to the axes through the median of the corners in the cell.
+fn medians<'a>(
+    faces: &'a Faces,
+    sample: &Sample<'_>,
+    arena: &'a [ExactVertex],
+) -> impl Iterator<Item = PlaneId> + 'a {
+    let mut corners: SmallVec<[u32; 2 * SAMPLE]> = SmallVec::new();
+    for piece in sample {
+        let start = faces.corner_range(piece.face).start as u32;
+        for vertex in piece.piece(arena).cut.unwrap_or_default() {
+            if let SymbolKind::Corner(k) = vertex.symbol().kind() {
+                corners.push(start + k);
+            }
+        }
+    }
+    let axes = if corners.is_empty() { 0..0 } else { 0..3 };
+    axes.map(move |axis| {
+        let middle = corners.len() / 2;
+        let at = |corner: &u32| faces.corner(*corner)[axis];
+        corners.select_nth_unstable_by(middle, |a, b| at(a).total_cmp(&at(b)));
+        PlaneId::axis(axis, corners[middle])
+    })
+}
+
+/// What it costs to divide a set by a plane; `None` if as many are left on a side.
+fn cost(
+    faces: &Faces,
+    sample: &Sample<'_>,
+    arena: &[ExactVertex],
+    plane: PlaneId,
+) -> Option<usize> {
+    let splitter = Exact.splitter(faces, plane);
+    let (mut front, mut back, mut cuts) = (0, 0, 0);
+    for piece in sample {
+        match Exact.classify(faces, &splitter, piece.piece(arena)) {
+            Side::Front => front += 1,
+            Side::Back => back += 1,
+            Side::Spanning => cuts += 1,
+            Side::Coplanar => {}
+        }
+    }
+    let divides = front.max(back) + cuts < sample.len();
+    divides.then_some(front.max(back) + CUT * cuts)
+}

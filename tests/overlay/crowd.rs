@@ -1,0 +1,69 @@
+//! Crowds go to one side of a plane at once, by their boxes: only where each of them would go there.
+
+use binspace::glam::{DMat3, DVec3, dvec3};
+use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint};
+
+/// Polygons above each other, each tilted a little, and as many lines; so many that their box is
+/// looked at.
+const LAYERS: usize = 100;
+
+/// For each polygon, and then for each line, whether it has pieces that come before the only polygon of
+/// the tree, and after it, seen from above and from below.
+fn sides(tree: &BspTree, polygons: &[[DVec3; 3]], lines: &[[DVec3; 2]]) -> Vec<[[bool; 2]; 2]> {
+    let mut overlay = Overlay::new(tree);
+    let shapes = Shapes::NONE.with_polygons(polygons).with_lines(lines);
+    overlay.replace_with(tree, shapes).expect("on the grid");
+    let mut sides = vec![[[false; 2]; 2]; polygons.len() + lines.len()];
+    let down = -tree.root().expect("a node").normal();
+    for (view, direction) in [down, -down].into_iter().enumerate() {
+        let viewpoint = Viewpoint::direction(direction);
+        let mut side = 0;
+        for shape in overlay.back_to_front(tree, viewpoint).expect("its own tree") {
+            match shape {
+                Shape::Fragment(floor) if floor.polygon() == 0 => side = 1,
+                Shape::Fragment(piece) => sides[piece.polygon() - 1][view][side] = true,
+                Shape::Segment(piece) => sides[polygons.len() + piece.line()][view][side] = true,
+                _ => unreachable!(),
+            }
+        }
+    }
+    sides
+}
+
+/// The lowest reaches a plane, or not, or through it, by any length: the crowd is cut as each of it is
+/// alone.
+#[test]
+fn a_crowd_is_cut_as_each_of_it_is_alone() {
+    let turns = [DMat3::IDENTITY, DMat3::from_rotation_y(1.0), DMat3::from_rotation_x(2.3)];
+    let (mut compared, mut cut) = (0, 0);
+    for (turn, tolerance) in turns.into_iter().flat_map(|turn| [0.0, 1e-3].map(|t| (turn, t))) {
+        let floor = [(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)];
+        let floor = floor.map(|(x, y)| turn * dvec3(x, y, 0.0));
+        let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+        let room = DVec3::splat(300.0);
+        let tree = options.with_bounds(-room, room).build([floor]).expect("a tree");
+        for depth in [0.0, 1e-13, 1e-10, 1e-5, 0.9e-3, 1.1e-3, 1e-2, 0.1, 0.3, 5.3] {
+            for (sign, above) in [-1.0, 1.0].into_iter().flat_map(|s| [(s, 1.0), (s, -1.0)]) {
+                let at = |k: usize, x: f64, y: f64, z: f64| {
+                    turn * dvec3(x, y, above * (k as f64 + z + sign * depth))
+                };
+                let triangle = |k: usize| {
+                    let rise = [0.0, 0.2][k % 2];
+                    [at(k, 0.0, 0.0, 0.0), at(k, 1.0, 0.0, rise), at(k, 0.0, 1.0, 2.0 * rise)]
+                };
+                let line = |k| [at(k, 0.5, 0.1, 0.0), at(k, 0.1, 0.5, 0.3)];
+                let polygons: Vec<_> = (0..LAYERS).map(triangle).collect();
+                let lines: Vec<_> = (0..LAYERS).map(line).collect();
+                let together = sides(&tree, &polygons, &lines);
+                for k in 0..LAYERS {
+                    let alone = sides(&tree, &polygons[k..=k], &lines[k..=k]);
+                    let found = [together[k], together[LAYERS + k]];
+                    assert_eq!(alone, found, "{k} {depth} {sign} {above} {tolerance}");
+                    cut += alone.iter().filter(|sides| sides[0] == [true; 2]).count();
+                }
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared == 240 && (60..240).contains(&cut), "{cut} in {compared}");
+}

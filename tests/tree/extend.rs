@@ -1,0 +1,79 @@
+//! Polygons added to a finished tree.
+
+use std::ops::ControlFlow;
+
+use crate::support::snapshot::Snapshot;
+use binspace::glam::DVec3;
+use binspace::scene::{self, Scene};
+use binspace::{BspTree, BuildOptions, Heuristic};
+
+type Corners = Vec<DVec3>;
+
+fn corners(scene: &Scene) -> Vec<Corners> {
+    scene.polygons().map(|polygon| polygon.iter().copied().collect()).collect()
+}
+
+/// Options under which a part of a scene has the grid and the tolerance of all of it.
+fn options(scene: &Scene, by: Heuristic) -> BuildOptions {
+    let (low, high) = scene.bounds().expect("corners");
+    BuildOptions::DEFAULT.with_bounds(low, high).with_heuristic(by).with_tolerance(1e-6)
+}
+
+#[test]
+fn an_extended_tree_is_that_of_all_polygons() {
+    for scene in [scene::random_triangles(120, 3), scene::city(400, 2), scene::crossing(9)] {
+        let all = corners(&scene);
+        for &by in Heuristic::ALL {
+            let options = options(&scene, by);
+            let expected = options.build(&all).expect("within budget");
+            for start in [0, 1, all.len() / 2, all.len()] {
+                let mut tree = options.build(&all[..start]).expect("within budget");
+                options.extend(&mut tree, &all[start..]).expect("on the grid");
+                assert_eq!(Snapshot::of(&tree), Snapshot::of(&expected), "{} {by}", scene.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn dropped_triangulated_and_moved_polygons_stay_what_they_were() {
+    let flat = |points: &[[f64; 3]]| points.iter().map(|&p| DVec3::from(p)).collect::<Corners>();
+    let line = flat(&[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]);
+    let arrow = flat(&[[0.0, 0.0, 0.5], [4.0, 1.0, 0.5], [0.0, 2.0, 0.5], [1.0, 1.0, 0.5]]);
+    let bent = flat(&[[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [4.0, 4.0, 1.0 + 5e-7], [0.0, 4.0, 1.0]]);
+    let all = [line.clone(), arrow.clone(), bent.clone(), arrow, line, bent];
+    let options = BuildOptions::DEFAULT.with_tolerance(1e-6);
+    let options = options.with_bounds(DVec3::ZERO, DVec3::splat(4.0));
+    let expected = options.build(&all).expect("within budget");
+    let mut tree = options.build(&all[..3]).expect("within budget");
+    for polygon in &all[3..] {
+        options.extend(&mut tree, [polygon]).expect("on the grid");
+    }
+    assert_eq!(Snapshot::of(&tree), Snapshot::of(&expected));
+    assert!(tree.dropped().eq([0, 4]));
+    let (found, wanted) = (*tree.preparation(), *expected.preparation());
+    assert_eq!((found.polygons, found.dropped, found.triangulated), (6, 2, 2));
+    assert_eq!((found.flattened, found.flattened_by), (2, wanted.flattened_by));
+    assert!(found.flattened_by > 1e-7 && found.flattened_by < 1e-6, "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_added_leaves_the_tree_as_it_was() {
+    let scene = scene::city(100, 1);
+    let mut tree = BspTree::build(scene.polygons()).expect("within budget");
+    let before = Snapshot::of(&tree);
+    let at = |x: f64| [[x, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
+    let error = tree.extend([at(0.0), at(f64::NAN)]).expect_err("not finite");
+    assert_eq!(error.polygon(), Some(1));
+    let error = tree.extend([at(0.0), at(0.5), at(1e9)]).expect_err("beyond the grid");
+    assert_eq!(error.polygon(), Some(2));
+    assert!(error.to_string().contains("with_bounds"), "{error}");
+    let few = BuildOptions::DEFAULT.with_max_fragments(scene.len());
+    assert!(few.extend(&mut tree, [at(0.0)]).expect_err("a budget").is_over_budget());
+    let never = BuildOptions::DEFAULT
+        .extend_with_progress(&mut tree, [at(0.0)], |_| ControlFlow::Break(()));
+    assert!(never.is_err_and(|error| error.is_cancelled()));
+    assert_eq!(Snapshot::of(&tree), before);
+    tree.extend([at(0.0)]).expect("on the grid");
+    assert_eq!(tree.preparation().polygons, scene.len() + 1);
+}
