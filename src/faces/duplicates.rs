@@ -19,7 +19,7 @@ impl Outlines {
 
     /// Adds a polygon by its corners on the lattice.
     pub(super) fn add(&mut self, polygon: usize, corners: impl Iterator<Item = [f64; 3]>) {
-        let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(integers(corner))));
+        let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(corner)));
         self.seen.push((sum, polygon as u32));
     }
 
@@ -53,16 +53,17 @@ impl Outlines {
 
 type Corner = [i64; 3];
 
-/// Lattice coordinates as integers, so that 0 and −0 are the same.
+/// Lattice coordinates as integers.
 fn integers(corner: [f64; 3]) -> Corner {
     corner.map(|c| c as i64)
 }
 
-fn mix(corner: Corner) -> u64 {
-    corner.iter().fold(1, |hash: u64, &c| {
-        let product = (hash ^ c as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        product ^ (product >> 29)
-    })
+fn mix(corner: [f64; 3]) -> u64 {
+    let [x, y, z] = corner.map(f64::to_bits);
+    let sum = x.wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        ^ y.wrapping_mul(0xbf58_476d_1ce4_e5b9).rotate_left(21)
+        ^ z.wrapping_mul(0x94d0_49bb_1331_11eb).rotate_left(42);
+    (sum ^ sum >> 31).wrapping_mul(0xd6e8_feb8_6659_fd93)
 }
 
 /// The canonical form of an outline: the same list wherever the outline starts and in whichever

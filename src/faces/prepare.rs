@@ -5,6 +5,7 @@ mod builder;
 mod collect;
 mod lists;
 mod planar;
+mod quad;
 mod tolerance;
 
 use glam::DVec3;

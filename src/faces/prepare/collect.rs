@@ -11,6 +11,7 @@ use crate::memory::reserve;
 /// The most corners of one polygon, about 4 million. Larger: an endless polygon takes more memory
 /// before it is noticed; smaller: coast lines have to be divided.
 pub const MAX_CORNERS: usize = 1 << 22;
+const _: () = assert!(MAX_CORNERS.is_multiple_of(CORNERS_AT_ONCE), "so that it is noticed");
 
 /// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
 /// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
@@ -110,25 +111,32 @@ impl Collected {
         listener: &dyn Listener,
     ) -> Result<(), Error> {
         for (corner, point) in polygon.corners().enumerate() {
-            if corner == MAX_CORNERS {
-                return Err(Error::polygon_corners(index, MAX_CORNERS));
-            }
-            if corner % CORNERS_AT_ONCE == CORNERS_AT_ONCE - 1 {
+            if corner % CORNERS_AT_ONCE == 0 && corner > 0 {
+                if corner == MAX_CORNERS {
+                    return Err(Error::polygon_corners(index, MAX_CORNERS));
+                }
+                self.check_count()?;
                 listener.read(index)?;
             }
             if !point.is_finite() {
                 return Err(Error::non_finite(index));
             }
-            if self.points.len() >= MAX_LABELS {
-                return Err(Error::too_many_corners(MAX_LABELS));
-            }
             reserve(&mut self.points, 1)?;
             self.points.push(point);
         }
+        self.check_count()?;
         // Of NaN and the other, `max` returns the other.
         self.precision = self.precision.max(polygon.precision());
         reserve(&mut self.ends, 1)?;
         self.ends.push(self.points.len() as u32);
+        Ok(())
+    }
+
+    /// An error if there are more corners than can be named.
+    fn check_count(&self) -> Result<(), Error> {
+        if self.points.len() > MAX_LABELS {
+            return Err(Error::too_many_corners(MAX_LABELS));
+        }
         Ok(())
     }
 }
