@@ -3,9 +3,8 @@
 use std::mem::take;
 use std::ops::ControlFlow;
 
-use super::assemble::assemble;
 use super::builder::{Memory, Shared};
-use super::choose::{Normals, Tuning};
+use super::choose::Tuning;
 use super::job::Job;
 use super::jobs;
 use super::live::Live;
@@ -110,7 +109,6 @@ fn tree<P: Polygon>(
 #[derive(Default)]
 pub(super) struct Workshop {
     preparer: Preparer,
-    normals: Normals,
     memory: Memory<Exact>,
     nodes: Vec<RawNode>,
     sizes: Vec<Sizes>,
@@ -125,7 +123,7 @@ impl Workshop {
         options: &BuildOptions,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<(), Error> {
-        let Self { preparer, normals, memory, nodes, sizes } = self;
+        let Self { preparer, memory, nodes, sizes } = self;
         let (mut faces, parts) = tree.take_parts();
         memory.output.parts = Parts { nodes: take(nodes), ..parts };
         let watch = Watch::default();
@@ -138,8 +136,7 @@ impl Workshop {
             &watch,
         )?;
         let tuning = &Tuning::DEFAULT;
-        normals.fill(&faces);
-        let shared = Shared::new(Exact, &faces, normals, options, tuning, &watch)?;
+        let shared = Shared::new(Exact, &faces, options, tuning, &watch)?;
         let parts = divide_all(&shared.with_positions(), &faces, memory)?;
         *nodes = tree.refill(faces, preparation, parts, sizes);
         Ok(())
@@ -195,8 +192,7 @@ fn watched_parts<K: Kernel>(
     faces: &Faces,
     watch: &Watch<'_>,
 ) -> Result<Parts<K::Stored>, Error> {
-    let normals = Normals::of(faces);
-    let shared = Shared::new(kernel, faces, &normals, options, tuning, watch)?;
+    let shared = Shared::new(kernel, faces, options, tuning, watch)?;
     divide_all(&shared, faces, &mut Memory::default())
 }
 
@@ -211,5 +207,5 @@ fn divide_all<K: Kernel>(
     arena.clear();
     reserve(&mut pieces, faces.len())?;
     pieces.extend((0..faces.len() as u32).map(|face| Live::whole(faces, face)));
-    assemble(jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)?)
+    jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
 }

@@ -114,13 +114,11 @@ impl Overlay {
     /// An overlay of nothing for a tree, whose polygons it copies. O(n).
     pub fn new(tree: &BspTree) -> Self {
         let faces = tree.faces.clone();
-        let mut placer = Placer::default();
-        placer.prepare(&faces, 0);
         Self {
             faces,
             base: Base::of(tree),
             preparer: Preparer::default(),
-            placer,
+            placer: Placer::default(),
             pieces: Parts::default(),
             skeleton: Skeleton::new(tree.len()),
             preparation: Preparation::default(),
@@ -156,7 +154,7 @@ impl Overlay {
     ) -> Result<(), Error> {
         let Self { faces, base, preparer, placer, pieces, skeleton, .. } = self;
         self.preparation = preparer.append(faces, polygons, base.polygons)?;
-        placer.prepare(faces, base.faces);
+        placer.begin_at(base.faces);
         placer.place(tree, faces, pieces, skeleton)
     }
 

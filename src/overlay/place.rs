@@ -48,9 +48,8 @@ pub(super) struct Placer {
 }
 
 impl Placer {
-    /// Makes ready for faces of which those before `first` are as they were.
-    pub(super) fn prepare(&mut self, faces: &Faces, first: usize) {
-        self.cells.prepare(faces, first);
+    /// Begins with the face of this number.
+    pub(super) fn begin_at(&mut self, first: usize) {
         self.first = first as u32;
     }
 
