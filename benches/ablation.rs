@@ -63,8 +63,9 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 42] = changes! {
+const CHANGES: [Change; 45] = changes! {
     table: "0" => 0, "½" => 16;
+    crossings: "0" => 0, "½" => 1, "all" => MOST;
     probes: "0" => 0, "×2" => 8;
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;

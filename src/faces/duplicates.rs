@@ -9,6 +9,8 @@ use crate::memory::reserve;
 #[derive(Debug, Default)]
 pub(super) struct Outlines {
     pub(super) seen: Vec<(u64, u32)>,
+    /// Working space: a hash table of the numbers from 1 on of those seen; 0 is none.
+    places: Vec<u32>,
 }
 
 impl Outlines {
@@ -30,12 +32,35 @@ impl Outlines {
         Ok(())
     }
 
+    /// Whether any two have the same hash.
+    fn has_alike(&mut self) -> Result<bool, Error> {
+        let Self { seen, places } = self;
+        let size = (2 * seen.len()).next_power_of_two();
+        places.clear();
+        reserve(places, size)?;
+        places.resize(size, 0);
+        for (&(hash, _), number) in seen.iter().zip(1..) {
+            let mut place = (hash >> 32) as usize & (size - 1);
+            while places[place] != 0 {
+                if seen[places[place] as usize - 1].0 == hash {
+                    return Ok(true);
+                }
+                place = (place + 1) & (size - 1);
+            }
+            places[place] = number;
+        }
+        Ok(false)
+    }
+
     /// Counts the polygons that have the same corners as an earlier one, in the same cyclic order
-    /// or its reverse. Exact, in O(n log n); `corners` must return the corners of a polygon again.
+    /// or its reverse. Exact, in O(n log n), and O(n) if there are none; `corners` must return the corners of a polygon again.
     pub(super) fn duplicates(
         &mut self,
         mut corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
     ) -> Result<usize, Error> {
+        if !self.has_alike()? {
+            return Ok(0);
+        }
         self.seen.sort_unstable();
         let alike = self.seen.chunk_by(|a, b| a.0 == b.0).filter(|polygons| polygons.len() > 1);
         let mut duplicates = 0;

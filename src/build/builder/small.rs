@@ -9,9 +9,6 @@ use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
 use crate::tree::parts::{RawChild, RawNode};
 
-/// The most pieces that a plane may cut to be taken at once, if they all cross the piece it is of.
-const FEW: u32 = 2;
-
 impl<K: Kernel> Builder<'_, K> {
     /// Divides the set on top of the stack, of at most half as many pieces as a table has slots, down
     /// to the leaves.
@@ -75,7 +72,8 @@ impl<K: Kernel> Builder<'_, K> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let table = &mut self.table;
         let pieces = slots(set).map(|slot| &table.slots[slot].piece);
-        let mut best = Best::new(pieces, self.shared.rules.tuning);
+        let crossings = self.shared.rules.tuning.crossings;
+        let mut best: Option<Best> = None;
         let places = Places::<K>::new(faces, &self.arena);
         for slot in slots(set) {
             let Slot { piece, row } = &table.slots[slot];
@@ -90,18 +88,22 @@ impl<K: Kernel> Builder<'_, K> {
             }
             let cut = set & plane.front & plane.back;
             // What crosses the piece has to be cut anyway, or the piece.
-            if (1..=FEW).contains(&cut.count_ones())
+            if cut != 0
+                && cut.count_ones() as usize <= crossings
                 && slots(cut).all(|cut| places.cross(piece, &table.slots[cut].piece))
             {
                 return Ok(*plane);
             }
+            let best =
+                best.get_or_insert_with(|| Best::new(pieces.clone(), self.shared.rules.tuning));
             best.see(slot, piece, [set & plane.front, set & plane.back]);
             if best.is_good() {
                 break;
             }
         }
-        let own = table.planes[table.slots[best.slot()].row];
-        if !best.cuts() {
+        let first = set.trailing_zeros() as usize;
+        let own = table.planes[table.slots[best.as_ref().map_or(first, Best::slot)].row];
+        if !best.is_some_and(|best| best.cuts()) {
             return Ok(own);
         }
         let Shared { kernel, faces, rules, .. } = self.shared;

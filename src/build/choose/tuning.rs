@@ -7,6 +7,10 @@ pub struct Tuning {
     /// where each piece lies against each plane. Larger: the table takes longer than it saves;
     /// smaller: planes are chosen anew for every set.
     pub table: usize,
+    /// The plane of a piece in a table is taken at once if it cuts at most so many pieces, at least one,
+    /// and each of them crosses the piece: any tree has to cut them, or it. More: heaps are cut by
+    /// planes that are not the best; fewer: all planes of rings are compared again and again.
+    pub crossings: usize,
     /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
     /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
     pub clean_below: usize,
@@ -59,6 +63,7 @@ impl Tuning {
     /// What the library builds with.
     pub const DEFAULT: Self = Self {
         table: 32,
+        crossings: 2,
         clean_below: 64,
         probes: 4,
         small: 256,

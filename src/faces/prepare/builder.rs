@@ -67,13 +67,14 @@ impl Builder {
         outlines: &mut Outlines,
         listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
+        let snap = |point| ground.lattice.snap(point);
         let mut report = Preparation::default();
         reserve(&mut outlines.seen, polygons.len())?;
         for polygon in polygons {
             report.polygons += 1;
             let points = input.polygon(polygon);
             if let &[a, b, c, d] = points
-                && let Some(quad) = Quad::of([a, b, c, d].map(|point| ground.lattice.snap(point)))
+                && let Some(quad) = Quad::of([snap(a), snap(b), snap(c), snap(d)])
                 && let Some(off) = self.push_quad(polygon, &quad)?
             {
                 report.flattened += usize::from(off > 0.0);

@@ -25,6 +25,10 @@ const POLYGONS_AT_ONCE: usize = 1 << 10;
 /// larger: a cancel takes longer.
 const CORNERS_AT_ONCE: usize = 1 << 12;
 
+/// A polygon that says that it has no more corners than this is read at once. Larger: one that is
+/// wrong about it can take more memory than there is.
+const AT_HAND: usize = 64;
+
 /// All corners, and where those of each polygon end.
 #[derive(Debug, Default)]
 pub(super) struct Collected {
@@ -110,7 +114,22 @@ impl Collected {
         polygon: &P,
         listener: &dyn Listener,
     ) -> Result<(), Error> {
-        for (corner, point) in polygon.corners().enumerate() {
+        let corners = polygon.corners();
+        if let (least, Some(most)) = corners.size_hint()
+            && least == most
+            && most <= AT_HAND
+        {
+            reserve(&mut self.points, most)?;
+            let before = self.points.len();
+            self.points.extend(corners);
+            // Infinity and NaN times 0 are NaN.
+            let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
+            if zero != DVec3::ZERO {
+                return Err(Error::non_finite(index));
+            }
+            return self.end(polygon);
+        }
+        for (corner, point) in corners.enumerate() {
             if corner % CORNERS_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
                     return Err(Error::polygon_corners(index, MAX_CORNERS));
@@ -124,6 +143,11 @@ impl Collected {
             reserve(&mut self.points, 1)?;
             self.points.push(point);
         }
+        self.end(polygon)
+    }
+
+    /// Ends a polygon, whose corners are read.
+    fn end<P: Polygon>(&mut self, polygon: &P) -> Result<(), Error> {
         self.check_count()?;
         // Of NaN and the other, `max` returns the other.
         self.precision = self.precision.max(polygon.precision());

@@ -96,3 +96,58 @@ impl Builder {
         Ok(Some(off.distance))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::Quad;
+    use crate::exact::Faces;
+    use crate::random::SplitMix64;
+
+    /// Four corners around a point: flat but for noise of any size, bent, not convex, on small integers
+    /// where sizes are equal, or all but on one line.
+    fn corners(random: &mut SplitMix64) -> [DVec3; 4] {
+        let [at, u, v] = [(); 3].map(|()| random.point(-1.0, 1.0));
+        let noise = 2f64.powf(random.range(-60.0, -10.0));
+        let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let kind = random.next() % 6;
+        let v = if kind == 1 { u + v * noise } else { v };
+        let mut quad = signs.map(|[x, y]| at + x * u + y * v + random.point(-noise, noise));
+        match kind {
+            2 => quad[2] = quad[0].lerp(quad[2], random.range(-0.5, 0.9)),
+            3 => quad.swap(1, 2),
+            4 => quad = quad.map(|corner| (2.0 * corner).round()),
+            5 => quad = signs.map(|[x, y]| DVec3::new(x, y, x * y * noise)),
+            _ => {}
+        }
+        quad
+    }
+
+    /// A fifth corner, the same as the first, is dropped, but not by the rules for four.
+    #[test]
+    fn quads_become_the_faces_that_the_general_rules_make() {
+        let mut random = SplitMix64::new(9);
+        let (mut taken, mut moved, mut bent) = (0, 0, 0);
+        for _ in 0..20_000 {
+            let quad = corners(&mut random);
+            let [a, b, c, d] = quad;
+            let tolerance = Some(2f64.powf(random.range(-55.0, -8.0)));
+            let (faces, report) = Faces::new([quad], tolerance).unwrap();
+            let (others, general) = Faces::new([[a, b, c, d, a]], tolerance).unwrap();
+            assert_eq!(report, general, "{quad:?}");
+            assert_eq!(
+                (&faces.corners, &faces.moved),
+                (&others.corners, &others.moved),
+                "{quad:?}"
+            );
+            let frame =
+                |faces: &Faces| faces.faces.iter().map(|face| face.frame).collect::<Vec<_>>();
+            assert_eq!(frame(&faces), frame(&others), "{quad:?}");
+            taken += usize::from(Quad::of(quad.map(|p| faces.lattice().snap(p))).is_some());
+            moved += faces.moved.len();
+            bent += report.triangulated;
+        }
+        assert!(taken > 8000 && moved > 3000 && bent > 2000, "{taken} {moved} {bent}");
+    }
+}
