@@ -56,8 +56,8 @@ pub enum Heuristic {
     ///
     /// | set | how it is divided |
     /// |---|---|
-    /// | up to 32 polygons | from a table of where each lies against the plane of each: by an own plane that cuts nothing, else by a free plane that cuts nothing, else by the best own plane |
-    /// | up to 255 | by an own plane that cuts nothing and divides it evenly, if one of four does; else by a free plane that cuts nothing; else by the best, where no plane that cuts is preferred to one that does not |
+    /// | up to 32 polygons | from a table of where each lies against the plane of each: by an own plane that cuts nothing and divides it evenly, or cuts one or two polygons that cross its own; else by any that cuts nothing; else by a free plane that cuts nothing; else by the best own plane |
+    /// | up to 255 | by an own plane that cuts nothing and divides it evenly, if one of four does; else by a free plane that cuts nothing; else by the plane of a polygon in the middle, if it cuts only polygons that cross its own; else by the best, where no plane that cuts is preferred to one that does not |
     /// | more | by a free plane that cuts nothing, else by the best |
     ///
     /// Sets below 64 try no free plane that cuts. Where only planes at the rim of a set cut nothing,

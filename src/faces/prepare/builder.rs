@@ -5,8 +5,8 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::Preparation;
 use super::collect::Collected;
+use super::preparation::Preparation;
 use super::quad::Quad;
 use super::tolerance::Ground;
 use crate::Error;
@@ -75,7 +75,7 @@ impl Builder {
             let points = input.polygon(polygon);
             if let &[a, b, c, d] = points
                 && let Some(quad) = Quad::of([snap(a), snap(b), snap(c), snap(d)])
-                && let Some(off) = self.push_quad(polygon, &quad)?
+                && let Some(off) = quad.push(polygon, &mut self.faces)?
             {
                 report.flattened += usize::from(off > 0.0);
                 report.flattened_by = report.flattened_by.max(off);

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
-use super::builder::Builder;
 use crate::Error;
 use crate::exact::faces::{Face, Frame};
-use crate::exact::{Flattener, MAX_LABELS, RoundedNormal};
+use crate::exact::{Faces, Flattener, MAX_LABELS, RoundedNormal};
 use crate::memory::reserve;
 
 /// A convex quadrilateral with its frame, as the general rules make it.
@@ -66,16 +65,15 @@ fn widest(corners: &[[f64; 3]; 4]) -> [usize; 2] {
     }
 }
 
-impl Builder {
-    /// Adds a quadrilateral as one face, if it is flat within the tolerance; gives how far a corner
-    /// is off the plane of the others.
-    pub(super) fn push_quad(&mut self, polygon: usize, quad: &Quad) -> Result<Option<f64>, Error> {
-        let Quad { mut corners, second, third, axis } = *quad;
+impl Quad {
+    /// Adds itself as one face, if it is flat within the tolerance; gives how far a corner is off the
+    /// plane of the others.
+    pub(super) fn push(&self, polygon: usize, faces: &mut Faces) -> Result<Option<f64>, Error> {
+        let Self { mut corners, second, third, axis } = *self;
         let spare = 6 - second - third;
         let given = corners[spare];
         let flattener = Flattener::new([0, second, third].map(|k| corners[k]), axis);
         let off = flattener.off(&given);
-        let faces = &mut self.faces;
         if off.distance > faces.tolerance {
             return Ok(None);
         }
@@ -101,8 +99,7 @@ impl Builder {
 mod tests {
     use glam::DVec3;
 
-    use super::Quad;
-    use crate::exact::Faces;
+    use super::{Faces, Quad};
     use crate::random::SplitMix64;
 
     /// Four corners around a point: flat but for noise of any size, bent, not convex, on small integers
