@@ -83,8 +83,9 @@ const CHANGES: [Change; 40] = changes! {
 };
 
 /// Those that frames have of their own.
-const OF_FRAMES: [Change; 4] = changes! {
+const OF_FRAMES: [Change; 7] = changes! {
     table: "0" => 0, "½" => 16;
+    crossings: "0" => 0, "½" => 1, "all" => MOST;
     probes: "0" => 0, "×2" => 8;
 };
 
@@ -176,7 +177,7 @@ fn pages() -> Vec<Scene> {
     let page = |(page, count): (Page, usize)| {
         let mut scene = Scene::new(format!("{}:{count}", page.name()), DVec3::Y);
         for layer in page.layers(count, SEED) {
-            scene.push(layer.outline(), 0);
+            scene.push(layer.outline().map(DVec3::from), 0);
         }
         scene
     };

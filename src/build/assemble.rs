@@ -84,7 +84,8 @@ impl<S: Copy> Output<S> {
     }
 }
 
-/// Joins the outputs of all jobs. The first is that of the root.
+/// Joins the outputs of all jobs. The first is that of the root; gaps in the outputs refer to the
+/// others by their index.
 pub(super) fn assemble<S: Copy>(mut outputs: Vec<Output<S>>) -> Result<Parts<S>, Error> {
     if outputs.len() == 1 {
         return Ok(outputs.pop().unwrap_or_default().parts);

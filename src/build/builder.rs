@@ -65,8 +65,8 @@ impl<K: Kernel> Builder<'_, K> {
             plane
         } else {
             let count = set.len();
-            let Shared { kernel, faces, normals, rules, .. } = self.shared;
-            let set = Set::new(kernel, faces, normals, set, &self.arena);
+            let Shared { kernel, faces, rules, .. } = self.shared;
+            let set = Set::new(kernel, faces, set, &self.arena);
             let plane = match self.chooser.choose(rules, &set, pending.is_peeled) {
                 Choice::Split(plane) => plane,
                 Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),

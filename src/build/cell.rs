@@ -2,9 +2,8 @@
 
 use std::mem::take;
 
-use super::assemble::assemble;
 use super::builder::{Memory, Shared};
-use super::choose::{Normals, Tuning};
+use super::choose::Tuning;
 use super::job::Job;
 use super::jobs;
 use super::live::Live;
@@ -19,16 +18,10 @@ use crate::tree::parts::Parts;
 /// Builds a tree of the pieces in each cell, in memory that it keeps.
 #[derive(Default)]
 pub(crate) struct CellBuilder {
-    normals: Normals,
     memory: Memory<Exact>,
 }
 
 impl CellBuilder {
-    /// Makes ready for faces of which those before `first` are as they were.
-    pub(crate) fn prepare(&mut self, faces: &Faces, first: usize) {
-        self.normals.fill_from(faces, first);
-    }
-
     /// A tree of some pieces, with the positions of its vertices. Give the parts back to
     /// [`keep`](Self::keep) when they are read.
     ///
@@ -42,7 +35,7 @@ impl CellBuilder {
         arena: &[ExactVertex],
         watch: &Watch<'_>,
     ) -> Result<Parts<ExactStored>, Error> {
-        let Self { normals, memory } = self;
+        let Self { memory } = self;
         let mut job =
             Job { pieces: take(&mut memory.pieces), arena: take(&mut memory.arena), depth: 0 };
         job.pieces.clear();
@@ -57,8 +50,8 @@ impl CellBuilder {
         }
         // The budget counts all faces, the tree's among them.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
-        let shared = Shared::new(Exact, faces, normals, &options, &Tuning::FRAMES, watch)?;
-        assemble(jobs::run(&shared.with_positions(), job, memory)?)
+        let shared = Shared::new(Exact, faces, &options, &Tuning::FRAMES, watch)?;
+        jobs::run(&shared.with_positions(), job, memory)
     }
 
     /// Keeps the memory of a tree for the next.

@@ -3,9 +3,8 @@
 use std::mem::take;
 use std::ops::ControlFlow;
 
-use super::assemble::{Output, assemble};
 use super::builder::{Memory, Shared};
-use super::choose::{Normals, Tuning};
+use super::choose::Tuning;
 use super::job::Job;
 use super::jobs;
 use super::live::Live;
@@ -129,7 +128,6 @@ fn prepared<P: Polygon>(
 #[derive(Default)]
 pub(super) struct Workshop {
     preparer: Preparer,
-    normals: Normals,
     memory: Memory<Exact>,
     nodes: Vec<RawNode>,
     sizes: Vec<Sizes>,
@@ -144,7 +142,7 @@ impl Workshop {
         options: &BuildOptions,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<(), Error> {
-        let Self { preparer, normals, memory, nodes, sizes } = self;
+        let Self { preparer, memory, nodes, sizes } = self;
         let (mut faces, parts) = tree.take_parts();
         memory.output.parts = Parts { nodes: take(nodes), ..parts };
         let watch = Watch::default();
@@ -157,9 +155,8 @@ impl Workshop {
             &watch,
         )?;
         let tuning = &Tuning::FRAMES;
-        normals.fill(&faces);
-        let shared = Shared::new(Exact, &faces, normals, options, tuning, &watch)?;
-        let parts = assemble(divide_all(&shared.with_positions(), &faces, memory)?)?;
+        let shared = Shared::new(Exact, &faces, options, tuning, &watch)?;
+        let parts = divide_all(&shared.with_positions(), &faces, memory)?;
         *nodes = tree.refill(faces, preparation, parts, sizes);
         Ok(())
     }
@@ -214,11 +211,8 @@ fn watched_parts<K: Kernel>(
     faces: &Faces,
     watch: &Watch<'_>,
 ) -> Result<Parts<K::Stored>, Error> {
-    let normals = Normals::of(faces);
-    let shared = Shared::new(kernel, faces, &normals, options, tuning, watch)?;
-    // The memory is freed before the outputs are copied.
-    let outputs = divide_all(&shared, faces, &mut Memory::default())?;
-    assemble(outputs)
+    let shared = Shared::new(kernel, faces, options, tuning, watch)?;
+    divide_all(&shared, faces, &mut Memory::default())
 }
 
 /// Divides the set of all faces, down to the leaves.
@@ -226,7 +220,7 @@ fn divide_all<K: Kernel>(
     shared: &Shared<'_, K>,
     faces: &Faces,
     memory: &mut Memory<K>,
-) -> Result<Vec<Output<K::Stored>>, Error> {
+) -> Result<Parts<K::Stored>, Error> {
     let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
     pieces.clear();
     arena.clear();

@@ -60,9 +60,10 @@ pub enum Heuristic {
     /// are taken off one after the other in a single search.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries the planes of polygons first, which takes less
-    /// time: in sets of up to 255 polygons, those of four of them, if one cuts nothing and divides the
-    /// set evenly; in sets of up to 32, all of them, from a table of where each polygon lies against
-    /// the plane of each.
+    /// time. In sets of up to 255 polygons these are four, of which one is taken that cuts nothing and
+    /// divides the set evenly; and, where no free plane cuts nothing, a few in the middle, of which one
+    /// is taken that cuts only polygons that cross its own. In sets of up to 32 they are all, from a
+    /// table of where each polygon lies against the plane of each.
     #[default]
     Auto,
 }

@@ -2,25 +2,25 @@
 
 use std::collections::VecDeque;
 
-use super::assemble::Output;
+use super::assemble::{Output, assemble};
 use super::builder::{Memory, Shared, build};
 use super::job::Job;
 use crate::Error;
 use crate::exact::Kernel;
+use crate::tree::parts::Parts;
 
 /// A build of fewer pieces starts on the calling thread. Larger: the pool's threads idle at first;
 /// smaller: waking them takes longer than the build.
 #[cfg(feature = "parallel")]
 const ALONE: usize = 2048;
 
-/// Builds a job, and all jobs that it and they hand over. The first output is the job's own; gaps in
-/// the outputs refer to the others by their index.
+/// Builds a job, and all jobs that it and they hand over, and joins them.
 #[cfg(feature = "parallel")]
 pub(super) fn run<K: Kernel>(
     shared: &Shared<'_, K>,
     job: Job<K::Vertex>,
     memory: &mut Memory<K>,
-) -> Result<Vec<Output<K::Stored>>, Error> {
+) -> Result<Parts<K::Stored>, Error> {
     use std::sync::Mutex;
 
     type Slot<T> = Option<Result<T, Error>>;
@@ -66,7 +66,7 @@ pub(super) fn run<K: Kernel>(
     }
     let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     // The scope has waited for every job, so every slot is filled.
-    slots.into_iter().flatten().collect()
+    assemble(slots.into_iter().flatten().collect::<Result<_, _>>()?)
 }
 
 #[cfg(not(feature = "parallel"))]
@@ -77,7 +77,7 @@ pub(super) fn in_turn<K: Kernel>(
     shared: &Shared<'_, K>,
     job: Job<K::Vertex>,
     memory: &mut Memory<K>,
-) -> Result<Vec<Output<K::Stored>>, Error> {
+) -> Result<Parts<K::Stored>, Error> {
     let mut jobs = VecDeque::new();
     let (mut next, mut outputs) = (Some(job), Vec::new());
     while let Some(job) = next {
@@ -86,8 +86,11 @@ pub(super) fn in_turn<K: Kernel>(
             jobs.push_back(job);
             done + jobs.len() - 1
         })?;
+        if outputs.is_empty() && jobs.is_empty() {
+            return Ok(output.parts);
+        }
         outputs.push(output);
         next = jobs.pop_front();
     }
-    Ok(outputs)
+    assemble(outputs)
 }

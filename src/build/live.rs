@@ -69,6 +69,12 @@ impl Live {
         }
     }
 
+    /// Whether it was never cut.
+    #[inline]
+    pub(crate) fn is_whole(&self) -> bool {
+        self.len == 0
+    }
+
     /// The piece with its vertices in the arena.
     #[inline]
     pub(crate) fn piece<'a, V>(&self, arena: &'a [V]) -> Piece<'a, V> {
@@ -92,6 +98,18 @@ impl Live {
     #[inline]
     pub(crate) fn max_is_corner(&self, axis: usize) -> bool {
         self.on_corner >> (axis + 3) & 1 != 0
+    }
+
+    /// A corner of the face with a coordinate from `low` to `high` along an axis, numbered over all
+    /// faces.
+    pub(crate) fn corner_within(
+        &self,
+        faces: &Faces,
+        axis: usize,
+        [low, high]: [f64; 2],
+    ) -> Option<u32> {
+        let within = |corner: &usize| (low..=high).contains(&faces.corner(*corner as u32)[axis]);
+        faces.corner_range(self.face).find(within).map(|corner| corner as u32)
     }
 
     /// A corner of the face that has the given coordinate along an axis, numbered over all faces.

@@ -1,5 +1,7 @@
 //! Whether an outline is convex.
 
+use std::cmp::Ordering;
+
 /// Whether an outline of `n` lattice points is convex and winds once, seen along an axis. Exact.
 pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -> bool {
     if n < 3 {
@@ -13,7 +15,7 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
     let step = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
     let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
     let (mut here, mut next) = (point(0), point(1));
-    let (mut rises, mut turn) = (0, 0i8);
+    let (mut rises, mut turn) = (0, Ordering::Equal);
     for then in (2..n + 2).map(point) {
         let (a, b) = (step(here, next), step(next, then));
         (here, next) = (next, then);
@@ -21,16 +23,58 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
         if a == [0.0; 2] || b == [0.0; 2] {
             return false;
         }
-        let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
-        let area = product(a[0], b[1]) - product(a[1], b[0]);
-        let backwards = area == 0 && product(a[0], b[0]) + product(a[1], b[1]) < 0;
-        let sign = area.signum() as i8;
-        if backwards || sign * turn < 0 {
-            return false;
+        let Some(sign) = turn_of(a, b) else { return false };
+        if sign.is_ne() {
+            if sign == turn.reverse() {
+                return false;
+            }
+            turn = sign;
         }
-        turn |= sign;
         rises += u32::from(!ascending(a) && ascending(b));
     }
     // It turns one way only. Each time round it changes once from descending to ascending.
     rises == 1
+}
+
+/// Which way an outline turns from one step to the next; `None` if it turns back.
+#[inline]
+fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
+    let (left, right) = (a[0] * b[1], a[1] * b[0]);
+    // Two products and their difference are rounded.
+    if (left - right).abs() > f64::EPSILON * (left.abs() + right.abs()) {
+        return Some(if left > right { Ordering::Greater } else { Ordering::Less });
+    }
+    let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
+    let turn = (product(a[0], b[1]) - product(a[1], b[0])).cmp(&0);
+    let is_back = turn.is_eq() && product(a[0], b[0]) + product(a[1], b[1]) < 0;
+    (!is_back).then_some(turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cmp::Ordering;
+
+    use super::turn_of;
+    use crate::random::SplitMix64;
+
+    /// Steps that all but run on in one line, or back, by integers of 128 bits.
+    #[test]
+    fn turns_are_exact() {
+        let mut random = SplitMix64::new(4);
+        let (mut straight, mut back) = (0, 0);
+        for _ in 0..20_000 {
+            let mut number = |most: f64| random.range(-most, most).round();
+            let (unit, nudge) = ([number(9e6), number(9e6)], [number(1.4), number(1.4)]);
+            let [s, t] = [number(9e7), number(9e7)];
+            let a = unit.map(|c| c * s);
+            let b = [unit[0] * t + nudge[0], unit[1] * t + nudge[1]];
+            let [p, q] = [a, b].map(|step| step.map(|c| c as i128));
+            let turn = (p[0] * q[1] - p[1] * q[0]).cmp(&0);
+            let is_back = turn == Ordering::Equal && p[0] * q[0] + p[1] * q[1] < 0;
+            assert_eq!(turn_of(a, b), (!is_back).then_some(turn), "{a:?} {b:?}");
+            straight += usize::from(turn.is_eq() && !is_back);
+            back += usize::from(is_back);
+        }
+        assert!(straight > 500 && back > 500, "{straight} {back}");
+    }
 }

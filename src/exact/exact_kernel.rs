@@ -85,8 +85,7 @@ impl Kernel for Exact {
         [from, _]: [&ExactVertex; 2],
     ) -> ExactVertex {
         let symbol = Symbol::crossing(from.line, splitter.plane);
-        let position = faces.position_by(face, symbol, Some((splitter.plane, splitter.exact)));
-        ExactVertex { position, symbol, line: from.line }
+        ExactVertex { position: faces.position(face, symbol), symbol, line: from.line }
     }
 
     fn store(&self, vertex: &ExactVertex) -> ExactStored {

@@ -5,14 +5,13 @@ use std::cmp::Ordering;
 use super::kernel::{Side, Vertex};
 use super::label::{Line, PlaneId, PlaneKind, Symbol};
 use super::lattice::LIMIT;
-use super::plane::Plane;
+use super::normal::RoundedNormal;
 use super::{Faces, Int};
 
 /// A plane prepared for the filter, and for integers where the filter is not certain.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactSplitter {
     pub(super) plane: PlaneId,
-    pub(super) exact: Plane,
     normal: [f64; 3],
     offset: f64,
     /// A rounded distance has the right sign if it is larger than this.
@@ -24,29 +23,21 @@ pub struct ExactSplitter {
 impl ExactSplitter {
     /// Prepares a plane.
     pub(super) fn new(faces: &Faces, plane: PlaneId) -> Self {
-        let exact = faces.plane(plane);
         match plane.kind() {
             PlaneKind::Axis(axis, corner) => {
                 let mut normal = [0.0; 3];
                 normal[axis] = 1.0;
                 let offset = faces.corner(corner)[axis];
                 let band = faces.tolerance().floor();
-                ExactSplitter { plane, exact, normal, offset, bound: AXIS_ERROR, band }
+                ExactSplitter { plane, normal, offset, bound: AXIS_ERROR, band }
             }
             PlaneKind::Face(face) => {
-                let [p, q, r] = faces.reference_triangle(face).map(|c| faces.corner(c));
-                let (mut normal, mut size) = ([0.0; 3], 0.0);
-                for (i, component) in normal.iter_mut().enumerate() {
-                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    let a = (q[j] - p[j]) * (r[k] - p[k]);
-                    let b = (q[k] - p[k]) * (r[j] - p[j]);
-                    *component = a - b;
-                    size += a.abs() + b.abs();
-                }
-                let [x, y, z] = normal;
+                let corners = faces.reference_triangle(face).map(|c| faces.corner(c));
+                let RoundedNormal { normal, size } = RoundedNormal::through(corners);
+                let ([x, y, z], p) = (normal, corners[0]);
                 let offset = x * p[0] + y * p[1] + z * p[2];
                 let band = (faces.tolerance() * (x * x + y * y + z * z).sqrt()).floor();
-                ExactSplitter { plane, exact, normal, offset, bound: FACE_ERROR * size, band }
+                ExactSplitter { plane, normal, offset, bound: FACE_ERROR * size, band }
             }
         }
     }
@@ -122,7 +113,7 @@ impl Vertex for ExactVertex {
 /// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
 /// - the vertex, three roundings of each coordinate (see [`Faces::position`]), of which that of
 ///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (What cutting off its weights adds,
-///   [`OFF`](super::position::OFF), is less than a thousandth of a rounding of m.)
+///   [`OFF`](super::position::OFF), is less than a thirtieth of a rounding of m.)
 ///
 /// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
 /// the excess of π over |n₀| + |n₁| + |n₂| counts twice, and in units in which |n₀| + |n₁| + |n₂|
@@ -143,9 +134,9 @@ const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 
 /// The largest error of an axis-aligned plane at a rounded vertex, among those where the sign is
 /// wrong. It is that of the vertex: three roundings of a coordinate of at most 1.014 m, and less than
-/// a thousandth of one for what cutting off its weights adds. The
+/// a thirtieth of one for what cutting off its weights adds. The
 /// difference of two numbers this close is exact.
-const AXIS_ERROR: f64 = 3.05 * (f64::EPSILON / 2.0) * LIMIT;
+const AXIS_ERROR: f64 = 3.1 * (f64::EPSILON / 2.0) * LIMIT;
 
 /// How a vertex's distance from a plane compares with a threshold: by the filter where it is
 /// certain, otherwise by integers.
@@ -179,15 +170,16 @@ fn compare_exactly(
     vertex: Symbol,
     threshold: f64,
 ) -> Ordering {
+    let plane = faces.plane(splitter.plane);
     // A vertex on an edge was made between the edge's ends. Where both are on one side of the
     // plane, so is the vertex, and its weights need not be computed.
     if let Some([a, b]) = faces.edge_ends(face, vertex) {
-        let side = |end: [f64; 3]| (splitter.exact.at(&end) - Int::<3>::from_f64(threshold)).sign();
+        let side = |end: [f64; 3]| (plane.at(&end) - Int::<3>::from_f64(threshold)).sign();
         match (side(a), side(b)) {
             (a, b) if a == b || b.is_eq() => return a,
             (Ordering::Equal, b) => return b,
             _ => {}
         }
     }
-    faces.compare(splitter.plane, &splitter.exact, face, vertex, threshold)
+    faces.compare(splitter.plane, &plane, face, vertex, threshold)
 }

@@ -125,13 +125,14 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
-/// The nearest integer, ties to even where that is decided here: `f64::round` calls a function on
-/// processors without an instruction for it.
+/// The nearest integer, ties to even. Not `f64::round`, which calls a function on processors without
+/// an instruction for it.
 #[inline]
-fn nearest(value: f64) -> f64 {
-    /// Where the spacing of `f64` is 1.
-    const SHIFT: f64 = 1.5 * (1u64 << 52) as f64;
-    if value.abs() < LIMIT { value + SHIFT - SHIFT } else { value.round() }
+pub(super) fn nearest(value: f64) -> f64 {
+    /// From here on, numbers are integers, and up to the double of it they are 1 apart.
+    const WHOLE: f64 = (1u64 << 52) as f64;
+    let size = value.abs();
+    if size < WHOLE { (size + WHOLE - WHOLE).copysign(value) } else { value }
 }
 
 /// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.

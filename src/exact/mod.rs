@@ -5,8 +5,11 @@
 //! | `lattice` | how corners are rounded to the grid |
 //! | `vertex` | on which side of a plane a vertex lies, in integers |
 //! | `position` | where a vertex is, rounded |
+//! | `normal` | how a face's plane lies, rounded |
 //! | `filter` | the same side by rounded distances, where they are certain |
 //! | `tolerance` | where a piece lies against a plane |
+//! | `edge` | what an edge of a face is |
+//! | `flatten` | where corners off their face's plane are moved |
 //! | `split` | how a piece is cut |
 //! | `convex` | whether an outline is convex |
 //! | `along` | in which order points of one line come |
@@ -15,15 +18,18 @@
 
 pub(crate) mod along;
 mod convex;
+mod edge;
 pub(crate) mod exact_kernel;
 pub(crate) mod exact_ray;
 mod eye;
 pub(crate) mod faces;
 mod filter;
+mod flatten;
 mod int;
 mod kernel;
 pub(crate) mod label;
 pub(crate) mod lattice;
+mod normal;
 mod plane;
 mod position;
 mod split;
@@ -35,12 +41,14 @@ pub use exact_kernel::{Exact, ExactStored};
 pub use eye::Eye;
 pub use faces::Faces;
 pub use filter::{ExactSplitter, ExactVertex};
+pub(crate) use flatten::Flattener;
 pub(crate) use int::Int;
 pub use kernel::{Kernel, Piece, Side, Vertex};
 pub(crate) use label::MAX_LABELS;
 pub use label::{Line, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
+pub(crate) use normal::{RoundedNormal, have_area};
 pub(crate) use plane::{Plane, cross};
 pub(crate) use position::OFF as POSITION_OFF;
 pub use split::split;

@@ -53,18 +53,11 @@ impl Plane {
     /// The normal, each component rounded at most twice.
     #[inline]
     pub(crate) fn normal_f64(&self) -> DVec3 {
-        // By parts, because a conversion of 128 bits calls a function. The parts have one sign, so
-        // nothing cancels.
-        let [x, y, z] = self.normal.map(|c| {
-            let size = c.unsigned_abs();
-            let (high, low) = ((size >> 62) as i64, (size & ((1 << 62) - 1)) as i64);
-            let size = high as f64 * (1u64 << 62) as f64 + low as f64;
-            if c < 0 { -size } else { size }
-        });
-        DVec3::new(x, y, z)
+        DVec3::from_array(self.normal.map(rounded))
     }
 
     /// The scalar product of the normal and a point of the plane, rounded.
+    #[cfg(test)]
     pub(crate) fn offset_f64(&self) -> f64 {
         self.along(self.point).to_f64()
     }
@@ -92,6 +85,15 @@ impl Plane {
         self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
     }
 
+    /// The same in 128 bits: right but for multiples of 2¹²⁸, whatever its parts are.
+    #[inline]
+    pub(super) fn last_bits_at(&self, x: &[f64; 3]) -> i128 {
+        let terms = self.normal.iter().zip(x).zip(self.point);
+        terms.fold(0, |sum, ((component, &x), through)| {
+            sum.wrapping_add(component.wrapping_mul(i128::from(x as i64 - through)))
+        })
+    }
+
     /// The scalar product of the normal and a direction of components below 2⁶².
     #[inline]
     pub(crate) fn along(&self, direction: [i64; 3]) -> Int<3> {
@@ -110,6 +112,16 @@ impl Plane {
             last,
         ])
     }
+}
+
+/// A number below 2¹²⁶, rounded at most twice. By parts, because a conversion of 128 bits calls a
+/// function; they have one sign, so nothing cancels.
+#[inline]
+pub(super) fn rounded(number: i128) -> f64 {
+    let size = number.unsigned_abs();
+    let (high, low) = ((size >> 62) as i64, (size & ((1 << 62) - 1)) as i64);
+    let size = high as f64 * (1u64 << 62) as f64 + low as f64;
+    if number < 0 { -size } else { size }
 }
 
 /// The sign of a quotient, from the signs of its numerator and its denominator.

@@ -5,11 +5,12 @@
 //! the quotient could be off by more than [`OFF`], because terms cancel, it is computed in full.
 
 use super::Int;
+use super::edge::{Edge, Moved};
 use super::faces::Faces;
-use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
+use super::label::{PlaneKind, Symbol, SymbolKind};
 use super::lattice::LIMIT;
-use super::plane::{LOW, LOW_BITS, Plane};
-use super::vertex::{Definition, Weights};
+use super::plane::{LOW, LOW_BITS, Plane, rounded};
+use super::vertex::Weights;
 
 #[cfg(test)]
 mod tests;
@@ -19,12 +20,17 @@ const KEPT: u32 = 124;
 /// Numbers are multiplied by halves of so many bits, whose products fit 128.
 const HALF: u32 = KEPT / 2;
 const LOW_HALF: i128 = (1 << HALF) - 1;
+/// 1 in numbers of which a half is below it.
+const UNIT: f64 = (1u64 << HALF) as f64;
 /// The sum of the weights must be 2⁷⁰ times the error of one. Smaller: positions are off by more;
 /// larger: more of them are computed in full.
 const MARGIN: u32 = 70;
-/// What cutting off adds to the error of a position, at most, in lattice units: for three weights
-/// above the line of the quotient and three below, 6 · 2⁻⁷⁰ of the lattice's size.
-pub(crate) const OFF: f64 = 6.0 * LIMIT / (1u128 << MARGIN) as f64;
+/// The same on edges, where weights of 62 bits do: they do not cancel. Larger: none is told.
+const EDGE_MARGIN: u32 = 60;
+/// What cutting off adds to the error of a position, at most, in lattice units: on an edge as long as
+/// the lattice is wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (Elsewhere, for three weights above the
+/// line of the quotient and three below, only 6 · 2⁻⁷⁰ of its size.)
+pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 
 impl Faces {
     /// The rounded position of a vertex in lattice units. Each coordinate is within three of its own
@@ -32,36 +38,17 @@ impl Faces {
     /// that axis defines the vertex. All pieces, of any face, that define the vertex by the same
     /// points and planes get the same bits, whichever way their faces run.
     pub(crate) fn position(&self, face: u32, vertex: Symbol) -> [f64; 3] {
-        self.position_by(face, vertex, None)
-    }
-
-    /// The same, where one of the planes that may define the vertex is at hand.
-    pub(super) fn position_by(
-        &self,
-        face: u32,
-        vertex: Symbol,
-        at_hand: Option<(PlaneId, Plane)>,
-    ) -> [f64; 3] {
-        if let SymbolKind::Corner(k) = vertex.kind() {
-            return self.corners(face)[k as usize];
-        }
-        let leading = match self.definition(face, vertex, at_hand) {
-            Definition::Edge(ends, plane) => on_edge(&ends, &plane),
-            Definition::Meeting(triangle, [g, h]) => meeting(&triangle, &g, &h),
-            Definition::Corner(_) | Definition::Moved { .. } => None,
-        };
-        let mut position = leading.unwrap_or_else(|| self.position_in_full(face, vertex));
-        let mut pin = |plane: PlaneId| {
-            if let PlaneKind::Axis(axis, corner) = plane.kind() {
-                position[axis] = self.corner(corner)[axis];
+        let (leading, planes) = match vertex.kind() {
+            SymbolKind::Corner(k) => return self.corners(face)[k as usize],
+            SymbolKind::OnEdge(k, g) => (on_edge(&self.edge(face, k), &self.plane(g)), [g; 2]),
+            SymbolKind::Inside(g, h) => {
+                (meeting(&self.triangle(face), &self.plane(g), &self.plane(h)), [g, h])
             }
         };
-        match vertex.kind() {
-            SymbolKind::Corner(_) => {}
-            SymbolKind::OnEdge(_, plane) => pin(plane),
-            SymbolKind::Inside(g, h) => {
-                pin(g);
-                pin(h);
+        let mut position = leading.unwrap_or_else(|| self.position_in_full(face, vertex));
+        for plane in planes {
+            if let PlaneKind::Axis(axis, corner) = plane.kind() {
+                position[axis] = self.corner(corner)[axis];
             }
         }
         position
@@ -89,15 +76,48 @@ fn ratio<const K: usize>(points: &[[f64; 3]; K], weights: &[Int<5>; K]) -> [f64;
     })
 }
 
-/// Where a plane meets the line through two lattice points; `None` if the leading bits do not tell.
-fn on_edge(ends: &[[f64; 3]; 2], plane: &Plane) -> Option<[f64; 3]> {
-    let Leading { values: [a, b], dropped } = Leading::of(plane, ends);
-    let error = u128::from(dropped > 0);
-    mean(ends, &[-b, a], error)
+/// Where a plane meets an edge; `None` if the leading bits do not tell.
+fn on_edge(edge: &Edge, plane: &Plane) -> Option<[f64; 3]> {
+    let Edge { ends, moved } = edge;
+    let ends = ends.map(whole);
+    let values = ends.map(|end| at(plane, end));
+    let dropped = (bits_of(values.map(|value| value.high)) + LOW_BITS).saturating_sub(HALF);
+    let [mut a, mut b] = values.map(|value| value.without(dropped) as i64);
+    // What is cut off is less than 1.
+    let mut error = u64::from(dropped > 0);
+    let mut moves = [0.0; 2];
+    if let Some(Moved { axis, offs, slope }) = moved {
+        let [own_slope, slope] = [*slope, plane.normal()[*axis]].map(rounded);
+        // Off by five roundings, and the plane's gain by eight.
+        moves = offs.map(|off| -rounded(off) / own_slope);
+        let scale = f64::from_bits(u64::from(1023 - dropped) << 52);
+        let gains = moves.map(|by| by * slope * scale);
+        let most = gains[0].abs().max(gains[1].abs());
+        (a, b) = (a.saturating_add(gains[0] as i64), b.saturating_add(gains[1] as i64));
+        error += 1 + (most * (4.0 * f64::EPSILON)) as u64;
+    }
+    let weights = [b.checked_neg()?, a];
+    let total = a.checked_sub(b)?;
+    if total == 0 || total.unsigned_abs() >> EDGE_MARGIN < error {
+        return None;
+    }
+    Some(std::array::from_fn(|axis| {
+        let terms = |factors: [i64; 2]| {
+            let [x, y] = [0, 1].map(|i| i128::from(weights[i]) * i128::from(factors[i]));
+            x + y
+        };
+        let mut sum = terms(ends.map(|end| end[axis]));
+        if moved.is_some_and(|moved| moved.axis == axis) {
+            // Rounded towards 0, so that it has the same magnitude for weights of the other sign.
+            sum += terms(moves.map(|by| (by * UNIT) as i64)) / (1 << HALF);
+        }
+        sum as f64 / total as f64
+    }))
 }
 
 /// Where two planes meet that of a triangle; `None` if the leading bits do not tell.
 fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
+    let triangle = triangle.map(whole);
     let (g, h) = (Leading::of(g, triangle), Leading::of(h, triangle));
     let is_exact = g.dropped == 0 && h.dropped == 0;
     let (g, h) = (g.values.map(halves), h.values.map(halves));
@@ -112,14 +132,20 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     // A value is off by less than 1, its products with others by 2¹²⁴, and a weight by four of these.
     let inexact = if is_exact { 0 } else { 1 << (KEPT + 2).saturating_sub(dropped) };
     let error = inexact + u128::from(dropped > 0);
-    mean(triangle, &weights.map(|weight| weight.without(dropped)), error)
+    mean(&triangle, &weights.map(|weight| weight.without(dropped)), error)
+}
+
+/// A lattice point's coordinates as integers.
+#[inline]
+fn whole(point: [f64; 3]) -> [i64; 3] {
+    point.map(|c| c as i64)
 }
 
 /// The weighted mean of lattice points, rounded; `None` if that could be off because each weight is,
 /// by up to `error`.
 #[inline]
 fn mean<const K: usize>(
-    points: &[[f64; 3]; K],
+    points: &[[i64; 3]; K],
     weights: &[i128; K],
     error: u128,
 ) -> Option<[f64; 3]> {
@@ -133,12 +159,12 @@ fn mean<const K: usize>(
     for (axis, coordinate) in position.iter_mut().enumerate() {
         let (mut high, mut low) = (0, 0);
         for (point, weight) in points.iter().zip(&weights) {
-            let c = i128::from(point[axis] as i64);
+            let c = i128::from(point[axis]);
             high += i128::from(weight[1]) * c;
             low += i128::from(weight[0]) * c;
         }
         let sum = nearest(high + (low >> HALF), (low & LOW_HALF) as u64);
-        *coordinate = sum * (1u64 << HALF) as f64 / total;
+        *coordinate = sum * UNIT / total;
     }
     Some(position)
 }
@@ -152,49 +178,55 @@ struct Leading<const K: usize> {
 }
 
 impl<const K: usize> Leading<K> {
-    /// A plane at some lattice points, see `vertex`.
+    /// A plane at some lattice points.
     #[inline]
-    fn of(plane: &Plane, points: &[[f64; 3]; K]) -> Self {
-        let normal = plane.normal().map(|c| [(c & LOW) as i64, (c >> LOW_BITS) as i64]);
-        let through = plane.point();
-        let (mut high, mut low) = ([0i128; K], [0i128; K]);
-        for (i, point) in points.iter().enumerate() {
-            for axis in 0..3 {
-                let arm = i128::from(point[axis] as i64 - through[axis]);
-                low[i] += i128::from(normal[axis][0]) * arm;
-                high[i] += i128::from(normal[axis][1]) * arm;
-            }
-            high[i] += low[i] >> LOW_BITS;
-            low[i] &= LOW;
-        }
-        let dropped = (bits_of(high) + LOW_BITS).saturating_sub(KEPT);
-        let mut values = [0; K];
-        for (value, (high, low)) in values.iter_mut().zip(high.into_iter().zip(low)) {
-            let Magnitude { is_negative, high, low } = Magnitude::of(high, low, LOW_BITS);
-            let size = (high << (LOW_BITS - dropped)) + (low >> dropped);
-            *value = if is_negative { -size } else { size };
-        }
-        Self { values, dropped }
+    fn of(plane: &Plane, points: [[i64; 3]; K]) -> Self {
+        let parts = points.map(|point| at(plane, point));
+        let dropped = (bits_of(parts.map(|parts| parts.high)) + LOW_BITS).saturating_sub(KEPT);
+        Self { values: parts.map(|parts| parts.without(dropped)), dropped }
     }
 }
 
-/// The magnitude of a number in two parts.
-struct Magnitude {
-    is_negative: bool,
+/// A number in two parts: `high` · 2^BITS + `low`, which is not negative.
+#[derive(Clone, Copy, Debug, Default)]
+struct Parts<const BITS: u32> {
     high: i128,
     low: i128,
 }
 
-impl Magnitude {
-    /// Of `high` · 2^bits + `low`, with `low` from 0 to 2^bits.
+impl<const BITS: u32> Parts<BITS> {
+    /// The number times 2^−`dropped`, rounded towards 0.
     #[inline]
-    fn of(high: i128, low: i128, bits: u32) -> Self {
-        match (high < 0, low == 0) {
-            (false, _) => Self { is_negative: false, high, low },
-            (true, true) => Self { is_negative: true, high: -high, low },
-            (true, false) => Self { is_negative: true, high: -high - 1, low: (1 << bits) - low },
+    fn without(self, dropped: u32) -> i128 {
+        let Self { high, low } = self.magnitude();
+        let size = match BITS.checked_sub(dropped) {
+            Some(up) => (high << up) + (low >> dropped),
+            None => high >> (dropped - BITS),
+        };
+        if self.high < 0 { -size } else { size }
+    }
+
+    /// The absolute value.
+    #[inline]
+    fn magnitude(self) -> Self {
+        match (self.high < 0, self.low == 0) {
+            (false, _) => self,
+            (true, true) => Self { high: -self.high, low: 0 },
+            (true, false) => Self { high: -self.high - 1, low: (1 << BITS) - self.low },
         }
     }
+}
+
+/// A plane at a lattice point, see `vertex`.
+#[inline]
+fn at(plane: &Plane, point: [i64; 3]) -> Parts<LOW_BITS> {
+    let (mut high, mut low) = (0, 0);
+    for ((component, x), through) in plane.normal().into_iter().zip(point).zip(plane.point()) {
+        let arm = i128::from(x - through);
+        low += i128::from((component & LOW) as i64) * arm;
+        high += i128::from((component >> LOW_BITS) as i64) * arm;
+    }
+    Parts { high: high + (low >> LOW_BITS), low: low & LOW }
 }
 
 /// How many bits the largest magnitude of some numbers has.
@@ -210,12 +242,8 @@ fn halves(number: i128) -> [i64; 2] {
     [(number & LOW_HALF) as i64, (number >> HALF) as i64]
 }
 
-/// A number of up to 250 bits: `high` · 2¹²⁴ + `low`, which is not negative.
-#[derive(Clone, Copy, Debug, Default)]
-struct Product {
-    high: i128,
-    low: i128,
-}
+/// A number of up to 250 bits.
+type Product = Parts<KEPT>;
 
 impl Product {
     /// a · b − c · d, of the halves of each.
@@ -228,45 +256,14 @@ impl Product {
         let high = times(a[1], b[1]) - times(c[1], d[1]) + (middle >> HALF);
         Self { high, low: (middle & LOW_HALF) << HALF | (low & LOW_HALF) }
     }
-
-    /// The number times 2^−`dropped`, rounded towards 0; `dropped` are the bits of `high`, so that 124
-    /// are left.
-    #[inline]
-    fn without(self, dropped: u32) -> i128 {
-        let Magnitude { is_negative, high, low } = self.magnitude();
-        let size = match KEPT.checked_sub(dropped) {
-            Some(up) => (high << up) + (low >> dropped),
-            None => high >> (dropped - KEPT),
-        };
-        if is_negative { -size } else { size }
-    }
-
-    #[inline]
-    fn magnitude(&self) -> Magnitude {
-        Magnitude::of(self.high, self.low, KEPT)
-    }
 }
 
 /// The nearest `f64` to `high` + `low` · 2⁻⁶², ties to even; `low` is below 2⁶².
 #[inline]
 fn nearest(high: i128, low: u64) -> f64 {
-    let (mut magnitude, mut fraction) = (high.unsigned_abs(), low);
-    if high < 0 && low > 0 {
-        (magnitude, fraction) = (magnitude - 1, (1 << HALF) - low);
+    if high.unsigned_abs() >> HALF > 0 {
+        // The last bit set if any bit below is: then the conversion rounds once, as if it saw all.
+        return (high | i128::from(low > 0)) as f64;
     }
-    let lead = magnitude.leading_zeros();
-    // The leading 64 bits, and the last of them set if any bit below is: the conversion then rounds
-    // once, as if it saw every bit.
-    let (bits, exponent) = if lead >= 64 {
-        // `fraction` has bits among the leading ones.
-        let all = magnitude << HALF | u128::from(fraction);
-        let lead = all.leading_zeros();
-        let all = all.checked_shl(lead).unwrap_or(0);
-        ((all >> 64) as u64 | u64::from(all as u64 != 0), 64 - lead as i32 - HALF as i32)
-    } else {
-        let all = magnitude << lead;
-        ((all >> 64) as u64 | u64::from(all as u64 != 0 || fraction != 0), 64 - lead as i32)
-    };
-    let value = bits as f64 * f64::from_bits(((1023 + exponent) as u64) << 52);
-    if high < 0 { -value } else { value }
+    ((high << HALF | i128::from(low)) as f64) / (1u64 << HALF) as f64
 }

@@ -40,6 +40,8 @@ pub(super) fn classify(
         Side::Back
     } else if high > far && low < -far {
         Side::Spanning
+    } else if piece.cut.is_none() && high.max(-low) <= splitter.band - near {
+        Side::Coplanar
     } else {
         classify_exactly(faces, splitter, piece)
     }

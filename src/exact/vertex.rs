@@ -21,7 +21,9 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::Int;
+use super::edge::{Edge, Moved};
 use super::faces::Faces;
+use super::flatten::{Flattener, Off};
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
 use super::plane::{Plane, cross, relative_to};
 
@@ -36,47 +38,28 @@ pub(crate) enum Weights {
     Inside([[f64; 3]; 3], [Int<5>; 3]),
 }
 
-/// What defines a vertex.
-pub(super) enum Definition {
-    /// A corner.
-    Corner([f64; 3]),
-    /// A corner moved along an axis onto the plane of a triangle.
-    Moved { corner: [f64; 3], triangle: [[f64; 3]; 3], axis: usize },
-    /// Where a plane meets the line through two lattice points.
-    Edge([[f64; 3]; 2], Plane),
-    /// Where two planes meet that of a triangle.
-    Meeting([[f64; 3]; 3], [Plane; 2]),
-}
-
 impl Faces {
     /// Moves the corners of the last face along `axis` to the lattice points nearest to its plane.
-    pub(crate) fn flatten_last(&mut self, axis: usize, plane: &Plane) {
+    /// Gives how far the furthest was off it, in lattice units, rounded; 0 only if all were exactly on
+    /// it.
+    pub(crate) fn flatten_last(&mut self, axis: usize) -> f64 {
         let face = self.faces.len() as u32 - 1;
-        let triangle = self.faces[face as usize].frame.triangle();
-        let slope = plane.normal()[axis];
-        for (k, corner) in self.corner_range(face).enumerate() {
-            if triangle.contains(&(k as u32)) {
+        let triangle = self.reference_triangle(face);
+        let flattener = Flattener::new(triangle.map(|corner| self.corner(corner)), axis);
+        let mut furthest = 0.0f64;
+        for corner in self.corner_range(face) {
+            if triangle.contains(&(corner as u32)) {
                 continue;
             }
-            let off = plane.at(&self.corners[corner]);
-            if off.sign().is_eq() {
-                continue;
-            }
-            // The plane is off / slope steps away. Both are rounded here, and the quotient, but it is
-            // below 2⁴⁵, so the nearest integer is this or the next.
-            let steps = (off.to_f64() / slope as f64).round();
-            let rest = off - Int::<2>::from(slope).times::<1, 3>(&Int::from(steps as i64));
-            let slope: Int<3> = slope.into();
-            let (rest, up) = if rest.sign() == slope.sign() { (rest, 1.0) } else { (-rest, -1.0) };
-            // Now of one sign, or no rest.
-            let excess = rest + rest - slope;
-            let is_next = excess.sign() == slope.sign() && rest.sign().is_ne();
-            let steps = if is_next { steps + up } else { steps };
+            let point = self.corners[corner];
+            let Off { distance, steps } = flattener.off(&point);
+            furthest = furthest.max(distance);
             if steps != 0.0 {
-                self.moved.push((corner as u32, self.corners[corner]));
+                self.moved.push((corner as u32, point));
                 self.corners[corner][axis] -= steps;
             }
         }
+        furthest
     }
 
     /// A partition plane in integers.
@@ -160,55 +143,28 @@ impl Faces {
 
     /// A vertex as a combination of corners of its face.
     pub(crate) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
-        match self.definition(face, vertex, None) {
-            Definition::Corner(point) => Weights::Corner(point),
-            Definition::Moved { corner, triangle, axis } => {
+        match vertex.kind() {
+            SymbolKind::Corner(k) => {
+                let corner = self.corners(face)[k as usize];
+                let Some(axis) = self.axis_of_move(face, k) else {
+                    return Weights::Corner(corner);
+                };
                 let area = |p, q| Int::from(cross(corner, p, q)[axis]);
-                let [a, b, c] = triangle;
-                Weights::Inside(triangle, [area(b, c), area(c, a), area(a, b)])
+                let [a, b, c] = self.triangle(face);
+                Weights::Inside([a, b, c], [area(b, c), area(c, a), area(a, b)])
             }
-            Definition::Edge([a, b], plane) => Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)]),
-            Definition::Meeting(triangle, [g, h]) => meeting(triangle, &g, &h),
-        }
-    }
-
-    /// What defines a vertex: lattice points and planes, one of which may be at hand.
-    pub(super) fn definition(
-        &self,
-        face: u32,
-        vertex: Symbol,
-        at_hand: Option<(PlaneId, Plane)>,
-    ) -> Definition {
-        let plane_of = |id| match at_hand {
-            Some((known, plane)) if known == id => plane,
-            _ => self.plane(id),
-        };
-        let record = &self.faces[face as usize];
-        let corners = self.corners(face);
-        let triangle = record.frame.triangle().map(|k| corners[k as usize]);
-        let edge = |k: u32| {
-            let k = k as usize;
-            [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]]
-        };
-        // A corner that lies on the plane is not moved. An edge between two such corners must be
-        // treated as an edge, not as a cut by an upright plane: the neighbour across it may have
-        // moved no corner, and both must get the same bits.
-        let stays = |k: u32| {
-            let corner = &corners[if k as usize == corners.len() { 0 } else { k as usize }];
-            triangle.contains(corner) || Plane::through(triangle).at(corner).sign().is_eq()
-        };
-        match (vertex.kind(), record.frame.drop_axis()) {
-            (SymbolKind::Corner(k), Some(axis)) if !stays(k) => {
-                Definition::Moved { corner: corners[k as usize], triangle, axis }
+            SymbolKind::OnEdge(k, plane) => {
+                let Edge { ends: [a, b], moved } = self.edge(face, k);
+                let plane = self.plane(plane);
+                match moved {
+                    None => Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)]),
+                    Some(Moved { axis, .. }) => {
+                        meeting(self.triangle(face), &Plane::upright(a, b, axis), &plane)
+                    }
+                }
             }
-            (SymbolKind::Corner(k), _) => Definition::Corner(corners[k as usize]),
-            (SymbolKind::OnEdge(k, plane), Some(axis)) if !(stays(k) && stays(k + 1)) => {
-                let [a, b] = edge(k);
-                Definition::Meeting(triangle, [Plane::upright(a, b, axis), plane_of(plane)])
-            }
-            (SymbolKind::OnEdge(k, plane), _) => Definition::Edge(edge(k), plane_of(plane)),
-            (SymbolKind::Inside(g, h), _) => {
-                Definition::Meeting(triangle, [plane_of(g), plane_of(h)])
+            SymbolKind::Inside(g, h) => {
+                meeting(self.triangle(face), &self.plane(g), &self.plane(h))
             }
         }
     }

@@ -9,6 +9,8 @@ use crate::memory::reserve;
 #[derive(Debug, Default)]
 pub(super) struct Outlines {
     pub(super) seen: Vec<(u64, u32)>,
+    /// Working space: a hash table of the numbers from 1 on of those seen; 0 is none.
+    places: Vec<u32>,
 }
 
 impl Outlines {
@@ -19,7 +21,7 @@ impl Outlines {
 
     /// Adds a polygon by its corners on the lattice.
     pub(super) fn add(&mut self, polygon: usize, corners: impl Iterator<Item = [f64; 3]>) {
-        let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(integers(corner))));
+        let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(corner)));
         self.seen.push((sum, polygon as u32));
     }
 
@@ -30,12 +32,35 @@ impl Outlines {
         Ok(())
     }
 
+    /// Whether any two have the same hash.
+    fn has_alike(&mut self) -> Result<bool, Error> {
+        let Self { seen, places } = self;
+        let size = (2 * seen.len()).next_power_of_two();
+        places.clear();
+        reserve(places, size)?;
+        places.resize(size, 0);
+        for (&(hash, _), number) in seen.iter().zip(1..) {
+            let mut place = (hash >> 32) as usize & (size - 1);
+            while places[place] != 0 {
+                if seen[places[place] as usize - 1].0 == hash {
+                    return Ok(true);
+                }
+                place = (place + 1) & (size - 1);
+            }
+            places[place] = number;
+        }
+        Ok(false)
+    }
+
     /// Counts the polygons that have the same corners as an earlier one, in the same cyclic order
-    /// or its reverse. Exact, in O(n log n); `corners` must return the corners of a polygon again.
+    /// or its reverse. Exact, in O(n log n), and O(n) if there are none; `corners` must return the corners of a polygon again.
     pub(super) fn duplicates(
         &mut self,
         mut corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
     ) -> Result<usize, Error> {
+        if !self.has_alike()? {
+            return Ok(0);
+        }
         self.seen.sort_unstable();
         let alike = self.seen.chunk_by(|a, b| a.0 == b.0).filter(|polygons| polygons.len() > 1);
         let mut duplicates = 0;
@@ -53,16 +78,17 @@ impl Outlines {
 
 type Corner = [i64; 3];
 
-/// Lattice coordinates as integers, so that 0 and −0 are the same.
+/// Lattice coordinates as integers.
 fn integers(corner: [f64; 3]) -> Corner {
     corner.map(|c| c as i64)
 }
 
-fn mix(corner: Corner) -> u64 {
-    corner.iter().fold(1, |hash: u64, &c| {
-        let product = (hash ^ c as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        product ^ (product >> 29)
-    })
+fn mix(corner: [f64; 3]) -> u64 {
+    let [x, y, z] = corner.map(f64::to_bits);
+    let sum = x.wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        ^ y.wrapping_mul(0xbf58_476d_1ce4_e5b9).rotate_left(21)
+        ^ z.wrapping_mul(0x94d0_49bb_1331_11eb).rotate_left(42);
+    (sum ^ sum >> 31).wrapping_mul(0xd6e8_feb8_6659_fd93)
 }
 
 /// The canonical form of an outline: the same list wherever the outline starts and in whichever

@@ -178,13 +178,11 @@ impl Overlay {
     /// An overlay of nothing for a tree, whose polygons it copies. O(n).
     pub fn new(tree: &BspTree) -> Self {
         let faces = tree.faces.clone();
-        let mut placer = Placer::default();
-        placer.prepare(&faces, 0);
         Self {
             faces,
             base: Base::of(tree),
             preparer: Preparer::default(),
-            placer,
+            placer: Placer::default(),
             pieces: Parts::default(),
             skeleton: Skeleton::new(tree.len()),
             preparation: Preparation::default(),
@@ -282,7 +280,7 @@ impl Overlay {
         let Self { faces, base, preparer, placer, pieces, skeleton, segments, .. } = self;
         let Shapes { polygons, lines, points } = shapes;
         self.preparation = preparer.append(faces, polygons, base.polygons, watch)?;
-        placer.prepare(faces, base.faces);
+        placer.begin_at(base.faces, faces.len());
         preparer.append_lines(faces, lines, segments, watch)?;
         preparer.append_points(faces, points, watch)?;
         watch.expect(faces.len() - base.faces)?;

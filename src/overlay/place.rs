@@ -57,10 +57,9 @@ pub(super) struct Placer {
 }
 
 impl Placer {
-    /// Makes ready for polygons' faces of which those before `first` are as they were.
-    pub(super) fn prepare(&mut self, faces: &Faces, first: usize) {
-        self.cells.prepare(faces, first);
-        (self.first, self.thin) = (first as u32, faces.len() as u32);
+    /// Begins with the face of a number; the polygons' faces end before another.
+    pub(super) fn begin_at(&mut self, first: usize, thin: usize) {
+        (self.first, self.thin) = (first as u32, thin as u32);
     }
 
     /// Places all faces behind the tree's.

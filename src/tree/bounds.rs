@@ -54,9 +54,9 @@ const NOTHING: Flat = [
 ];
 
 /// A cut vertex is within three roundings of its exact position, each at most this share of a
-/// coordinate, and a rounding of the lattice's size, which is at most `STEP` lattice units.
+/// coordinate, and `STEP` lattice units, which is more than `POSITION_OFF`.
 const SHARE: f64 = 2.0 * f64::EPSILON;
-const STEP: f64 = 1.0 / 4096.0;
+const STEP: f64 = 1.0 / 64.0;
 /// Stored is the lattice point that is nearest to a moved corner.
 const MOVED: f64 = 0.5;
 

@@ -94,7 +94,7 @@ impl<'t> Fragment<'t> {
     pub fn vertices(
         &self,
     ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'t> {
-        let lattice = *self.faces.lattice();
+        let lattice = self.faces.lattice();
         self.lattice_vertices().map(move |position| lattice.to_world(position))
     }
 

@@ -33,6 +33,29 @@ impl Piece {
         span.into_iter().filter(is_corner).collect::<Vec<_>>().into_iter()
     }
 
+    pub(super) fn spans(&self, plane: &Plane) -> bool {
+        let values = self.values(plane);
+        let reaches = |side| values.iter().any(|value| rational::sign(value) == side);
+        reaches(std::cmp::Ordering::Greater) && reaches(std::cmp::Ordering::Less)
+    }
+
+    /// Where a plane meets the outline.
+    pub(super) fn segment(&self, plane: &Plane) -> Vec<rational::Point> {
+        let values = self.values(plane);
+        let mut points = Vec::new();
+        for (i, (here, at)) in self.outline.iter().zip(&values).enumerate() {
+            let next = (i + 1) % values.len();
+            let (side, next_side) = (rational::sign(at), rational::sign(&values[next]));
+            if side.is_eq() {
+                points.push(here.point.clone());
+            } else if next_side == side.reverse() {
+                let ends = [&here.point, &self.outline[next].point];
+                points.push(rational::crossing(ends, [at, &values[next]]));
+            }
+        }
+        points
+    }
+
     pub(super) fn has(&self, corner: &rational::Point) -> bool {
         self.outline.iter().any(|vertex| &vertex.point == corner)
     }
@@ -147,6 +170,28 @@ impl Divided<'_> {
             }
         }
         found
+    }
+
+    /// Whether the plane is that of a piece which all pieces cross that it cuts.
+    pub(super) fn cuts_what_crosses(&self) -> bool {
+        let PlaneKind::Face(face) = self.plane.kind() else { return false };
+        let plane = model::plane(self.faces, self.plane);
+        let cut: Vec<&Piece> = self.set.iter().filter(|piece| piece.spans(&plane)).collect();
+        let own = self.set.iter().filter(|piece| piece.face == face);
+        own.into_iter().any(|own| {
+            cut.iter().all(|other| {
+                let other_plane = model::plane(self.faces, PlaneId::face(other.face));
+                let [here, there] = [own.segment(&other_plane), other.segment(&plane)];
+                (0..3).all(|axis| {
+                    let ends = |points: &[rational::Point]| {
+                        let along = || points.iter().map(|point| point[axis].clone());
+                        along().min().zip(along().max())
+                    };
+                    let (Some(a), Some(b)) = (ends(&here), ends(&there)) else { return false };
+                    a.0 <= b.1 && b.0 <= a.1
+                })
+            })
+        })
     }
 
     /// The score of the chosen plane, and the least that any own plane has.

@@ -4,7 +4,7 @@ use super::leaf::is_small_leaf;
 use super::state::{Builder, Pending, Shared};
 use super::table::{Open, Row, SLOTS, Slot, slots};
 use crate::Error;
-use crate::build::choose::{Best, Set};
+use crate::build::choose::{Best, Places, Set};
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
 use crate::tree::parts::{RawChild, RawNode};
@@ -27,8 +27,10 @@ impl<K: Kernel> Builder<'_, K> {
             self.shared.budget.check_depth(depth + 1)?;
             self.shared.budget.count(spanning.count_ones() as usize)?;
             let mut sides = [set & row.front & !spanning, set & row.back & !spanning];
+            // Those on the plane are done with.
+            let left = set & (row.front | row.back);
             for slot in slots(spanning) {
-                let parts = self.cut_slot(slot, set, &row.splitter)?;
+                let parts = self.cut_slot(slot, left, &row.splitter)?;
                 sides[0] |= 1 << parts[0];
                 sides[1] |= 1 << parts[1];
             }
@@ -47,7 +49,11 @@ impl<K: Kernel> Builder<'_, K> {
         table.slots.clear();
         for &piece in &self.pieces[start..] {
             let plane = PlaneId::face(piece.face);
-            let known = table.planes.iter().position(|row| row.plane == plane);
+            // A whole face has no other piece.
+            let known = match piece.is_whole() {
+                true => None,
+                false => table.planes.iter().position(|row| row.plane == plane),
+            };
             let row = known.unwrap_or(table.planes.len());
             if known.is_none() {
                 let splitter = kernel.splitter(faces, plane);
@@ -66,32 +72,46 @@ impl<K: Kernel> Builder<'_, K> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let table = &mut self.table;
         let pieces = slots(set).map(|slot| &table.slots[slot].piece);
-        let mut best = Best::new(pieces, self.shared.rules.tuning);
+        let crossings = self.shared.rules.tuning.crossings;
+        let mut best: Option<Best> = None;
+        let places = Places::<K>::new(faces, &self.arena);
         for slot in slots(set) {
             let Slot { piece, row } = &table.slots[slot];
             let plane = &mut table.planes[*row];
-            self.shared.rules.watch.work((set & !plane.known).count_ones() as usize)?;
-            for other in slots(set & !plane.known) {
+            let unknown = set & !plane.known;
+            if unknown != 0 {
+                self.shared.rules.watch.work(unknown.count_ones() as usize)?;
+            }
+            for other in slots(unknown) {
                 let piece = table.slots[other].piece.piece(&self.arena);
                 plane.set(other, kernel.classify(faces, &plane.splitter, piece));
             }
-            let [front, back] = [plane.front & set, plane.back & set].map(u64::count_ones);
-            let both = (plane.front & plane.back & set).count_ones();
-            best.see(*row, piece, [front, back, both]);
+            let cut = set & plane.front & plane.back;
+            // What crosses the piece has to be cut anyway, or the piece.
+            if cut != 0
+                && cut.count_ones() as usize <= crossings
+                && slots(cut).all(|cut| places.cross(piece, &table.slots[cut].piece))
+            {
+                return Ok(*plane);
+            }
+            let best =
+                best.get_or_insert_with(|| Best::new(pieces.clone(), self.shared.rules.tuning));
+            best.see(slot, piece, [set & plane.front, set & plane.back]);
             if best.is_good() {
                 break;
             }
         }
-        let own = table.planes[best.row()];
-        if !best.cuts() {
+        let first = set.trailing_zeros() as usize;
+        let own = table.planes[table.slots[best.as_ref().map_or(first, Best::slot)].row];
+        if !best.is_some_and(|best| best.cuts()) {
             return Ok(own);
         }
-        let Shared { kernel, faces, normals, rules, .. } = self.shared;
+        let Shared { kernel, faces, rules, .. } = self.shared;
         let listed = &mut self.scratch.own;
         listed.clear();
         listed.extend(slots(set).map(|slot| table.slots[slot].piece));
         let free = {
-            let set = Set::new(kernel, faces, normals, listed, &self.arena);
+            let set = Set::new(kernel, faces, listed, &self.arena);
             self.chooser.clean(rules, &set)
         };
         let Some(plane) = free else { return Ok(own) };
@@ -113,7 +133,6 @@ impl<K: Kernel> Builder<'_, K> {
         set: u64,
         splitter: &K::Splitter,
     ) -> Result<[usize; 2], Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let whole = self.table.slots[slot];
         let [front, back] = self.cut(&whole.piece, splitter)?;
         let table = &mut self.table;
@@ -133,10 +152,8 @@ impl<K: Kernel> Builder<'_, K> {
                 continue;
             }
             match [row.front >> slot & 1, row.back >> slot & 1] {
-                [1, 1] => {
-                    row.set(slot, kernel.classify(faces, &row.splitter, front.piece(&self.arena)));
-                    row.set(other, kernel.classify(faces, &row.splitter, back.piece(&self.arena)));
-                }
+                // Where the parts lie will be found out when it is asked for.
+                [1, 1] => row.known &= !(1 << slot),
                 [1, 0] => row.set(other, Side::Front),
                 [0, 1] => row.set(other, Side::Back),
                 _ => row.set(other, Side::Coplanar),

@@ -7,7 +7,7 @@ use super::table::Table;
 use crate::Error;
 use crate::build::assemble::Output;
 use crate::build::budget::Budget;
-use crate::build::choose::{Chooser, Normals, Rules, Tuning};
+use crate::build::choose::{Chooser, Rules, Tuning};
 use crate::build::job::Job;
 use crate::build::knife::Knife;
 use crate::build::live::Live;
@@ -22,7 +22,6 @@ pub(super) const COMPACT: usize = 1 << 13;
 pub(in crate::build) struct Shared<'a, K> {
     pub(super) kernel: K,
     pub(super) faces: &'a Faces,
-    pub(super) normals: &'a Normals,
     pub(super) options: &'a BuildOptions,
     pub(super) rules: Rules<'a>,
     pub(super) budget: Budget,
@@ -35,14 +34,13 @@ impl<'a, K> Shared<'a, K> {
     pub(in crate::build) fn new(
         kernel: K,
         faces: &'a Faces,
-        normals: &'a Normals,
         options: &'a BuildOptions,
         tuning: &'a Tuning,
         watch: &'a Watch<'a>,
     ) -> Result<Self, Error> {
         let budget = Budget::new(options, faces.len())?;
         let rules = Rules { heuristic: options.heuristic, tuning, watch };
-        Ok(Self { kernel, faces, normals, options, rules, budget, keeps_positions: false })
+        Ok(Self { kernel, faces, options, rules, budget, keeps_positions: false })
     }
 
     /// The same, with positions in the output.

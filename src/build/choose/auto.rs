@@ -48,6 +48,19 @@ impl Auto {
         {
             return Choice::Split(free.plane);
         }
+        if set.len() < tuning.small && tuning.probes > 0 {
+            let middle = Middle::of(set, tuning);
+            if !matches!(middle, Middle::Taken)
+                && set.len() >= tuning.clean_below
+                && let Some(gap) = self.sweep.clean(set, tuning)
+            {
+                // Through a corner that was cut off: only sorting finds it.
+                return Choice::Split(gap.plane);
+            }
+            if let Middle::Crossing(plane) = middle {
+                return Choice::Split(plane);
+            }
+        }
         if set.len() < tuning.small {
             self.best_of_small(rules, set, free, is_peeled)
         } else {
@@ -155,6 +168,43 @@ fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
         });
         is_whole && front.min(back) >= least
     })
+}
+
+/// What is in the middle of a set along the longest side of its box. Without the pieces there, as
+/// those on two sides of a ring, the set comes apart in halves.
+enum Middle {
+    Gap,
+    /// A piece whose plane cuts others, but only such as cross the piece: any tree has to cut them, or
+    /// it.
+    Crossing(PlaneId),
+    /// Pieces with planes that cut nothing, or more than they have to.
+    Taken,
+}
+
+impl Middle {
+    fn of<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+        let (axis, middle) = set.middle();
+        let is_there = |&own: &usize| {
+            let piece = &set.pieces[own];
+            piece.min[axis] < middle && middle < piece.max[axis]
+        };
+        let cuts_what_crosses = |&own: &usize| {
+            let splitter = set.splitter(set.own_plane(own));
+            let mut cuts = 0;
+            let is_needed = (0..set.len()).all(|piece| {
+                let spans = set.classify(&splitter, piece) == Side::Spanning;
+                cuts += usize::from(spans);
+                !spans || set.cross(own, piece)
+            });
+            is_needed && cuts > 0
+        };
+        let mut there = (0..set.len()).filter(is_there).take(tuning.probes).peekable();
+        if there.peek().is_none() {
+            return Self::Gap;
+        }
+        let own = there.find(cuts_what_crosses);
+        own.map_or(Self::Taken, |own| Self::Crossing(set.own_plane(own)))
+    }
 }
 
 #[cfg(test)]

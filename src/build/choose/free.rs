@@ -10,18 +10,27 @@ use super::set::Set;
 use super::tuning::Tuning;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
-use crate::exact::{Kernel, PlaneId};
+use crate::exact::{Faces, Kernel, PlaneId};
 
 /// What a search along an axis counts as, in comparisons of each piece. Larger: cancelling is checked
 /// more often; smaller: cancelling takes longer.
 const PASSES: usize = 10;
 
-/// A free plane whose corner is not known yet.
+/// A free plane, before it has a name.
 #[derive(Clone, Copy, Debug)]
 struct FreePlane {
     cost: Cost,
     axis: usize,
-    coordinate: f64,
+    through: Through,
+}
+
+/// What a free plane goes through.
+#[derive(Clone, Copy, Debug)]
+enum Through {
+    /// A corner that is not known yet.
+    Coordinate(f64),
+    /// A corner, numbered over all faces.
+    Corner(u32),
 }
 
 /// Searches for free planes; its lists are kept to be used again.
@@ -144,15 +153,11 @@ impl Sweep {
                 if behind > 0 && min + tolerance >= furthest.0 {
                     let (front, back) = ((n - behind) as u32, behind as u32);
                     let cost = Cost::of(&Counts { front, back, splits: 0 });
-                    let coordinate = if pieces[i as usize].min_is_corner(axis) {
-                        Some(min)
-                    } else {
-                        pieces[furthest.1 as usize].max_is_corner(axis).then_some(furthest.0)
-                    };
-                    if let Some(coordinate) = coordinate
-                        && best.is_none_or(|best| cost.is_less(&best.cost))
+                    let ends = [furthest.1, i].map(|piece| &pieces[piece as usize]);
+                    if best.is_none_or(|best| cost.is_less(&best.cost))
+                        && let Some(through) = between(set.faces, axis, ends)
                     {
-                        best = Some(FreePlane { cost, axis, coordinate });
+                        best = Some(FreePlane { cost, axis, through });
                     }
                 }
                 if max > furthest.0 {
@@ -264,11 +269,26 @@ impl Sweep {
                 if let Some(cost) = passed.cost(pieces)
                     && best.is_none_or(|best| cost.is_less(&best.cost))
                 {
-                    *best = Some(FreePlane { cost, axis, coordinate });
+                    *best =
+                        Some(FreePlane { cost, axis, through: Through::Coordinate(coordinate) });
                 }
             }
         }
     }
+}
+
+/// A plane between two pieces, the first of which ends before the other begins: at the end of one of
+/// them, or else through a corner of their faces that was cut off.
+fn between(faces: &Faces, axis: usize, [first, next]: [&Live; 2]) -> Option<Through> {
+    let [low, high] = [first.max[axis], next.min[axis]];
+    if next.min_is_corner(axis) {
+        return Some(Through::Coordinate(high));
+    }
+    if first.max_is_corner(axis) {
+        return Some(Through::Coordinate(low));
+    }
+    let corner = |piece: &Live| piece.corner_within(faces, axis, [low, high]);
+    corner(next).or_else(|| corner(first)).map(Through::Corner)
 }
 
 /// The order of numbers, none of them NaN: less work than a total one.
@@ -314,7 +334,13 @@ fn axes<K: Kernel>(set: &Set<'_, K>) -> impl Iterator<Item = (usize, [f64; 2])> 
 impl FreePlane {
     /// The plane by the name of a corner on it.
     fn with_corner<K: Kernel>(&self, set: &Set<'_, K>) -> Option<Candidate> {
-        let Self { cost, axis, coordinate } = *self;
+        let Self { cost, axis, through } = *self;
+        let coordinate = match through {
+            Through::Corner(corner) => {
+                return Some(Candidate { plane: PlaneId::axis(axis, corner), cost });
+            }
+            Through::Coordinate(coordinate) => coordinate,
+        };
         let touches = |piece: &&Live| {
             piece.min[axis] == coordinate && piece.min_is_corner(axis)
                 || piece.max[axis] == coordinate && piece.max_is_corner(axis)

@@ -6,6 +6,7 @@ mod cost;
 mod free;
 mod own;
 mod peel;
+mod places;
 mod rules;
 mod sample;
 mod scored;
@@ -23,9 +24,10 @@ pub(super) use choice::Choice;
 use free::Sweep;
 pub(super) use own::Best;
 pub(super) use peel::Peeled;
+pub(super) use places::Places;
 pub(super) use rules::{MOST_IN_TABLE, Rules};
 use scored::Scored;
-pub(super) use set::{Normals, Set};
+pub(super) use set::Set;
 pub use tuning::Tuning;
 
 /// The most own planes that heuristics try which would try all, spread evenly over the set. More: time

@@ -2,56 +2,17 @@
 
 use glam::{DVec3, Vec3};
 
+use super::places::Places;
 use crate::build::live::Live;
-use crate::exact::{Faces, Kernel, PlaneId, Side, Vertex};
-use crate::parallel_map;
-
-/// Normals that one thread computes at a time. More: threads idle; fewer: time to hand them out.
-const PART: usize = 4096;
-
-/// The unit normals of all faces, rounded: enough to choose planes by.
-#[derive(Debug, Default)]
-pub(crate) struct Normals(Vec<Vec3>);
-
-impl Normals {
-    pub(crate) fn of(faces: &Faces) -> Self {
-        let mut normals = Self::default();
-        normals.fill(faces);
-        normals
-    }
-
-    /// Replaces the normals by those of other faces.
-    pub(crate) fn fill(&mut self, faces: &Faces) {
-        self.fill_from(faces, 0);
-    }
-
-    /// Replaces the normals of the faces from number `first` on.
-    pub(crate) fn fill_from(&mut self, faces: &Faces, first: usize) {
-        let normal = |face| faces.plane(PlaneId::face(face)).normal_f64().normalize().as_vec3();
-        let n = faces.len();
-        self.0.truncate(first);
-        if n - first <= PART {
-            self.0.extend((first as u32..n as u32).map(normal));
-            return;
-        }
-        let parts = (first..n).step_by(PART).map(|start| start as u32..n.min(start + PART) as u32);
-        let parts = parallel_map::map(parts.collect(), |part| part.map(normal).collect::<Vec<_>>());
-        if first == 0 {
-            self.0 = parts.concat();
-        } else {
-            parts.iter().for_each(|part| self.0.extend_from_slice(part));
-        }
-    }
-}
+use crate::exact::{Faces, Kernel, PlaneId, Side};
 
 /// A set of pieces that is to be divided: at least one.
 #[derive(Debug)]
 pub(crate) struct Set<'a, K: Kernel> {
     kernel: &'a K,
     pub(super) faces: &'a Faces,
-    normals: &'a Normals,
     pub(super) pieces: &'a [Live],
-    /// Holds the vertices of those pieces that are not whole faces.
+    places: Places<'a, K>,
     arena: &'a [K::Vertex],
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
@@ -65,7 +26,6 @@ impl<'a, K: Kernel> Set<'a, K> {
     pub(crate) fn new(
         kernel: &'a K,
         faces: &'a Faces,
-        normals: &'a Normals,
         pieces: &'a [Live],
         arena: &'a [K::Vertex],
     ) -> Self {
@@ -82,7 +42,8 @@ impl<'a, K: Kernel> Set<'a, K> {
                 raise(&mut last_begin[axis], piece.min[axis]);
             }
         }
-        Self { kernel, faces, normals, pieces, arena, min, max, first_end, last_begin }
+        let places = Places::new(faces, arena);
+        Self { kernel, faces, pieces, places, arena, min, max, first_end, last_begin }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -94,22 +55,27 @@ impl<'a, K: Kernel> Set<'a, K> {
         std::array::from_fn(|axis| self.max[axis] - self.min[axis])
     }
 
+    /// The middle of the longest side of the bounding box, and the axis along which that is.
+    pub(super) fn middle(&self) -> (usize, f64) {
+        let size = self.size();
+        let axis = (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
+        (axis, 0.5 * self.min[axis] + 0.5 * self.max[axis])
+    }
+
     /// Whether a plane perpendicular to an axis may cut nothing and yet leave pieces on both sides.
     pub(super) fn may_part(&self, axis: usize) -> bool {
         self.first_end[axis] <= self.last_begin[axis] + self.faces.tolerance()
     }
 
-    /// The plane of a piece's face: its unit normal, rounded, and a point on it. That is a vertex of
-    /// the piece: of one far away, the rounding of the normal would count. (Of a whole face, only
-    /// three corners are certain to lie on it, others within the tolerance.)
+    /// The plane of a piece, see [`Places::plane`].
     #[inline]
     pub(super) fn rounded_plane(&self, piece: usize) -> (Vec3, DVec3) {
-        let live = &self.pieces[piece];
-        let point = match live.piece(self.arena).cut {
-            None => self.faces.corner(self.faces.reference_triangle(live.face)[0]),
-            Some(cut) => cut[0].position(),
-        };
-        (self.normals.0[live.face as usize], DVec3::from_array(point))
+        self.places.plane(&self.pieces[piece])
+    }
+
+    /// Whether two pieces cross, see [`Places::cross`].
+    pub(super) fn cross(&self, a: usize, b: usize) -> bool {
+        self.places.cross(&self.pieces[a], &self.pieces[b])
     }
 
     /// The plane of a piece's face.
@@ -128,20 +94,12 @@ impl<'a, K: Kernel> Set<'a, K> {
 
     /// Calls a function with each vertex of a piece, in lattice units, rounded.
     #[inline]
-    pub(super) fn for_each_vertex(&self, piece: usize, mut see: impl FnMut([f64; 3])) {
-        let live = &self.pieces[piece];
-        match live.piece(self.arena).cut {
-            None => self.faces.corners(live.face).iter().for_each(|&corner| see(corner)),
-            Some(cut) => cut.iter().for_each(|vertex| see(vertex.position())),
-        }
+    pub(super) fn for_each_vertex(&self, piece: usize, see: impl FnMut([f64; 3])) {
+        self.places.for_each_vertex(&self.pieces[piece], see);
     }
 
     pub(super) fn vertices(&self, piece: usize) -> usize {
-        let live = &self.pieces[piece];
-        match live.piece(self.arena).cut {
-            None => self.faces.corners(live.face).len(),
-            Some(cut) => cut.len(),
-        }
+        self.places.vertices(&self.pieces[piece])
     }
 
     /// `count` of the pieces, spread evenly; all of them if there are not more.

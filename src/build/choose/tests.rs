@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::set::{Normals, Set};
+use super::set::Set;
 use super::tuning::Tuning;
 use super::{Choice, Chooser, Rules};
 use crate::BspTree;
@@ -15,7 +15,6 @@ use crate::random::SplitMix64;
 /// A set of pieces with all that it refers to.
 pub(super) struct Fixture {
     pub(super) faces: Faces,
-    normals: Normals,
     pub(super) pieces: Vec<Live>,
     arena: Vec<<Exact as Kernel>::Vertex>,
 }
@@ -24,11 +23,11 @@ impl Fixture {
     pub(super) fn new<const N: usize>(polygons: &[[DVec3; N]], tolerance: f64) -> Self {
         let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
         let pieces = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
-        Self { normals: Normals::of(&faces), faces, pieces, arena: vec![] }
+        Self { faces, pieces, arena: vec![] }
     }
 
     pub(super) fn set(&self) -> Set<'_, Exact> {
-        Set::new(&Exact, &self.faces, &self.normals, &self.pieces, &self.arena)
+        Set::new(&Exact, &self.faces, &self.pieces, &self.arena)
     }
 
     /// Keeps what is on one side of a plane.
@@ -193,5 +192,26 @@ fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
         let at = fixture.faces.corner(corner)[axis];
         let is_uncut = |piece: &Live| piece.max[axis] <= at || piece.min[axis] >= at;
         assert!(fixture.pieces.iter().all(is_uncut), "{n}: {plane:?}");
+    }
+}
+
+/// A ring of cards, each of which crosses its two neighbours.
+fn ring(cards: usize) -> Vec<[DVec3; 4]> {
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+    let half = 1.5 * (std::f64::consts::PI / cards as f64).tan();
+    let card = |k: usize| {
+        let around = DQuat::from_rotation_z(k as f64 * std::f64::consts::TAU / cards as f64);
+        let corner = |u: f64, v: f64| turn * around * DVec3::new(1.0, u * half, v);
+        [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
+    };
+    (0..cards).map(card).collect()
+}
+
+/// In sets of every kind of size: each pair of neighbours is cut apart once.
+#[test]
+fn a_ring_of_cards_is_cut_no_more_than_it_crosses() {
+    for cards in [8, 12, 31, 33, 60, 100, 200] {
+        let tree = BspTree::build(ring(cards)).unwrap();
+        assert_eq!(tree.len(), 2 * cards, "{cards}");
     }
 }

@@ -8,6 +8,10 @@ pub struct Tuning {
     /// smaller: planes are chosen anew for every set. Own planes come first in it, which makes trees
     /// quickly; trees by free planes are laid out in fewer parts, which makes orders quick.
     pub table: usize,
+    /// The plane of a piece in a table is taken at once if it cuts at most so many pieces, at least one,
+    /// and each of them crosses the piece: any tree has to cut them, or it. More: heaps are cut by
+    /// planes that are not the best; fewer: all planes of rings are compared again and again.
+    pub crossings: usize,
     /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
     /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
     pub clean_below: usize,
@@ -60,6 +64,7 @@ impl Tuning {
     /// What trees are built with that stay.
     pub const DEFAULT: Self = Self {
         table: 0,
+        crossings: 0,
         clean_below: 64,
         probes: 0,
         small: 256,
@@ -78,5 +83,5 @@ impl Tuning {
 
     /// What frames are built with, of which each is ordered once or twice: small sets are divided
     /// quickly.
-    pub const FRAMES: Self = Self { table: 32, probes: 4, ..Self::DEFAULT };
+    pub const FRAMES: Self = Self { table: 32, crossings: 2, probes: 4, ..Self::DEFAULT };
 }

@@ -5,8 +5,9 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::Preparation;
 use super::collect::Collected;
+use super::preparation::Preparation;
+use super::quad::Quad;
 use super::tolerance::Ground;
 use crate::Error;
 use crate::exact::faces::{Face, Frame, INNER};
@@ -66,11 +67,22 @@ impl Builder {
         outlines: &mut Outlines,
         listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
+        let snap = |point| ground.lattice.snap(point);
         let mut report = Preparation::default();
         reserve(&mut outlines.seen, polygons.len())?;
         for polygon in polygons {
             report.polygons += 1;
-            match self.add(polygon, input.polygon(polygon), listener)? {
+            let points = input.polygon(polygon);
+            if let &[a, b, c, d] = points
+                && let Some(quad) = Quad::of([snap(a), snap(b), snap(c), snap(d)])
+                && let Some(off) = quad.push(polygon, &mut self.faces)?
+            {
+                report.flattened += usize::from(off > 0.0);
+                report.flattened_by = report.flattened_by.max(off);
+                outlines.add(polygon, quad.corners.into_iter());
+                continue;
+            }
+            match self.add(polygon, points, listener)? {
                 Outcome::Whole { off } => {
                     report.flattened += usize::from(off > 0.0);
                     report.flattened_by = report.flattened_by.max(off);
@@ -101,29 +113,50 @@ impl Builder {
     ) -> Result<Outcome, Error> {
         listener.work(points.len() / STEP_CORNERS)?;
         self.keep_distinct(points)?;
-        let Some(([second, third], plane)) = self.widest_triangle() else {
+        let Some(widest) = self.widest_triangle() else {
             return Ok(Outcome::Dropped);
         };
         if self.kept.len() == 3 {
             self.push(polygon, 0..3, Frame::TRIANGLE)?;
             return Ok(Outcome::Whole { off: 0.0 });
         }
-        let convex = self.is_convex(&plane);
-        let off = if convex { self.off_plane(&plane, [0, second, third]) } else { 0.0 };
-        if convex && self.kept.len() <= Frame::MAX_CORNERS && off <= self.faces.tolerance {
-            let axis = (off > 0.0).then(|| plane.main_axis());
-            self.push(polygon, 0..self.kept.len(), Frame::new(second, third, axis))?;
-            if let Some(axis) = axis {
-                reserve(&mut self.faces.moved, self.kept.len())?;
-                self.faces.flatten_last(axis, &plane);
+        let plane = Plane::through([0, widest[0], widest[1]].map(|k| self.kept[k].0));
+        let axis = plane.main_axis();
+        let convex = self.is_convex(axis);
+        let mut off = 0.0;
+        if convex && self.kept.len() <= Frame::MAX_CORNERS {
+            off = self.push_flat(polygon, widest, axis)?;
+            if off <= self.faces.tolerance {
+                return Ok(Outcome::Whole { off });
             }
-            return Ok(Outcome::Whole { off });
+            self.faces.truncate(self.faces.len() - 1);
+        } else if convex {
+            off = self.off_plane(&plane, [0, widest[0], widest[1]]);
         }
         let crosses_itself = self.triangulate(polygon, convex, &plane, listener)?;
         Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
             crosses_itself,
             off,
         }))
+    }
+
+    /// Adds the polygon as one face, with its corners moved along an axis onto its plane, and gives how
+    /// far the furthest was off it.
+    fn push_flat(
+        &mut self,
+        polygon: usize,
+        [second, third]: [usize; 2],
+        axis: usize,
+    ) -> Result<f64, Error> {
+        reserve(&mut self.faces.moved, self.kept.len())?;
+        self.push(polygon, 0..self.kept.len(), Frame::new(second, third, None))?;
+        let off = self.faces.flatten_last(axis);
+        if off > 0.0
+            && let Some(face) = self.faces.faces.last_mut()
+        {
+            face.frame = Frame::new(second, third, Some(axis));
+        }
+        Ok(off)
     }
 
     /// Adds triangles in place of a polygon; tells whether it crosses itself, or nothing if there
@@ -194,7 +227,7 @@ impl Builder {
         faces.corners.extend(kept.clone().map(|k| self.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
         // Most polygons become one face with the same corners, which needs no numbers.
-        if frame == Frame::TRIANGLE || self.kept.len() < self.given {
+        if kept.len() < self.given {
             self.number_last(kept)?;
         }
         Ok(())

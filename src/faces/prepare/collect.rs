@@ -8,6 +8,8 @@ use crate::faces::listener::Listener;
 use crate::input::{MAX_CORNERS, Polygon};
 use crate::memory::reserve;
 
+const _: () = assert!(MAX_CORNERS.is_multiple_of(CORNERS_AT_ONCE), "so that it is noticed");
+
 /// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
 /// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
 const TRUSTED: usize = 1 << 16;
@@ -19,6 +21,10 @@ const POLYGONS_AT_ONCE: usize = 1 << 10;
 /// Corners of one polygon that are read between two checks for a cancel. Smaller: time for checks;
 /// larger: a cancel takes longer.
 const CORNERS_AT_ONCE: usize = 1 << 12;
+
+/// A polygon that says that it has no more corners than this is read at once. Larger: one that is
+/// wrong about it can take more memory than there is.
+const AT_HAND: usize = 64;
 
 /// All corners, and where those of each polygon end.
 #[derive(Debug, Default)]
@@ -105,26 +111,53 @@ impl Collected {
         polygon: &P,
         listener: &dyn Listener,
     ) -> Result<(), Error> {
-        for (corner, point) in polygon.corners().enumerate() {
-            if corner == MAX_CORNERS {
-                return Err(Error::polygon_corners(index, MAX_CORNERS));
+        let corners = polygon.corners();
+        if let (least, Some(most)) = corners.size_hint()
+            && least == most
+            && most <= AT_HAND
+        {
+            reserve(&mut self.points, most)?;
+            let before = self.points.len();
+            self.points.extend(corners);
+            // Infinity and NaN times 0 are NaN.
+            let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
+            if zero != DVec3::ZERO {
+                return Err(Error::non_finite(index));
             }
-            if corner % CORNERS_AT_ONCE == CORNERS_AT_ONCE - 1 {
+            return self.end(polygon);
+        }
+        for (corner, point) in corners.enumerate() {
+            if corner % CORNERS_AT_ONCE == 0 && corner > 0 {
+                if corner == MAX_CORNERS {
+                    return Err(Error::polygon_corners(index, MAX_CORNERS));
+                }
+                self.check_count()?;
                 listener.read(index)?;
             }
             if !point.is_finite() {
                 return Err(Error::non_finite(index));
             }
-            if self.points.len() >= MAX_LABELS {
-                return Err(Error::too_many_corners(MAX_LABELS));
-            }
             reserve(&mut self.points, 1)?;
             self.points.push(point);
         }
+        self.end(polygon)
+    }
+
+    /// Ends a polygon, whose corners are read.
+    fn end<P: Polygon>(&mut self, polygon: &P) -> Result<(), Error> {
+        self.check_count()?;
         // Of NaN and the other, `max` returns the other.
         self.precision = self.precision.max(polygon.precision());
         reserve(&mut self.ends, 1)?;
         self.ends.push(self.points.len() as u32);
+        Ok(())
+    }
+
+    /// An error if there are more corners than can be named.
+    fn check_count(&self) -> Result<(), Error> {
+        if self.points.len() > MAX_LABELS {
+            return Err(Error::too_many_corners(MAX_LABELS));
+        }
         Ok(())
     }
 }

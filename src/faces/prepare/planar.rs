@@ -5,13 +5,12 @@ use glam::DVec3;
 
 use super::builder::Builder;
 use crate::Error;
-use crate::exact::{Plane, cross, is_convex};
+use crate::exact::{Plane, cross, have_area, is_convex};
 use crate::memory::reserve;
 
 impl Builder {
-    /// Two corners that span a large triangle with corner 0, and its plane, which faces as the three
-    /// run; `None` if all corners lie on one line.
-    pub(super) fn widest_triangle(&self) -> Option<([usize; 2], Plane)> {
+    /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
+    pub(super) fn widest_triangle(&self) -> Option<[usize; 2]> {
         let point = |k: usize| DVec3::from(self.kept[k].0);
         let (origin, n) = (self.kept.first().map(|_| point(0))?, self.kept.len());
         let mut others = 1..n;
@@ -21,8 +20,7 @@ impl Builder {
         let best = largest(rest, |k| arm.cross(point(k) - origin).length_squared())?;
         let exact = |third: usize| {
             let (low, high) = (far.min(third), far.max(third));
-            let plane = Plane::through([0, low, high].map(|k| self.kept[k].0));
-            (plane.normal() != [0; 3]).then_some(([low, high], plane))
+            have_area([0, low, high].map(|k| self.kept[k].0)).then_some([low, high])
         };
         // In a nearly straight polygon the rounded areas may choose a corner exactly on the line.
         exact(best).or_else(|| others.find_map(exact))
@@ -37,10 +35,9 @@ impl Builder {
         if furthest > 0.0 { furthest / plane.normal_f64().length() } else { 0.0 }
     }
 
-    /// Whether the polygon is convex and winds once, seen along the axis in which its plane is
-    /// least steep: of three of its corners. Exact.
-    pub(super) fn is_convex(&self, plane: &Plane) -> bool {
-        is_convex(self.kept.len(), |k| self.kept[k].0, plane.main_axis())
+    /// Whether the polygon is convex and winds once, seen along an axis. Exact.
+    pub(super) fn is_convex(&self, axis: usize) -> bool {
+        is_convex(self.kept.len(), |k| self.kept[k].0, axis)
     }
 
     /// Whether the straight line from one kept corner to another is part of the outline: the second

@@ -70,10 +70,11 @@ pub(crate) fn rounded(faces: &Faces, id: PlaneId) -> Vec4 {
         PlaneKind::Axis(axis, corner) => {
             DVec3::AXES[axis].extend(faces.corner(corner)[axis] / LATTICE_LIMIT)
         }
-        PlaneKind::Face(_) => {
-            let plane = faces.plane(id);
-            let (normal, offset) = (plane.normal_f64(), plane.offset_f64());
-            normal.extend(offset / LATTICE_LIMIT) / normal.length()
+        PlaneKind::Face(face) => {
+            let [point, ..] = faces.reference_triangle(face);
+            let normal = faces.normal(face);
+            let offset = normal.dot(DVec3::from(faces.corner(point)) / LATTICE_LIMIT);
+            normal.extend(offset) / normal.length()
         }
     };
     plane.as_vec4()

@@ -26,9 +26,10 @@ use crate::viewpoint::Viewpoint;
 /// - If pₖ is 1: with T' the rest of T, at most √(1 − nₖ²) times the rest of |p|, and N ≤ √3 w, it is
 ///   2|nₖ| + 4T' + 4|N| ≤ 2 + 3(|p| − 1) + 6.93 w.
 ///
-/// So the error is at most 3u(|p| + 2w). A smaller bound lets wrong signs pass; a larger one sends
-/// eyes to the integers that floats could decide.
-const ERROR: f32 = 1.5 * f32::EPSILON;
+/// So the error is at most 3u(|p| + 2w), and less than 0.01u(|p| + 2w) more because normals are off by
+/// 2⁻³⁴ before they are rounded to `f32`, and offsets by as much. A smaller bound lets wrong signs
+/// pass; a larger one sends eyes to the integers that floats could decide.
+const ERROR: f32 = 1.505 * f32::EPSILON;
 
 /// A viewpoint, prepared to be compared with a tree's planes.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::cost::{Candidate, Cost, work};
-use super::super::set::{Normals, Set};
+use super::super::set::Set;
 use super::super::tests::Fixture;
 use super::super::tuning::Tuning;
 use super::Sweep;
@@ -39,8 +39,8 @@ fn at(pieces: &[Live], axis: usize, c: f64, tolerance: f64) -> Cost {
 fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
     let pieces: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
-    let (normals, watch) = (Normals::of(&faces), Watch::default());
-    let set = Set::new(&Exact, &faces, &normals, &pieces, &[]);
+    let watch = Watch::default();
+    let set = Set::new(&Exact, &faces, &pieces, &[]);
     let found = Sweep::default().best(&set, &Tuning::DEFAULT, &watch);
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
