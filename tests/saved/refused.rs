@@ -72,7 +72,7 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
         ("has a vertex that is not on its line", |file| {
             // Another corner in place of the cut's first end.
             let at = vertex(file, true);
-            [at, at + 4].map(|at| put(file, at, 0));
+            [at, at + 4].into_iter().for_each(|at| put(file, at, 0));
         }),
         ("has a vertex that is not on its edge", |file| {
             let line = vertex(file, false) + 8;

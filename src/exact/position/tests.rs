@@ -162,9 +162,11 @@ fn leading_bits_nearly_always_tell() {
     assert_eq!(told, 2000);
 }
 
+type Corners = [[f64; 3]; 3];
+
 /// A triangle, two points within half a step of its plane along its main axis, and another plane that
 /// parts them.
-fn moved_edge(random: &mut SplitMix64) -> ([[f64; 3]; 3], [[f64; 3]; 2], [[f64; 3]; 3]) {
+fn moved_edge(random: &mut SplitMix64) -> (Corners, [[f64; 3]; 2], Corners) {
     let size = 2f64.powf(random.range(3.0, 50.9));
     let mut point = || (random.point(-1.0, 1.0) * size).round();
     let ([a, b, c], near) = ([(); 3].map(|()| point()), [(); 2].map(|()| point()));
