@@ -5,8 +5,9 @@ use std::collections::HashSet;
 use binspace::glam::{DVec3, dvec3};
 use binspace::{BspTree, BuildOptions, Heuristic, Overlay, Shape, Shapes, Viewpoint};
 
-use crate::oracle::{self, Counts, Given};
+use crate::oracle::{self, Counts};
 use crate::support::dice::Dice;
+use crate::tiling::{self, Given};
 
 type Corners = Vec<DVec3>;
 
@@ -143,7 +144,7 @@ fn judge_overlay(
     counts: &mut Counts,
 ) {
     let given = Given::new(overlay, &scene.lines, &scene.points);
-    oracle::tiles(tree, overlay, &given, counts).expect("tiles");
+    tiling::tiles(tree, overlay, &given, counts).expect("tiles");
     for &eye in eyes {
         let eye = overlay.faces().lattice().to_lattice(eye).map(f64::round);
         oracle::judge(tree, overlay, &given, eye, counts).expect("a right order");

@@ -8,8 +8,10 @@ mod errors;
 mod judge;
 mod lines;
 mod oracle;
+mod sight;
 #[path = "../support/mod.rs"]
 mod support;
+mod tiling;
 mod walks;
 
 use binspace::glam::DVec3;

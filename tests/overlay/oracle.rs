@@ -7,15 +7,17 @@ use binspace::{BspTree, Overlay, Shape, Viewpoint};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 
-use crate::support::model::Face;
+use crate::sight::{
+    GRID, between, crossing, hit, may_cross, may_hit, ratio, share_in_line, to_f64,
+};
 use crate::support::rational::{self, Plane, Point, Rational};
+use crate::tiling::Given;
 
 type Verdict = Result<(), String>;
 
 /// Shares and distances closer to an end or an edge than this are not judged, as what is compared has
 /// rounded ends: a share of a segment, and of the grid.
 const NEAR: f64 = 1e-7;
-const GRID: f64 = (1u64 << 51) as f64;
 /// How many places of each piece are looked at.
 const PLACES: u32 = 3;
 /// How many pieces of segments are held against polygons, about, of each order.
@@ -35,39 +37,6 @@ pub(crate) struct Counts {
     pub(crate) edge_on: usize,
     pub(crate) pieces: usize,
     pub(crate) segments: usize,
-}
-
-/// What an overlay was given, on its grid.
-pub(crate) struct Given {
-    /// Each with its line, its number in the line, and its ends.
-    pub(crate) segments: Vec<(usize, usize, [Point; 2])>,
-    pub(crate) points: Vec<Point>,
-    faces: Vec<Face>,
-    /// The ends of the segments, rounded.
-    rounded: Vec<[DVec3; 2]>,
-    /// Of the faces, rounded.
-    corners: Vec<Vec<DVec3>>,
-}
-
-impl Given {
-    pub(crate) fn new(overlay: &Overlay, lines: &[Vec<DVec3>], points: &[DVec3]) -> Self {
-        let lattice = *overlay.faces().lattice();
-        let snap = |point: &DVec3| rational::point(lattice.snap(*point));
-        let ends = |(line, corners): (usize, &Vec<DVec3>)| {
-            let pairs: Vec<[Point; 2]> =
-                corners.windows(2).map(|pair| [snap(&pair[0]), snap(&pair[1])]).collect();
-            pairs.into_iter().enumerate().map(move |(k, pair)| (line, k, pair))
-        };
-        let segments = lines.iter().enumerate().flat_map(ends).filter(|(_, _, [p, q])| p != q);
-        // Segments have faces too, which are not painted.
-        let segments: Vec<_> = segments.collect();
-        let count = overlay.faces().len() - segments.len() - points.len();
-        let faces: Vec<Face> =
-            (0..count as u32).map(|face| Face::new(overlay.faces(), face)).collect();
-        let corners = faces.iter().map(|face| face.corners.iter().map(to_f64).collect()).collect();
-        let rounded = segments.iter().map(|(_, _, ends)| ends.each_ref().map(to_f64)).collect();
-        Self { segments, points: points.iter().map(snap).collect(), faces, rounded, corners }
-    }
 }
 
 struct SegmentPiece {
@@ -137,74 +106,6 @@ impl Painted {
             })
         })
     }
-}
-
-fn to_f64(point: &Point) -> DVec3 {
-    DVec3::from_array(point.each_ref().map(|c| c.to_f64().expect("in range")))
-}
-
-fn between([p, q]: &[Point; 2], share: &Rational) -> Point {
-    std::array::from_fn(|i| &p[i] + (&q[i] - &p[i]) * share)
-}
-
-/// How far along the ray from `eye` to `a` the point `b` of it is: 1 at `a`.
-fn ratio(eye: &Point, a: &Point, b: &Point) -> Rational {
-    let arm = rational::difference(a, eye);
-    let axis = (0..3).find(|&i| !arm[i].is_zero()).expect("another point than the eye");
-    (&b[axis] - &eye[axis]) / &arm[axis]
-}
-
-/// Where the ray from the eye meets both of two segments, as shares of these, and how much further the
-/// second is; `None` if there is no such ray through the inside of both.
-fn crossing(eye: &Point, a: &[Point; 2], b: &[Point; 2]) -> Option<([Rational; 2], Rational)> {
-    let share = |of: &[Point; 2], by: &[Point; 2]| {
-        let plane = Plane::through([eye, &by[0], &by[1]]);
-        let [from, to] = of.each_ref().map(|end| plane.at(end));
-        let is_crossed =
-            rational::sign(&from).is_ne() && rational::sign(&from) == rational::sign(&to).reverse();
-        is_crossed.then(|| &from / (&from - &to))
-    };
-    let (of_a, of_b) = (share(a, b)?, share(b, a)?);
-    let ratio = ratio(eye, &between(a, &of_a), &between(b, &of_b));
-    ratio.is_positive().then_some(([of_a, of_b], ratio))
-}
-
-/// Whether the ends of a segment are on different sides of the plane through the eye and another, if
-/// floats tell: only to save time.
-fn may_cross(eye: DVec3, of: [DVec3; 2], by: [DVec3; 2]) -> bool {
-    let normal = (by[0] - eye).cross(by[1] - eye);
-    let [from, to] = of.map(|end| normal.dot((end - eye).normalize_or_zero()) / GRID / GRID);
-    (from < 1e-6 || to < 1e-6) && (from > -1e-6 || to > -1e-6)
-}
-
-/// The same of the ray from an eye through a point, and the inside of a face.
-fn may_hit(eye: DVec3, through: DVec3, corners: &[DVec3]) -> bool {
-    let ray = (through - eye).normalize_or_zero();
-    let n = corners.len();
-    let turns =
-        (0..n).map(|k| (corners[k] - eye).cross(corners[(k + 1) % n] - eye).dot(ray) / GRID / GRID);
-    let turns: Vec<f64> = turns.collect();
-    turns.iter().all(|&turn| turn > -1e-6) || turns.iter().all(|&turn| turn < 1e-6)
-}
-
-/// Where the ray from the eye through a point meets the inside of a face: 1 at the point.
-fn hit(eye: &Point, through: &Point, face: &Face) -> Option<Rational> {
-    let (from, to) = (face.plane.at(eye), face.plane.at(through));
-    if from.is_zero() || from == to {
-        return None;
-    }
-    let ratio = &from / (&from - &to);
-    if !ratio.is_positive() {
-        return None;
-    }
-    let at = between(&[eye.clone(), through.clone()], &ratio);
-    let n = face.corners.len();
-    let is_inside = (0..n).all(|k| {
-        let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
-        let turn = rational::product(&rational::difference(b, a), &rational::difference(&at, a));
-        rational::scalar(&turn, &face.plane.normal).is_positive()
-    });
-    is_inside.then_some(ratio)
 }
 
 /// Judges the order of an eye at a place of the grid; an eye that is rounded again is left out.
@@ -388,22 +289,6 @@ impl Judge<'_> {
     }
 }
 
-/// The share of a segment, which may be a point, that the line through the eye and a point goes
-/// through.
-fn share_in_line(eye: &Point, x: &Point, [p, q]: &[Point; 2]) -> Option<Rational> {
-    let arm = rational::difference(x, eye);
-    let off = |at: &Point| rational::product(&arm, &rational::difference(at, eye));
-    let is_zero = |v: &Point| v.iter().all(Zero::is_zero);
-    let (from, to) = (off(p), off(q));
-    if p == q {
-        return is_zero(&from).then(Rational::zero);
-    }
-    let axis = (0..3).find(|&i| from[i] != to[i])?;
-    let share = &from[axis] / (&from[axis] - &to[axis]);
-    let is_within = !share.is_negative() && share <= Rational::one();
-    (is_within && is_zero(&off(&between(&[p.clone(), q.clone()], &share)))).then_some(share)
-}
-
 /// Whether some plane that may divide the overlay holds all of some points: a face's, a segment's, or
 /// one perpendicular to an axis.
 fn is_in_one_plane(overlay: &Overlay, points: &[&Point]) -> bool {
@@ -422,77 +307,4 @@ fn is_in_one_plane(overlay: &Overlay, points: &[&Point]) -> bool {
         points.iter().all(|point| plane.at(point).is_zero())
     };
     (0..faces.len() as u32).any(is_of)
-}
-
-/// The shares of a piece's ends, where they are, and whether they were cut.
-type SegmentEnds = ([f64; 2], [DVec3; 2], [bool; 2]);
-
-/// Whether the pieces of each segment tile it, and share the bits of their ends.
-pub(crate) fn tiles(
-    tree: &BspTree,
-    overlay: &Overlay,
-    given: &Given,
-    counts: &mut Counts,
-) -> Verdict {
-    let lattice = overlay.faces().lattice();
-    let mut pieces: Vec<Vec<SegmentEnds>> = vec![vec![]; given.segments.len()];
-    let mut markers = vec![0; given.points.len()];
-    for number in tree.len()..tree.len() + overlay.len() {
-        match overlay.shape(number as u32).expect("a shape") {
-            Shape::Segment(piece) => {
-                let name = (piece.line(), piece.number());
-                let at = given.segments.binary_search_by_key(&name, |s| (s.0, s.1));
-                let at = at.map_err(|_| format!("no segment {name:?}"))?;
-                pieces[at].push((piece.shares(), piece.ends(), piece.cuts()));
-            }
-            Shape::Marker(marker) => {
-                markers[marker.point()] += 1;
-                let off = rational::distance_to_rounded(
-                    &given.points[marker.point()],
-                    lattice.to_lattice(marker.position()),
-                );
-                if off > 1.0 {
-                    return Err(format!("{marker:?} is {off} off"));
-                }
-            }
-            _ => {}
-        }
-    }
-    if markers.iter().any(|&count| count != 1) {
-        return Err("a point that does not come once".into());
-    }
-    for (pieces, (_, _, segment)) in pieces.iter_mut().zip(&given.segments) {
-        counts.pieces += pieces.len();
-        // From end to end: by their shares alone, pieces shorter than a rounding may seem out of order.
-        let mut end = (0.0, None);
-        while !pieces.is_empty() {
-            let joins = |piece: &SegmentEnds| {
-                piece.0[0] == end.0 && end.1.is_none_or(|point| point == piece.1[0])
-            };
-            let is_nothing =
-                |piece: &SegmentEnds| piece.0[0] == piece.0[1] && piece.1[0] == piece.1[1];
-            let next = pieces.iter().position(|piece| joins(piece) && is_nothing(piece));
-            let next = next.or_else(|| pieces.iter().position(joins));
-            let Some(next) = next else {
-                return Err(format!("pieces do not tile: {end:?}, {pieces:?}"));
-            };
-            let (shares, ends, cuts) = pieces.swap_remove(next);
-            if cuts != [shares[0] != 0.0, shares[1] != 1.0] {
-                return Err(format!("cut or not: {shares:?}, {cuts:?}"));
-            }
-            for (share, point) in shares.into_iter().zip(ends) {
-                let exact = between(segment, &rational::exact(share));
-                let off = rational::distance_to_rounded(&exact, lattice.to_lattice(point));
-                if off > 8.0 {
-                    return Err(format!("an end is {off} off"));
-                }
-            }
-            end = (shares[1], Some(ends[1]));
-        }
-        if end.0 != 1.0 {
-            return Err(format!("the end of a segment is missing: {end:?}"));
-        }
-    }
-    counts.segments += given.segments.len();
-    Ok(())
 }

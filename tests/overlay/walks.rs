@@ -6,8 +6,9 @@ use binspace::view::Camera;
 use binspace::{BuildOptions, Overlay, Shapes};
 
 use crate::judge::{self, Judged};
-use crate::oracle::{self, Counts, Given};
+use crate::oracle::{self, Counts};
 use crate::support::dice::Dice;
+use crate::tiling::{self, Given};
 
 /// A polygon that walks and turns.
 struct Mover {
@@ -117,7 +118,7 @@ fn movers_of_all_kinds_are_in_order() {
         let shapes = shapes.with_points(points.iter().copied());
         overlay.replace_with(&tree, shapes).expect("on the grid");
         let given = Given::new(&overlay, &lines, &points);
-        oracle::tiles(&tree, &overlay, &given, &mut counts).expect("tiles");
+        tiling::tiles(&tree, &overlay, &given, &mut counts).expect("tiles");
         let angle = f64::from(frame) * 0.7;
         let middle = (low + high) * 0.5;
         let away = DVec3::new(angle.cos(), angle.sin(), 0.3 + 0.2 * angle.sin()) * margin * 3.0;
