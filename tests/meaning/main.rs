@@ -7,7 +7,7 @@ mod support;
 
 use binspace::glam::DVec3;
 use binspace::internals::{PlaneId, PlaneKind};
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
 use divided::{Counts, Divided, nodes, work};
 use support::dice::Dice;
 use support::shapes::{self, Corners};
@@ -196,8 +196,9 @@ fn free_planes_are_taken_wherever_one_separates_something_and_cost_least() {
 
 /// Below and above the sizes at which `auto` changes its search.
 #[test]
-fn auto_cuts_nothing_but_what_crosses_wherever_a_free_plane_cuts_nothing() {
+fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     let (mut clean, mut cut) = (0, 0);
+    let (mut clean_of_frames, mut needed) = (0, 0);
     for count in [40, 63, 64, 65, 210, 255, 256, 257] {
         for seed in [1, 2, 4] {
             // Some polygons have no area.
@@ -208,35 +209,51 @@ fn auto_cuts_nothing_but_what_crosses_wherever_a_free_plane_cuts_nothing() {
             scene.truncate(count);
             let tree = build(&scene, Heuristic::Auto);
             assert_eq!(tree.faces().len(), count);
+            let has_clean = |node: &Divided<'_>| node.free_planes().iter().any(|c| c.splits == 0);
             nodes(&tree, |node| {
-                if node.free_planes().iter().any(|counts| counts.splits == 0) {
-                    let is_needed = || node.set.len() <= 32 && node.cuts_what_crosses();
-                    let is_clean = node.counts.splits == 0 || is_needed();
-                    assert!(is_clean, "{} pieces, seed {seed}", node.set.len());
+                let cuts = node.counts.splits > 0;
+                if has_clean(node) {
+                    assert!(!cuts, "{} pieces, seed {seed}", node.set.len());
                     clean += 1;
                 } else {
-                    cut += usize::from(node.counts.splits > 0);
+                    cut += usize::from(cuts);
+                }
+            });
+            // In a frame, small sets may be divided by a plane that cuts only what crosses.
+            let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
+            nodes(builder.build(&scene).expect("a tree"), |node| {
+                if has_clean(node) {
+                    let cuts = node.counts.splits > 0;
+                    let is_needed = || node.set.len() <= 32 && node.cuts_what_crosses();
+                    assert!(!cuts || is_needed(), "{} pieces, seed {seed}", node.set.len());
+                    clean_of_frames += 1;
+                    needed += usize::from(cuts);
                 }
             });
         }
     }
     assert!(clean > 2000 && cut > 50, "{clean} {cut}");
+    assert!(clean_of_frames > 2000 && needed > 10, "{clean_of_frames} {needed}");
 }
 
-/// Where every plane cuts, `auto` takes the own plane of least work less the reward for its size, or
-/// one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces are compared with every plane.
+/// Where every plane cuts, `auto` takes the own plane of least work less the reward for its size; in a
+/// frame also one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces
+/// are compared with every plane.
 #[test]
 fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
-    let (mut cut, mut rewarded, mut crossings) = (0, 0, 0);
-    for seed in 0..300 {
+    let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);
+    for (seed, of_frame) in (0..300).flat_map(|seed| [(seed, false), (seed, true)]) {
         let scene = scene(&mut Dice(seed), 4 + seed as usize % 13);
+        let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
+        let tree = build(&scene, Heuristic::Auto);
+        let tree = if of_frame { builder.build(&scene).expect("a tree") } else { &tree };
         let mut is_root = true;
-        nodes(&build(&scene, Heuristic::Auto), |node| {
+        nodes(tree, |node| {
             if !std::mem::take(&mut is_root) || node.counts.splits == 0 {
                 return;
             }
             let PlaneKind::Face(face) = node.plane.kind() else { panic!("{:?}", node.plane) };
-            if node.counts.splits <= 2 && node.cuts_what_crosses() {
+            if of_frame && node.counts.splits <= 2 && node.cuts_what_crosses() {
                 crossings += 1;
                 return;
             }
@@ -246,12 +263,13 @@ fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
             assert!(costs[chosen] <= least + 1e-9, "seed {seed}: {}, not {least}", costs[chosen]);
             let planes: Vec<(Counts, bool)> = node.own_planes().collect();
             assert!(planes.iter().all(|(counts, _)| counts.splits > 0), "seed {seed}");
-            cut += 1;
+            cut[usize::from(of_frame)] += 1;
             rewarded +=
                 usize::from(planes.iter().any(|(counts, _)| counts.work() < node.counts.work()));
         });
     }
-    assert!(cut > 25 && rewarded > 5 && crossings > 25, "{cut} {rewarded} {crossings}");
+    assert!(cut[0] > 50 && cut[1] > 25 && rewarded > 5, "{cut:?} {rewarded}");
+    assert!(crossings > 25, "{crossings}");
 }
 
 /// Squares of z = x² + y² over a grid of integers: exactly planar, in exactly convex position.
