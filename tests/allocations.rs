@@ -55,7 +55,7 @@ fn a_second_order_allocates_nothing_nor_does_a_second_frame() {
     }
 
     // Rays: those that a filter decides and those that integers do.
-    for scene in [scene::random_triangles(300, 1), scene::city(3000, 1), scene::terrain(3000, 1)] {
+    for scene in [scene::random_triangles(300, 1), scene::terrain(3000, 1)] {
         let tree = BspTree::build(scene.polygons()).unwrap();
         let (low, high) = scene.bounds().unwrap();
         let mut hits = 0;

@@ -55,7 +55,7 @@ impl BspTree {
     /// `Equal`.
     ///
     /// It stops at the first polygon that it finds, which need not be the nearest. Nothing is allocated
-    /// unless a hundred parts of the tree are pending at once.
+    /// unless dozens of parts of the tree are pending at once.
     pub fn is_blocked(&self, ray: Ray) -> bool {
         is_blocked(self, None, ray)
     }

@@ -14,7 +14,7 @@ use crate::tree::{Bounds, BspTree};
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
 /// It looks no further along the ray than it must for the hit that is asked for. Nothing is allocated
-/// unless a hundred parts of the tree or more hits than a few are pending at once.
+/// unless dozens of parts of the tree, or more than two hits at one place, are pending at once.
 #[derive(Clone, Debug)]
 pub struct Hits<'t> {
     tree: &'t BspTree,
