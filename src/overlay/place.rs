@@ -20,8 +20,8 @@ use crate::tree::node_record::MOST_FRAGMENTS;
 use crate::tree::parts::{Parts, Record};
 
 /// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
-/// time to look at boxes; larger: time to look at the pieces of a body one by one.
-const CROWD: usize = 64;
+/// time to look at boxes of what is scattered; larger: time to look at the pieces of a body one by one.
+const CROWD: usize = 256;
 
 /// A set of pieces that is still to be divided: a range of the stack of pieces.
 #[derive(Debug)]
@@ -31,8 +31,6 @@ struct Pending {
     arena: usize,
     region: Region,
     place: Place,
-    /// The box of a crowd, if it is known.
-    bounds: Option<[[f64; 3]; 2]>,
 }
 
 /// Places polygons, lines and points in a tree; its lists are kept to be used again.
@@ -49,6 +47,8 @@ pub(super) struct Placer {
     pending: Vec<Pending>,
     front: Vec<Live>,
     own: Vec<Live>,
+    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
+    crowd: Option<[[f64; 3]; 2]>,
     knife: Knife<ExactVertex>,
     /// The face to begin with: those before it are the tree's.
     first: u32,
@@ -96,11 +96,12 @@ struct Work<'a> {
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
         let Self { tree, faces, .. } = *self;
-        let Placer { pieces, arena, pending, anchors, first, thin, .. } = &mut *self.placer;
+        let Placer { pieces, arena, pending, anchors, crowd, first, thin, .. } = &mut *self.placer;
         anchors.fill(faces)?;
         pieces.clear();
         arena.clear();
         pending.clear();
+        *crowd = None;
         let (new, thin) = (faces.len() - *first as usize, *thin);
         reserve(pieces, new)?;
         pieces.extend((*first..thin).map(|face| Live::whole(faces, face)));
@@ -115,31 +116,27 @@ impl Work<'_> {
         }
         if new > 0 {
             let region = Region::root(Whose::Tree, tree.nodes.len(), tree.len());
-            self.push(Place::Root, region, 0..new, None)?;
+            self.push(Place::Root, region, 0..new)?;
         }
         Ok(())
     }
 
     /// Puts a set on the stack of those to be divided, unless nothing is to be put in place there.
-    fn push(
-        &mut self,
-        place: Place,
-        region: Region,
-        pieces: Range<usize>,
-        bounds: Option<[[f64; 3]; 2]>,
-    ) -> Result<(), Error> {
+    fn push(&mut self, place: Place, region: Region, pieces: Range<usize>) -> Result<(), Error> {
         let Placer { arena, pending, .. } = &mut *self.placer;
         if !pieces.is_empty() || region.has_pieces() {
             reserve(pending, 1)?;
-            pending.push(Pending { pieces, arena: arena.len(), region, place, bounds });
+            pending.push(Pending { pieces, arena: arena.len(), region, place });
         }
         Ok(())
     }
 
     /// Divides a set by the plane of its region, and puts both sides on the stack.
     fn step(&mut self, pending: Pending) -> Result<(), Error> {
-        let Pending { pieces, region, place, mut bounds, .. } = pending;
+        let Pending { pieces, region, place, .. } = pending;
         let start = pieces.start;
+        // Of this set, as that is divided next; it is not kept beyond.
+        let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
         if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
             return Err(Error::fragments(MOST_FRAGMENTS));
@@ -150,13 +147,13 @@ impl Work<'_> {
             self.skeleton.hang(place, pieces);
             return Ok(());
         }
-        let opened = Opened::of(&region, self.tree, &self.placer.cell, self.faces);
+        let opened = Opened::of(region, self.tree, &self.placer.cell, self.faces);
         let opened = if opened.is_some() { opened } else { self.enter_cell(start, place)? };
         let Some(Opened { mut branch, own, sides: [in_front, behind] }) = opened else {
             return Ok(());
         };
         let splitter = Exact.splitter(self.faces, branch.plane);
-        let side = self.side_of_all(start, &mut bounds, &splitter);
+        let side = self.side_of_all(start, crowd, &splitter);
         self.placer.front.clear();
         self.placer.own.clear();
         if side.is_none() {
@@ -168,26 +165,27 @@ impl Work<'_> {
         let [front, back] = [Place::Front(number), Place::Back(number)];
         let rest = start..self.placer.pieces.len();
         if side == Some(Side::Front) {
-            self.push(back, behind, start..start, None)?;
-            return self.push(front, in_front, rest, bounds);
+            self.push(back, behind, start..start)?;
+            return self.push(front, in_front, rest);
         }
-        self.push(back, behind, rest, bounds.filter(|_| side.is_some()))?;
+        self.push(back, behind, rest)?;
         let Placer { pieces, front: list, .. } = &mut *self.placer;
         let start = pieces.len();
         reserve(pieces, list.len())?;
         pieces.extend_from_slice(list);
         let rest = start..pieces.len();
-        self.push(front, in_front, rest, None)
+        self.push(front, in_front, rest)
     }
 
     /// The side of a plane on which all of a crowd on top of the stack certainly lies, if it does.
     fn side_of_all(
-        &self,
+        &mut self,
         start: usize,
-        bounds: &mut Option<[[f64; 3]; 2]>,
+        known: Option<[[f64; 3]; 2]>,
         splitter: &ExactSplitter,
     ) -> Option<Side> {
-        let set = &self.placer.pieces[start..];
+        let Placer { pieces, crowd, .. } = &mut *self.placer;
+        let set = &pieces[start..];
         if set.len() < CROWD {
             return None;
         }
@@ -197,8 +195,10 @@ impl Work<'_> {
             [[x.0, y.0, z.0], [x.1, y.1, z.1]]
         };
         let first = [set[0].min, set[0].max];
-        let bounds = bounds.get_or_insert_with(|| set.iter().fold(first, union));
-        splitter.side_of_box(*bounds)
+        let bounds = known.unwrap_or_else(|| set.iter().fold(first, union));
+        let side = splitter.side_of_box(bounds);
+        *crowd = side.map(|_| bounds);
+        side
     }
 
     /// Divides the set on top of the stack: pieces behind stay on the stack, pieces in front go to
@@ -255,7 +255,7 @@ impl Work<'_> {
             pieces.drain(start..start + polygons);
             cells.keep(std::mem::take(&mut cell.parts));
             let region = cell.fill(tree);
-            return Ok(Opened::of(&region, self.tree, cell, self.faces));
+            return Ok(Opened::of(region, self.tree, cell, self.faces));
         }
         let numbers = skeleton::append(self.pieces, &tree)?;
         self.skeleton.graft(place, self.faces, &tree, numbers.start)?;

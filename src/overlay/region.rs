@@ -74,6 +74,7 @@ impl Opened {
         Self::new(rounded(faces, plane), plane, 0..0, [Region::EMPTY; 2])
     }
 
+    #[inline]
     fn new(rounded: Vec4, plane: PlaneId, own: Range<u32>, sides: [Region; 2]) -> Self {
         // Those of a cell are pieces, and are hung where they belong one by one.
         let still = |side: &Region| match side.of {
@@ -89,8 +90,9 @@ impl Opened {
 
     /// `None` for an empty cell. The plane of a leaf is that of its fragment, so that no piece crosses
     /// it.
-    pub(super) fn of(region: &Region, tree: &BspTree, cell: &Cell, faces: &Faces) -> Option<Self> {
-        let Region { of, node, fragments: all } = region.clone();
+    #[inline]
+    pub(super) fn of(region: Region, tree: &BspTree, cell: &Cell, faces: &Faces) -> Option<Self> {
+        let Region { of, node, fragments: all } = region;
         let (nodes, records) = match of {
             Whose::Tree => (&tree.nodes, &tree.records),
             Whose::Cell => (&cell.nodes, &cell.parts.records),

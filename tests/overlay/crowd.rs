@@ -5,7 +5,7 @@ use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint};
 
 /// Polygons above each other, each tilted a little, and as many lines; so many that their box is
 /// looked at.
-const LAYERS: usize = 100;
+const LAYERS: usize = 140;
 
 /// For each polygon, and then for each line, whether it has pieces that come before the only polygon of
 /// the tree, and after it, seen from above and from below.
