@@ -64,7 +64,8 @@ mod tests {
         let (mut straight, mut back) = (0, 0);
         for _ in 0..20_000 {
             let mut number = |most: f64| random.range(-most, most).round();
-            let (unit, nudge) = ([number(9e6), number(9e6)], [number(1.4), number(1.4)]);
+            let (size, nudge) = (number(9e6), number(1.4));
+            let (unit, nudge) = ([size, size + number(1.4)], [nudge; 2]);
             let [s, t] = [number(9e7), number(9e7)];
             let a = unit.map(|c| c * s);
             let b = [unit[0] * t + nudge[0], unit[1] * t + nudge[1]];
