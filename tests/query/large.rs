@@ -69,7 +69,7 @@ fn stars(n: usize, dice: &mut Dice) -> Polygons {
         let corner = |k: usize| {
             let turn = shapes::regular(10, DMat3::IDENTITY, DVec3::ZERO)[k];
             let lift = if k == 3 { bend } else { 0.0 };
-            centre + turn * if k % 2 == 0 { 6.0 } else { 2.0 } + DVec3::Z * lift
+            centre + turn * if k.is_multiple_of(2) { 6.0 } else { 2.0 } + DVec3::Z * lift
         };
         (0..10).map(corner).collect()
     };
@@ -104,7 +104,7 @@ fn rays_through_large_scenes_hit_what_rationals_say() {
             (Some(1e-3), Heuristic::Sampled { candidates: 16 }),
         ] {
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-            let options = tolerance.map_or(options.clone(), |t: f64| options.with_tolerance(t));
+            let options = tolerance.map_or(options, |t: f64| options.with_tolerance(t));
             let tree = options.build(polygons).unwrap();
             check(&tree, rays / 3, &mut score)
                 .unwrap_or_else(|what| panic!("{name} by {heuristic}, {tolerance:?}: {what}"));
