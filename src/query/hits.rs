@@ -14,7 +14,7 @@ use crate::tree::{Bounds, BspTree};
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
 /// It looks no further along the ray than it must for the hit that is asked for. Nothing is allocated
-/// unless dozens of parts of the tree, or more than two hits at one place, are pending at once.
+/// unless dozens of parts of the tree, or more than eight hits at one place, are pending at once.
 #[derive(Clone, Debug)]
 pub struct Hits<'t> {
     tree: &'t BspTree,
@@ -28,9 +28,9 @@ struct Search<'t> {
     probe: Probe,
     walk: Walk<'t>,
     /// What the ray meets of what it has come to, the nearest last.
-    found: SmallVec<[Meeting; 2]>,
+    found: SmallVec<[Meeting; 8]>,
     /// Of polygons that were hit: how far what was hit goes on.
-    hit: SmallVec<[Extent; 2]>,
+    hit: SmallVec<[Extent; 8]>,
 }
 
 /// How far along a ray something of a polygon reaches.
