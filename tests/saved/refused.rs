@@ -40,9 +40,12 @@ fn vertex(file: &[u8], is_cut: bool) -> usize {
     places.find(|&at| (get(file, at + 8) >> 28 & 7 != 0) == is_cut).unwrap()
 }
 
+/// Changes a file.
+type Damage = fn(&mut Vec<u8>);
+
 #[test]
 fn what_is_wrong_in_one_thing_is_refused_for_that() {
-    let faults: [(&str, fn(&mut Vec<u8>)); 12] = [
+    let faults: [(&str, Damage); 12] = [
         ("its tolerance is negative", |file| {
             file[TOLERANCE..TOLERANCE + 8].copy_from_slice(&(-1f64).to_le_bytes());
         }),
