@@ -165,7 +165,7 @@ impl Bounds {
     /// // Once.
     /// let bounds = tree.bounds()?;
     /// // For each ray.
-    /// let ray = Ray::new([-9.0, 0.0, 90.0], [0.1, 0.02, -1.0]);
+    /// let ray = Ray::new([20.3, 30.1, 90.0], [0.01, 0.02, -1.0]);
     /// let nearest = bounds.hits(&tree, ray).next().expect("a hit");
     /// assert_eq!(tree.hits(ray).next().map(|hit| hit.polygon()), Some(nearest.polygon()));
     /// # Ok::<(), binspace::Error>(())
