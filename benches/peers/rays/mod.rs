@@ -142,9 +142,9 @@ fn times(cases: &[Case]) {
         ];
         let nearest = measure(
             &rays,
-            |ray| case.nearest(ray).is_some(),
+            |ray| black_box(case.nearest(ray)).is_some(),
             &peers,
-            |peer, ray| peer.nearest(ray).is_some(),
+            |peer, ray| black_box(peer.nearest(ray)).is_some(),
         );
         let sight = measure(
             &sights,
