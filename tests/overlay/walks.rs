@@ -83,6 +83,16 @@ fn movers_in_a_city_are_right_in_every_pixel() {
     judged.assert_floor(60, 500_000, 30_000);
 }
 
+/// ```sh
+/// cargo test --release --test overlay thousand -- --ignored
+/// ```
+#[test]
+#[ignore = "takes minutes"]
+fn two_hundred_movers_are_right_in_every_pixel_of_a_thousand_frames() {
+    let judged = walk(&scene::city(600, 2), Some(0.0), 1000, 200);
+    judged.assert_floor(1000, 8_000_000, 1_000_000);
+}
+
 #[test]
 fn movers_among_crossing_triangles_are_right_in_every_pixel() {
     let judged = walk(&scene::random_triangles(100, 5), Some(0.0), 12, 40);
