@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::assemble::{Output, assemble};
+use super::assemble::assemble;
 use super::builder::{Memory, Shared, build};
 use super::job::Job;
 use crate::Error;
@@ -21,6 +21,7 @@ pub(super) fn run<K: Kernel>(
     job: Job<K::Vertex>,
     memory: &mut Memory<K>,
 ) -> Result<Parts<K::Stored>, Error> {
+    use super::assemble::Output;
     use std::sync::Mutex;
 
     type Slot<T> = Option<Result<T, Error>>;

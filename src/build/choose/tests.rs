@@ -5,12 +5,12 @@ use glam::{DQuat, DVec3, EulerRot};
 use super::set::Set;
 use super::tuning::Tuning;
 use super::{Choice, Chooser, Rules};
-use crate::BspTree;
-use crate::build::Heuristic;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
+use crate::build::{BuildOptions, FrameBuilder, Heuristic};
 use crate::exact::{Exact, Faces, Kernel, PlaneId, PlaneKind, Side, split};
 use crate::random::SplitMix64;
+use crate::tree::BspTree;
 
 /// A set of pieces with all that it refers to.
 pub(super) struct Fixture {
@@ -211,7 +211,7 @@ fn ring(cards: usize) -> Vec<[DVec3; 4]> {
 #[test]
 fn a_ring_of_cards_is_cut_no_more_than_it_crosses() {
     for cards in [8, 12, 31, 33, 60, 100, 200] {
-        let tree = BspTree::build(ring(cards)).unwrap();
-        assert_eq!(tree.len(), 2 * cards, "{cards}");
+        let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+        assert_eq!(builder.build(ring(cards)).unwrap().len(), 2 * cards, "{cards}");
     }
 }
