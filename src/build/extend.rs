@@ -16,7 +16,8 @@ impl BspTree {
     /// The tree is built anew, of its own polygons and the others: it is the tree of all of them, on
     /// the grid and with the tolerance that it has. Its fragments have other numbers than before, and
     /// [overlays](crate::Overlay), [meshes](crate::Mesh) and [bounds](crate::Bounds) have to be made
-    /// anew. It takes as long as a build; what moves belongs into an overlay.
+    /// anew. It takes as long as a build; what moves belongs into an overlay. (Duplicates among the new
+    /// polygons, or of old ones, are kept as always, but not counted.)
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};

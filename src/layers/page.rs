@@ -22,6 +22,10 @@ const REACH: f64 = (1 << 20) as f64;
 /// `LARGEST_ROUNDING` there). Smaller: cards meant to be in one plane cut each other; larger: thin
 /// layers are merged, or, for one layer of few digits, those of the whole page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
+/// The least tolerance as a share of the largest coordinate, by which the grid is the coarser the
+/// further a layer reaches. Smaller: cards in one plane come out of document order where a floor
+/// reaches behind the eye (at 2⁻⁴⁹ some do); larger: thin layers are merged there.
+const GRAIN: f64 = 1.0 / (1u64 << 45) as f64;
 /// A point counts as in a piece if it is outside by no more than this share of the viewport's size.
 /// Smaller: points fall through between pieces; larger: an edge is hit before it is reached.
 const TOUCH: f64 = 1e-9;
@@ -126,7 +130,13 @@ impl Layers {
         self.layers.extend_from_slice(layers);
         let precision = self.clip()?;
         let [least, most] = TOLERANCES.map(|share| share * self.size());
-        self.build(precision.clamp(least, most))?;
+        // Coordinates that reach far are rounded to a coarse grid.
+        let reach = self
+            .corners
+            .iter()
+            .map(|corner| corner.vertex.position.abs().max_element())
+            .fold(0.0, f64::max);
+        self.build(precision.max(reach * GRAIN).clamp(least, most))?;
         let tree = self.builder.tree();
         tree.back_to_front_into(Viewpoint::Direction(DVec3::NEG_Z), &mut self.order);
         for fragment in tree.fragments() {

@@ -50,11 +50,17 @@ impl Search<'_> {
             let Some(fragment) = walk.next(limit) else { return found.pop() };
             let fragment = tree.fragment(fragment);
             if let Some(meeting) = Meeting::new(probe, &fragment, &tree.faces) {
-                let mut at = found.len();
-                while at > 0 && found[at - 1].compare(&meeting, probe, &tree.faces).is_lt() {
-                    at -= 1;
+                // By halves, as many may be at one place, where only integers compare them.
+                let mut places = 0..found.len();
+                while !places.is_empty() {
+                    let middle = places.start + places.len() / 2;
+                    if found[middle].compare(&meeting, probe, &tree.faces).is_lt() {
+                        places.end = middle;
+                    } else {
+                        places.start = middle + 1;
+                    }
                 }
-                found.insert(at, meeting);
+                found.insert(places.start, meeting);
             }
         }
     }

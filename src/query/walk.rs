@@ -176,7 +176,9 @@ impl<'t> Walk<'t> {
     /// The parameters between which the ray is where corners can be; `None` if it never is.
     fn within_reach(&self, probe: &Probe) -> Option<[f64; 2]> {
         let reach = CORNERS / LATTICE_LIMIT + self.slack;
-        let (mut from, mut to) = (0.0_f64, if probe.is_endless { f64::INFINITY } else { 1.0 });
+        // An endless ray without a direction is a point as well.
+        let is_endless = probe.is_endless && probe.speed > 0.0;
+        let (mut from, mut to) = (0.0_f64, if is_endless { f64::INFINITY } else { 1.0 });
         for (start, slope) in self.origin.into_iter().zip(self.direction) {
             // Without a slope these are infinite, or not a number, which `min` and `max` pass over.
             let [a, b] = [-reach, reach].map(|side| (side - start) / slope);

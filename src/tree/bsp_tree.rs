@@ -27,8 +27,9 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// Build the tree once for static polygons, then ask it for an order every frame. An [`Overlay`](crate::Overlay) holds
-/// what moves, and lines and points; where most polygons move, build the tree again.
+/// Build the tree once for static polygons, then ask it for an order every frame. An
+/// [`Overlay`](crate::Overlay) holds what moves, and lines and points; where most polygons move, as in a
+/// compositor of layers, a [`FrameBuilder`](crate::FrameBuilder) builds a tree every frame.
 ///
 /// # What it holds
 ///
@@ -108,7 +109,8 @@ use crate::faces::Preparation;
 /// [`hits`](Self::hits) gives what a [`Ray`](crate::Ray) hits, the nearest first, as far as you read it;
 /// [`is_blocked`](Self::is_blocked) tells whether anything lies between two points, and
 /// [`locate`](Self::locate) in which leaf a point is. All of them decide exactly for the numbers that they
-/// are given: a ray through an edge or a corner never slips between two polygons that share it.
+/// are given: a ray through an edge or a corner never slips between two polygons that share it
+/// (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
 ///
 /// ```
 /// use binspace::{BspTree, Ray};
@@ -223,8 +225,8 @@ use crate::faces::Preparation;
 /// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds some,
 ///   builds the tree anew. An [`Overlay`](crate::Overlay) puts moving polygons, lines and points in one
 ///   order with the tree's.
-/// - Not a spatial index: for ray casts, overlaps or nearest neighbours take a bounding volume
-///   hierarchy, which is much faster to build.
+/// - Not a spatial index: for overlaps or nearest neighbours, or ray casts alone, take a bounding
+///   volume hierarchy, which is much faster to build.
 /// - Not for solids: it does not tell inside from outside, and does no Boolean operations.
 #[derive(Clone)]
 pub struct BspTree {

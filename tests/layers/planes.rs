@@ -112,6 +112,47 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     assert!(cards.len() >= 3 && is_right, "{cards:?}");
 }
 
+/// Cards in one plane keep the order of the document, though a floor reaches behind the eye.
+#[test]
+fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
+    let mut compared = 0;
+    for seed in 0..60 {
+        let mut dice = Dice(seed);
+        let mut some = |size: f64| size * (dice.share() - 0.5);
+        let turn = DMat4::from_rotation_x(some(1.6)) * DMat4::from_rotation_y(some(1.6));
+        let plane = camera() * turn;
+        let at = DMat4::from_translation(dvec3(0.0, 300.0 + some(100.0), some(200.0)));
+        let floor = camera() * at * DMat4::from_rotation_x(1.5 + some(0.1));
+        let cards: Vec<[[f64; 2]; 2]> = (0..12)
+            .map(|_| {
+                let [x, y] = [some(500.0), some(400.0)];
+                [[x - 60.0, y - 40.0], [x + 60.0, y + 40.0]]
+            })
+            .collect();
+        let mut layers = vec![Layer::new([[-3000.0; 2], [3000.0; 2]], floor)];
+        layers.extend(cards.iter().map(|&card| Layer::new(card, plane)));
+        let mut page = Layers::new(VIEWPORT).unclipped();
+        page.update(&layers).unwrap();
+        for _ in 0..40 {
+            let [x, y] = [some(600.0), some(480.0)];
+            let has = |card: &[[f64; 2]; 2]| {
+                let [[left, low], [right, high]] = *card;
+                (left + 0.5..right - 0.5).contains(&x) && (low + 0.5..high - 0.5).contains(&y)
+            };
+            let Some(last) = cards.iter().rposition(has) else { continue };
+            let on_screen = plane * dvec3(x, y, 0.0).extend(1.0);
+            let found = page.hit([on_screen.x / on_screen.w, on_screen.y / on_screen.w]);
+            // The floor may hide all cards, but a card only those before it.
+            match found {
+                Some((layer, _)) if layer > 0 => assert!(layer > last, "{layer}, not {last}"),
+                _ => continue,
+            }
+            compared += 1;
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
+
 #[test]
 fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
     let mut dice = Dice(43);
