@@ -66,7 +66,7 @@ fn surfaces() -> Vec<[DVec3; 4]> {
     quads(ripple).chain(quads(saddle)).collect()
 }
 
-/// Once up around the axis, from share 0 to 1.
+/// Up around the axis, from share 0 to 1.
 fn helix(share: f64) -> DVec3 {
     let angle = TURNS * TAU * share;
     dvec3(1.5 * angle.cos(), 1.5 * angle.sin(), 3.2 * share - 1.6)

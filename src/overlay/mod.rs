@@ -137,7 +137,7 @@ use crate::tree::{BspTree, Fragment};
 /// beyond it is an error:
 /// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
 ///
-/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 24 a polygon.
+/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon.
 pub struct Overlay {
     /// The faces of the tree, and those of the overlay after them: planes of both have names in one
     /// space.

@@ -31,7 +31,7 @@ pub(super) fn between(
     let own = spread(pieces, OWN).skip(1).map(|piece| own_plane(faces, piece.face));
     let own = medians(faces, &sample, arena).chain(own);
     let plain = cheapest(faces, &sample, arena, [first].into_iter().chain(own));
-    // All of them lie in one plane.
+    // All of the sample lie in one plane.
     if let Some((0, plane)) = plain {
         return plane;
     }
@@ -53,7 +53,7 @@ fn cheapest(
         if best.is_none_or(|(least, _)| cost < least) {
             best = Some((cost, plane));
         }
-        // It cuts nothing, and leaves at most half of them on either side.
+        // Cheap enough: both sides are left with few of the sample.
         if cost <= sample.len() / 2 {
             break;
         }

@@ -13,7 +13,7 @@ use crate::tree::{Bounds, BspTree};
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
-/// It looks no further along the ray than it must for the hit that is asked for. Nothing is allocated
+/// It searches only as far along the ray as the next hit requires. Nothing is allocated
 /// unless dozens of parts of the tree, or more than eight hits at one place, are pending at once.
 #[derive(Clone, Debug)]
 pub struct Hits<'t> {
@@ -152,8 +152,8 @@ impl BspTree {
     /// order, and from which side. So hits do not depend on how a tree was built.
     ///
     /// It takes time for the nodes whose regions the ray crosses, as far as it is read, and for the fragments
-    /// on the planes where it crosses them. These regions reach far into empty space: who has many rays for
-    /// a large scene makes [`Bounds`] once and asks [`Bounds::hits`].
+    /// on the planes where it crosses them. These regions extend into empty space: for many rays in
+    /// a large scene, make [`Bounds`] once and ask [`Bounds::hits`].
     pub fn hits(&self, ray: Ray) -> Hits<'_> {
         Hits::new(self, None, ray)
     }

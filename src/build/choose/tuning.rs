@@ -9,8 +9,8 @@ pub struct Tuning {
     /// quickly; trees by free planes are laid out in fewer parts, which makes orders quick.
     pub table: usize,
     /// The plane of a piece in a table is taken at once if it cuts at most so many pieces, at least one,
-    /// and each of them crosses the piece: any tree has to cut them, or it. More: heaps are cut by
-    /// planes that are not the best; fewer: all planes of rings are compared again and again.
+    /// and each of them crosses the piece: any tree has to cut them, or it. More: polygons that
+    /// cross at random are cut by worse planes; fewer: all planes of rings are compared again and again.
     pub crossings: usize,
     /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
     /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.

@@ -52,6 +52,7 @@ impl Preparation {
         self.bent += other.bent;
         self.bent_by = self.bent_by.max(other.bent_by);
     }
+
     /// The same with lengths in the polygons' unit, where they are in that of the lattice.
     pub(super) fn in_world(mut self, lattice: &Lattice) -> Self {
         for length in [&mut self.flattened_by, &mut self.bent_by] {
