@@ -207,7 +207,7 @@ use crate::faces::Preparation;
 /// Modelled scenes and scans have 1.0 to 2.3 fragments a face; triangles at random that cross each
 /// other have many more (1000 of them about 12 each, and more the more there are).
 /// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to
-/// 150 bytes a fragment ([`bytes`](Self::bytes)), and up to 2.9 times that while it is built.
+/// 160 bytes a fragment ([`bytes`](Self::bytes)), and up to 2.7 times that while it is built.
 ///
 /// With the feature `save`, a tree is written to a file and read from it, bit for bit, which takes a
 /// small part of the time to build it: `BspTree::write` and `BspTree::read`.
