@@ -116,7 +116,7 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
 #[test]
 fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
     let mut compared = 0;
-    for seed in 0..60 {
+    for seed in 0..200 {
         let mut dice = Dice(seed);
         let mut some = |size: f64| size * (dice.share() - 0.5);
         let turn = DMat4::from_rotation_x(some(1.6)) * DMat4::from_rotation_y(some(1.6));
@@ -131,7 +131,8 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
             .collect();
         let mut layers = vec![Layer::new([[-3000.0; 2], [3000.0; 2]], floor)];
         layers.extend(cards.iter().map(|&card| Layer::new(card, plane)));
-        let mut page = Layers::new(VIEWPORT).unclipped();
+        // A small one: its least tolerance is small, and the grid is as coarse.
+        let mut page = Layers::new([[640.0, 360.0], [1280.0, 720.0]]).unclipped();
         page.update(&layers).unwrap();
         for _ in 0..40 {
             let [x, y] = [some(600.0), some(480.0)];
@@ -142,7 +143,8 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
             let Some(last) = cards.iter().rposition(has) else { continue };
             let on_screen = plane * dvec3(x, y, 0.0).extend(1.0);
             let found = page.hit([on_screen.x / on_screen.w, on_screen.y / on_screen.w]);
-            // The floor may hide all cards, but a card only those before it.
+            // The floor may hide all cards, but a card only those before it. (Near its edge it may be
+            // one that was not counted.)
             match found {
                 Some((layer, _)) if layer > 0 => assert!(layer > last, "{layer}, not {last}"),
                 _ => continue,
