@@ -8,13 +8,15 @@ use glam::DVec3;
 /// from one end to the other, so that its parameters are 0 to 1, both included.
 ///
 /// Coordinates are in the polygons' unit and are taken as they are given, up to digits below 2⁻¹²⁰ of
-/// the scene's extent, or of the distance of a point that is outside of the scene; those of a direction,
-/// up to digits below 2⁻¹²⁰ of its largest. No `f64` of more than 2⁻⁶⁸ of the extent has such digits.
-/// So what is decided about a ray is exact for the very numbers that it is made of.
+/// the scene's extent, or of the distance of the scene or of a point from the origin, if that is larger;
+/// those of a direction, up to digits below 2⁻¹²⁰ of its largest. Near the origin, no `f64` of more than
+/// 2⁻⁶⁸ of the extent has such digits: what is decided about a ray is exact for the very numbers that it
+/// is made of.
 ///
 /// | coordinates | the ray |
 /// |---|---|
-/// | any NaN or ±∞, or a point beyond 2⁶⁸ extents | meets nothing |
+/// | any NaN or ±∞, | meets nothing |
+/// | a point further from the origin than 2⁶⁸ extents | may meet nothing |
 /// | a direction of zeros, or two equal ends | is a point: it meets what contains it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {

@@ -91,5 +91,7 @@ fn a_second_order_allocates_nothing_nor_does_a_second_frame() {
         })
     };
     assert!(frame(0) > 10);
-    assert_eq!((1..6).map(&mut frame).min(), Some(0));
+    // The lists have grown to their sizes after a few frames that are alike.
+    (1..6).for_each(|turn| _ = frame(turn));
+    assert_eq!((6..12).map(&mut frame).sum::<u64>(), 0);
 }

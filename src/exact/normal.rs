@@ -35,11 +35,17 @@ impl RoundedNormal {
         Self { normal, size }
     }
 
+    /// The axis along which it is longest; the first of several.
+    #[inline]
+    pub(crate) fn longest(&self) -> usize {
+        let sizes = self.normal.map(f64::abs);
+        (1..3).fold(0, |best, axis| if sizes[axis] > sizes[best] { axis } else { best })
+    }
+
     /// The axis along which the exact normal is longest, if it is certain which that is.
     #[inline]
     pub(crate) fn certain_axis(&self) -> Option<usize> {
-        let sizes = self.normal.map(f64::abs);
-        let axis = (1..3).fold(0, |best, axis| if sizes[axis] > sizes[best] { axis } else { best });
+        let (sizes, axis) = (self.normal.map(f64::abs), self.longest());
         // Two components are off by no more than `size` together.
         let least = sizes[axis] - f64::EPSILON * self.size;
         (0..3).all(|other| other == axis || sizes[other] < least).then_some(axis)

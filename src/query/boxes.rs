@@ -23,19 +23,27 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON;
 /// One over the smallest coordinate of a direction that counts.
 const STEEP: f64 = 1e250;
 
+/// Scenes and directions of other sizes are looked at without boxes, whose floats would overflow or
+/// lose digits there.
+const SIZES: Range<f64> = 1e-200..1e200;
+
 impl<'t> Boxes<'t> {
-    pub(super) fn new(probe: &Probe, bounds: &'t Bounds) -> Self {
+    /// `None` if boxes cannot be trusted with a ray.
+    pub(super) fn new(probe: &Probe, bounds: &'t Bounds) -> Option<Self> {
         let (origin, direction) = probe.in_world();
         let largest = bounds.reach().max(origin.abs()).max_element();
+        if ![largest, direction.abs().max_element()].iter().all(|size| SIZES.contains(size)) {
+            return None;
+        }
         let slack = ROUNDED * largest;
-        Self {
+        Some(Self {
             bounds,
             origins: origin.to_array().map(|c| [c + slack, c - slack]),
             inverses: direction.to_array().map(|c| {
                 let inverse = 1.0 / c;
                 if inverse.abs() < STEEP { inverse } else { STEEP.copysign(c) }
             }),
-        }
+        })
     }
 
     /// Between which parameters the line of the ray may be in a box; it is not if the first is larger.

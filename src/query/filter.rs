@@ -1,7 +1,7 @@
 //! Where a ray meets a fragment, in floats, where these are certain.
 
 use super::probe::Probe;
-use crate::exact::{Faces, PlaneId, PlaneKind};
+use crate::exact::{Faces, PlaneId, PlaneKind, RoundedNormal};
 use crate::tree::Fragment;
 
 /// What floats can say.
@@ -39,20 +39,15 @@ const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 
 impl AtRay {
     #[inline]
-    fn face(probe: &Probe, faces: &Faces, face: u32) -> (Self, [f64; 3]) {
-        let [p, q, r] = faces.reference_triangle(face).map(|c| faces.corner(c));
-        let mut at = Self { start: 0.0, slope: 0.0, size: 0.0 };
-        let mut normal = [0.0; 3];
-        for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let a = (q[j] - p[j]) * (r[k] - p[k]);
-            let b = (q[k] - p[k]) * (r[j] - p[j]);
-            normal[i] = a - b;
-            at.start += (a - b) * (probe.origin[i] - p[i]);
-            at.slope += (a - b) * probe.direction[i];
-            at.size += a.abs() + b.abs();
+    fn face(probe: &Probe, faces: &Faces, face: u32) -> (Self, RoundedNormal) {
+        let corners = faces.reference_triangle(face).map(|c| faces.corner(c));
+        let rounded = RoundedNormal::through(corners);
+        let mut at = Self { start: 0.0, slope: 0.0, size: rounded.size };
+        for (i, c) in rounded.normal.into_iter().enumerate() {
+            at.start += c * (probe.origin[i] - corners[0][i]);
+            at.slope += c * probe.direction[i];
         }
-        (at, normal)
+        (at, rounded)
     }
 
     #[inline]
@@ -87,7 +82,7 @@ pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Gu
         return Guess::Unsure;
     }
     let face = fragment.face();
-    let (own, normal) = AtRay::face(probe, faces, face);
+    let (own, rounded) = AtRay::face(probe, faces, face);
     let (start_error, slope_error) =
         (START_ERROR * own.size * probe.reach, SLOPE_ERROR * own.size * probe.speed);
     // As if the ray went to the front.
@@ -105,8 +100,8 @@ pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Gu
     }
     let mut is_sure = is_after && is_before;
     let error = MEETING_ERROR * own.size * probe.reach * probe.speed;
-    let axis = faces.upright_axis(face).unwrap_or_else(|| main_axis(normal));
-    let inwards = -normal[axis].signum();
+    let axis = faces.upright_axis(face).unwrap_or_else(|| rounded.longest());
+    let inwards = -rounded.normal[axis].signum();
     let corners = faces.corners(face);
     for line in fragment.lines() {
         let (bound, inside) = match line.as_cut() {
@@ -133,8 +128,4 @@ pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Gu
     let t = -start / slope;
     let off = (start_error + t * slope_error) / (slope - slope_error) * 1.001 + t * f64::EPSILON;
     Guess::Meets { low: t - off, high: t + off, from_front: own.slope < 0.0 }
-}
-
-fn main_axis(normal: [f64; 3]) -> usize {
-    (1..3).fold(0, |best, axis| if normal[axis].abs() > normal[best].abs() { axis } else { best })
 }

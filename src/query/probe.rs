@@ -44,9 +44,14 @@ impl Probe {
         let (from, direction, least) = match ray {
             Ray::Segment { from, to } => {
                 let largest = lattice.largest_in_steps(&[from, to])?;
-                // Halved, so that nothing overflows.
-                let half = to * 0.5 - from * 0.5;
-                let direction = half.to_array().map(|c| 2.0 * lattice.length_to_lattice(c));
+                let direction = std::array::from_fn(|axis| {
+                    let [a, b] = [from[axis], to[axis]];
+                    if (b - a).is_finite() {
+                        lattice.length_to_lattice(b - a)
+                    } else {
+                        2.0 * lattice.length_to_lattice(0.5 * b - 0.5 * a)
+                    }
+                });
                 (from, direction, largest * SHORT)
             }
             Ray::Endless { from, direction } => {

@@ -63,7 +63,7 @@ impl<'t> Walk<'t> {
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
         let mut walk = Self {
             tree,
-            boxes: bounds.map(|bounds| Boxes::new(probe, bounds)),
+            boxes: bounds.and_then(|bounds| Boxes::new(probe, bounds)),
             pending: SmallVec::new(),
             origin: probe.origin.map(|c| c * unit),
             direction: probe.direction.map(|c| c * unit),

@@ -175,3 +175,26 @@ fn hits_can_be_copied_and_go_on_saying_none() {
     assert!(hits.next().is_none() && hits.next().is_none());
     assert!(format!("{hits:?}").contains("Hits"));
 }
+
+/// However small or large a scene is, boxes change no answer.
+#[test]
+fn scenes_of_every_size_are_hit() {
+    for scale in [1e-300, 1e-260, 1e-180, 1.0, 1e180, 1e250, 1e300] {
+        let squares = [0.0, 2.0, 1.0].map(|z| square(z).into_iter().map(|p| p.map(|c| c * scale)));
+        let tree = BspTree::build(squares.map(Vec::from_iter)).unwrap();
+        let bounds = tree.bounds().unwrap();
+        let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * scale;
+        for ray in [
+            Ray::new(at(1.0, 1.0, 5.0), [0.0, 0.0, -1.0]),
+            Ray::new(at(1.0, 1.0, 5.0), at(0.0, 0.0, -1.0)),
+            Ray::between(at(1.0, 1.0, 5.0), at(1.5, 1.5, -1.0)),
+        ] {
+            assert!(tree.hits(ray).map(|hit| hit.polygon()).eq([1, 2, 0]), "{scale}: {ray:?}");
+            let boxed = bounds.hits(&tree, ray).map(|hit| hit.polygon());
+            assert!(boxed.eq([1, 2, 0]), "{scale}: {ray:?} by boxes");
+            assert!(tree.is_blocked(ray) && bounds.is_blocked(&tree, ray), "{scale}: {ray:?}");
+        }
+        let beside = Ray::new(at(5.0, 1.0, 5.0), [0.0, 0.0, -1.0]);
+        assert!(bounds.hits(&tree, beside).next().is_none() && !tree.is_blocked(beside));
+    }
+}
