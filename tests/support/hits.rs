@@ -278,7 +278,7 @@ impl Line {
 impl Rough {
     /// Whether a line may meet the face: generous.
     fn is_near(&self, from: DVec3, direction: DVec3) -> bool {
-        let size = from.abs().max_element() + self.centre.abs().max_element();
+        let size = from.abs().max_element() + self.centre.abs().max_element() + self.radius;
         let slack = 1e-9 * size;
         let length = direction.length();
         let arm = self.centre - from;
