@@ -2,7 +2,8 @@
 //! tells apart.
 
 use binspace::glam::{DVec3, Mat4, Quat, Vec3, vec3};
-use binspace::{BspTree, BuildOptions, Heuristic, Polygon, Tolerance, Viewpoint};
+use binspace::internals::SplitMix64;
+use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Polygon, Tolerance, Viewpoint};
 
 /// How many turns of the cards are tried.
 const TURNS: u64 = 24;
@@ -44,6 +45,56 @@ fn cards_in_one_plane_out_of_a_matrix_of_f32_stay_whole_and_in_input_order() {
         cut_without += usize::from(finer.len() > 40);
     }
     assert!(cut_without > 12, "only {cut_without} of the scenes tell one tolerance from another");
+}
+
+/// The planes of small cards are rounded most, and differ by more than the tolerance further away.
+#[test]
+fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
+    for size in [0.4, 0.1, 0.01] {
+        let compared: usize = (0..3000).map(|number| pairs_in_order(number, size)).sum();
+        assert!(compared > 1000, "{compared} of size {size}");
+    }
+}
+
+/// Builds a page of cards, none of them thin, half of them upon the one before, and gives the pairs of overlapping cards
+/// that were found in input order.
+fn pairs_in_order(number: u64, size: f64) -> usize {
+    let (turn, mut random) = (turn(number), SplitMix64::new(number));
+    let mut low = Vec3::ZERO;
+    let mut rectangle = |i: usize| {
+        let mut some = |low: f64, high: f64| random.range(low, high) as f32;
+        low = match i % 2 {
+            0 => vec3(some(-1.0, 1.0), some(-1.0, 1.0), 0.0),
+            _ => low + Vec3::splat(0.05 * size as f32).with_z(0.0),
+        };
+        [low, low + vec3(some(0.3, 1.1), some(0.3, 1.1), 0.0) * size as f32]
+    };
+    let rectangles: Vec<[Vec3; 2]> = (0..40).map(&mut rectangle).collect();
+    let card = |&[a, b]: &[Vec3; 2]| {
+        [a, vec3(b.x, a.y, 0.0), b, vec3(a.x, b.y, 0.0)].map(|p| turn.transform_point3(p))
+    };
+    let cards: Vec<[Vec3; 4]> = rectangles.iter().map(card).collect();
+    let overlaps = |earlier: usize, later: usize| {
+        let [[a, b], [c, d]] = [rectangles[earlier], rectangles[later]];
+        let common = b.min(d) - a.max(c);
+        common.x.min(common.y) > 0.01 * size as f32
+    };
+    let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
+    let mut frames = FrameBuilder::new(BuildOptions::DEFAULT);
+    let mut compared = 0;
+    for tree in [&BspTree::build(&cards).unwrap(), frames.build(&cards).unwrap()] {
+        for direction in [normal, -normal] {
+            let order = order(tree, direction);
+            for (place, &first) in order.iter().enumerate() {
+                for &second in order[place + 1..].iter().filter(|&&second| overlaps(first, second))
+                {
+                    assert!(first < second, "page {number} of {size}: {first} before {second}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    compared
 }
 
 #[test]

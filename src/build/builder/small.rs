@@ -68,6 +68,7 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// The best plane for a set: the first of its own that divides it evenly and cuts nothing, else
     /// the best of those that cut nothing, a free plane that cuts nothing, or the best of its own.
+    /// (Where an own plane cannot be trusted, free planes come first.)
     fn best_of_table(&mut self, set: u64) -> Result<Row<K>, Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let table = &mut self.table;
@@ -94,8 +95,8 @@ impl<K: Kernel> Builder<'_, K> {
             {
                 return Ok(*plane);
             }
-            let best =
-                best.get_or_insert_with(|| Best::new(pieces.clone(), self.shared.rules.tuning));
+            let best = best
+                .get_or_insert_with(|| Best::new(pieces.clone(), faces, self.shared.rules.tuning));
             best.see(slot, piece, [set & plane.front, set & plane.back]);
             if best.is_good() {
                 break;
@@ -103,7 +104,7 @@ impl<K: Kernel> Builder<'_, K> {
         }
         let first = set.trailing_zeros() as usize;
         let own = table.planes[table.slots[best.as_ref().map_or(first, Best::slot)].row];
-        if !best.is_some_and(|best| best.cuts()) {
+        if best.is_some_and(|best| best.is_sure()) {
             return Ok(own);
         }
         let Shared { kernel, faces, rules, .. } = self.shared;

@@ -3,7 +3,7 @@
 use super::choice::Choice;
 use super::cost::{Candidate, Cost};
 use super::free::Sweep;
-use super::own::{Contest, Terms};
+use super::own::{Contest, Shares, Terms, trusted_share};
 use super::peel::{Peeler, arrange};
 use super::rules::Rules;
 use super::sample::Sample;
@@ -156,7 +156,11 @@ fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Cand
 /// stack have such planes; in other sets a few pieces are enough to see that one is cut.
 fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
-    set.sample(tuning.probes).map(|piece| set.own_plane(piece)).find(|&plane| {
+    let shares = Shares::of(set.size());
+    let least_share = trusted_share(set.faces);
+    let is_trusted = |&piece: &usize| shares.get(&set.pieces[piece]) >= least_share;
+    let mut planes = set.sample(tuning.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
+    planes.find(|&plane| {
         let splitter = set.splitter(plane);
         let (mut front, mut back) = (0, 0);
         let is_whole = (0..set.len()).all(|piece| {
