@@ -29,6 +29,7 @@
 //! |---|---|---|
 //! | `parallel` | yes | building with rayon's threads; the tree is the same, bit for bit |
 //! | `raster` | no | modules `view` and `raster`: cameras, a painter and a z-buffer that decide every pixel exactly, and `verify`, which compares them |
+//! | `drawing` | no | module `drawing`: one view as a vector picture, one path a visible polygon; turns on `raster` |
 //! | `layers` | no | module `layers`: rectangles with 4×4 matrices, as in CSS 3D, clipped, cut and in paint order |
 //! | `scene` | no | module `scene`: polygons with colours, generated scenes |
 //! | `obj` | no | reading Wavefront OBJ files into a `Scene`; turns on `scene` |
@@ -38,6 +39,8 @@
 //! Without features the library depends on glam and smallvec alone.
 
 mod build;
+#[cfg(feature = "drawing")]
+pub mod drawing;
 mod error;
 mod exact;
 mod faces;

@@ -49,6 +49,8 @@ pub use label::{Line, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub(crate) use normal::{RoundedNormal, have_area};
+#[cfg(feature = "drawing")]
+pub(crate) use plane::dot;
 pub(crate) use plane::{Plane, cross};
 pub(crate) use position::OFF as POSITION_OFF;
 pub use split::split;

@@ -63,7 +63,7 @@ impl Plane {
     }
 
     /// A lattice point of the plane.
-    pub(super) fn point(&self) -> [i64; 3] {
+    pub(crate) fn point(&self) -> [i64; 3] {
         self.point
     }
 
@@ -97,21 +97,27 @@ impl Plane {
     /// The scalar product of the normal and a direction of components below 2⁶².
     #[inline]
     pub(crate) fn along(&self, direction: [i64; 3]) -> Int<3> {
-        // Components of the normal are below 2¹⁰⁸, so their parts and products fit 64 and 128 bits.
-        let (mut high, mut low) = (0i128, 0i128);
-        for (component, step) in self.normal.iter().zip(direction) {
-            high += i128::from((component >> LOW_BITS) as i64) * i128::from(step);
-            low += i128::from((component & LOW) as i64) * i128::from(step);
-        }
-        high += low >> LOW_BITS;
-        let (low, high_bits) = ((low & LOW) as u64, high as u128);
-        let last = (high >> (128 - LOW_BITS)) as u64;
-        Int::from_limbs([
-            low | (high_bits << LOW_BITS) as u64,
-            (high_bits >> (64 - LOW_BITS)) as u64,
-            last,
-        ])
+        dot(self.normal, direction)
     }
+}
+
+/// The scalar product of vectors: components below 2¹¹⁸ by components below 2⁶², together below 2¹⁹⁰.
+#[inline]
+pub(crate) fn dot(vector: [i128; 3], direction: [i64; 3]) -> Int<3> {
+    // The parts and products of the components fit 64 and 128 bits.
+    let (mut high, mut low) = (0i128, 0i128);
+    for (component, step) in vector.into_iter().zip(direction) {
+        high += i128::from((component >> LOW_BITS) as i64) * i128::from(step);
+        low += i128::from((component & LOW) as i64) * i128::from(step);
+    }
+    high += low >> LOW_BITS;
+    let (low, high_bits) = ((low & LOW) as u64, high as u128);
+    let last = (high >> (128 - LOW_BITS)) as u64;
+    Int::from_limbs([
+        low | (high_bits << LOW_BITS) as u64,
+        (high_bits >> (64 - LOW_BITS)) as u64,
+        last,
+    ])
 }
 
 /// A number below 2¹²⁶, rounded at most twice. By parts, because a conversion of 128 bits calls a

@@ -26,6 +26,20 @@ impl Rays {
     /// A polygon that reaches behind the eye may be anywhere in the picture, unless all of it is
     /// beyond one of the picture's sides.
     pub(super) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
+        let [[left, top], [right, bottom]] = self.region(points)?;
+        let range = |axis: usize, low: f64, high: f64| {
+            let first = low.ceil().max(0.0) as u32;
+            let last = high.floor().min(f64::from(self.size[axis]) - 1.0);
+            if last < 0.0 { 0..0 } else { first..last as u32 + 1 }
+        };
+        let window = Window { columns: range(0, left, right), rows: range(1, top, bottom) };
+        if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
+    }
+
+    /// A box in the picture, least and largest coordinates in pixels from the centre of the first one,
+    /// that has all of the convex hull of these points, each given to within `VERTEX_ERROR`; `None` if
+    /// the picture shows nothing of it. It is infinite for a polygon that reaches behind the eye.
+    pub(crate) fn region(&self, points: &[[f64; 3]]) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
         // The picture's sides, in pixels from the middle of the picture of which it is a part.
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
@@ -53,17 +67,11 @@ impl Rays {
             return None;
         }
         if !ahead {
-            return Some(Window { columns: 0..self.size[0], rows: 0..self.size[1] });
+            return Some([[f64::NEG_INFINITY; 2], [f64::INFINITY; 2]]);
         }
-        let range = |axis: usize| {
-            // From the middle of the whole picture to the centre of pixel 0.
-            let shift = -sides[axis][0] - 0.5;
-            let first = (low[axis] + shift).ceil().max(0.0) as u32;
-            let last = (high[axis] + shift).floor().min(f64::from(self.size[axis]) - 1.0);
-            if last < 0.0 { 0..0 } else { first..last as u32 + 1 }
-        };
-        let window = Window { columns: range(0), rows: range(1) };
-        if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
+        // From the middle of the whole picture to the centre of pixel 0.
+        let shift = [0, 1].map(|axis: usize| -sides[axis][0] - 0.5);
+        Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
     /// A point in multiples of right, down and the direction through the middle (the last is 1

@@ -42,6 +42,8 @@ pub(crate) use layers::Layers;
 pub(crate) use mask::Mask;
 pub(crate) use painter::covers;
 pub use picture::{brightness, colour_of, depth_map, difference, picture};
+#[cfg(feature = "drawing")]
+pub(crate) use rays::Pencil;
 pub use rays::Rays;
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::exact::{Eye, Faces};
 use crate::view::{Camera, CameraError, CameraProblem, Projection};
+use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
 ///
@@ -27,10 +28,11 @@ pub struct Rays {
     pub(super) above: u32,
     /// Whether faces seen from behind are left out.
     pub(super) front_only: bool,
-    pub(super) pencil: Pencil,
-    pub(super) base: [i64; 3],
-    pub(super) right: [i64; 3],
-    pub(super) down: [i64; 3],
+    viewpoint: Viewpoint,
+    pub(crate) pencil: Pencil,
+    pub(crate) base: [i64; 3],
+    pub(crate) right: [i64; 3],
+    pub(crate) down: [i64; 3],
     /// The parameter of the ray through the middle of the picture.
     pub(super) middle: [i64; 3],
     /// Maps a point relative to the eye, or to the middle of the picture, to multiples of right,
@@ -42,7 +44,7 @@ pub struct Rays {
 
 /// The start or the direction that all rays share.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Pencil {
+pub(crate) enum Pencil {
     /// They start at the eye: an integer times 2^shift.
     From { eye: [i64; 3], shift: u32 },
     /// They have this direction.
@@ -160,6 +162,7 @@ impl Rays {
             whole_height: size[1],
             above: 0,
             front_only: false,
+            viewpoint: camera.viewpoint(),
             pencil,
             base,
             right,
@@ -199,8 +202,13 @@ impl Rays {
         self.size
     }
 
+    /// The viewpoint to order fragments for: the camera's.
+    pub fn viewpoint(&self) -> Viewpoint {
+        self.viewpoint
+    }
+
     /// Whether the rays start at an eye.
-    pub(super) fn is_perspective(&self) -> bool {
+    pub(crate) fn is_perspective(&self) -> bool {
         matches!(self.pencil, Pencil::From { .. })
     }
 

@@ -1,0 +1,176 @@
+//! Which polygon shows above which.
+//!
+//! A polygon that is drawn whole has to come before each that shows where it would be painted too.
+//! What is hidden by a third needs no order.
+
+use std::collections::HashSet;
+use std::hash::BuildHasherDefault;
+
+use super::lines::{Half, Mixer};
+use super::stock::Stock;
+use super::tile::{Across, Leaf, Visible};
+use crate::Error;
+use crate::memory::reserve;
+use crate::parallel_map;
+
+/// "`below` has to be drawn before `above`", by polygons' places in a list of those that show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub(super) below: u32,
+    pub(super) above: u32,
+}
+
+/// A whole face of a polygon that shows, in a part of the picture: those of its lines that may cross it.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    seen: u32,
+    halves: [u32; 2],
+}
+
+#[derive(Debug, Default)]
+struct Reaches {
+    list: Vec<Reach>,
+    halves: Vec<Half>,
+}
+
+/// Leaves with the faces that may reach into them.
+struct Entry<'l> {
+    leaves: &'l [Leaf],
+    reaches: Reaches,
+}
+
+/// Leaves are shared out to threads after so many halvings of their list.
+const SHARED: usize = 6;
+
+/// All pairs, sorted. `place` gives the place of each face's polygon in the list of those that show, or
+/// `u32::MAX`.
+pub(super) fn pairs(
+    stock: &Stock<'_>,
+    leaves: &[Leaf],
+    place: &(dyn Fn(u32) -> u32 + Sync),
+) -> Result<Vec<Pair>, Error> {
+    let mut all = Reaches::default();
+    for seen in (0..stock.seen.len() as u32).filter(|&seen| place(seen) != u32::MAX) {
+        all.push(seen, stock.outline(seen))?;
+    }
+    let mut shares = vec![Entry { leaves, reaches: all }];
+    for _ in 0..SHARED {
+        let mut next = Vec::with_capacity(2 * shares.len());
+        for entry in shares {
+            match entry.halves(stock)? {
+                Some(parts) => next.extend(parts),
+                None => next.push(entry),
+            }
+        }
+        shares = next;
+    }
+    let parts = parallel_map::map(shares, |entry| pairs_of(stock, entry, place));
+    let mut pairs = Vec::new();
+    for part in parts {
+        let mut part = part?;
+        reserve(&mut pairs, part.len())?;
+        pairs.append(&mut part);
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    Ok(pairs)
+}
+
+fn pairs_of(
+    stock: &Stock<'_>,
+    entry: Entry<'_>,
+    place: &(dyn Fn(u32) -> u32 + Sync),
+) -> Result<Vec<Pair>, Error> {
+    let mut found: HashSet<Pair, BuildHasherDefault<Mixer>> = HashSet::default();
+    let mut stack = vec![entry];
+    while let Some(entry) = stack.pop() {
+        if let Some([first, second]) = entry.halves(stock)? {
+            stack.push(second);
+            stack.push(first);
+            continue;
+        }
+        let Entry { leaves: [leaf], reaches } = &entry else { continue };
+        for Visible { item, cell } in &leaf.cells {
+            let above = place(stock.items[*item as usize].seen);
+            for reach in &reaches.list {
+                let pair = Pair { below: place(reach.seen), above };
+                if pair.below == above || found.contains(&pair) {
+                    continue;
+                }
+                let halves = reaches.halves_of(reach);
+                if cell.clone().within(&stock.lines, halves, None)?.is_some() {
+                    found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                    found.insert(pair);
+                }
+            }
+        }
+    }
+    Ok(found.into_iter().collect())
+}
+
+impl Reaches {
+    fn push(&mut self, seen: u32, halves: &[Half]) -> Result<(), Error> {
+        let start = self.halves.len();
+        reserve(&mut self.halves, halves.len())?;
+        self.halves.extend_from_slice(halves);
+        reserve(&mut self.list, 1)?;
+        self.list
+            .push(Reach { seen, halves: [start, self.halves.len()].map(|place| place as u32) });
+        Ok(())
+    }
+
+    fn halves_of(&self, reach: &Reach) -> &[Half] {
+        let [start, end] = reach.halves;
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// Those that may reach into a box.
+    fn narrowed(&self, stock: &Stock<'_>, region: &[[f64; 2]; 2]) -> Result<Self, Error> {
+        let mut part = Self::default();
+        let [low, high] = region;
+        for reach in &self.list {
+            let [from, to] = stock.seen[reach.seen as usize].region;
+            if (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis]) {
+                continue;
+            }
+            let mut kept: smallvec::SmallVec<[Half; 8]> = smallvec::SmallVec::new();
+            let mut is_out = false;
+            for &half in self.halves_of(reach) {
+                match stock.lines.across(half, region) {
+                    Across::Inside => {}
+                    Across::Outside => is_out = true,
+                    Across::Maybe => kept.push(half),
+                }
+            }
+            if !is_out {
+                part.push(reach.seen, &kept)?;
+            }
+        }
+        Ok(part)
+    }
+}
+
+impl<'l> Entry<'l> {
+    /// The first and the second half of the leaves; `None` of a single one.
+    fn halves(&self, stock: &Stock<'_>) -> Result<Option<[Self; 2]>, Error> {
+        if self.leaves.len() < 2 {
+            return Ok(None);
+        }
+        let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
+        let part = |leaves: &'l [Leaf]| {
+            let reaches = self.reaches.narrowed(stock, &region(leaves))?;
+            Ok(Self { leaves, reaches })
+        };
+        Ok(Some([part(first)?, part(second)?]))
+    }
+}
+
+/// The box around leaves.
+fn region(leaves: &[Leaf]) -> [[f64; 2]; 2] {
+    let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    leaves.iter().fold(none, |[low, high], leaf| {
+        let [from, to] = leaf.tile.sides();
+        let axes = [0, 1];
+        [axes.map(|i: usize| low[i].min(from[i])), axes.map(|i: usize| high[i].max(to[i]))]
+    })
+}

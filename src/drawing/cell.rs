@@ -1,0 +1,171 @@
+//! Convex cells of the picture.
+
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
+use super::lines::{Half, Lines};
+use crate::Error;
+use crate::memory::reserve;
+
+/// A side of a cell, and where it begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    /// The half that the cell lies in.
+    pub(super) half: Half,
+    pub(super) start: Corner,
+}
+
+/// Where two sides of a cell meet, rounded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) at: [f64; 2],
+    /// It is not further from where it should be. Infinite where two lines are nearly one.
+    pub(super) radius: f64,
+}
+
+/// Corners that are less certain, in pixels, are computed from integers.
+const FINE: f64 = 1e-6;
+
+/// A convex polygon with an inside, by its sides: each begins where the side before it ends, and lies
+/// to the left of the way from x to y.
+///
+/// The corners are where lines meet, and never computed but to look at them: however often a cell is
+/// cut, it is as exact as its lines.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub(super) sides: SmallVec<[Side; 8]>,
+}
+
+impl Cell {
+    /// A rectangle between borders: the least and the largest coordinates, in steps.
+    pub(super) fn rectangle(lines: &Lines<'_>, low: [i64; 2], high: [i64; 2]) -> Self {
+        let halves = [
+            Half::beyond(1, low[1]),
+            Half::beyond(0, high[0]).flipped(true),
+            Half::beyond(1, high[1]).flipped(true),
+            Half::beyond(0, low[0]),
+        ];
+        let sides = (0..4).map(|i| {
+            let start = Corner::of(lines, [halves[(i + 3) % 4], halves[i]]);
+            Side { half: halves[i], start }
+        });
+        Self { sides: sides.collect() }
+    }
+
+    /// The part of the cell in all of the halves, if it has one. The rest of it goes to `outside`, in
+    /// convex parts.
+    pub(super) fn within(
+        mut self,
+        lines: &Lines<'_>,
+        halves: &[Half],
+        mut outside: Option<&mut Vec<Self>>,
+    ) -> Result<Option<Self>, Error> {
+        for &half in halves {
+            let signs = self.signs(lines, half);
+            if !signs.contains(&Ordering::Less) {
+                self.relabel(half, &signs);
+                continue;
+            }
+            if !signs.contains(&Ordering::Greater) {
+                return Ok(None);
+            }
+            if let Some(outside) = &mut outside {
+                reserve(outside, 1)?;
+                outside.push(self.part(lines, half.flipped(true), &signs, Ordering::Less));
+            }
+            self = self.part(lines, half, &signs, Ordering::Greater);
+        }
+        Ok(Some(self))
+    }
+
+    /// A side that is on a line counts as made by it: the last line that was asked for has made it.
+    fn relabel(&mut self, half: Half, signs: &[Ordering]) {
+        let n = signs.len();
+        let is_on =
+            |i: usize| signs[i].is_eq() && signs[if i + 1 == n { 0 } else { i + 1 }].is_eq();
+        if let Some(on) = (0..n).find(|&i| is_on(i)) {
+            self.sides[on].half = half;
+        }
+    }
+
+    /// On which side of a half's line each corner lies.
+    fn signs(&self, lines: &Lines<'_>, half: Half) -> SmallVec<[Ordering; 8]> {
+        let line = lines.rounded(half);
+        let sign = |i: usize, side: &Side| {
+            let Corner { at, radius } = side.start;
+            let value = line.at(at);
+            if value.abs() > line.error + line.slope * radius {
+                let is_in = (value > 0.0) != half.is_negative();
+                return if is_in { Ordering::Greater } else { Ordering::Less };
+            }
+            let before = self.sides[if i == 0 { self.sides.len() - 1 } else { i - 1 }];
+            lines.exact_side(half, [before.half, side.half])
+        };
+        self.sides.iter().enumerate().map(|(i, side)| sign(i, side)).collect()
+    }
+
+    /// The part whose corners have a sign, with a new side along the line.
+    fn part(&self, lines: &Lines<'_>, half: Half, signs: &[Ordering], keep: Ordering) -> Self {
+        let n = self.sides.len();
+        let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
+        // The cell is convex: the way around it enters the part once, and leaves it once.
+        let enters = |&i: &usize| signs[i] != keep && signs[next(i)] == keep;
+        let mut i = (0..n).find(enters).unwrap_or(0);
+        let Side { half: entry, start } = self.sides[i];
+        let on_line = signs[i].is_eq();
+        let start = if on_line { start } else { Corner::of(lines, [half, entry]) };
+        let mut sides = SmallVec::new();
+        sides.push(Side { half: entry, start });
+        while signs[next(i)] == keep {
+            i = next(i);
+            sides.push(self.sides[i]);
+        }
+        let Side { start, .. } = self.sides[next(i)];
+        let on_line = signs[next(i)].is_eq();
+        let end = if on_line { start } else { Corner::of(lines, [self.sides[i].half, half]) };
+        sides.push(Side { half, start: end });
+        Self { sides }
+    }
+
+    /// Twice its area, in square pixels, rounded.
+    pub(super) fn double_area(&self) -> f64 {
+        let at = |i: usize| self.sides[i].start.at;
+        let origin = at(0);
+        let arm = |i: usize| [at(i)[0] - origin[0], at(i)[1] - origin[1]];
+        (1..self.sides.len() - 1)
+            .map(|i| {
+                let ([ax, ay], [bx, by]) = (arm(i), arm(i + 1));
+                ax * by - ay * bx
+            })
+            .sum()
+    }
+}
+
+impl Corner {
+    /// Where two lines meet.
+    fn of(lines: &Lines<'_>, [first, second]: [Half; 2]) -> Self {
+        let [a, b] = [first, second].map(|half| lines.rounded(half));
+        let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);
+        let (p, q) = (ax * by, ay * bx);
+        let turn = p - q;
+        // The coefficients are off by a rounding each, the products by another, and the difference.
+        let least = turn.abs() - 8.0 * f64::EPSILON * (p.abs() + q.abs());
+        if least.is_nan() || least <= 0.0 {
+            return Self::exact(lines, [first, second]);
+        }
+        let at = [(ay * b0 - a0 * by) / turn, (a0 * bx - ax * b0) / turn];
+        if !lines.shows(at) {
+            return Self::exact(lines, [first, second]);
+        }
+        // How far both lines are from the point, with what their values may be off.
+        let off = [&a, &b].map(|line| line.at(at).abs() + line.error);
+        let radius = 1.01 * (off[0] * b.slope + off[1] * a.slope) / least;
+        if radius > FINE { Self::exact(lines, [first, second]) } else { Self { at, radius } }
+    }
+
+    fn exact(lines: &Lines<'_>, halves: [Half; 2]) -> Self {
+        let (at, radius) = lines.exact_meeting(halves);
+        Self { at, radius }
+    }
+}

@@ -1,0 +1,355 @@
+//! The lines of a picture, each known by what made it.
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use super::frame::{Exact, Frame, Sheet, meeting, orientation};
+use crate::Error;
+use crate::exact::{Int, Line as Label, PlaneId};
+use crate::memory::reserve;
+use crate::random::mix;
+
+/// What made a line. Equal keys are equal lines, up to their direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Key {
+    /// The edge between two points, the lower number first.
+    Edge([u32; 2]),
+    /// A face's edge from its corner to the next, where some corner of the face was moved onto its
+    /// plane.
+    Upright(u32, u32),
+    /// The cut of a face by a plane: of two faces' planes, of the lower by the higher.
+    Cut(u32, PlaneId),
+    /// The rays along a face's plane.
+    Horizon(u32),
+}
+
+/// Borders of tiles are at multiples of 1/`STEPS` of a pixel.
+pub(super) const STEPS: f64 = (1u64 << STEP_BITS) as f64;
+pub(super) const STEP_BITS: u32 = 24;
+
+/// A line, and which of its sides is meant.
+///
+/// The last bit is set for the side on which the line is negative. Above it is the number of the line;
+/// or, with the first bit set, what a border of a tile is: so these need no list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Half(u64);
+
+const BORDER: u64 = 1 << 63;
+/// Borders are this many steps from where their number is 0, so that all numbers are positive.
+const OFFSET: i64 = 1 << 60;
+
+impl Half {
+    /// The side of a line on which it is positive.
+    pub(super) const fn of(line: u32) -> Self {
+        Self((line as u64) << 1)
+    }
+
+    /// The points whose coordinate (axis 0, 1 for x, y) is at least so many [`STEPS`] of a pixel.
+    pub(super) const fn beyond(axis: usize, steps: i64) -> Self {
+        Self(BORDER | (((steps + OFFSET) as u64) << 1 | axis as u64) << 1)
+    }
+
+    /// The same for all halves of a line.
+    pub(super) const fn line(self) -> u64 {
+        self.0 >> 1
+    }
+
+    /// The number of the line; `None` for a border.
+    pub(super) const fn number(self) -> Option<u32> {
+        if self.0 & BORDER == 0 { Some((self.0 >> 1) as u32) } else { None }
+    }
+
+    /// The axis of a border, and where it is.
+    const fn border(self) -> (usize, i64) {
+        let number = (self.0 & !BORDER) >> 1;
+        ((number & 1) as usize, (number >> 1) as i64 - OFFSET)
+    }
+
+    /// Whether the side is meant on which the line is negative.
+    pub(super) const fn is_negative(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// The other side, if `flip`.
+    pub(super) const fn flipped(self, flip: bool) -> Self {
+        Self(self.0 ^ flip as u64)
+    }
+}
+
+/// A line in floats, scaled so that the longer part of its slope is near 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounded {
+    pub(super) k: [f64; 3],
+    /// The largest error of its values anywhere in the picture, computed as `k[0] + x·k[1] + y·k[2]`.
+    pub(super) error: f64,
+    /// At least the length of its slope.
+    pub(super) slope: f64,
+}
+
+impl Rounded {
+    /// From exact coefficients, for a picture of this size.
+    fn new(exact: &Exact, reach: [f64; 2]) -> Self {
+        let k = exact.each_ref().map(|c| c.to_f64());
+        let size = k[1].abs().max(k[2].abs());
+        // A power of two: nothing is rounded. (A line without slope may have any scale.)
+        let scale = if size > 0.0 { f64::exp2(-size.log2().floor()) } else { 1.0 };
+        let [k0, kx, ky] = k.map(|c| c * scale);
+        let sum = k0.abs() + kx.abs() * reach[0] + ky.abs() * reach[1];
+        Self {
+            k: [k0, kx, ky],
+            error: 8.0 * UNIT * sum,
+            slope: 1.01 * kx.abs().max(ky.abs()) * 1.42,
+        }
+    }
+
+    /// The value at a point, rounded.
+    #[inline]
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        self.k[0] + (self.k[1] * x + self.k[2] * y)
+    }
+}
+
+/// The relative error of one rounding.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// All lines that a picture was asked for.
+#[derive(Debug)]
+pub(super) struct Lines<'t> {
+    pub(super) frame: Frame<'t>,
+    /// The largest coordinates in the picture.
+    reach: [f64; 2],
+    keys: Vec<Key>,
+    rounded: Vec<Rounded>,
+    numbers: Table<Key>,
+    /// Equal corners have equal numbers.
+    points: Table<[u64; 3]>,
+    /// A corner of each number.
+    corners: Vec<u32>,
+}
+
+type Table<T> = HashMap<T, u32, BuildHasherDefault<Mixer>>;
+
+impl<'t> Lines<'t> {
+    /// No lines yet.
+    pub(super) fn new(frame: Frame<'t>) -> Self {
+        let reach = frame.rays.size().map(|side| f64::from(side) + 1.0);
+        Self {
+            frame,
+            reach,
+            keys: vec![],
+            rounded: vec![],
+            numbers: Table::default(),
+            points: Table::default(),
+            corners: vec![],
+        }
+    }
+
+    /// The number of a line, which is added if it is new.
+    pub(super) fn number(&mut self, key: Key) -> Result<u32, Error> {
+        if let Some(&number) = self.numbers.get(&key) {
+            return Ok(number);
+        }
+        let exact = self.exact_of(key);
+        self.add(key, &exact)
+    }
+
+    fn add(&mut self, key: Key, exact: &Exact) -> Result<u32, Error> {
+        let number = self.keys.len() as u32;
+        if number >= 1 << 31 {
+            return Err(Error::too_many_indices());
+        }
+        reserve(&mut self.keys, 1)?;
+        reserve(&mut self.rounded, 1)?;
+        self.numbers.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        self.keys.push(key);
+        self.rounded.push(Rounded::new(exact, self.reach));
+        self.numbers.insert(key, number);
+        Ok(number)
+    }
+
+    /// The half of a face's edge `k` on which the face lies, by whether its front is seen.
+    pub(super) fn edge(
+        &mut self,
+        face: u32,
+        k: u32,
+        sheet: &Sheet,
+        front: bool,
+    ) -> Result<Half, Error> {
+        let faces = self.frame.faces;
+        let range = faces.corner_range(face);
+        let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
+        let [a, b] = [k, next].map(|k| range.start as u32 + k);
+        if let Some(axis) = faces.upright_axis(face) {
+            // The upright plane faces outwards where the face's normal runs with the axis.
+            let normal = faces.plane(PlaneId::face(face)).normal()[axis];
+            let flip = sheet.side().is_gt() == (normal > 0);
+            return Ok(Half::of(self.number(Key::Upright(face, k))?).flipped(flip));
+        }
+        let [a, b] = [self.point(a)?, self.point(b)?];
+        let key = Key::Edge([a.min(b), a.max(b)]);
+        Ok(Half::of(self.number(key)?).flipped(front == (a < b)))
+    }
+
+    /// The half of a cut of a face on which a piece lies.
+    pub(super) fn cut(&mut self, face: u32, label: Label, sheet: &Sheet) -> Result<Half, Error> {
+        let Some(plane) = label.as_cut() else { return Err(Error::too_many_indices()) };
+        let own = PlaneId::face(face);
+        let (key, swapped) = match plane.kind() {
+            crate::exact::PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
+            _ => (Key::Cut(face, plane), false),
+        };
+        let number = match self.numbers.get(&key) {
+            Some(&number) => number,
+            None => {
+                let other = self.frame.sheet(plane);
+                let exact = if swapped { other.cut(sheet) } else { sheet.cut(&other) };
+                self.add(key, &exact)?
+            }
+        };
+        Ok(Half::of(number).flipped(sheet.side().is_gt() == (label.is_behind() != swapped)))
+    }
+
+    /// The half of the picture in which rays meet a face's plane ahead of the eye.
+    pub(super) fn ahead(&mut self, face: u32, sheet: &Sheet) -> Result<Half, Error> {
+        Ok(Half::of(self.number(Key::Horizon(face))?).flipped(sheet.side().is_gt()))
+    }
+
+    fn point(&mut self, corner: u32) -> Result<u32, Error> {
+        let place = self.frame.faces.corner(corner).map(|c| (c + 0.0).to_bits());
+        if let Some(&number) = self.points.get(&place) {
+            return Ok(number);
+        }
+        let number = self.corners.len() as u32;
+        reserve(&mut self.corners, 1)?;
+        self.points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        self.corners.push(corner);
+        self.points.insert(place, number);
+        Ok(number)
+    }
+
+    /// What made a line.
+    pub(super) fn key(&self, line: u32) -> Key {
+        self.keys[line as usize]
+    }
+
+    /// A half's line in floats.
+    #[inline]
+    pub(super) fn rounded(&self, half: Half) -> Rounded {
+        match half.number() {
+            Some(line) => self.rounded[line as usize],
+            None => {
+                let (axis, steps) = half.border();
+                let mut k = [-(steps as f64) / STEPS, 0.0, 0.0];
+                k[axis + 1] = 1.0;
+                Rounded { k, error: 4.0 * UNIT * self.reach[axis], slope: 1.0 }
+            }
+        }
+    }
+
+    /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
+    pub(super) fn shows(&self, at: [f64; 2]) -> bool {
+        (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
+    }
+
+    /// On which side of a half's line the point lies where two others meet, the second turning to the
+    /// left of the first as seen from their halves: exact.
+    #[cold]
+    pub(super) fn exact_side(&self, half: Half, [first, second]: [Half; 2]) -> Ordering {
+        let lines = [first, second, half];
+        if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
+            return Ordering::Equal;
+        }
+        let exact = lines.map(|half| self.exact(half));
+        let side = orientation(exact.each_ref());
+        let flips = lines.iter().filter(|half| half.is_negative()).count();
+        if flips % 2 == 1 { side.reverse() } else { side }
+    }
+
+    /// Where two lines meet, from integers, and how far off that may be by rounding.
+    #[cold]
+    pub(super) fn exact_meeting(&self, halves: [Half; 2]) -> ([f64; 2], f64) {
+        let exact = halves.map(|half| self.exact(half));
+        let at = meeting(exact.each_ref());
+        let radius = 8.0 * UNIT * self.reach[0].max(self.reach[1]);
+        if self.shows(at) { (at, radius) } else { ([0.0; 2], f64::INFINITY) }
+    }
+
+    /// Whether three lines are edges with a corner in common.
+    fn share_point(&self, lines: [Half; 3]) -> bool {
+        let keys = lines.map(|half| half.number().map(|line| self.key(line)));
+        let [Some(Key::Edge(a)), Some(Key::Edge(b)), Some(Key::Edge(c))] = keys else {
+            return false;
+        };
+        a.iter().any(|point| b.contains(point) && c.contains(point))
+    }
+
+    /// A line in integers.
+    fn exact_of(&self, key: Key) -> Exact {
+        let (frame, faces) = (&self.frame, self.frame.faces);
+        match key {
+            Key::Edge(points) => {
+                frame.edge(points.map(|point| faces.corner(self.corners[point as usize])))
+            }
+            Key::Upright(face, k) => {
+                let corners = faces.corners(face);
+                let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
+                let axis = faces.upright_axis(face).unwrap_or_default();
+                let upright = frame.upright([corners[k as usize], corners[next]], axis);
+                frame.sheet(PlaneId::face(face)).cut(&upright)
+            }
+            Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
+            Key::Horizon(face) => frame.sheet(PlaneId::face(face)).horizon(),
+        }
+    }
+
+    fn exact(&self, half: Half) -> Exact {
+        match half.number() {
+            Some(line) => self.exact_of(self.key(line)),
+            None => {
+                let (axis, steps) = half.border();
+                let mut k = [-steps, 0, 0];
+                k[axis + 1] = 1 << STEP_BITS;
+                k.map(Int::from)
+            }
+        }
+    }
+}
+
+/// Mixes the numbers of a key.
+#[derive(Debug, Default)]
+pub(super) struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.write_u64(u64::from_le_bytes(word));
+        }
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(u64::from(number));
+    }
+
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_i64(&mut self, number: i64) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_isize(&mut self, number: isize) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        self.0 = mix(self.0 ^ number);
+    }
+}

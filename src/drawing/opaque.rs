@@ -1,0 +1,207 @@
+//! Drawings of opaque polygons.
+
+use std::ops::Range;
+
+use super::above::pairs;
+use super::cell::Cell;
+use super::lines::Half;
+use super::map::VisibilityMap;
+use super::order::{Ordered, order};
+use super::outline::{Edge, outlines};
+use super::stock::Stock;
+use super::tile::{Leaf, Tile, Visible};
+use crate::Error;
+use crate::memory::reserve;
+
+/// A view as filled outlines, in the order to paint them: one for each polygon that shows.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    size: [u32; 2],
+    paths: Vec<Record>,
+    /// Where each outline begins, and all corners.
+    outlines: Vec<u32>,
+    corners: Vec<[f64; 2]>,
+}
+
+#[derive(Clone, Debug)]
+struct Record {
+    polygon: usize,
+    is_cut_out: bool,
+    outlines: Range<u32>,
+}
+
+/// What is filled for a polygon.
+#[derive(Clone, Copy, Debug)]
+pub struct Path<'d> {
+    drawing: &'d Drawing,
+    record: &'d Record,
+}
+
+impl VisibilityMap<'_> {
+    /// The view as filled outlines, one for each polygon that shows, all of them opaque.
+    ///
+    /// Polygons are drawn whole, each before those that show above it. A few that are in cycles with
+    /// others, none in most scenes, are cut out: only what shows of them is drawn.
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory.
+    pub fn drawing(&self) -> Result<Drawing, Error> {
+        let Self { stock, leaves } = self;
+        let size = self.size();
+        let shown = Nodes::of(stock, leaves)?;
+        let place = |seen: u32| shown.places[seen as usize];
+        let pairs = pairs(stock, leaves, &place)?;
+        let Ordered { order, is_cut_out } = order(shown.polygons.len(), &pairs, &shown.ranks)?;
+        let mut drawing = Drawing { size, paths: vec![], outlines: vec![], corners: vec![] };
+        let cells = shown.cells(stock, leaves, &is_cut_out);
+        reserve(&mut drawing.paths, order.len())?;
+        let mut edges = Vec::new();
+        for node in order {
+            let index = node as usize;
+            edges.clear();
+            if is_cut_out[index] {
+                cells[index].iter().for_each(|cell| add_edges(cell, &mut edges));
+            } else {
+                for &seen in &shown.faces[index] {
+                    whole(stock, seen, size, &mut edges)?;
+                }
+            }
+            drawing.push(shown.polygons[index], is_cut_out[index], &edges)?;
+        }
+        Ok(drawing)
+    }
+}
+
+impl Drawing {
+    fn push(&mut self, polygon: usize, is_cut_out: bool, edges: &[Edge]) -> Result<(), Error> {
+        let start = self.outlines.len() as u32;
+        // Parts of a folded polygon lie on one another, and specks are smaller than outlines can be:
+        // there each part is an outline of its own.
+        let all = outlines(edges).unwrap_or_else(|| apart(edges));
+        for outline in all {
+            reserve(&mut self.outlines, 1)?;
+            self.outlines.push(self.corners.len() as u32);
+            reserve(&mut self.corners, outline.len())?;
+            self.corners.extend(outline);
+        }
+        let outlines = start..self.outlines.len() as u32;
+        self.paths.push(Record { polygon, is_cut_out, outlines });
+        Ok(())
+    }
+
+    /// The picture's width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// What is filled, in the order to paint it.
+    pub fn paths(&self) -> impl DoubleEndedIterator<Item = Path<'_>> + ExactSizeIterator + Clone {
+        self.paths.iter().map(|record| Path { drawing: self, record })
+    }
+}
+
+impl<'d> Path<'d> {
+    /// The polygon, by its number in the input.
+    pub fn polygon(&self) -> usize {
+        self.record.polygon
+    }
+
+    /// Whether only what shows of the polygon is filled, as it is in a cycle with others.
+    pub fn is_cut_out(&self) -> bool {
+        self.record.is_cut_out
+    }
+
+    /// Its outlines: closed, and with the area on their left.
+    pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
+        let Drawing { outlines, corners, .. } = self.drawing;
+        self.record.outlines.clone().map(move |outline| {
+            let start = outlines[outline as usize] as usize;
+            let end = outlines.get(outline as usize + 1).map_or(corners.len(), |&end| end as usize);
+            &corners[start..end]
+        })
+    }
+}
+
+/// The polygons that show.
+struct Nodes {
+    polygons: Vec<usize>,
+    /// The place of each face's polygon in the list; `u32::MAX` for those that do not show.
+    places: Vec<u32>,
+    /// The faces of each polygon that the camera sees, whether they show or not.
+    faces: Vec<Vec<u32>>,
+    /// How many items lie behind the polygon.
+    ranks: Vec<u32>,
+}
+
+impl Nodes {
+    fn of(stock: &Stock<'_>, leaves: &[Leaf]) -> Result<Self, Error> {
+        let faces = stock.lines.frame.faces;
+        let polygon = |seen: u32| faces.polygon(stock.seen[seen as usize].face);
+        let most = (0..stock.seen.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
+        let mut last = vec![None; most];
+        for Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+            let last = &mut last[stock.polygon(*item)];
+            *last = (*last).max(Some(*item));
+        }
+        let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
+        let mut numbers = vec![u32::MAX; most];
+        for (polygon, last) in last.iter().enumerate() {
+            let Some(last) = last else { continue };
+            numbers[polygon] = shown.polygons.len() as u32;
+            shown.polygons.push(polygon);
+            shown.faces.push(vec![]);
+            shown.ranks.push(stock.items.len() as u32 - last);
+        }
+        for seen in 0..stock.seen.len() as u32 {
+            let number = numbers[polygon(seen)];
+            shown.places.push(number);
+            if number != u32::MAX {
+                shown.faces[number as usize].push(seen);
+            }
+        }
+        Ok(shown)
+    }
+
+    /// The cells of the polygons that are cut out.
+    fn cells<'l>(
+        &self,
+        stock: &Stock<'_>,
+        leaves: &'l [Leaf],
+        is_cut_out: &[bool],
+    ) -> Vec<Vec<&'l Cell>> {
+        let mut cells = vec![vec![]; self.polygons.len()];
+        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+            let place = self.places[stock.items[*item as usize].seen as usize] as usize;
+            if is_cut_out[place] {
+                cells[place].push(cell);
+            }
+        }
+        cells
+    }
+}
+
+/// The outlines of convex parts, one after another.
+fn apart(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
+    let parts = edges.chunk_by(|before, edge| before.to == edge.from);
+    parts.map(|part| part.iter().map(|edge| edge.from).collect()).collect()
+}
+
+fn add_edges(cell: &Cell, edges: &mut Vec<Edge>) {
+    let n = cell.sides.len();
+    edges.extend((0..n).map(|i| {
+        let side = &cell.sides[i];
+        Edge { line: side.half.line(), from: side.start.at, to: cell.sides[(i + 1) % n].start.at }
+    }));
+}
+
+/// Adds the edges of a whole face, as far as it is in or near the picture.
+fn whole(stock: &Stock<'_>, seen: u32, size: [u32; 2], edges: &mut Vec<Edge>) -> Result<(), Error> {
+    let Tile { low, high } = Tile::picture(size);
+    let picture = Cell::rectangle(&stock.lines, low, high);
+    let halves: &[Half] = stock.outline(seen);
+    if let Some(cell) = picture.within(&stock.lines, halves, None)? {
+        add_edges(&cell, edges);
+    }
+    Ok(())
+}

@@ -1,0 +1,242 @@
+//! An order of polygons in which each comes before those that show above it, but for a few.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::above::Pair;
+use crate::Error;
+use crate::memory::reserve;
+
+/// An order of nodes.
+#[derive(Debug)]
+pub(super) struct Ordered {
+    /// All nodes; for each pair, `below` comes first unless it is cut out.
+    pub(super) order: Vec<u32>,
+    /// Nodes that need not come before any other, as only what shows of them is drawn.
+    pub(super) is_cut_out: Vec<bool>,
+}
+
+/// Nodes and the pairs that begin at each.
+struct Graph<'p> {
+    pairs: &'p [Pair],
+    starts: Vec<u32>,
+    is_cut_out: Vec<bool>,
+    /// The strongly connected component of each node, among those that are searched.
+    component: Vec<u32>,
+    search: Search,
+}
+
+/// What a search for components knows of each node.
+#[derive(Default)]
+struct Search {
+    /// When it was met: its number among those that were.
+    number: Vec<u32>,
+    /// The least number that it leads to.
+    least: Vec<u32>,
+    is_on_stack: Vec<bool>,
+}
+
+/// No component, and of nodes that are not searched, no number.
+const NONE: u32 = u32::MAX;
+/// The number of nodes that are searched, but were not met so far.
+const UNMET: u32 = u32::MAX - 1;
+/// Of a large component, one in so many nodes is cut out at once. Larger: components are searched
+/// again and again; smaller: more is cut out (and given back one by one).
+const AT_ONCE: usize = 64;
+
+/// Orders nodes by sorted pairs; where these leave a choice, by `rank`.
+///
+/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides, and then
+/// those are given back that close no cycle, so that none is cut out in vain. (To cut out as few as
+/// possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
+pub(super) fn order(nodes: usize, pairs: &[Pair], rank: &[u32]) -> Result<Ordered, Error> {
+    let mut starts = filled(nodes + 1, 0)?;
+    for pair in pairs {
+        starts[pair.below as usize + 1] += 1;
+    }
+    for node in 0..nodes {
+        starts[node + 1] += starts[node];
+    }
+    let (is_cut_out, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
+    let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
+    let search = Search { number, least, is_on_stack: filled(nodes, false)? };
+    let mut graph = Graph { pairs, starts, is_cut_out, component, search };
+    graph.open_cycles()?;
+    let order = graph.sorted(rank)?;
+    Ok(Ordered { order, is_cut_out: graph.is_cut_out })
+}
+
+impl Graph<'_> {
+    fn above(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
+        let [start, end] = [node, node + 1].map(|node| self.starts[node as usize] as usize);
+        self.pairs[start..end].iter().map(|pair| pair.above)
+    }
+
+    /// Cuts out nodes until there is no cycle.
+    fn open_cycles(&mut self) -> Result<(), Error> {
+        let all: Vec<u32> = (0..self.is_cut_out.len() as u32).collect();
+        let first = self.components(&all)?;
+        for nodes in first {
+            let mut cut_out = Vec::new();
+            let mut open = vec![nodes.clone()];
+            while let Some(nodes) = open.pop() {
+                let mut degrees = self.degrees(&nodes);
+                degrees.sort_unstable_by_key(|&(product, node)| Reverse((product, Reverse(node))));
+                degrees.truncate((nodes.len() / AT_ONCE).max(1));
+                for (_, node) in degrees {
+                    self.is_cut_out[node as usize] = true;
+                    self.component[node as usize] = NONE;
+                    cut_out.push(node);
+                }
+                let left: Vec<u32> =
+                    nodes.into_iter().filter(|&node| !self.is_cut_out[node as usize]).collect();
+                open.append(&mut self.components(&left)?);
+            }
+            self.give_back(&nodes, cut_out)?;
+        }
+        Ok(())
+    }
+
+    /// The number of pairs within the component that end at a node, times that of those that begin.
+    fn degrees(&self, nodes: &[u32]) -> Vec<(u64, u32)> {
+        let of = |node: u32| self.component[node as usize];
+        let mut count = std::collections::HashMap::<u32, [u64; 2]>::new();
+        for &node in nodes {
+            for above in self.above(node).filter(|&above| of(above) == of(node)) {
+                count.entry(node).or_default()[0] += 1;
+                count.entry(above).or_default()[1] += 1;
+            }
+        }
+        let product = |node: u32| count.get(&node).map_or(0, |[out, into]| out * into);
+        nodes.iter().map(|&node| (product(node), node)).collect()
+    }
+
+    /// Takes back those of the nodes cut out that close no cycle: all cycles are within `nodes`.
+    fn give_back(&mut self, nodes: &[u32], mut cut_out: Vec<u32>) -> Result<(), Error> {
+        for &node in nodes {
+            self.component[node as usize] = nodes[0];
+        }
+        cut_out.sort_by_key(|&node| self.above(node).count());
+        let mut met: Vec<u32> = filled(self.is_cut_out.len(), NONE)?;
+        for node in cut_out {
+            if !self.closes_cycle(node, nodes[0], &mut met)? {
+                self.is_cut_out[node as usize] = false;
+            }
+        }
+        for &node in nodes {
+            self.component[node as usize] = NONE;
+        }
+        Ok(())
+    }
+
+    fn closes_cycle(&self, start: u32, component: u32, met: &mut [u32]) -> Result<bool, Error> {
+        let mut stack = vec![start];
+        while let Some(node) = stack.pop() {
+            for above in self.above(node) {
+                let index = above as usize;
+                if above == start {
+                    return Ok(true);
+                }
+                let is_new = met[index] != start && self.component[index] == component;
+                if is_new && !self.is_cut_out[index] {
+                    met[index] = start;
+                    reserve(&mut stack, 1)?;
+                    stack.push(above);
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// The strongly connected components of several nodes among these (R. Tarjan, "Depth-first search
+    /// and linear graph algorithms", 1972). Their numbers are left in `component`.
+    fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
+        let Search { number, least, is_on_stack } = &mut self.search;
+        nodes.iter().for_each(|&node| number[node as usize] = UNMET);
+        let (mut stack, mut path, mut found) = (Vec::new(), Vec::new(), Vec::new());
+        let mut next = 0;
+        for &root in nodes {
+            if number[root as usize] != UNMET {
+                continue;
+            }
+            path.push((root, self.starts[root as usize]));
+            while let Some((node, at)) = path.last_mut() {
+                let (v, place) = (*node as usize, *at);
+                if place == self.starts[v] {
+                    (number[v], least[v]) = (next, next);
+                    next += 1;
+                    stack.push(*node);
+                    is_on_stack[v] = true;
+                }
+                let rest = &self.pairs[place as usize..self.starts[v + 1] as usize];
+                let unmet = rest.iter().position(|pair| {
+                    let w = pair.above as usize;
+                    if is_on_stack[w] {
+                        least[v] = least[v].min(number[w]);
+                    }
+                    number[w] == UNMET
+                });
+                if let Some(skip) = unmet {
+                    *at = place + skip as u32 + 1;
+                    let above = rest[skip].above;
+                    // A node is met when its first pair is looked at, so one without pairs as well.
+                    path.push((above, self.starts[above as usize]));
+                    continue;
+                }
+                path.pop();
+                if let Some(&(parent, _)) = path.last() {
+                    least[parent as usize] = least[parent as usize].min(least[v]);
+                }
+                if least[v] == number[v] {
+                    let place = stack.iter().rposition(|&w| w as usize == v).unwrap_or(0);
+                    let nodes = stack.split_off(place);
+                    for &w in &nodes {
+                        is_on_stack[w as usize] = false;
+                        self.component[w as usize] = if nodes.len() > 1 { v as u32 } else { NONE };
+                    }
+                    if nodes.len() > 1 {
+                        found.push(nodes);
+                    }
+                }
+            }
+        }
+        nodes.iter().for_each(|&node| number[node as usize] = NONE);
+        Ok(found)
+    }
+
+    /// All nodes, those of lower rank first where there is a choice (A. B. Kahn, "Topological sorting of
+    /// large networks", 1962).
+    fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
+        let nodes = self.is_cut_out.len();
+        let alive = |pair: &&Pair| !self.is_cut_out[pair.below as usize];
+        let mut waits: Vec<u32> = filled(nodes, 0)?;
+        self.pairs.iter().filter(alive).for_each(|pair| waits[pair.above as usize] += 1);
+        let mut ready: BinaryHeap<Reverse<(u32, u32)>> = (0..nodes as u32)
+            .filter(|&node| waits[node as usize] == 0)
+            .map(|node| Reverse((rank[node as usize], node)))
+            .collect();
+        let mut order = Vec::new();
+        reserve(&mut order, nodes)?;
+        while let Some(Reverse((_, node))) = ready.pop() {
+            order.push(node);
+            if self.is_cut_out[node as usize] {
+                continue;
+            }
+            for above in self.above(node) {
+                let waits = &mut waits[above as usize];
+                *waits -= 1;
+                if *waits == 0 {
+                    ready.push(Reverse((rank[above as usize], above)));
+                }
+            }
+        }
+        Ok(order)
+    }
+}
+
+fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
+    let mut list = Vec::new();
+    reserve(&mut list, len)?;
+    list.resize(len, value);
+    Ok(list)
+}

@@ -1,0 +1,149 @@
+//! Outlines of areas that are given in parts.
+
+use std::collections::HashMap;
+
+/// A side of a part: its line, and where it begins and ends, with the part on its left.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    /// Sides on one line have the same number.
+    pub(super) line: u64,
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+}
+
+/// Points nearer than this, in pixels, are one.
+const GRID: f64 = 1.0 / (1u64 << 16) as f64;
+
+type Place = [i64; 2];
+
+/// The closed outlines of the union of convex parts side by side, each around what is on its
+/// left; `None` if some overlap, or if rounding left an outline open, or nothing.
+///
+/// Where two parts share a side, or some of it, that is no outline.
+pub(super) fn outlines(edges: &[Edge]) -> Option<Vec<Vec<[f64; 2]>>> {
+    let edges = without_common(edges)?;
+    // Which edges begin at a place.
+    let mut begin: HashMap<Place, Vec<usize>> = HashMap::new();
+    for (i, edge) in edges.iter().enumerate() {
+        begin.entry(place(edge.from)).or_default().push(i);
+    }
+    let mut is_used = vec![false; edges.len()];
+    let mut outlines = Vec::new();
+    for first in 0..edges.len() {
+        if is_used[first] {
+            continue;
+        }
+        let mut outline: Vec<[f64; 2]> = Vec::new();
+        let (mut current, mut last_line) = (first, None);
+        loop {
+            is_used[current] = true;
+            let edge = &edges[current];
+            // Edges of one line follow one another where others meet it.
+            if last_line != Some(edge.line) {
+                outline.push(edge.from);
+            }
+            last_line = Some(edge.line);
+            if is_same(edge.to, edges[first].from) {
+                break;
+            }
+            current = next(&begin, &is_used, &edges, current)?;
+        }
+        if outline.len() > 1 && last_line == Some(edges[first].line) {
+            outline.remove(0);
+        }
+        if outline.len() > 2 {
+            outlines.push(outline);
+        }
+    }
+    // Nothing is left of what is smaller than the grid.
+    if outlines.is_empty() { None } else { Some(outlines) }
+}
+
+fn place(point: [f64; 2]) -> Place {
+    point.map(|c| (c / GRID).round() as i64)
+}
+
+fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
+    (0..2).all(|axis| (a[axis] - b[axis]).abs() <= 1.5 * GRID)
+}
+
+/// The unused edge that begins where another ends: of several, the one that turns furthest to the left,
+/// so that outlines that touch in a point stay apart.
+fn next(
+    begin: &HashMap<Place, Vec<usize>>,
+    is_used: &[bool],
+    edges: &[Edge],
+    current: usize,
+) -> Option<usize> {
+    let edge = &edges[current];
+    let [x, y] = place(edge.to);
+    let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+    let found = around.filter_map(|place| begin.get(&place)).flatten().copied();
+    let way = |edge: &Edge| [edge.to[0] - edge.from[0], edge.to[1] - edge.from[1]];
+    let [ax, ay] = way(edge);
+    let turn = |&i: &usize| {
+        let [bx, by] = way(&edges[i]);
+        (ax * by - ay * bx).atan2(ax * bx + ay * by)
+    };
+    let open = found.filter(|&i| !is_used[i] && is_same(edges[i].from, edge.to));
+    open.max_by(|a, b| turn(a).total_cmp(&turn(b)))
+}
+
+/// The edges without what two of them have in common, in opposite directions; `None` if some run in the
+/// same direction, as those of parts that overlap do.
+fn without_common(edges: &[Edge]) -> Option<Vec<Edge>> {
+    let mut by_line: Vec<usize> = (0..edges.len()).collect();
+    by_line.sort_by_key(|&i| edges[i].line);
+    let mut left = Vec::new();
+    for group in by_line.chunk_by(|&a, &b| edges[a].line == edges[b].line) {
+        if let [one] = group {
+            left.push(edges[*one]);
+            continue;
+        }
+        on_one_line(group.iter().map(|&i| &edges[i]), &mut left)?;
+    }
+    Some(left)
+}
+
+/// The same of edges on one line.
+fn on_one_line<'e>(
+    edges: impl Iterator<Item = &'e Edge> + Clone,
+    left: &mut Vec<Edge>,
+) -> Option<()> {
+    // Along the axis on which the line is longer.
+    let span = |axis: usize| edges.clone().map(|e| (e.to[axis] - e.from[axis]).abs()).sum::<f64>();
+    let axis = usize::from(span(1) > span(0));
+    let line = edges.clone().next()?.line;
+    let mut ends: Vec<(i64, i32, [f64; 2])> = Vec::new();
+    for Edge { from, to, .. } in edges {
+        let [a, b] = [from, to].map(|point| (point[axis] / GRID).round() as i64);
+        if a != b {
+            ends.extend([(a, 1, *from), (b, -1, *to)]);
+        }
+    }
+    ends.sort_by_key(|&(at, ..)| at);
+    // At each place, how many more edges run forwards than backwards.
+    let (mut count, mut open) = (0, None);
+    for group in ends.chunk_by(|a, b| a.0 == b.0) {
+        let (before, point) = (count, group[0].2);
+        count += group.iter().map(|&(_, step, _)| step).sum::<i32>();
+        if count.abs() > 1 {
+            return None;
+        }
+        if let Some(from) = open
+            && before != count
+        {
+            let edge = if before > 0 {
+                Edge { line, from, to: point }
+            } else {
+                Edge { line, from: point, to: from }
+            };
+            left.push(edge);
+            open = None;
+        }
+        if count != 0 && open.is_none() {
+            open = Some(point);
+        }
+    }
+    Some(())
+}

@@ -1,0 +1,135 @@
+//! What a picture is made of: pieces of faces, front to back, by the lines that bound them.
+
+use std::ops::Range;
+
+use super::frame::{Frame, Sheet};
+use super::lines::{Half, Lines};
+use crate::Error;
+use crate::exact::PlaneId;
+use crate::memory::reserve;
+use crate::raster::Rays;
+use crate::tree::BspTree;
+
+/// A piece of a face that may show.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Item {
+    /// Its face, by its place in [`Stock::seen`].
+    pub(super) seen: u32,
+    /// Where its cuts begin and end in [`Stock::halves`].
+    cuts: [u32; 2],
+}
+
+/// A face that the camera sees a side of.
+#[derive(Clone, Debug)]
+pub(super) struct Seen {
+    pub(super) face: u32,
+    /// Its edges in [`Stock::halves`], one after another, and what else bounds it.
+    halves: Range<u32>,
+    /// The last of its items.
+    pub(super) last: u32,
+    /// A box around it in the picture.
+    pub(super) region: [[f64; 2]; 2],
+}
+
+/// All pieces that may show, front to back.
+#[derive(Debug)]
+pub(super) struct Stock<'t> {
+    pub(super) lines: Lines<'t>,
+    pub(super) items: Vec<Item>,
+    pub(super) seen: Vec<Seen>,
+    halves: Vec<Half>,
+}
+
+/// Faces that show nothing.
+const UNSEEN: u32 = u32::MAX;
+/// Faces that were not met so far.
+const UNKNOWN: u32 = u32::MAX - 1;
+
+impl<'t> Stock<'t> {
+    /// The pieces of a tree that rays may meet.
+    pub(super) fn new(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
+        let (faces, viewpoint) = (tree.faces(), rays.viewpoint());
+        let lines = Lines::new(Frame { rays, faces });
+        let mut stock = Self { lines, items: vec![], seen: vec![], halves: vec![] };
+        let mut numbers: Vec<u32> = Vec::new();
+        reserve(&mut numbers, faces.len())?;
+        numbers.resize(faces.len(), UNKNOWN);
+        let mut sheets: Vec<Sheet> = Vec::new();
+        for fragment in tree.front_to_back(viewpoint) {
+            let face = fragment.face();
+            let number = &mut numbers[face as usize];
+            if *number == UNKNOWN {
+                *number = stock.see(face, &mut sheets)?;
+            }
+            if *number == UNSEEN {
+                continue;
+            }
+            let seen = *number;
+            let start = stock.halves.len() as u32;
+            for line in fragment.lines().filter(|line| line.as_edge().is_none()) {
+                let half = stock.lines.cut(face, line, &sheets[seen as usize])?;
+                stock.push(half)?;
+            }
+            stock.seen[seen as usize].last = stock.items.len() as u32;
+            reserve(&mut stock.items, 1)?;
+            let cuts = [start, stock.halves.len() as u32];
+            stock.items.push(Item { seen, cuts });
+        }
+        Ok(stock)
+    }
+
+    /// The number of a face, which is added if the picture shows it.
+    fn see(&mut self, face: u32, sheets: &mut Vec<Sheet>) -> Result<u32, Error> {
+        let Frame { rays, faces } = &self.lines.frame;
+        let faces = *faces;
+        let Some(region) = rays.region(faces.corners(face)) else { return Ok(UNSEEN) };
+        let sheet = self.lines.frame.sheet(PlaneId::face(face));
+        let side = sheet.side();
+        let front = side.is_gt() == rays.is_perspective();
+        if side.is_eq() || rays.is_front_only() && !front {
+            return Ok(UNSEEN);
+        }
+        let may_be_behind = rays.is_perspective() && faces.upright_axis(face).is_some();
+        let start = self.halves.len() as u32;
+        for k in 0..faces.corners(face).len() as u32 {
+            let half = self.lines.edge(face, k, &sheet, front)?;
+            self.push(half)?;
+        }
+        // Edges in a plane bound a cone, all of it ahead of the eye; others may bound its image
+        // behind the eye as well.
+        if may_be_behind {
+            let half = self.lines.ahead(face, &sheet)?;
+            self.push(half)?;
+        }
+        let halves = start..self.halves.len() as u32;
+        reserve(sheets, 1)?;
+        sheets.push(sheet);
+        reserve(&mut self.seen, 1)?;
+        self.seen.push(Seen { face, halves, last: 0, region });
+        Ok(self.seen.len() as u32 - 1)
+    }
+
+    fn push(&mut self, half: Half) -> Result<(), Error> {
+        reserve(&mut self.halves, 1)?;
+        self.halves.push(half);
+        Ok(())
+    }
+
+    /// The halves that bound a whole face.
+    pub(super) fn outline(&self, seen: u32) -> &[Half] {
+        let Range { start, end } = self.seen[seen as usize].halves;
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// The halves of the cuts of an item.
+    pub(super) fn cuts(&self, item: u32) -> &[Half] {
+        let [start, end] = self.items[item as usize].cuts;
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// The polygon of an item.
+    pub(super) fn polygon(&self, item: u32) -> usize {
+        let seen = self.items[item as usize].seen;
+        self.lines.frame.faces.polygon(self.seen[seen as usize].face)
+    }
+}

@@ -1,0 +1,47 @@
+//! Small scenes full of coincidences, from hard places.
+
+use super::fill::{Score, check};
+use super::support::hard::{self, HardScene};
+use super::support::tally::tally;
+use binspace::glam::DVec3;
+use binspace::raster::Rays;
+use binspace::view::views;
+use binspace::{BuildOptions, Heuristic};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+
+#[test]
+fn hard_scenes_are_drawn_as_rays_meet_them() {
+    let heuristic = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), heuristic, any::<u64>());
+    let score = tally(file!(), 256, cases, |score: &mut Score, (scene, heuristic, seed)| {
+        draw(&scene, heuristic, seed, score).map_err(TestCaseError::fail)
+    });
+    assert!(score.pictures > 400 && score.pixels > 500_000, "{score:?}");
+    assert!(score.paths > 1000 && score.cut_out > 10, "{score:?}");
+}
+
+fn draw(
+    scene: &HardScene,
+    heuristic: Heuristic,
+    seed: u64,
+    score: &mut Score,
+) -> Result<(), String> {
+    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    let options = match scene.tolerance() {
+        Some(tolerance) => options.with_tolerance(tolerance),
+        None => options,
+    };
+    let tree = options.build(&scene.polygons).map_err(|error| error.to_string())?;
+    let corners = || scene.polygons.iter().flatten().copied();
+    let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
+    else {
+        return Ok(());
+    };
+    for camera in views([low, high], DVec3::Z, 3, [48, 36], seed).into_iter().flatten() {
+        // Some scenes are flat: a camera inside is too near for pixels to be told apart.
+        let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
+        check(&tree, &camera, rays, score)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,119 @@
+//! What is just hidden, and what just shows.
+
+use super::fill::{Score, check};
+use binspace::BspTree;
+use binspace::drawing::VisibilityMap;
+use binspace::glam::DVec3;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+
+fn shown(tree: &BspTree, camera: &Camera) -> Vec<usize> {
+    let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
+    map.polygons().map(|shown| shown.polygon).collect()
+}
+
+fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], z: f64) -> Vec<DVec3> {
+    [[x, y], [x + w, y], [x + w, y + h], [x, y + h]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()
+}
+
+/// A checkerboard, its other squares further back and larger so that they fill the gaps exactly as
+/// seen from the eye: they share only corners and edges in the picture.
+#[test]
+fn what_a_checkerboard_hides_is_hidden_until_a_square_is_missing() {
+    let eye = DVec3::new(0.0, 0.0, 16.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [97, 61]).unwrap();
+    let mut squares = Vec::new();
+    for i in -4..4 {
+        for j in -4..4 {
+            // Twice as far from the eye is twice as large.
+            let (z, scale) = if (i + j) % 2 == 0 { (8.0, 0.5) } else { (0.0, 1.0) };
+            squares.push(rectangle([i, j].map(|c| f64::from(c) * scale), [scale; 2], z));
+        }
+    }
+    let hidden = squares.len();
+    squares.push(rectangle([-3.0, -3.0], [6.0; 2], -1.0));
+    let tree = BspTree::build(&squares).unwrap();
+    let all: Vec<usize> = (0..hidden).collect();
+    assert_eq!(shown(&tree, &camera), all);
+    for missing in [0, 9, 27, 36] {
+        let mut squares = squares.clone();
+        squares.remove(missing);
+        let tree = BspTree::build(&squares).unwrap();
+        let is_shown = shown(&tree, &camera).contains(&(hidden - 1));
+        // The first square is beyond the one behind.
+        assert_eq!(is_shown, missing != 0, "{missing}");
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        check(&tree, &camera, rays, &mut Score::default()).unwrap();
+    }
+}
+
+/// A gap far narrower than a pixel shows what is behind.
+#[test]
+fn the_narrowest_gap_shows_what_is_behind() {
+    let eye = DVec3::new(0.0, 0.0, 5.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [64, 64]).unwrap();
+    for (gap, expected) in [(0.0, vec![0, 1]), (2f64.powi(-40), vec![0, 1, 2])] {
+        let left = rectangle([-4.0, -4.0], [4.0, 8.0], 0.0);
+        let right = rectangle([gap, -4.0], [4.0, 8.0], 0.0);
+        let behind = rectangle([-1.0, -1.0], [2.0; 2], -1.0);
+        let tree = BspTree::build([left, right, behind]).unwrap();
+        assert_eq!(shown(&tree, &camera), expected, "{gap}");
+    }
+}
+
+/// A wall cut into many pieces by what stands before it hides what is behind all of it.
+#[test]
+fn a_wall_in_pieces_hides_all_behind_it() {
+    let mut polygons = vec![rectangle([-50.0, -50.0], [100.0; 2], 0.0)];
+    for i in 0..40 {
+        let at = f64::from(i) - 20.0;
+        // Planes of fins cut the wall.
+        let fin = [
+            [at, -20.0, -0.5],
+            [at + 0.3, 20.0, -0.5],
+            [at + 0.2, 20.0, 0.9],
+            [at - 0.1, -20.0, 0.9],
+        ];
+        polygons.push(fin.map(DVec3::from).to_vec());
+    }
+    let visible = polygons.len();
+    for i in 0..200 {
+        let (x, y) = (f64::from(i % 20) - 10.0, f64::from(i / 20) - 5.0);
+        polygons.push(rectangle([x, y], [0.7, 0.7], -1.0 - f64::from(i)));
+    }
+    let tree = BspTree::build(&polygons).unwrap();
+    assert!(tree.len() > polygons.len(), "the wall is cut");
+    let eye = DVec3::new(0.3, 0.2, 30.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [120, 90]).unwrap();
+    assert!(shown(&tree, &camera).iter().all(|&polygon| polygon < visible));
+}
+
+/// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing.
+#[test]
+fn eyes_on_polygons_and_away_from_all() {
+    let square = rectangle([-1.0, -1.0], [2.0; 2], 0.0);
+    let floor: Vec<DVec3> =
+        [[-9.0, -2.0, 9.0], [9.0, -2.0, 9.0], [9.0, -2.0, -9.0], [-9.0, -2.0, -9.0]]
+            .map(DVec3::from)
+            .to_vec();
+    let tree = BspTree::build([square, floor]).unwrap();
+    for (eye, target, expected) in [
+        (DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, vec![0, 1]),
+        (DVec3::new(3.0, 0.5, 0.0), DVec3::ZERO, vec![1]),
+        (DVec3::new(0.0, -2.0, 5.0), DVec3::ZERO, vec![0]),
+        (DVec3::new(0.0, 0.0, 50.0), DVec3::new(0.0, 0.0, 90.0), vec![]),
+    ] {
+        for size in [[1, 1], [50, 40], [300, 2]] {
+            let camera = Camera::perspective(eye, target, DVec3::Y, 1.2, size).unwrap();
+            let found = shown(&tree, &camera);
+            if size == [50, 40] {
+                assert_eq!(found, expected, "{eye}");
+            }
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            check(&tree, &camera, rays, &mut Score::default()).unwrap();
+        }
+    }
+    let none = BspTree::build::<Vec<DVec3>>([]).unwrap();
+    let camera = Camera::perspective(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [9, 9]).unwrap();
+    assert!(shown(&none, &camera).is_empty());
+}

@@ -1,0 +1,105 @@
+//! Scenes large enough for every part: tiles, threads, cycles.
+
+use super::fill::{Score, check, check_rays};
+use binspace::drawing::VisibilityMap;
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::scene::{Builtin, Scene};
+use binspace::view::{Camera, views};
+use binspace::{BspTree, BuildOptions};
+
+const SIZE: [u32; 2] = [240, 180];
+
+/// Cameras around a scene and inside it, perspective and parallel.
+fn cameras(scene: &Scene, count: usize) -> Vec<Camera> {
+    let (low, high) = scene.bounds().expect("polygons");
+    let mut cameras = views([low, high], scene.up(), count, SIZE, 5).unwrap();
+    let size = (high - low).max_element();
+    for direction in [DVec3::new(1.0, 2.0, -0.7), DVec3::NEG_Z, DVec3::X] {
+        let up = if direction.x == 0.0 { DVec3::Y } else { DVec3::Z };
+        cameras.push(Camera::parallel(direction, up, (low + high) * 0.5, size, SIZE).unwrap());
+    }
+    cameras
+}
+
+fn check_scene(scene: &Scene, score: &mut Score) {
+    let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
+    for camera in cameras(scene, 4) {
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let checked = check(&tree, &camera, rays.clone(), score);
+        checked
+            .and_then(|()| check_rays(&tree, &camera, rays, score))
+            .unwrap_or_else(|fault| panic!("{}, {camera:?}: {fault}", scene.name()));
+    }
+}
+
+#[test]
+fn drawings_of_whole_scenes_are_what_rays_meet() {
+    let mut score = Score::default();
+    for builtin in Builtin::ALL {
+        let size = builtin.default_size().map(|size| size.min(400));
+        check_scene(&builtin.build(size, 3), &mut score);
+    }
+    assert!(score.pixels > 5_000_000 && score.pictures > 50, "{score:?}");
+    assert!(score.unsure < score.pixels / 100, "{score:?}");
+    assert!(score.cut_out > 100 && score.rays > 2000, "{score:?}");
+}
+
+/// Fewer and fewer pixels for each polygon: tiles are halved down to a few pixels and below.
+#[test]
+fn many_small_triangles() {
+    let mut random = SplitMix64::new(1);
+    let mut score = Score::default();
+    for (count, edge) in [(3000, 0.03), (3000, 0.3), (400, 1.0)] {
+        let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
+        for _ in 0..count {
+            let centre = random.point(0.0, 1.0);
+            scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge), 0);
+        }
+        check_scene(&scene, &mut score);
+    }
+    assert!(score.pixels > 1_000_000 && score.cut_out > 500, "{score:?}");
+}
+
+/// Of a height field and of a convex body, no polygon is in a cycle.
+#[test]
+fn nothing_is_cut_out_of_scans() {
+    for builtin in [Builtin::Terrain, Builtin::Sphere] {
+        let scene = builtin.build(Some(2000), 3);
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        for camera in cameras(&scene, 4) {
+            let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+            let drawing = map.drawing().unwrap();
+            assert!(drawing.paths().all(|path| !path.is_cut_out()), "{builtin:?}");
+        }
+    }
+}
+
+/// Polygons that show in the upper or in the lower rows are those that show in all.
+#[test]
+fn parts_of_a_picture_show_the_same_polygons() {
+    let scene = Builtin::City.build(Some(1000), 3);
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    let mut compared = 0;
+    for camera in cameras(&scene, 4) {
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let shown = |rays: Rays| {
+            let map = VisibilityMap::of(&tree, rays).unwrap();
+            map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
+        };
+        let whole = shown(rays.clone());
+        let mut parts = [0..50, 50..51, 51..180].map(|rows| shown(rays.rows(rows))).concat();
+        parts.sort_by_key(|&(polygon, _)| polygon);
+        let together: Vec<(usize, f64)> = parts
+            .chunk_by(|a, b| a.0 == b.0)
+            .map(|same| (same[0].0, same.iter().map(|part| part.1).sum()))
+            .collect();
+        assert_eq!(whole.len(), together.len());
+        for (whole, parts) in whole.iter().zip(&together) {
+            assert!(whole.0 == parts.0 && (whole.1 - parts.1).abs() < 1e-6, "{whole:?} {parts:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
