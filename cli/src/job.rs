@@ -90,24 +90,30 @@ pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) 
     let quads = scene.polygons().filter(|polygon| polygon.len() > 3).count();
     if 2 * found.bent > quads {
         note(&format!(
-            "{}: {} of {} with four corners or more are bent by at most {:.1e}, as by a rounding: \
-             `--tolerance {:.0e}` would keep them whole",
+            "{}: {} of {} with four corners or more are bent by at most {}, as by a rounding: \
+             `--tolerance {}` would keep them whole",
             scene.name(),
             found.bent,
             count(quads, "face"),
-            found.bent_by,
-            2.0 * found.bent_by,
+            short(found.bent_by),
+            short(raised(found.bent_by)),
         ));
     } else if scene.precision() > 0.0 && limits.tolerance.is_none() {
         let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
         note(&format!(
-            "{}: the last decimal of its coordinates is {}, so the tolerance is {}, unless you give \
+            "{}: the last decimal that its coordinates need is {}, so the tolerance is {}, unless you give \
              `--tolerance`",
             scene.name(),
             short(scene.precision()),
             short(tolerance),
         ));
     }
+}
+
+/// A length of two digits that is larger, by a tenth at most.
+fn raised(length: f64) -> f64 {
+    let unit = 10f64.powi(length.log10().floor() as i32 - 1);
+    ((length / unit).floor() + 1.0) * unit
 }
 
 /// A length with two digits.
