@@ -116,7 +116,7 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
 #[test]
 fn quads_that_a_coarse_rounding_bends_are_noted_with_a_tolerance_that_helps() {
     let folder = Folder::new("stats_coarse");
-    for places in [2, 3, 4] {
+    for places in [2, 3] {
         folder.write("s.obj", rounded_quads(places));
         let run = folder.run("stats s.obj --json");
         let notes = run.err.clone();

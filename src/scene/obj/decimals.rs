@@ -110,7 +110,8 @@ impl Decimals {
         let is_odd = |digits: &Digits| is_long(digits) && digits.last < finest;
         let odd = count_if(&|digits| !is_zero(digits) && is_odd(digits));
         let are_strays = odd <= (self.zeros + count_if(&|_| true)) / STRAYS;
-        let cut = |digits: Digits| if are_strays && is_odd(&digits) { digits.cut() } else { digits };
+        let cut =
+            |digits: Digits| if are_strays && is_odd(&digits) { digits.cut() } else { digits };
         self.seen.keys().copied().filter(|digits| !is_zero(digits)).map(cut).collect()
     }
 
