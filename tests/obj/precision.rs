@@ -52,14 +52,18 @@ fn quads_that_only_the_decimals_bend_stay_whole() {
 /// Ways that files write six decimals: as they are, filled up with zeros, and with a stray here and
 /// there that has as many digits as an `f64`.
 fn writers() -> [Box<dyn Fn(f64) -> String>; 4] {
-    let written = std::cell::Cell::new(0);
+    let written = std::cell::Cell::new(0_u32);
     [
         Box::new(|c| format!("{c:.6}")),
         Box::new(|c| format!("{c:.6}0000")),
         Box::new(move |c| {
             written.set(written.get() + 1);
             let c: f64 = format!("{c:.6}").parse().unwrap();
-            if written.get() % 150 == 0_usize { format!("{:.17}", c + 1e-9) } else { c.to_string() }
+            if written.get().is_multiple_of(150) {
+                format!("{:.17}", c + 1e-9)
+            } else {
+                c.to_string()
+            }
         }),
         // The noise of a computation in each of them.
         Box::new(|c| {
