@@ -116,14 +116,14 @@ fn fragments_and_nodes_are_read_from_both_ends() {
     assert!(deep > 10, "{deep}");
 }
 
-/// Two squares, a line that is dropped, and an arrow of two triangles, all above each other; then a
+/// Two squares, lines that are dropped, and an arrow of two triangles, all above each other; then a
 /// square through the first two.
 #[test]
 fn as_many_fragments_as_faces_say_that_nothing_was_cut() {
     let square = |z: f64| vec![[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 4.0, z], [0.0, 4.0, z]];
     let line = vec![[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [2.0, 0.0, 5.0]];
     let arrow = vec![[0.0, 0.0, 2.0], [2.0, 1.0, 2.0], [4.0, 0.0, 2.0], [2.0, 4.0, 2.0]];
-    let mut polygons = vec![square(0.0), square(1.0), line, arrow];
+    let mut polygons = vec![square(0.0), square(1.0), line.clone(), line, arrow];
     let tree = BspTree::build(&polygons).unwrap();
     assert_eq!((tree.face_count(), tree.len()), (4, 4));
     polygons.push(vec![[2.0, 1.0, -1.0], [2.0, 3.0, -1.0], [2.0, 3.0, 1.5], [2.0, 1.0, 1.5]]);
