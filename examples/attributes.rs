@@ -5,8 +5,10 @@
 //! ```
 //!
 //! Five sheets cross each other and are cut. `Fragment::weights` says of what corners each new vertex
-//! is made, so checks and colours run on over the cuts, which the picture, `docs/attributes.png`,
-//! draws as thin lines.
+//! is made, so checks and colours run on over the cuts, which the picture draws as
+//! thin lines.
+//!
+//! ![Five sheets that cross, with checks that run on over the cuts](../docs/attributes.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 

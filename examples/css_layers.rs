@@ -6,8 +6,9 @@
 //! ```
 //!
 //! No card can be painted before its neighbour, so the page is cut. The badge is in the plane of its
-//! card and comes after it in the list, so it is painted over it and is not cut by it. The picture is
-//! `docs/css_layers.png`.
+//! card and comes after it in the list, so it is painted over it and is not cut by it.
+//!
+//! ![Glass cards that cross, cut and painted back to front](../docs/css_layers.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 

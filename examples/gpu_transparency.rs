@@ -8,7 +8,9 @@
 //! ```
 //!
 //! There is no window. `Target` stands for the device: it draws indexed triangles with a depth test
-//! and blending. ![The last frame](../docs/gpu_transparency.png)
+//! and blending.
+//!
+//! ![The last frame: panes of glass that cross, pillars and a ball](../docs/gpu_transparency.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 

@@ -7,7 +7,9 @@
 //!
 //! The surfaces are the polygons of a tree. Lines and points go into an overlay, which cuts each line
 //! where it goes through a surface, so that it is painted before the surface on one side and after it
-//! on the other. A label is a point that is written at its turn. The picture is `docs/plot.png`.
+//! on the other. A label is a point that is written at its turn.
+//!
+//! ![Two surfaces that cross, axes, a curve, markers and labels](../docs/plot.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 

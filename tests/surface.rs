@@ -104,6 +104,9 @@ fn fragments_and_nodes_are_read_from_both_ends() {
         check_ends(tree.fragments().map(|f| f.index()), &numbers, &mut dice);
         assert_eq!(tree.fragments().nth(2).map(|f| f.index()), numbers.get(2).copied());
         let stats = tree.stats();
+        // As many fragments as faces say that nothing was cut.
+        assert_eq!(tree.face_count(), stats.faces);
+        assert_eq!(tree.len() == tree.face_count(), stats.splits == 0);
         let nodes: Vec<_> = tree.nodes().collect();
         assert_eq!(nodes.len(), stats.nodes);
         assert_eq!(nodes.iter().map(|node| node.depth()).max().unwrap_or(0), stats.depth_max);
@@ -111,6 +114,22 @@ fn fragments_and_nodes_are_read_from_both_ends() {
         deep += usize::from(stats.depth_max > 8);
     }
     assert!(deep > 10, "{deep}");
+}
+
+/// Two squares, lines that are dropped, and an arrow of two triangles, all above each other; then a
+/// square through the first two.
+#[test]
+fn as_many_fragments_as_faces_say_that_nothing_was_cut() {
+    let square = |z: f64| vec![[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 4.0, z], [0.0, 4.0, z]];
+    let line = vec![[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [2.0, 0.0, 5.0]];
+    let arrow = vec![[0.0, 0.0, 2.0], [2.0, 1.0, 2.0], [4.0, 0.0, 2.0], [2.0, 4.0, 2.0]];
+    let mut polygons = vec![square(0.0), square(1.0), line.clone(), line, arrow];
+    let tree = BspTree::build(&polygons).unwrap();
+    assert_eq!((tree.face_count(), tree.len()), (4, 4));
+    polygons.push(vec![[2.0, 1.0, -1.0], [2.0, 3.0, -1.0], [2.0, 3.0, 1.5], [2.0, 1.0, 1.5]]);
+    let tree = BspTree::build(&polygons).unwrap();
+    assert_eq!(tree.face_count(), 5);
+    assert!(tree.len() > 5);
 }
 
 #[test]

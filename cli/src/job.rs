@@ -88,26 +88,38 @@ pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparat
 pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
     let found = tree.preparation();
     let quads = scene.polygons().filter(|polygon| polygon.len() > 3).count();
+    let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
     if 2 * found.bent > quads {
         note(&format!(
-            "{}: {} of {} with four corners or more are bent by at most {:.1e}, as by a rounding: \
-             `--tolerance {:.0e}` would keep them whole",
+            "{}: {} of {} with four corners or more are bent by at most {}, as by a rounding: \
+             `--tolerance {}` would keep them whole (it is {})",
             scene.name(),
             found.bent,
             count(quads, "face"),
-            found.bent_by,
-            2.0 * found.bent_by,
+            short(found.bent_by),
+            short(raised(found.bent_by)),
+            short(tolerance),
         ));
     } else if scene.precision() > 0.0 && limits.tolerance.is_none() {
-        let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
+        let bound = match tolerance / scene.precision() {
+            ..0.999 => ", 1e-5 of the extent and the largest by default",
+            1.001.. => ", 1e-9 of the extent and the least by default",
+            _ => "",
+        };
         note(&format!(
-            "{}: the last decimal of its coordinates is {}, so the tolerance is {}, unless you give \
-             `--tolerance`",
+            "{}: the last decimal that its coordinates need is {}, so the tolerance is {}{bound}, \
+             unless you give `--tolerance`",
             scene.name(),
             short(scene.precision()),
             short(tolerance),
         ));
     }
+}
+
+/// A length of two digits that is larger, by a tenth at most.
+fn raised(length: f64) -> f64 {
+    let unit = 10f64.powi(length.log10().floor() as i32 - 1);
+    ((length / unit).floor() + 1.0) * unit
 }
 
 /// A length with two digits.

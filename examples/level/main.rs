@@ -8,8 +8,10 @@
 //! Each frame walks the tree from front to back. A subtree is skipped if its box is outside of the
 //! camera's frustum, or if a mask of the picture's pixels says that all it may cover is covered. What
 //! is left owns the pixels of the picture, and no visit depends on how large the rest of the level is.
-//! `docs/level.png` shows a frame, and beside it a map: bright is what was painted, dark what
-//! was never looked at.
+//! The picture shows a frame, and beside it a map: bright is what was painted, dark what was never
+//! looked at.
+//!
+//! ![A frame inside the rooms, and a map of what was looked at](../../docs/level.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 

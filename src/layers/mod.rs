@@ -60,13 +60,20 @@
 //! | layer | becomes |
 //! |---|---|
 //! | NaN or infinite numbers, or some whose products are | an error that names the layer |
-//! | behind the eye, beside the viewport | no piece |
+//! | outside of the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ of its longer side, as 10¹⁸ pixels are | no piece |
+//! | any, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
-//! | a matrix that makes a line or a point of it; a layer seen along its edge, up to the rounding of the matrix | no piece |
+//! | a matrix that makes a line or a point of it | no piece |
+//! | seen along its edge, up to the rounding of the matrix; a rectangle so far from its own origin that this rounding is as large as its area on the screen counts as such | no piece |
+//! | numbers so small that `f64` holds them with fewer digits: where w is below 2·10⁻³⁰⁸, as of a matrix times 10⁻³¹⁰, or where the sides of the rectangle times each other are, as of 10⁻¹⁷⁰ by 10⁻¹⁷⁰ | no piece |
+//! | on the screen smaller than the rounding of positions, 2⁻⁵² of how far the page reaches | no piece |
 //! | any other | a convex polygon of at most ten corners, in as many pieces as other layers cut it |
 //!
-//! A layer's number is its index in the list, whatever became of others. Layers in one plane come in
-//! the order of the list.
+//! There is no other way to have no piece, and a layer of which a part is in the box has its part. So
+//! only numbers that are none are an error: a card that turns past its edge, or leaves the screen, is
+//! an ordinary frame. [`Layers::visible`] counts the layers that have a piece; which those are,
+//! [`LayerPiece::layer`] tells. A layer's number is its index in the list, whatever became of others.
+//! Layers in one plane come in the order of the list.
 //!
 //! # Why to clip
 //!

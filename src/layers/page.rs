@@ -63,7 +63,8 @@ struct Outline {
 }
 
 impl Layers {
-    /// An empty page on a screen from the `low` to the `high` corner of its viewport.
+    /// An empty page on a screen from the `low` to the `high` corner of its viewport. If that has no
+    /// area, nothing is ever seen.
     pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
         Self {
             viewport: [low.into(), high.into()],
@@ -192,7 +193,8 @@ impl Layers {
         [(low - across).extend(-reach), (high + across).extend(reach)]
     }
 
-    /// How many layers are seen, each as one piece or more.
+    /// How many layers are seen, each as one piece or more. [The module](super#what-becomes-of-a-layer)
+    /// lists why others are not.
     pub fn visible(&self) -> usize {
         self.visible
     }

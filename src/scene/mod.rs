@@ -212,7 +212,7 @@ impl Scene {
     }
 
     /// How far corners may be off the planes that they were meant to be on, a length: of a scene
-    /// from an OBJ file, one unit in the last decimal that it writes. 0 in generated scenes.
+    /// from an OBJ file, one unit in the last decimal that its coordinates need. 0 in generated scenes.
     pub fn precision(&self) -> f64 {
         self.precision
     }

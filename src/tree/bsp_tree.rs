@@ -34,7 +34,8 @@ use crate::faces::Preparation;
 /// # What it holds
 ///
 /// The tree stores every polygon that has area, as one or more *fragments*: convex pieces. A
-/// polygon that no partition plane cuts is one fragment. Polygons without area are dropped
+/// polygon that no partition plane cuts is one fragment, so if there are as many fragments as faces
+/// ([`len`](Self::len) is [`face_count`](Self::face_count)), nothing was cut. Polygons without area are dropped
 /// ([`dropped`](Self::dropped) lists them). Polygons that are not convex, or not planar within the
 /// tolerance, are triangulated first.
 ///
@@ -174,7 +175,7 @@ use crate::faces::Preparation;
 /// |---|---|---|
 /// | `f64` | 10⁻⁹ of the extent | 0 if layers, however thin, must never be exchanged |
 /// | `f32`, computed or not | four steps of the largest coordinate, 2·10⁻⁷ to 5·10⁻⁷ of the extent | 0 if no computation has touched them, as on integers |
-/// | an OBJ file | one unit in the last decimal that it writes, at most 10⁻⁵ of the extent | |
+/// | an OBJ file | one unit in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent | a larger length if most quads are [`bent`](crate::Stats::bent) by a coarse rounding |
 /// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), at least 10⁻⁹ of the extent | |
 /// | thin layers in a scene of large extent | | a length below half the distance of the layers |
 ///
@@ -307,6 +308,16 @@ impl BspTree {
     /// Whether there are no fragments.
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
+    }
+
+    /// How many faces there are: polygons with area, of which those that were triangulated have
+    /// a face for each triangle. O(1).
+    ///
+    /// If [`len`](Self::len) is the same, no face was cut: each is drawn whole, and none goes through
+    /// another by more than the tolerance. (If it is larger, some may have been cut only because a
+    /// partition plane goes through them.)
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
     }
 
     /// The faces that the fragments are pieces of, for `raster`.

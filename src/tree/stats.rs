@@ -10,7 +10,8 @@ use crate::exact::{Plane, PlaneId};
 pub struct Stats {
     /// Polygons in the input.
     pub polygons: usize,
-    /// Convex faces: polygons, and the triangles of polygons that were triangulated.
+    /// Convex faces: polygons, and the triangles of polygons that were triangulated;
+    /// [`BspTree::face_count`].
     pub faces: usize,
     /// Fragments in the tree.
     pub fragments: usize,
@@ -38,7 +39,7 @@ pub struct Stats {
     pub flattened: usize,
     /// How far their corners were off at most, a length.
     pub flattened_by: f64,
-    /// Polygons that are bent by little more than the tolerance, as by a rounding; see
+    /// Polygons that are bent by more than the tolerance, but by no more than a rounding; see
     /// [`Preparation::bent`](crate::Preparation::bent).
     pub bent: usize,
     /// How far their corners are off at most, a length.

@@ -120,6 +120,50 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
     );
 }
 
+/// Numbers that are too large or too small by far, and beside each the same that are just not.
+#[test]
+fn what_is_too_far_or_too_small_has_no_piece_and_what_is_a_little_less_so_has() {
+    let at = |x: f64, y: f64, z: f64| DMat4::from_translation(dvec3(x, y, z));
+    let middle = at(960.0, 540.0, 0.0);
+    // A card that is turned, of this size, with its low corner at (low, low) but shown in the middle.
+    let turned = |low: f64, size: f64| {
+        let matrix = camera() * DMat4::from_rotation_y(0.7) * at(-low, -low, 0.0);
+        Layer::new([[low, low], [low + size, low + size]], matrix)
+    };
+    let sized = |size: f64| Layer::new([[0.0, 0.0], [size, size]], middle);
+    let depth = 1920.0 * f64::from(1 << 20);
+    let cases = [
+        ("depth", Layer::new(CARD, at(960.0, 540.0, 1e18)), at(960.0, 540.0, 0.99 * depth)),
+        (
+            "depth behind",
+            Layer::new(CARD, at(960.0, 540.0, -1e18)),
+            at(960.0, 540.0, -0.99 * depth),
+        ),
+        (
+            "depth after w",
+            Layer::new(CARD, camera() * at(0.0, 0.0, -1e18)),
+            camera() * at(0.0, 0.0, -1e6),
+        ),
+        ("right", Layer::new(CARD, at(1e18, 540.0, 0.0)), at(2019.0, 540.0, 0.0)),
+        ("above", Layer::new(CARD, at(960.0, -1e18, 0.0)), at(960.0, -59.0, 0.0)),
+        ("small matrix", Layer::new(CARD, middle * 1e-310), middle * 1e-300),
+        ("small matrix of a camera", Layer::new(CARD, camera() * 1e-310), camera() * 1e-300),
+    ];
+    for (name, layer, not_so) in cases {
+        assert_eq!(pieces(layer), 0, "{name}");
+        assert!(pieces(Layer::new(CARD, not_so)) > 0, "{name}, a little less so");
+    }
+    let cases = [
+        ("small rectangle", sized(1e-170), sized(1e-6)),
+        ("below the grid", sized(1e-14), sized(1e-6)),
+        ("far from its origin", turned(1e18, 1000.0), turned(1e8, 1000.0)),
+    ];
+    for (name, layer, not_so) in cases {
+        assert_eq!(pieces(layer), 0, "{name}");
+        assert!(pieces(not_so) > 0, "{name}, a little less so");
+    }
+}
+
 /// Homogeneous coordinates mean the same at any scale.
 #[test]
 fn the_scale_of_a_matrix_does_not_matter() {

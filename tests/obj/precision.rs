@@ -32,6 +32,7 @@ fn it_is_one_unit_in_the_last_decimal() {
     let of = |text: &str| read(text).unwrap().0.precision();
     assert_eq!(of(&with_corners("f 1 2 3")), 1.0);
     assert_eq!(of("v 0 0 0\nv 1.50 0 0\nv 0 1 0.125\nf 1 2 3"), 1e-3);
+    assert_eq!(of("v 0.000000 0 0\nv 1.500000 0 0\nv 0 1.000000 0.125000\nf 1 2 3"), 1e-3);
     assert_eq!(binspace::scene::crossing(2).precision(), 0.0);
 }
 
@@ -48,24 +49,82 @@ fn quads_that_only_the_decimals_bend_stay_whole() {
     assert!(stats.triangulated > 30 && stats.bent == stats.triangulated, "{stats:?}");
 }
 
+/// Ways that files write six decimals: as they are, filled up with zeros, and with a stray here and
+/// there that has as many digits as an `f64`.
+fn writers() -> [Box<dyn Fn(f64) -> String>; 4] {
+    let written = std::cell::Cell::new(0_u32);
+    [
+        Box::new(|c| format!("{c:.6}")),
+        Box::new(|c| format!("{c:.6}0000")),
+        Box::new(move |c| {
+            written.set(written.get() + 1);
+            let c: f64 = format!("{c:.6}").parse().unwrap();
+            if written.get().is_multiple_of(150) {
+                format!("{:.17}", c + 1e-9)
+            } else {
+                c.to_string()
+            }
+        }),
+        // The noise of a computation in each of them.
+        Box::new(|c| {
+            let c: f64 = format!("{c:.6}").parse().unwrap();
+            f64::from_bits(c.to_bits() + 1).to_string()
+        }),
+    ]
+}
+
+#[test]
+fn neither_zeros_at_the_end_nor_strays_raise_it() {
+    for (k, write) in writers().iter().enumerate() {
+        let (scene, _) = layers(60, 1000.0, write);
+        assert_eq!(scene.precision(), 1e-6, "{k}");
+        let stats = BspTree::build(scene.polygons()).unwrap().stats();
+        assert!(stats.flattened > 40 && stats.triangulated < 15, "{k}: {stats:?}");
+    }
+}
+
 /// Layers three units apart and more are told apart, from both sides.
 #[test]
 fn layers_some_units_apart_keep_their_order() {
-    for units in [3.0, 4.0, 10.0] {
-        let (scene, normal) = layers(30, units, |c| format!("{c:.6}"));
-        let tree = BspTree::build(scene.polygons()).unwrap();
-        assert!(tree.stats().tolerance >= 1e-6, "{:?}", tree.stats());
-        for side in [1.0, -1.0] {
-            let order: Vec<usize> = tree
-                .back_to_front(Viewpoint::direction(normal * -side))
-                .map(|fragment| fragment.polygon())
-                .collect();
-            let place = |polygon| order.iter().position(|&p| p == polygon).unwrap();
-            let last = |polygon| order.iter().rposition(|&p| p == polygon).unwrap();
-            for upper in 1..30 {
-                let (far, near) = if side > 0.0 { (upper - 1, upper) } else { (upper, upper - 1) };
-                assert!(last(far) < place(near), "{units} units: {order:?}");
-            }
+    for (write, units) in writers().iter().flat_map(|w| [3.0, 4.0, 10.0].map(|units| (w, units))) {
+        let (scene, normal) = layers(30, units, write);
+        layers_are_in_order(&scene, normal, units);
+    }
+}
+
+/// Whole numbers, filled up with zeros, and two thin layers over a floor: they are few, but not strays.
+#[test]
+fn few_thin_layers_among_short_numbers_keep_their_order() {
+    let mut text = String::new();
+    for z in (0..300).map(|k| -f64::from(k)).rev().chain([0.0005, 0.001]) {
+        for [x, y] in [[0, 0], [9, 0], [9, 9], [0, 9]] {
+            writeln!(text, "v {x}.000000 {y}.000000 {z:.6}").unwrap();
+        }
+        text += "f -4 -3 -2 -1\n";
+    }
+    let (scene, _) = read(text).unwrap();
+    assert_eq!(scene.precision(), 1e-4);
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    let order: Vec<usize> = tree
+        .back_to_front(Viewpoint::direction(DVec3::Z))
+        .map(|fragment| fragment.polygon())
+        .collect();
+    assert!(order.iter().rev().copied().eq(0..302), "{order:?}");
+}
+
+fn layers_are_in_order(scene: &Scene, normal: DVec3, units: f64) {
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    assert!(tree.stats().tolerance >= 1e-6, "{:?}", tree.stats());
+    for side in [1.0, -1.0] {
+        let order: Vec<usize> = tree
+            .back_to_front(Viewpoint::direction(normal * -side))
+            .map(|fragment| fragment.polygon())
+            .collect();
+        let place = |polygon| order.iter().position(|&p| p == polygon).unwrap();
+        let last = |polygon| order.iter().rposition(|&p| p == polygon).unwrap();
+        for upper in 1..30 {
+            let (far, near) = if side > 0.0 { (upper - 1, upper) } else { (upper, upper - 1) };
+            assert!(last(far) < place(near), "{units} units: {order:?}");
         }
     }
 }

@@ -69,8 +69,8 @@ fn a_heuristic_over_budget_does_not_stop_the_others() {
     assert!(run.err.contains(&format!("error: random:100: {over} tree")), "{run:?}");
 }
 
-/// Ten quads in one tilted plane, to six decimals.
-fn rounded_quads() -> String {
+/// Ten quads in one tilted plane, to some decimals.
+fn rounded_quads(places: usize) -> String {
     let mut text = String::new();
     for i in 0..10 {
         let turn = f64::from(i);
@@ -78,7 +78,7 @@ fn rounded_quads() -> String {
             let (sin, cos) = (turn + angle).sin_cos();
             let (x, y) = (cos + 0.1 * turn, sin);
             let z = (x + 2.0 * y) / 3.0;
-            text += &format!("v {x:.6} {y:.6} {z:.6}\n");
+            text += &format!("v {x:.places$} {y:.places$} {z:.places$}\n");
         }
         let first = 4 * i + 1;
         text += &format!("f {first} {} {} {}\n", first + 1, first + 2, first + 3);
@@ -89,14 +89,15 @@ fn rounded_quads() -> String {
 #[test]
 fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
     let folder = Folder::new("stats_tolerance");
-    folder.write("s.obj", rounded_quads());
+    folder.write("s.obj", rounded_quads(6));
     let run = |options: &str| {
         let run = folder.run(&format!("stats s.obj --json {options}"));
         let notes = run.err.clone();
         (serde_json::from_str::<Value>(&run.good()).unwrap(), notes)
     };
     let (line, notes) = run("");
-    let said = "the last decimal of its coordinates is 1e-6, so the tolerance is 1e-6, unless";
+    let said =
+        "the last decimal that its coordinates need is 1e-6, so the tolerance is 1e-6, unless";
     assert!(notes.contains(said), "{notes}");
     let tolerance = line["tolerance"].as_f64().unwrap();
     assert!((tolerance - 1e-6).abs() < 1e-15, "{line}");
@@ -108,4 +109,38 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
     assert_eq!((line["tolerance"].as_f64(), line["flattened"].as_u64()), (Some(0.0), Some(0)));
     let bent_by = line["bent_by"].as_f64().unwrap();
     assert!(line["bent"].as_u64() >= Some(6) && bent_by > 0.0 && bent_by < 2e-6, "{line}");
+}
+
+/// Where a unit in the last decimal is far more than 1e-5 of the extent, so that the default
+/// tolerance is too small for most quads.
+#[test]
+fn quads_that_a_coarse_rounding_bends_are_noted_with_a_tolerance_that_helps() {
+    let folder = Folder::new("stats_coarse");
+    for places in [2, 3] {
+        folder.write("s.obj", rounded_quads(places));
+        let run = folder.run("stats s.obj --json");
+        let notes = run.err.clone();
+        let line: Value = serde_json::from_str(&run.good()).unwrap();
+        let (bent, bent_by) = (line["bent"].as_u64().unwrap(), line["bent_by"].as_f64().unwrap());
+        let unit = 10f64.powi(-(places as i32));
+        assert!(bent >= 6 && bent_by < 2.0 * unit, "{places}: {line}");
+        let said = format!("{bent} of 10 faces with four corners or more are bent by at most");
+        assert!(notes.contains(&said), "{places}: {notes}");
+        let tolerance = notes.split('`').find(|part| part.starts_with("--tolerance")).unwrap();
+        let run = folder.run(&format!("stats s.obj --json {tolerance}"));
+        assert!(!run.err.contains("are bent"), "{places}: {}", run.err);
+        let line: Value = serde_json::from_str(&run.good()).unwrap();
+        assert_eq!((line["bent"].as_u64(), line["triangulated"].as_u64()), (Some(0), Some(0)));
+    }
+}
+
+/// Quads that are bent on purpose are no rounding's.
+#[test]
+fn quads_that_are_bent_by_more_than_a_rounding_are_not_noted() {
+    let folder = Folder::new("stats_saddle");
+    folder.write("s.obj", "v 0 0 0.00\nv 1 0 0.25\nv 1 1 0\nv 0 1 0.25\nf 1 2 3 4\n");
+    let run = folder.run("stats s.obj --json");
+    assert!(!run.err.contains("are bent"), "{}", run.err);
+    let line: Value = serde_json::from_str(&run.good()).unwrap();
+    assert_eq!((line["bent"].as_u64(), line["triangulated"].as_u64()), (Some(0), Some(1)));
 }

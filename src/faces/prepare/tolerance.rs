@@ -34,8 +34,8 @@ const LARGEST: f64 = LATTICE_LIMIT / 128.0;
 pub enum Tolerance {
     /// The largest [`precision`](crate::Polygon::precision) of the polygons, but between 10⁻⁹ and
     /// 10⁻⁵ of the extent. For `f64` near the origin that is 10⁻⁹, for `f32` between 2·10⁻⁷ and
-    /// 5·10⁻⁷ of the extent, for a scene read from an OBJ file one unit in the last decimal that it
-    /// writes.
+    /// 5·10⁻⁷ of the extent, for a scene read from an OBJ file one unit in the last decimal that its
+    /// coordinates need, zeros at the end aside.
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -68,7 +68,8 @@ pub(super) struct Ground {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
-    /// The largest distance, in lattice units, that is taken for a rounding.
+    /// The largest distance, in lattice units, that is taken for a rounding where a polygon is
+    /// triangulated for it.
     pub(super) rounding: f64,
 }
 
@@ -96,6 +97,9 @@ impl Ground {
             Tolerance::Length(length) => lattice.length_to_lattice(length),
             Tolerance::Relative(share) => share * extent,
         };
-        Self { lattice, tolerance: tolerance.min(LARGEST), rounding }
+        // Corners that are off by half a unit each put one off the plane of three others by two
+        // units at most, if the face is not much narrower at one end.
+        let coarse = (2.0 * lattice.length_to_lattice(precision)).min(LARGEST);
+        Self { lattice, tolerance: tolerance.min(LARGEST), rounding: rounding.max(coarse) }
     }
 }

@@ -1,63 +1,136 @@
 //! How precisely a file writes its coordinates.
 
-/// Powers of ten from −`DECADES` to `DECADES` − 1 are told apart.
-const DECADES: i32 = 40;
+use std::collections::BTreeMap;
+
 /// The least fixed number of significant digits that programs write. Fewer: short numbers of
 /// different size, as people write them, are taken for rounded ones.
 const FEWEST_DIGITS: i32 = 5;
+/// The decimal digits that an `f64` holds, whatever its value; those behind are noise of a
+/// computation, as in `0.30000000000000004`.
+const DIGITS_OF_F64: i32 = 15;
+/// Numbers are zero but for noise if they begin so many places behind the largest. Smaller: thin
+/// layers near zero are not seen; larger: one sine of a rounded π decides.
+const NOISE_PLACES: i32 = 11;
+/// Numbers of so many significant digits are long. Fewer: the heights of thin layers, as people
+/// write them, are long; more: those that a program computed in `f32` are not.
+const LONG: i32 = 8;
+/// At most one number in so many is a stray. Smaller: parts of a scene that are more precise than
+/// the rest are overlooked; larger: a few long numbers decide for all.
+const STRAYS: usize = 100;
+/// The first digits that count of a long number, if such numbers are strays. Fewer: layers near zero
+/// that a program computed are merged; more: a stray decides for all.
+const DIGITS_OF_STRAYS: i32 = 3;
 
 /// What was seen of the digits of numbers.
 ///
 /// Programs write either a fixed number of decimals, or a fixed number of significant digits. In
 /// the latter case numbers of different size have as many digits, which otherwise only the largest
-/// numbers have. Zeros that were left off at an end do no harm, as the longest numbers decide.
-#[derive(Debug)]
+/// numbers have. Zeros that a program adds at the end are not of the number; zeros that it leaves
+/// off there do no harm, as the longest numbers decide. Only numbers far longer than nearly all
+/// others do not: see [`Digits::without_noise`] and [`Decimals::counted`].
+#[derive(Debug, Default)]
 pub(super) struct Decimals {
-    /// The most digits behind the point of any number; fewer than none before a large power of ten.
-    most: Option<i32>,
-    /// For each power of ten, the most significant digits of the numbers that begin there.
-    digits: [i32; 2 * DECADES as usize],
+    zeros: usize,
+    /// How many numbers have such digits.
+    seen: BTreeMap<Digits, usize>,
 }
 
-impl Default for Decimals {
-    fn default() -> Self {
-        Self { most: None, digits: [0; 2 * DECADES as usize] }
+/// Which digits a number has; places are powers of ten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Digits {
+    /// The place of the first digit that is not 0.
+    first: i32,
+    /// The place of the last digit, but for zeros behind the point.
+    last: i32,
+    /// How many digits are written from the first on, zeros included.
+    written: i32,
+}
+
+impl Digits {
+    /// Those of a number; `None` if it is 0.
+    fn of(number: &str) -> Option<Self> {
+        let (mantissa, exponent) = match number.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().unwrap_or(0)),
+            None => (number, 0),
+        };
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let is_first = |digit: u8| (b'1'..=b'9').contains(&digit);
+        let first = match whole.bytes().position(is_first) {
+            Some(place) => (whole.len() - place - 1) as i32,
+            None => -(fraction.bytes().position(is_first)? as i32) - 1,
+        };
+        let needed = fraction.trim_end_matches('0').len();
+        Some(Self {
+            first: first.saturating_add(exponent),
+            last: exponent.saturating_sub(needed as i32),
+            written: first + 1 + fraction.len() as i32,
+        })
+    }
+
+    /// The digits of a number that an `f64` holds for certain.
+    fn without_noise(self, number: &str) -> Option<Self> {
+        if self.count() <= DIGITS_OF_F64 {
+            return Some(self);
+        }
+        let value: f64 = number.parse().ok()?;
+        Self::of(&format!("{value:.*e}", DIGITS_OF_F64 as usize - 1))
+    }
+
+    fn count(self) -> i32 {
+        self.first.saturating_sub(self.last).saturating_add(1)
+    }
+
+    /// Its first digits.
+    fn cut(self) -> Self {
+        let last = self.last.max(self.first.saturating_sub(DIGITS_OF_STRAYS - 1));
+        Self { last, written: self.written.min(DIGITS_OF_STRAYS), ..self }
     }
 }
 
 impl Decimals {
     /// Takes notice of a number, which is finite and not malformed.
     pub(super) fn see(&mut self, number: &str) {
-        let (mantissa, exponent) = match number.split_once(['e', 'E']) {
-            Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().unwrap_or(0)),
-            None => (number, 0),
+        match Digits::of(number).and_then(|digits| digits.without_noise(number)) {
+            Some(digits) => *self.seen.entry(digits).or_default() += 1,
+            None => self.zeros += 1,
+        }
+    }
+
+    /// The digits that count: not those of zeros but for noise, and only the first of the few long
+    /// numbers that have more decimals than any short one.
+    fn counted(&self) -> Vec<Digits> {
+        let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
+        let is_zero = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);
+        let count_if = |is_meant: &dyn Fn(&Digits) -> bool| -> usize {
+            self.seen.iter().filter(|(digits, _)| is_meant(digits)).map(|(_, count)| count).sum()
         };
-        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        let decimals = (fraction.len() as i32).saturating_sub(exponent);
-        self.most = Some(self.most.map_or(decimals, |most| most.max(decimals)));
-        // The power of ten of the first digit that is not 0, before that of the exponent.
-        let is_first = |digit: u8| (b'1'..=b'9').contains(&digit);
-        let first = match whole.bytes().position(is_first) {
-            Some(place) => (whole.len() - place - 1) as i32,
-            None => match fraction.bytes().position(is_first) {
-                Some(place) => -(place as i32) - 1,
-                None => return,
-            },
-        };
-        let decade = first.saturating_add(exponent).clamp(-DECADES, DECADES - 1);
-        let digits = first + 1 + fraction.len() as i32;
-        let longest = &mut self.digits[(decade + DECADES) as usize];
-        *longest = digits.max(*longest);
+        let is_long = |digits: &Digits| digits.count() >= LONG;
+        let short = self.seen.keys().filter(|digits| !is_zero(digits) && !is_long(digits));
+        let finest = short.map(|digits| digits.last).min().unwrap_or(i32::MIN);
+        let is_odd = |digits: &Digits| is_long(digits) && digits.last < finest;
+        let odd = count_if(&|digits| !is_zero(digits) && is_odd(digits));
+        let are_strays = odd <= (self.zeros + count_if(&|_| true)) / STRAYS;
+        let cut =
+            |digits: Digits| if are_strays && is_odd(&digits) { digits.cut() } else { digits };
+        self.seen.keys().copied().filter(|digits| !is_zero(digits)).map(cut).collect()
     }
 
     /// One unit in the last decimal of the largest numbers; 0 if no number was seen.
     pub(super) fn unit(&self) -> f64 {
-        let digits = self.digits.iter().copied().max().unwrap_or(0);
-        let mut longest = (-DECADES..).zip(self.digits).filter(|decade| decade.1 == digits);
-        let exponent = match (longest.next(), longest.last(), self.most) {
-            (Some(_), Some((decade, _)), _) if digits >= FEWEST_DIGITS => decade + 1 - digits,
-            (_, _, Some(most)) => -most,
-            (_, _, None) => return 0.0,
+        let counted = self.counted();
+        let Some(last) = counted.iter().map(|digits| digits.last).min() else {
+            return if self.zeros > 0 { 1.0 } else { 0.0 };
+        };
+        let most = |of: fn(&Digits) -> i32| counted.iter().map(of).max().unwrap_or(0);
+        let (written, needed) = (most(|digits| digits.written), most(|digits| digits.count()));
+        let longest = counted.iter().filter(|digits| digits.written == written);
+        let places = longest.clone().map(|digits| digits.first);
+        let (lowest, highest) = (places.clone().min(), places.max());
+        let exponent = match highest {
+            Some(highest) if lowest < Some(highest) && needed >= FEWEST_DIGITS => {
+                highest.saturating_add(1).saturating_sub(needed)
+            }
+            _ => last,
         };
         // Read as a number, it is rounded as the coordinates are.
         format!("1e{exponent}").parse().unwrap_or(0.0)
@@ -68,14 +141,24 @@ impl Decimals {
 mod tests {
     use super::Decimals;
 
+    fn unit<'n>(numbers: impl IntoIterator<Item = &'n str>) -> f64 {
+        let mut decimals = Decimals::default();
+        numbers.into_iter().for_each(|number| decimals.see(number));
+        decimals.unit()
+    }
+
     #[test]
     fn the_unit_is_that_of_the_numbers_as_they_are_written() {
-        let cases: [(&[&str], f64); 12] = [
+        let cases: [(&[&str], f64); 15] = [
             (&[], 0.0),
             (&["0", "0"], 1.0),
-            (&["0.000"], 1e-3),
+            (&["0.000"], 1.0),
             (&["12", "-7", "100"], 1.0),
-            (&["12.250000", "-0.500000", "100.000000"], 1e-6),
+            // Zeros at the end of all.
+            (&["12.250000", "-0.500000", "100.000000"], 1e-2),
+            (&["1.230000", "4.560000", "0.000000"], 1e-2),
+            (&["1.2300000e+00", "4.560000e+01", "1.000000e+02"], 1e-2),
+            (&["12.250000", "-0.500001", "100.000000"], 1e-6),
             // The same without zeros at the end.
             (&["12.25", "-0.500001", "100"], 1e-6),
             // Six significant digits, of which some zeros are left off.
@@ -85,12 +168,10 @@ mod tests {
             (&["100", "57", "8", "0.000001", "0.000002"], 1e-6),
             (&["1", "0.000001", "0.000002"], 1e-6),
             (&["5e7", "3e7"], 1e7),
-            (&["1e-999999", "1"], 0.0),
+            (&["1e-999999", "1"], 1.0),
         ];
-        for (numbers, unit) in cases {
-            let mut decimals = Decimals::default();
-            numbers.iter().for_each(|number| decimals.see(number));
-            assert_eq!(decimals.unit(), unit, "{numbers:?}");
+        for (numbers, expected) in cases {
+            assert_eq!(unit(numbers.iter().copied()), expected, "{numbers:?}");
         }
     }
 
@@ -113,5 +194,37 @@ mod tests {
             // The largest are from 10 on.
             assert_eq!(significant.unit(), unit(places - 1), "{places} digits after the first");
         }
+    }
+
+    /// A thousand numbers of three decimals, and some others.
+    #[test]
+    fn a_few_long_numbers_do_not_decide_for_all() {
+        let three: Vec<String> = (0..1000).map(|k| format!("{}.{:03}", k % 7, k)).collect();
+        let with = |others: &[&str]| unit(three.iter().map(|n| &**n).chain(others.iter().copied()));
+        let cases: [(&[&str], f64); 12] = [
+            (&[], 1e-3),
+            (&["0.30000000000000004"], 1e-3),
+            (&["2.9999999999999996", "30.000000000000004"], 1e-3),
+            (&["0.1234567890123456", "12.345678901234567"], 1e-3),
+            (&["0.33333334"], 1e-3),
+            // A sine of π.
+            (&["1.2246467991473532e-16", "-6.123234e-17"], 1e-3),
+            // Thin layers are not strays: neither written by people, nor near zero.
+            (&["0.0005"], 1e-4),
+            (&["0.0000125"], 1e-7),
+            (&["0.0033333333333"], 1e-5),
+            // Nor are long numbers with no more decimals than short ones.
+            (&["0.1234", "1234.5678", "2345.67"], 1e-4),
+            // Nor are many.
+            (&["0.1234567890123"; 9], 1e-3),
+            (&["0.1234567890123"; 11], 1e-13),
+        ];
+        for (others, expected) in cases {
+            assert_eq!(with(others), expected, "{others:?}");
+        }
+        // Noise of sums does no harm, however many there are.
+        let sums: Vec<String> = (0..500).map(|k| (f64::from(k) * 0.1).to_string()).collect();
+        assert!(sums.iter().any(|sum| sum.len() > 15));
+        assert_eq!(unit(sums.iter().map(|sum| &**sum)), 0.1);
     }
 }
