@@ -16,9 +16,11 @@
 //! | `order` | an order of them, and who is in cycles |
 //! | `outline` | outlines of areas in parts |
 //! | `opaque` | the drawing |
+//! | `edges` | visible and hidden runs of edges |
 
 mod above;
 mod cell;
+mod edges;
 mod frame;
 mod lines;
 mod map;
@@ -28,5 +30,6 @@ mod outline;
 mod stock;
 mod tile;
 
+pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};

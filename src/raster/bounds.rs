@@ -74,6 +74,16 @@ impl Rays {
         Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
+    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels from the
+    /// centre of the first one, times the last, which is positive ahead of the eye.
+    #[cfg(feature = "drawing")]
+    pub(crate) fn project(&self, point: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = self.in_picture(point).0.to_array();
+        let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
+        let shift = [0.5 * f64::from(self.size[0]) - 0.5, -top - 0.5];
+        [x + shift[0] * z, y + shift[1] * z, z]
+    }
+
     /// A point in multiples of right, down and the direction through the middle (the last is 1
     /// for parallel rays), with bounds on their errors.
     #[inline]

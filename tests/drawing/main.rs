@@ -4,6 +4,7 @@
 mod coincidences;
 mod fill;
 mod hidden;
+mod lines;
 mod scenes;
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,0 +1,178 @@
+//! Visible and hidden runs of edges, by hand and against rays.
+
+use super::fill::ray;
+use super::support::dice::Dice;
+use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::{SplitMix64, cuboid};
+use binspace::raster::Rays;
+use binspace::scene::Builtin;
+use binspace::view::{Camera, views};
+use binspace::{BspTree, Viewpoint};
+
+fn edges(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
+    let rays = Rays::new(camera, tree.faces()).unwrap();
+    VisibilityMap::of(tree, rays).unwrap().edges().unwrap()
+}
+
+#[test]
+fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
+    let tree = BspTree::build(cuboid(-DVec3::ONE, DVec3::ONE)).unwrap();
+    let eye = DVec3::new(4.0, 3.0, 5.0);
+    let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [300, 200]).unwrap();
+    let parallel = Camera::parallel(-eye, DVec3::Z, DVec3::ZERO, 5.0, [300, 200]).unwrap();
+    for camera in [perspective, parallel] {
+        let runs = edges(&tree, &camera);
+        let (visible, hidden): (Vec<&EdgeRun>, Vec<&EdgeRun>) =
+            runs.iter().partition(|run| run.is_visible);
+        assert_eq!((visible.len(), hidden.len()), (9, 3));
+        let silhouette: Vec<_> =
+            visible.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
+        assert_eq!(silhouette.len(), 6);
+        // It is closed: each end is that of two.
+        for end in silhouette.iter().flat_map(|run| run.ends) {
+            let is_there = |other: &[f64; 2]| (0..2).all(|i| (end[i] - other[i]).abs() < 1e-9);
+            let ends = silhouette.iter().flat_map(|run| run.ends);
+            assert_eq!(ends.filter(is_there).count(), 2);
+        }
+        for run in
+            hidden.iter().chain(visible.iter().filter(|run| run.kind != EdgeKind::Silhouette))
+        {
+            let EdgeKind::Crease(angle) = run.kind else { panic!("{run:?}") };
+            assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_bar_hides_the_middle_of_an_edge() {
+    let square = [[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [2.0, 2.0, 0.0], [-2.0, 2.0, 0.0]];
+    let bar = [[-0.5, -3.0, 1.0], [0.5, -3.0, 1.0], [0.5, 3.0, 1.0], [-0.5, 3.0, 1.0]];
+    let tree = BspTree::build([square, bar]).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    let runs = edges(&tree, &camera);
+    assert!(runs.iter().all(|run| run.kind == EdgeKind::Border));
+    // Of the lower and of the upper edge: ten pixels a unit.
+    for edge in [0, 2] {
+        let mut parts: Vec<(bool, f64)> = runs
+            .iter()
+            .filter(|run| run.polygon == 0 && run.edge == edge)
+            .map(|run| (run.is_visible, (run.ends[1][0] - run.ends[0][0]).abs()))
+            .collect();
+        parts.iter_mut().for_each(|part| part.1 = (part.1 * 1e6).round() / 1e6);
+        assert_eq!(parts, [(true, 15.0), (false, 10.0), (true, 15.0)]);
+    }
+    assert_eq!(runs.iter().filter(|run| run.polygon == 1 && run.is_visible).count(), 4);
+}
+
+/// Edges that leave the picture, or run behind the eye, are there as far as they are in the picture.
+#[test]
+fn edges_end_with_the_picture() {
+    let floor =
+        [[-99.0, -1.0, 99.0], [99.0, -1.0, 99.0], [99.0, -1.0, -99.0], [-99.0, -1.0, -99.0]];
+    let tree = BspTree::build([floor]).unwrap();
+    let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.6, [200, 100]).unwrap();
+    let runs = edges(&tree, &camera);
+    assert!(!runs.is_empty());
+    for [x, y] in runs.iter().flat_map(|run| run.ends) {
+        assert!((-0.501..=199.501).contains(&x) && (-0.501..=99.501).contains(&y), "{x} {y}");
+    }
+}
+
+/// What was compared.
+#[derive(Debug, Default)]
+struct Score {
+    visible: usize,
+    hidden: usize,
+    unsure: usize,
+}
+
+/// Asks rays whether points of runs are hidden by polygons that do not have the edge. Points where rays
+/// a little to the left and to the right do not agree are left out.
+fn check_runs(
+    tree: &BspTree,
+    polygons: &[Vec<DVec3>],
+    camera: &Camera,
+    dice: &mut Dice,
+    score: &mut Score,
+) {
+    for run in edges(tree, camera) {
+        let corners = &polygons[run.polygon];
+        let [a, b] =
+            [run.edge as usize, (run.edge as usize + 1) % corners.len()].map(|k| corners[k]);
+        let has_edge = |polygon: usize| {
+            let corners = &polygons[polygon];
+            (0..corners.len()).any(|k| {
+                let ends = [corners[k], corners[(k + 1) % corners.len()]];
+                ends == [a, b] || ends == [b, a]
+            })
+        };
+        let way = [0, 1].map(|i: usize| run.ends[1][i] - run.ends[0][i]);
+        let length = way[0].hypot(way[1]);
+        for _ in 0..2 {
+            let share = 0.02 + 0.96 * dice.share();
+            let point = [0, 1].map(|i: usize| run.ends[0][i] + way[i] * share);
+            let across = [-way[1] / length * 0.005, way[0] / length * 0.005];
+            let is_hidden = |off: f64| {
+                let at = [0, 1].map(|i: usize| point[i] + off * across[i]);
+                let ray = ray(camera, at);
+                let depth = nearest(ray, a, b);
+                let before =
+                    tree.hits(ray).take_while(|hit| hit.parameter() < depth * (1.0 - 1e-6));
+                before.filter(|hit| hit.parameter() > 0.0).any(|hit| !has_edge(hit.polygon()))
+            };
+            let answers = [-1.0, 0.0, 1.0].map(is_hidden);
+            if answers.contains(&true) && answers.contains(&false) {
+                score.unsure += 1;
+                continue;
+            }
+            assert_eq!(answers[0], !run.is_visible, "{run:?} at {point:?}, {camera:?}");
+            if run.is_visible {
+                score.visible += 1;
+            } else {
+                score.hidden += 1;
+            }
+        }
+    }
+}
+
+/// The parameter at which a ray is nearest to a line.
+fn nearest(ray: binspace::Ray, a: DVec3, b: DVec3) -> f64 {
+    let binspace::Ray::Endless { from, direction } = ray else { panic!("a view has no end") };
+    let (u, v, w) = (direction, b - a, from - a);
+    let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+    (uv * v.dot(w) - vv * u.dot(w)) / (uu * vv - uv * uv)
+}
+
+#[test]
+fn rays_agree_with_runs() {
+    let (mut score, mut dice) = (Score::default(), Dice(1));
+    let mut random = SplitMix64::new(3);
+    let triangles = |random: &mut SplitMix64, count: usize, edge: f64| {
+        let triangle = |_| {
+            let centre = random.point(0.0, 1.0);
+            (0..3).map(|_| centre + random.point(-1.0, 1.0) * edge).collect()
+        };
+        (0..count).map(triangle).collect()
+    };
+    let mut scenes: Vec<(Vec<Vec<DVec3>>, DVec3)> = vec![
+        (triangles(&mut random, 200, 0.3), DVec3::Z),
+        (triangles(&mut random, 500, 0.05), DVec3::Z),
+    ];
+    for (builtin, size) in [(Builtin::City, 500), (Builtin::Sphere, 300), (Builtin::Terrain, 500)] {
+        let scene = builtin.build(Some(size), 2);
+        let polygons = (0..scene.len()).map(|i| scene.polygon(i).to_vec());
+        scenes.push((polygons.collect(), scene.up()));
+    }
+    for (polygons, up) in &scenes {
+        let tree = BspTree::build(polygons).unwrap();
+        let corners = || polygons.iter().flatten().copied();
+        let bounds = [corners().reduce(DVec3::min).unwrap(), corners().reduce(DVec3::max).unwrap()];
+        for camera in views(bounds, *up, 4, [320, 240], 7).unwrap() {
+            assert!(matches!(camera.viewpoint(), Viewpoint::Eye(_)));
+            check_runs(&tree, polygons, &camera, &mut dice, &mut score);
+        }
+    }
+    assert!(score.visible > 5000 && score.hidden > 5000, "{score:?}");
+    assert!(score.unsure * 10 < score.visible + score.hidden, "{score:?}");
+}
