@@ -8,7 +8,8 @@ const TOLERANCE: usize = 72;
 const FACES: usize = 88;
 const CORNERS: usize = FACES + 2 * 12;
 const COUNTS: usize = CORNERS + 8 * 24 + 3 * 8;
-const NODES: usize = COUNTS + 5 * 8 + 2 * 8 + 8;
+const CUTS: usize = COUNTS + 5 * 8 + 2 * 8;
+const NODES: usize = CUTS + 8 + 8;
 const FRAGMENTS: usize = NODES + 8 + 8;
 const VERTICES: usize = FRAGMENTS + 3 * 8;
 
@@ -45,7 +46,7 @@ type Damage = fn(&mut Vec<u8>);
 
 #[test]
 fn what_is_wrong_in_one_thing_is_refused_for_that() {
-    let faults: [(&str, Damage); 12] = [
+    let faults: [(&str, Damage); 13] = [
         ("its tolerance is negative", |file| {
             file[TOLERANCE..TOLERANCE + 8].copy_from_slice(&(-1f64).to_le_bytes());
         }),
@@ -64,6 +65,7 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
             file.copy_within(corner(0)..corner(1), corner(3));
         }),
         ("are impossible", |file| put(file, COUNTS, 3)),
+        ("are more than the fragments", |file| put(file, CUTS, 4)),
         ("has a plane that separates no fragments", |file| put(file, NODES + 4, 1)),
         ("names a face or corner that does not exist", |file| put(file, NODES, 1 << 28 | 2)),
         ("is of a face that is there uncut", |file| put(file, FRAGMENTS, 1)),
@@ -90,5 +92,22 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
         seal(&mut file);
         let message = BspTree::read(&file[..]).expect_err(expected).to_string();
         assert!(message.contains(expected), "{message}, not {expected}");
+    }
+}
+
+/// The count of cuts is the builder's, and no difference of what else is in the file.
+#[test]
+fn the_count_of_cuts_is_read() {
+    let mut file = file();
+    assert_eq!((get(&file, CUTS), get(&file, CUTS + 4)), (1, 0));
+    assert_eq!(BspTree::read(&file[..]).unwrap().stats().splits, 1);
+    put(&mut file, CUTS, 3);
+    seal(&mut file);
+    assert_eq!(BspTree::read(&file[..]).unwrap().stats().splits, 3);
+    for (place, value) in [(CUTS, u32::MAX), (CUTS + 4, 1), (CUTS + 4, u32::MAX)] {
+        put(&mut file, place, value);
+        seal(&mut file);
+        let message = BspTree::read(&file[..]).unwrap_err().to_string();
+        assert!(message.contains("cuts"), "{message}");
     }
 }
