@@ -111,3 +111,78 @@ fn the_count_of_cuts_is_read() {
         assert!(message.contains("cuts"), "{message}");
     }
 }
+
+fn put_len(file: &mut [u8], at: usize, len: u64) {
+    file[at..at + 8].copy_from_slice(&len.to_le_bytes());
+}
+
+/// A length one above what it may be is refused for that, and the largest for something else: that so
+/// much is not there.
+#[test]
+fn limits_are_where_they_are_said_to_be() {
+    let file = file();
+    let (labels, fragments) = (1 << 28, (1 << 29) - 1);
+    let lists = CORNERS + 8 * 24;
+    let mut limits = vec![
+        ("faces", FACES - 8, labels),
+        ("numbered faces", lists, 2),
+        ("moved corners", lists + 8, 8),
+        ("dropped polygons", lists + 16, labels),
+        ("cuts", CUTS, fragments),
+        ("nodes", NODES - 8, fragments),
+        ("fragments", FRAGMENTS - 8, fragments),
+    ];
+    limits.extend((0..5).map(|k| ("counts of polygons", COUNTS + 8 * k, labels)));
+    for (what, at, limit) in limits {
+        for (len, is_too_many) in [(limit, false), (limit + 1, true), (u64::MAX, true)] {
+            let mut file = file.clone();
+            put_len(&mut file, at, len);
+            seal(&mut file);
+            let message = BspTree::read(&file[..]).expect_err(what).to_string();
+            let says = message.contains(&format!(" {limit} is the most"));
+            assert_eq!(says, is_too_many, "{what}, {len}: {message}");
+        }
+    }
+    // The corners of all faces together: one fewer than names.
+    for (corners, is_too_many) in [(labels - 1, false), (labels, true)] {
+        let mut file = file.clone();
+        put(&mut file, FACES + 4, corners as u32 - 4);
+        seal(&mut file);
+        let message = BspTree::read(&file[..]).expect_err("corners").to_string();
+        assert_eq!(message.contains(" 268435455 is the most"), is_too_many, "{corners}: {message}");
+    }
+}
+
+/// A corner's number may be as large as a polygon may have corners, and no larger.
+#[test]
+fn corner_numbers_are_checked() {
+    let bay = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 4.0, 0.0]];
+    let tree = BspTree::build([bay]).unwrap();
+    let file = bytes(&tree);
+    let faces = get(&file, FACES - 8) as usize;
+    assert_eq!(faces, 3);
+    let list = FACES + 12 * faces + 24 * 3 * faces;
+    let numbered = get(&file, list) as usize;
+    assert!(numbered > 0);
+    let first = list + 8 + 4 * numbered;
+    for (value, is_refused) in
+        [((1 << 28) - 1, false), (1 << 28, true), (1 << 31 | 1 << 28, true), (1 << 31 | 7, false)]
+    {
+        let mut file = file.clone();
+        put(&mut file, first, value);
+        seal(&mut file);
+        let read = BspTree::read(&file[..]);
+        assert_eq!(read.is_err(), is_refused, "{value:#x}: {read:?}");
+        if let Err(error) = read {
+            assert!(error.to_string().contains("corner number 0 is too large"), "{error}");
+        }
+    }
+    // The last face with numbers is given as the one before it.
+    assert!(numbered > 1);
+    let mut file = file;
+    let before = get(&file, first - 8);
+    put(&mut file, first - 4, before);
+    seal(&mut file);
+    let message = BspTree::read(&file[..]).unwrap_err().to_string();
+    assert!(message.contains("is unknown or out of order"), "{message}");
+}
