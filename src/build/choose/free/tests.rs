@@ -164,7 +164,7 @@ fn planes_go_through_the_corners_that_name_them() {
         }
         let set = fixture.set();
         let clean = Sweep::default().clean(&set, &Tuning::DEFAULT).unwrap();
-        let best = Sweep::default().best(&set, &Tuning::DEFAULT, &Watch::default());
+        let best = Sweep::default().best(&set, &Tuning::DEFAULT, &Watch::default()).unwrap();
         for found in [clean, best].into_iter().flatten() {
             let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
             let coordinate = fixture.faces.corner(corner)[axis];
