@@ -29,7 +29,10 @@ pub struct Frustum {
 impl Frustum {
     /// The points on the front of all these planes.
     pub fn new(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Self {
-        Self { planes: planes.into_iter().collect() }
+        let mut all = Self::default();
+        // One by one: a wrong size hint asks for no memory.
+        planes.into_iter().for_each(|plane| all.planes.push(plane));
+        all
     }
 
     /// The box between two corners, given by its least and largest coordinates: with a

@@ -13,6 +13,30 @@ pub(crate) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
     if list.capacity() - list.len() >= more { Ok(()) } else { grow(list, more) }
 }
 
+/// Adds an item to a list.
+///
+/// # Errors
+///
+/// If there is not enough memory.
+#[inline]
+pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Error> {
+    reserve(list, 1)?;
+    list.push(item);
+    Ok(())
+}
+
+/// A list of all items.
+///
+/// # Errors
+///
+/// If there is not enough memory.
+pub(crate) fn collect<T>(items: impl ExactSizeIterator<Item = T>) -> Result<Vec<T>, Error> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(items.len()).map_err(|_| Error::out_of_memory())?;
+    list.extend(items);
+    Ok(list)
+}
+
 #[cold]
 fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
     let spare = (list.len() / 8).max(64);

@@ -1,7 +1,7 @@
 //! Joins the outputs of all jobs into one tree in depth-first order.
 
 use crate::Error;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 use crate::tree::parts::{Parts, RawNode, Record};
 
 /// The nodes and fragments that one job built.
@@ -64,9 +64,9 @@ impl<S: Copy> Output<S> {
     }
 
     /// Records that the output of another job belongs here.
-    pub(super) fn continue_in(&mut self, job: usize) {
+    pub(super) fn continue_in(&mut self, job: usize) -> Result<(), Error> {
         let (nodes, records) = (self.parts.nodes.len(), self.parts.records.len());
-        self.gaps.push(Gap { nodes, records, vertices: self.parts.vertices.len(), job });
+        push(&mut self.gaps, Gap { nodes, records, vertices: self.parts.vertices.len(), job })
     }
 
     /// Appends what another output has between two of its gaps.
@@ -112,8 +112,8 @@ pub(super) fn assemble<S: Copy>(mut outputs: Vec<Output<S>>) -> Result<Parts<S>,
         match output.gaps.get(next) {
             Some(&gap) => {
                 whole.append(output, from, gap);
-                stack.push((Gap { job: from.job, ..gap }, next + 1));
-                stack.push(start(gap.job));
+                push(&mut stack, (Gap { job: from.job, ..gap }, next + 1))?;
+                push(&mut stack, start(gap.job))?;
             }
             None => {
                 whole.append(output, from, end);

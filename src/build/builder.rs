@@ -23,12 +23,12 @@ pub(super) fn build<'a, K: Kernel>(
     shared: &'a Shared<'a, K>,
     job: Job<K::Vertex>,
     memory: &mut Memory<K>,
-    mut hand_over: impl FnMut(Job<K::Vertex>) -> usize,
+    mut hand_over: impl FnMut(Job<K::Vertex>) -> Result<usize, Error>,
 ) -> Result<Output<K::Stored>, Error> {
     let mut builder = Builder::new(shared, job, memory);
     while let Some(pending) = builder.pending.pop() {
         if let Some(job) = pending.job {
-            builder.output.continue_in(job);
+            builder.output.continue_in(job)?;
             continue;
         }
         builder.pieces.truncate(pending.range.end);
@@ -46,7 +46,7 @@ impl<K: Kernel> Builder<'_, K> {
     fn step(
         &mut self,
         pending: &Pending,
-        hand_over: &mut impl FnMut(Job<K::Vertex>) -> usize,
+        hand_over: &mut impl FnMut(Job<K::Vertex>) -> Result<usize, Error>,
     ) -> Result<(), Error> {
         let start = pending.range.start;
         let set = &self.pieces[start..];
@@ -67,7 +67,7 @@ impl<K: Kernel> Builder<'_, K> {
             let count = set.len();
             let Shared { kernel, faces, rules, .. } = self.shared;
             let set = Set::new(kernel, faces, set, &self.arena);
-            let plane = match self.chooser.choose(rules, &set, pending.is_peeled) {
+            let plane = match self.chooser.choose(rules, &set, pending.is_peeled)? {
                 Choice::Split(plane) => plane,
                 Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),
             };

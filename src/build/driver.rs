@@ -107,7 +107,7 @@ pub(super) fn tree_of_faces(
     watch.expect(faces.len())?;
     let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
     watch.end()?;
-    Ok(BspTree::new(faces, preparation, parts))
+    BspTree::new(faces, preparation, parts)
 }
 
 /// Prepares polygons. What that needs is freed before the faces are divided.
@@ -157,7 +157,7 @@ impl Workshop {
         let tuning = &Tuning::FRAMES;
         let shared = Shared::new(Exact, &faces, options, tuning, &watch)?;
         let parts = divide_all(&shared.with_positions(), &faces, memory)?;
-        *nodes = tree.refill(faces, preparation, parts, sizes);
+        *nodes = tree.refill(faces, preparation, parts, sizes)?;
         Ok(())
     }
 }
@@ -174,7 +174,7 @@ pub fn tree_of(
     preparation: Preparation,
 ) -> Result<BspTree, Error> {
     let parts = parts(Exact, options, tuning, &faces)?;
-    Ok(BspTree::new(faces, preparation, parts))
+    BspTree::new(faces, preparation, parts)
 }
 
 /// Builds the parts of a tree whose decisions a kernel makes.

@@ -7,6 +7,7 @@ use super::builder::{Memory, Shared, build};
 use super::job::Job;
 use crate::Error;
 use crate::exact::Kernel;
+use crate::memory::{self, reserve};
 use crate::tree::parts::Parts;
 
 /// A build of fewer pieces starts on the calling thread. Larger: the pool's threads idle at first;
@@ -40,19 +41,19 @@ pub(super) fn run<K: Kernel>(
             memory: &mut Memory<K>,
         ) {
             let output = build(self.shared, job, memory, |job| {
-                let number = push(self.slots, None);
+                let number = push(self.slots, None)?;
                 scope.spawn(move |scope| self.run(scope, number, job, &mut Memory::default()));
-                number
+                Ok(number)
             });
             let mut slots = self.slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
             slots[number] = Some(output);
         }
     }
 
-    fn push<T>(slots: &Mutex<Vec<T>>, slot: T) -> usize {
+    fn push<T>(slots: &Mutex<Vec<T>>, slot: T) -> Result<usize, Error> {
         let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        slots.push(slot);
-        slots.len() - 1
+        memory::push(&mut slots, slot)?;
+        Ok(slots.len() - 1)
     }
 
     if job.is_the_last() {
@@ -67,7 +68,12 @@ pub(super) fn run<K: Kernel>(
     }
     let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     // The scope has waited for every job, so every slot is filled.
-    assemble(slots.into_iter().flatten().collect::<Result<_, _>>()?)
+    let mut outputs = Vec::new();
+    reserve(&mut outputs, slots.len())?;
+    for output in slots.into_iter().flatten() {
+        outputs.push(output?);
+    }
+    assemble(outputs)
 }
 
 #[cfg(not(feature = "parallel"))]
@@ -84,13 +90,14 @@ pub(super) fn in_turn<K: Kernel>(
     while let Some(job) = next {
         let done = outputs.len() + 1;
         let output = build(shared, job, memory, |job| {
+            jobs.try_reserve(1).map_err(|_| Error::out_of_memory())?;
             jobs.push_back(job);
-            done + jobs.len() - 1
+            Ok(done + jobs.len() - 1)
         })?;
         if outputs.is_empty() && jobs.is_empty() {
             return Ok(output.parts);
         }
-        outputs.push(output);
+        memory::push(&mut outputs, output)?;
         next = jobs.pop_front();
     }
     assemble(outputs)

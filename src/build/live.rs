@@ -49,6 +49,14 @@ impl Live {
         live
     }
 
+    /// The order in which pieces on one plane are painted: that of their faces. (Pieces of one face do not
+    /// meet there; they come in the order of their vertices, so that an unstable sort, which needs no
+    /// memory, has one result.)
+    #[inline]
+    pub(crate) fn rank(&self) -> (u32, u32) {
+        (self.face, self.start)
+    }
+
     /// A segment or a point, by its vertices, and where these begin in the arena.
     pub(crate) fn thin<V: Vertex>(face: u32, vertices: &[V], start: usize) -> Self {
         let mut live = Self::empty(face, start as u32, vertices.len() as u32);

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use crate::Error;
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 
 /// The polygons seen, each with a hash of its corners that does not depend on their order.
 #[derive(Debug, Default)]
@@ -68,7 +68,9 @@ impl Outlines {
             let mut outlines = HashSet::new();
             for &(_, polygon) in polygons {
                 let corners = corners(polygon as usize)?;
-                outlines.insert(canonical(corners.into_iter().map(integers).collect()));
+                let outline = canonical(collect(corners.into_iter().map(integers))?)?;
+                outlines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                outlines.insert(outline);
             }
             duplicates += polygons.len() - outlines.len();
         }
@@ -93,13 +95,13 @@ fn mix(corner: [f64; 3]) -> u64 {
 
 /// The canonical form of an outline: the same list wherever the outline starts and in whichever
 /// direction it runs.
-fn canonical(mut corners: Vec<Corner>) -> Vec<Corner> {
+fn canonical(mut corners: Vec<Corner>) -> Result<Vec<Corner>, Error> {
     let start = least_rotation(&corners);
     corners.rotate_left(start);
-    let mut reverse: Vec<Corner> = corners.iter().rev().copied().collect();
+    let mut reverse = collect(corners.iter().rev().copied())?;
     let start = least_rotation(&reverse);
     reverse.rotate_left(start);
-    corners.min(reverse)
+    Ok(corners.min(reverse))
 }
 
 /// The start of the lexicographically least rotation, in linear time (Shiloach, “Fast canonization
@@ -148,11 +150,11 @@ mod tests {
     #[test]
     fn every_start_and_direction_has_one_form() {
         for corners in (1..7).flat_map(sequences) {
-            let form = canonical(corners.clone());
+            let form = canonical(corners.clone()).unwrap();
             let mut other: Vec<Corner> = corners.iter().rev().copied().collect();
             for _ in 0..corners.len() {
                 other.rotate_left(1);
-                assert_eq!(canonical(other.clone()), form);
+                assert_eq!(canonical(other.clone()).unwrap(), form);
             }
         }
     }

@@ -23,7 +23,7 @@ use super::listener::{Listener, Unheard};
 use crate::Error;
 use crate::exact::{Faces, Lattice};
 use crate::input::Polygon;
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 use crate::parallel_map;
 
 /// Polygons that one thread prepares as one job. Smaller: overhead per job; larger: threads wait
@@ -97,7 +97,7 @@ impl Preparer {
         report.duplicates = self.outlines.duplicates(|polygon| {
             listener.work(input.polygon(polygon).len())?;
             builder.keep_distinct(input.polygon(polygon))?;
-            Ok(builder.kept.iter().map(|&(corner, _)| corner).collect())
+            collect(builder.kept.iter().map(|&(corner, _)| corner))
         })?;
         *faces = std::mem::take(&mut self.builder.faces);
         Ok(report.in_world(&lattice))

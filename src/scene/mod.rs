@@ -166,7 +166,8 @@ impl Scene {
 
     /// Adds a polygon. A `material` that was never added shows as [`Material::DEFAULT`].
     pub fn push(&mut self, polygon: impl IntoIterator<Item = DVec3>, material: u32) {
-        self.corners.extend(polygon);
+        // One by one: a wrong size hint asks for no memory.
+        polygon.into_iter().for_each(|corner| self.corners.push(corner));
         self.ends.push(self.corners.len());
         self.material_of.push(material);
     }

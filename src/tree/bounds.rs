@@ -11,7 +11,7 @@ use super::{BspTree, Child, Fragment, Node};
 use crate::Error;
 use crate::exact::{Exact, Eye, Kernel, SymbolKind};
 use crate::frustum::{Flat, flat};
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 use crate::parallel_map;
 use crate::viewpoint::Viewpoint;
 use normals::{Arms, Normals};
@@ -116,9 +116,11 @@ impl BspTree {
         let starts = (0..self.len()).step_by(PART);
         let parts = parallel_map::map(starts.collect(), |start| {
             let numbers = start as u32..(start + PART).min(self.len()) as u32;
-            numbers.map(|number| self.fragment(number).bounds()).collect::<Vec<_>>()
+            collect(numbers.map(|number| self.fragment(number).bounds()))
         });
-        parts.into_iter().for_each(|part| boxes.extend(part));
+        for part in parts {
+            boxes.extend(part?);
+        }
         Ok(boxes)
     }
 }

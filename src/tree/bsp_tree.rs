@@ -2,10 +2,11 @@
 
 use std::fmt;
 
-use super::node_record::{NodeRecord, Sizes, finish};
+use super::node_record::{NodeRecord, Sizes, finish, make_room};
 use super::order::layout::Schedule;
 use super::order::planes::Planes;
 use super::parts::{Parts, RawNode, Record};
+use crate::Error;
 use crate::exact::{ExactStored, Faces};
 use crate::faces::Preparation;
 
@@ -279,25 +280,35 @@ impl BspTree {
         preparation: Preparation,
         parts: Parts<ExactStored>,
         sizes: &mut Vec<Sizes>,
-    ) -> Vec<RawNode> {
+    ) -> Result<Vec<RawNode>, Error> {
+        make_room(parts.nodes.len(), sizes, &mut self.nodes)?;
         finish(&parts.nodes, sizes, &mut self.nodes);
-        self.planes.fill(&faces, &self.nodes);
+        if let Err(error) = self.planes.fill(&faces, &self.nodes) {
+            // The tree is empty after an error.
+            self.nodes.clear();
+            self.planes.clear();
+            return Err(error);
+        }
         (self.faces, self.preparation) = (faces, preparation);
         let Parts { nodes, records, vertices, positions, cuts } = parts;
         (self.records, self.vertices, self.positions) = (records, vertices, positions);
         self.cuts = cuts;
-        nodes
+        Ok(nodes)
     }
 
     /// A tree for many orders.
-    pub(crate) fn new(faces: Faces, preparation: Preparation, parts: Parts<ExactStored>) -> Self {
+    pub(crate) fn new(
+        faces: Faces,
+        preparation: Preparation,
+        parts: Parts<ExactStored>,
+    ) -> Result<Self, Error> {
         let mut tree = Self::empty();
-        drop(tree.refill(faces, preparation, parts, &mut Vec::new()));
+        drop(tree.refill(faces, preparation, parts, &mut Vec::new())?);
         tree.nodes.shrink_to_fit();
         tree.records.shrink_to_fit();
         tree.vertices.shrink_to_fit();
-        tree.schedule = Some(Schedule::new(&tree.nodes, tree.records.len() as u32));
-        tree
+        tree.schedule = Some(Schedule::new(&tree.nodes, tree.records.len() as u32)?);
+        Ok(tree)
     }
 
     /// How many fragments there are.

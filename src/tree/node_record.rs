@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::parts::{RawChild, RawNode};
+use crate::Error;
 use crate::exact::PlaneId;
+use crate::memory::reserve;
 
 const BACK_IS_NODE: u32 = 1 << 31;
 
@@ -79,6 +81,18 @@ pub(crate) struct Ranges {
 pub(crate) struct Sizes {
     fragments: u32,
     nodes: u32,
+}
+
+/// Makes the room that [`finish`] needs for so many nodes.
+pub(crate) fn make_room(
+    raw: usize,
+    sizes: &mut Vec<Sizes>,
+    nodes: &mut Vec<NodeRecord>,
+) -> Result<(), Error> {
+    sizes.clear();
+    nodes.clear();
+    reserve(sizes, raw)?;
+    nodes.try_reserve_exact(raw).map_err(|_| Error::out_of_memory())
 }
 
 /// Computes the sizes of all subtrees, and replaces a list of nodes.

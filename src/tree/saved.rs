@@ -14,7 +14,7 @@ use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, MAX_LABELS, Symbol};
 use crate::faces::Preparation;
 use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
 
-const KIND: Kind = Kind { name: *b"tree", version: 1 };
+const KIND: Kind = Kind { name: *b"tree", version: 2 };
 /// Set in the flags of a tree for one view.
 const FOR_ONE_VIEW: u32 = 1;
 
@@ -22,8 +22,7 @@ impl BspTree {
     /// Writes the tree, so that [`read`](Self::read) gives the same: the same fragments with the same
     /// numbers, bits and orders. Trees of a [`FrameBuilder`](crate::FrameBuilder) too.
     ///
-    /// Takes O(n) time, and of memory O(depth), 64 kB, and 4 bytes for each polygon that was dropped.
-    /// It need not be a `BufWriter`.
+    /// Takes O(n) time, and of memory O(depth) and 64 kB. It need not be a `BufWriter`.
     ///
     /// ```
     /// use binspace::{BspTree, Viewpoint};
@@ -41,7 +40,7 @@ impl BspTree {
     ///
     /// # Layout
     ///
-    /// Version 1. All numbers are little-endian; a list is its length as `u64` and then its items.
+    /// Version 2. All numbers are little-endian; a list is its length as `u64` and then its items.
     ///
     /// | part | what |
     /// |---|---|
@@ -54,6 +53,7 @@ impl BspTree {
     /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is none of the polygon |
     /// | moved corners | a list: the corner as `u32`, and where it was given, three `i64` |
     /// | preparation | a list of the dropped polygons as `u32`; the numbers of duplicates, triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
+    /// | cuts | how many times a piece was cut in two: `u64` |
     /// | nodes | a list, depth first: the plane, and 16 · the fragments on it + 4 · the front + the back, where 0 is nothing, 1 a fragment and 2 a node; `u32` each |
     /// | fragments | a list: the face, and how many vertices it has, 0 for a whole face; `u32` each |
     /// | vertices | of all fragments: the two lines that cross in it, and the line to the next; `u32` each |
@@ -72,6 +72,7 @@ impl BspTree {
         file.u32(if self.schedule.is_none() { FOR_ONE_VIEW } else { 0 })?;
         self.faces.write(&mut file)?;
         self.write_preparation(&mut file)?;
+        file.u64(self.cuts as u64)?;
         file.u64(self.nodes.len() as u64)?;
         file.items(raw_nodes(self), |file, node| {
             file.u32(node.plane.to_bits())?;
@@ -122,6 +123,7 @@ impl BspTree {
         let flags = file.u32("flags")?;
         let faces = Faces::read(&mut file)?;
         let (mut preparation, dropped) = read_preparation(&mut file)?;
+        let cuts = file.count("cuts", MOST_FRAGMENTS)?;
         let pair = |bytes: &[u8; 8]| [u32_at(bytes, 0), u32_at(bytes, 4)];
         let nodes = file.list("nodes", MOST_FRAGMENTS, pair)?;
         let mut vertices = 0_u64;
@@ -146,22 +148,27 @@ impl BspTree {
         faces.check()?;
         check_preparation(&mut preparation, &dropped, &faces)?;
         let nodes = nodes::check(&nodes, &records, faces.known())?;
-        let cuts = records.len().saturating_sub(faces.len());
+        // Each cut makes one fragment more.
+        if cuts > records.len() {
+            return Err(LoadError::of("cuts", "are more than the fragments"));
+        }
         let positions = Vec::new();
         let mut parts = Parts { nodes, records, vertices, positions, cuts };
         outlines::check(&faces, &mut parts, flags == FOR_ONE_VIEW)?;
         let mut tree = Self::empty();
-        drop(tree.refill(faces, preparation, parts, &mut Vec::new()));
+        let out_of_memory = |_| LoadError::out_of_memory();
+        drop(tree.refill(faces, preparation, parts, &mut Vec::new()).map_err(out_of_memory)?);
         if flags != FOR_ONE_VIEW {
-            tree.schedule = Some(Schedule::new(&tree.nodes, tree.records.len() as u32));
+            let schedule = Schedule::new(&tree.nodes, tree.records.len() as u32);
+            tree.schedule = Some(schedule.map_err(out_of_memory)?);
         }
         Ok(tree)
     }
 
     fn write_preparation(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
         let found = &self.preparation;
-        let dropped: Vec<u32> = self.dropped().map(|polygon| polygon as u32).collect();
-        file.list(dropped.iter(), |file, &polygon| file.u32(polygon))?;
+        file.u64(self.dropped().count() as u64)?;
+        file.items(self.dropped(), |file, polygon| file.u32(polygon as u32))?;
         let counts =
             [found.duplicates, found.triangulated, found.crossing, found.flattened, found.bent];
         file.items(counts.into_iter(), |file, count| file.u64(count as u64))?;

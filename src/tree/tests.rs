@@ -20,7 +20,7 @@ fn list(count: u32) -> BspTree {
         records: (0..count).map(|face| Record { face, vertices: 0 }).collect(),
         ..Parts::default()
     };
-    BspTree::new(chain.faces.clone(), *chain.preparation(), parts)
+    BspTree::new(chain.faces.clone(), *chain.preparation(), parts).unwrap()
 }
 
 #[test]

@@ -62,14 +62,16 @@ impl BspTree {
 
     fn check_layout(&self) -> Result<(), Invalid> {
         let mut planes = Planes::default();
-        planes.fill(&self.faces, &self.nodes);
+        let out_of_memory = |_| Invalid { node: 0, what: Fault::OutOfMemory };
+        planes.fill(&self.faces, &self.nodes).map_err(out_of_memory)?;
         if self.planes != planes {
             return Err(Invalid { node: 0, what: Fault::RoundedPlanes });
         }
-        if let Some(schedule) = &self.schedule
-            && *schedule != Schedule::new(&self.nodes, self.records.len() as u32)
-        {
-            return Err(Invalid { node: 0, what: Fault::Schedule });
+        if let Some(schedule) = &self.schedule {
+            let expected = Schedule::new(&self.nodes, self.records.len() as u32);
+            if *schedule != expected.map_err(out_of_memory)? {
+                return Err(Invalid { node: 0, what: Fault::Schedule });
+            }
         }
         self.check_positions()
     }

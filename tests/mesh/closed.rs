@@ -1,12 +1,12 @@
 //! Closed bodies stay closed when they are cut and welded, and do not when they are not welded.
 
 use super::{is_closed_once, open_edges};
+use crate::support::real_scenes;
 use crate::support::shapes::{cuboid, rotation};
 use binspace::glam::{DVec3, vec3};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic, Tolerance};
 use std::ops::Range;
-use std::path::Path;
 
 fn polygons(scene: &Scene) -> Vec<Vec<DVec3>> {
     scene.polygons().map(|polygon| polygon.to_vec()).collect()
@@ -122,13 +122,9 @@ fn corners_inside_an_edge_are_welded() {
 }
 
 #[test]
-#[allow(clippy::print_stderr, reason = "it says what is skipped")]
 fn the_bunny_stays_closed() {
-    let Some(folder) = std::env::var_os("BINSPACE_SCENES") else {
-        eprintln!("skipped: BINSPACE_SCENES does not name the folder of real scenes");
-        return;
-    };
-    let (scene, _) = Scene::read_obj(Path::new(&folder).join("bunny_4k.obj")).unwrap();
+    let Some(folder) = real_scenes::folder("the bunny stays closed") else { return };
+    let (scene, _) = Scene::read_obj(folder.join("bunny_4k.obj")).unwrap();
     let tree = BspTree::build(scene.polygons()).unwrap();
     let loose = tree.mesh().unwrap();
     let all: Vec<u32> = (0..tree.len() as u32).collect();

@@ -8,6 +8,8 @@ mod materials;
 mod noise;
 mod precision;
 mod real;
+#[path = "../support/real_scenes.rs"]
+mod real_scenes;
 
 use binspace::scene::{ObjError, ObjReport, Scene};
 use std::path::Path;

@@ -1,20 +1,11 @@
 //! Real files, where there are any: the folder of them is what `BINSPACE_SCENES` names.
-// A skipped test says so.
-#![allow(clippy::print_stderr)]
 
-use crate::sides;
+#![allow(clippy::print_stderr, reason = "what is left out is said")]
+
+use crate::{real_scenes, sides};
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
-use std::path::{Path, PathBuf};
-
-/// The folder of real scenes, or `None` after saying why the test is skipped.
-fn real_scenes() -> Option<PathBuf> {
-    let folder = std::env::var_os("BINSPACE_SCENES").map(PathBuf::from);
-    if folder.is_none() {
-        eprintln!("skipped: BINSPACE_SCENES does not name the folder of real scenes");
-    }
-    folder
-}
+use std::path::Path;
 
 /// The manifest's rows: name, faces, triangles, quads, larger, low, high.
 fn manifest(folder: &Path) -> Vec<(String, [usize; 4], DVec3, DVec3)> {
@@ -36,7 +27,7 @@ fn manifest(folder: &Path) -> Vec<(String, [usize; 4], DVec3, DVec3)> {
 
 #[test]
 fn real_scenes_match_their_manifest() {
-    let Some(folder) = real_scenes() else { return };
+    let Some(folder) = real_scenes::folder("real scenes match their manifest") else { return };
     let rows = manifest(&folder);
     assert!(rows.len() >= 10, "{} rows", rows.len());
     for (name, counts, low, high) in rows {
@@ -58,7 +49,10 @@ fn real_scenes_match_their_manifest() {
 
 #[test]
 fn torture_files_are_read_or_refused_with_a_reason() {
-    let Some(folder) = real_scenes() else { return };
+    let Some(folder) = real_scenes::folder("torture files are read or refused with a reason")
+    else {
+        return;
+    };
     let read = |name: &str| Scene::read_obj(folder.join("torture").join(name));
     for (name, reason) in [
         ("box_UTF16BE.obj", "UTF-16"),
@@ -87,7 +81,9 @@ fn torture_files_are_read_or_refused_with_a_reason() {
 /// a corner of the other. The file has 5 decimals.
 #[test]
 fn generated_teapot_agrees_with_the_real_one() {
-    let Some(folder) = real_scenes() else { return };
+    let Some(folder) = real_scenes::folder("generated teapot agrees with the real one") else {
+        return;
+    };
     let (file, _) = Scene::read_obj(folder.join("teapot_quads_2k.obj")).expect("the teapot");
     let ours = scene::teapot(8);
     assert_eq!(file.len(), ours.len());
@@ -102,7 +98,9 @@ fn generated_teapot_agrees_with_the_real_one() {
 
 #[test]
 fn generated_cornell_box_agrees_with_the_real_one() {
-    let Some(folder) = real_scenes() else { return };
+    let Some(folder) = real_scenes::folder("generated cornell box agrees with the real one") else {
+        return;
+    };
     let (file, _) = Scene::read_obj(folder.join("cornell_box.obj")).expect("the Cornell box");
     let ours = scene::cornell_box();
     let near = |a: &DVec3, b: &DVec3| a.distance(*b) < 1e-4;

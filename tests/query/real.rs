@@ -4,16 +4,15 @@
 //! BINSPACE_SCENES=… cargo test --release --test query a_million -- --ignored --nocapture
 //! ```
 
-#![allow(clippy::print_stderr, reason = "what is left out is said")]
+#![allow(clippy::print_stderr, reason = "the scores are shown on request")]
 
 use super::support::dice::Dice;
 use super::support::hits::{Oracle, Score};
+use super::support::real_scenes;
 use super::support::shots::Shots;
 use binspace::BspTree;
 use binspace::scene::Scene;
 use rayon::prelude::*;
-use std::env;
-use std::path::Path;
 
 const SCENES: [&str; 6] = [
     "bunny_4k.obj",
@@ -25,13 +24,10 @@ const SCENES: [&str; 6] = [
 ];
 
 fn shoot(rays: usize) {
-    let Some(folder) = env::var_os("BINSPACE_SCENES") else {
-        eprintln!("left out: rays at real scenes (BINSPACE_SCENES does not name their folder)");
-        return;
-    };
+    let Some(folder) = real_scenes::folder("rays at real scenes") else { return };
     let mut all = Score::default();
     for name in SCENES {
-        let (scene, _) = Scene::read_obj(Path::new(&folder).join(name)).expect("a scene");
+        let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
         let (each, parts) = (rays / SCENES.len(), 64);

@@ -98,10 +98,10 @@ fn an_absurd_length_is_refused() {
 #[test]
 fn another_version_is_named() {
     let mut file = files().swap_remove(0);
-    file[12] = 2;
+    file[12] = 3;
     seal(&mut file);
     let message = message(&file);
-    assert!(message.contains("version 2") && message.contains("reads version 1"), "{message}");
+    assert!(message.contains("version 3") && message.contains("reads version 2"), "{message}");
 }
 
 #[test]

@@ -8,7 +8,8 @@ const TOLERANCE: usize = 72;
 const FACES: usize = 88;
 const CORNERS: usize = FACES + 2 * 12;
 const COUNTS: usize = CORNERS + 8 * 24 + 3 * 8;
-const NODES: usize = COUNTS + 5 * 8 + 2 * 8 + 8;
+const CUTS: usize = COUNTS + 5 * 8 + 2 * 8;
+const NODES: usize = CUTS + 8 + 8;
 const FRAGMENTS: usize = NODES + 8 + 8;
 const VERTICES: usize = FRAGMENTS + 3 * 8;
 
@@ -45,7 +46,7 @@ type Damage = fn(&mut Vec<u8>);
 
 #[test]
 fn what_is_wrong_in_one_thing_is_refused_for_that() {
-    let faults: [(&str, Damage); 12] = [
+    let faults: [(&str, Damage); 13] = [
         ("its tolerance is negative", |file| {
             file[TOLERANCE..TOLERANCE + 8].copy_from_slice(&(-1f64).to_le_bytes());
         }),
@@ -64,6 +65,7 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
             file.copy_within(corner(0)..corner(1), corner(3));
         }),
         ("are impossible", |file| put(file, COUNTS, 3)),
+        ("are more than the fragments", |file| put(file, CUTS, 4)),
         ("has a plane that separates no fragments", |file| put(file, NODES + 4, 1)),
         ("names a face or corner that does not exist", |file| put(file, NODES, 1 << 28 | 2)),
         ("is of a face that is there uncut", |file| put(file, FRAGMENTS, 1)),
@@ -91,4 +93,96 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
         let message = BspTree::read(&file[..]).expect_err(expected).to_string();
         assert!(message.contains(expected), "{message}, not {expected}");
     }
+}
+
+/// The count of cuts is the builder's, and no difference of what else is in the file.
+#[test]
+fn the_count_of_cuts_is_read() {
+    let mut file = file();
+    assert_eq!((get(&file, CUTS), get(&file, CUTS + 4)), (1, 0));
+    assert_eq!(BspTree::read(&file[..]).unwrap().stats().splits, 1);
+    put(&mut file, CUTS, 3);
+    seal(&mut file);
+    assert_eq!(BspTree::read(&file[..]).unwrap().stats().splits, 3);
+    for (place, value) in [(CUTS, u32::MAX), (CUTS + 4, 1), (CUTS + 4, u32::MAX)] {
+        put(&mut file, place, value);
+        seal(&mut file);
+        let message = BspTree::read(&file[..]).unwrap_err().to_string();
+        assert!(message.contains("cuts"), "{message}");
+    }
+}
+
+fn put_len(file: &mut [u8], at: usize, len: u64) {
+    file[at..at + 8].copy_from_slice(&len.to_le_bytes());
+}
+
+/// A length one above what it may be is refused for that, and the largest for something else: that so
+/// much is not there.
+#[test]
+fn limits_are_where_they_are_said_to_be() {
+    let file = file();
+    let (labels, fragments) = (1 << 28, (1 << 29) - 1);
+    let lists = CORNERS + 8 * 24;
+    let mut limits = vec![
+        ("faces", FACES - 8, labels),
+        ("numbered faces", lists, 2),
+        ("moved corners", lists + 8, 8),
+        ("dropped polygons", lists + 16, labels),
+        ("cuts", CUTS, fragments),
+        ("nodes", NODES - 8, fragments),
+        ("fragments", FRAGMENTS - 8, fragments),
+    ];
+    limits.extend((0..5).map(|k| ("counts of polygons", COUNTS + 8 * k, labels)));
+    for (what, at, limit) in limits {
+        for (len, is_too_many) in [(limit, false), (limit + 1, true), (u64::MAX, true)] {
+            let mut file = file.clone();
+            put_len(&mut file, at, len);
+            seal(&mut file);
+            let message = BspTree::read(&file[..]).expect_err(what).to_string();
+            let says = message.contains(&format!(" {limit} is the most"));
+            assert_eq!(says, is_too_many, "{what}, {len}: {message}");
+        }
+    }
+    // The corners of all faces together: one fewer than names.
+    for (corners, is_too_many) in [(labels - 1, false), (labels, true)] {
+        let mut file = file.clone();
+        put(&mut file, FACES + 4, corners as u32 - 4);
+        seal(&mut file);
+        let message = BspTree::read(&file[..]).expect_err("corners").to_string();
+        assert_eq!(message.contains(" 268435455 is the most"), is_too_many, "{corners}: {message}");
+    }
+}
+
+/// A corner's number may be as large as a polygon may have corners, and no larger.
+#[test]
+fn corner_numbers_are_checked() {
+    let bay = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 4.0, 0.0]];
+    let tree = BspTree::build([bay]).unwrap();
+    let file = bytes(&tree);
+    let faces = get(&file, FACES - 8) as usize;
+    assert_eq!(faces, 3);
+    let list = FACES + 12 * faces + 24 * 3 * faces;
+    let numbered = get(&file, list) as usize;
+    assert!(numbered > 0);
+    let first = list + 8 + 4 * numbered;
+    for (value, is_refused) in
+        [((1 << 28) - 1, false), (1 << 28, true), (1 << 31 | 1 << 28, true), (1 << 31 | 7, false)]
+    {
+        let mut file = file.clone();
+        put(&mut file, first, value);
+        seal(&mut file);
+        let read = BspTree::read(&file[..]);
+        assert_eq!(read.is_err(), is_refused, "{value:#x}: {read:?}");
+        if let Err(error) = read {
+            assert!(error.to_string().contains("corner number 0 is too large"), "{error}");
+        }
+    }
+    // The last face with numbers is given as the one before it.
+    assert!(numbered > 1);
+    let mut file = file;
+    let before = get(&file, first - 8);
+    put(&mut file, first - 4, before);
+    seal(&mut file);
+    let message = BspTree::read(&file[..]).unwrap_err().to_string();
+    assert!(message.contains("is unknown or out of order"), "{message}");
 }

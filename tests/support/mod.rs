@@ -13,6 +13,7 @@ pub(crate) mod model;
 pub(crate) mod orders;
 pub(crate) mod rational;
 pub(crate) mod rays;
+pub(crate) mod real_scenes;
 pub(crate) mod saved;
 pub(crate) mod shapes;
 pub(crate) mod shots;

@@ -137,7 +137,7 @@ fn files_that_are_not_right_are_refused_by_name() {
         (file[..file.len() - 1].to_vec(), "cut short"),
         (with(at / 2, 1), "damaged"),
         (with(file.len() - 30, 4), "damaged"),
-        (with(12, 3), "version 2"),
+        (with(12, 1), "version 3"),
         ([&file[..], b"more"].concat(), "more follows"),
         ([&file[..at], &other[other_at..]].concat(), "not one of its scene"),
         (CROSSING.as_bytes().to_vec(), "no file of binspace"),

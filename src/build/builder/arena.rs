@@ -6,6 +6,7 @@ use super::state::{Builder, COMPACT};
 use crate::Error;
 use crate::build::job::Job;
 use crate::exact::Kernel;
+use crate::memory::{collect, reserve};
 
 impl<K: Kernel> Builder<'_, K> {
     /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
@@ -16,7 +17,9 @@ impl<K: Kernel> Builder<'_, K> {
             if pending.job.is_none() {
                 for live in &mut self.pieces[pending.range.clone()] {
                     let start = arena.len();
-                    arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+                    let vertices = live.piece(&self.arena).cut.unwrap_or_default();
+                    reserve(&mut arena, vertices.len())?;
+                    arena.extend_from_slice(vertices);
                     *live = live.moved_to(start);
                 }
             }
@@ -30,16 +33,18 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     /// Removes the set on top of the stack and gives it an arena of its own.
-    pub(super) fn take(&mut self, start: usize, depth: usize) -> Job<K::Vertex> {
+    pub(super) fn take(&mut self, start: usize, depth: usize) -> Result<Job<K::Vertex>, Error> {
         let mut arena = Vec::new();
         let mut pieces =
-            if start == 0 { take(&mut self.pieces) } else { self.pieces.split_off(start) };
+            if start == 0 { take(&mut self.pieces) } else { collect(self.pieces.drain(start..))? };
         for live in &mut pieces {
             let start = arena.len();
-            arena.extend_from_slice(live.piece(&self.arena).cut.unwrap_or_default());
+            let vertices = live.piece(&self.arena).cut.unwrap_or_default();
+            reserve(&mut arena, vertices.len())?;
+            arena.extend_from_slice(vertices);
             *live = live.moved_to(start);
         }
         pieces.shrink_to_fit();
-        Job { pieces, arena, depth }
+        Ok(Job { pieces, arena, depth })
     }
 }

@@ -20,6 +20,7 @@ impl<K: Kernel> Builder<'_, K> {
         let arena = &self.arena;
         let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
         self.scratch.sides.clear();
+        reserve(&mut self.scratch.sides, self.pieces.len() - start)?;
         for pieces in self.pieces[start..].chunks(AT_ONCE) {
             self.shared.rules.watch.work(pieces.len())?;
             self.scratch.sides.extend(pieces.iter().map(side));
@@ -49,8 +50,11 @@ impl<K: Kernel> Builder<'_, K> {
         scratch.own.clear();
         scratch.front.clear();
         scratch.spanning.clear();
-        let in_front = |side: &&Side| matches!(side, Side::Front | Side::Spanning);
-        reserve(&mut scratch.front, scratch.sides.iter().filter(in_front).count())?;
+        let count = |of: Side| scratch.sides.iter().filter(|&&side| side == of).count();
+        let [front, own, spanning] = [Side::Front, Side::Coplanar, Side::Spanning].map(count);
+        reserve(&mut scratch.front, front + spanning)?;
+        reserve(&mut scratch.own, own)?;
+        reserve(&mut scratch.spanning, spanning)?;
         let mut back = start;
         for (i, &side) in scratch.sides.iter().enumerate() {
             let piece = self.pieces[start + i];

@@ -5,8 +5,9 @@ use super::state::{Builder, Pending};
 use crate::Error;
 use crate::build::choose::Peeled;
 use crate::build::job::{Job, is_worth_a_job};
+use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
-use crate::memory::reserve;
+use crate::memory::{collect, push, reserve};
 use crate::tree::parts::{RawChild, RawNode};
 
 impl<K: Kernel> Builder<'_, K> {
@@ -16,10 +17,10 @@ impl<K: Kernel> Builder<'_, K> {
         plane: PlaneId,
         start: usize,
         depth: usize,
-        hand_over: &mut impl FnMut(Job<K::Vertex>) -> usize,
+        hand_over: &mut impl FnMut(Job<K::Vertex>) -> Result<usize, Error>,
     ) -> Result<(), Error> {
         // Coplanar polygons are painted in input order.
-        self.scratch.own.sort_by_key(|piece| piece.face);
+        self.scratch.own.sort_unstable_by_key(Live::rank);
         let own = self.scratch.own.len();
         (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
         let (back, front) = (self.pieces.len() - start, self.scratch.front.len());
@@ -44,9 +45,12 @@ impl<K: Kernel> Builder<'_, K> {
         if !back_is_leaf {
             // The back is handed over because it is on top of the stack just now; this thread goes on
             // with the front.
-            let job = is_worth_a_job(back, front).then(|| hand_over(self.take(start, depth)));
+            let job = match is_worth_a_job(back, front) {
+                true => Some(hand_over(self.take(start, depth)?)?),
+                false => None,
+            };
             let range = start..self.pieces.len();
-            self.pending.push(Pending { job, ..Pending::new(range, arena, depth) });
+            push(&mut self.pending, Pending { job, ..Pending::new(range, arena, depth) })?;
         }
         if !front_is_leaf {
             let start = self.pieces.len();
@@ -57,7 +61,7 @@ impl<K: Kernel> Builder<'_, K> {
                 reserve(&mut self.pieces, front)?;
                 self.pieces.extend_from_slice(&self.scratch.front);
             }
-            self.pending.push(Pending::new(start..self.pieces.len(), arena, depth));
+            push(&mut self.pending, Pending::new(start..self.pieces.len(), arena, depth))?;
         }
         Ok(())
     }
@@ -72,16 +76,17 @@ impl<K: Kernel> Builder<'_, K> {
     ) -> Result<(), Error> {
         let depth = depth + peeled.layers().len();
         self.shared.budget.check_depth(depth)?;
-        let mut left = vec![true; self.pieces.len() - start];
+        let mut left = collect((start..self.pieces.len()).map(|_| true))?;
         for layer in peeled.layers() {
             let own = &mut self.scratch.own;
             own.clear();
+            reserve(own, peeled.pieces(layer).len())?;
             // Pieces are marked and not removed yet: all layers name them by their places in the set.
             for &piece in peeled.pieces(layer) {
                 left[piece as usize] = false;
                 own.push(self.pieces[start + piece as usize]);
             }
-            own.sort_by_key(|piece| piece.face);
+            own.sort_unstable_by_key(Live::rank);
             let own = own.len();
             (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
             let child = |side| if layer.rest == side { RawChild::Node } else { RawChild::Leaf(0) };
@@ -108,7 +113,7 @@ impl<K: Kernel> Builder<'_, K> {
             }
         } else {
             let rest = Pending::new(start..next, self.arena.len(), depth);
-            self.pending.push(Pending { is_peeled: true, ..rest });
+            push(&mut self.pending, Pending { is_peeled: true, ..rest })?;
         }
         Ok(())
     }

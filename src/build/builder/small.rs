@@ -5,8 +5,9 @@ use super::state::{Builder, Pending, Shared};
 use super::table::{Open, Row, SLOTS, Slot, slots};
 use crate::Error;
 use crate::build::choose::{Best, Places, Set};
+use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 use crate::tree::parts::{RawChild, RawNode};
 
 impl<K: Kernel> Builder<'_, K> {
@@ -113,7 +114,7 @@ impl<K: Kernel> Builder<'_, K> {
         listed.extend(slots(set).map(|slot| table.slots[slot].piece));
         let free = {
             let set = Set::new(kernel, faces, listed, &self.arena);
-            self.chooser.clean(rules, &set)
+            self.chooser.clean(rules, &set)?
         };
         let Some(plane) = free else { return Ok(own) };
         let mut row = Row::new(plane, kernel.splitter(faces, plane));
@@ -174,7 +175,7 @@ impl<K: Kernel> Builder<'_, K> {
         let listed = &mut self.scratch.own;
         listed.clear();
         listed.extend(slots(own).map(|slot| self.table.slots[slot].piece));
-        listed.sort_by_key(|piece| piece.face);
+        listed.sort_unstable_by_key(Live::rank);
         let own_len = listed.len() as u32;
         (0..listed.len()).try_for_each(|i| self.store(self.scratch.own[i]))?;
         self.table.free |= own;
@@ -201,7 +202,7 @@ impl<K: Kernel> Builder<'_, K> {
             let start = self.pieces.len();
             reserve(&mut self.pieces, set.count_ones() as usize)?;
             self.pieces.extend(slots(set).map(|slot| self.table.slots[slot].piece));
-            self.pending.push(Pending::new(start..self.pieces.len(), arena, depth));
+            push(&mut self.pending, Pending::new(start..self.pieces.len(), arena, depth))?;
         }
         Ok(())
     }

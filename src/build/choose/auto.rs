@@ -10,6 +10,7 @@ use super::sample::Sample;
 use super::set::Set;
 use super::sketch::LANES;
 use super::tuning::Tuning;
+use crate::Error;
 use crate::exact::{Kernel, PlaneId, Side};
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
@@ -28,37 +29,37 @@ impl Auto {
         rules: &Rules<'_>,
         set: &Set<'_, K>,
         is_peeled: bool,
-    ) -> Choice {
+    ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
         if let Some(plane) = self.common_plane(set) {
-            return Choice::Split(plane);
+            return Ok(Choice::Split(plane));
         }
         if set.len() < tuning.small
             && let Some(plane) = even_plane(set, tuning)
         {
-            return Choice::Split(plane);
+            return Ok(Choice::Split(plane));
         }
         let free = if set.len() < tuning.clean_below {
-            self.sweep.clean(set, tuning)
+            self.sweep.clean(set, tuning)?
         } else {
-            self.sweep.best(set, tuning, watch)
+            self.sweep.best(set, tuning, watch)?
         };
         if let Some(free) = free
             && !free.cost.cuts
         {
-            return Choice::Split(free.plane);
+            return Ok(Choice::Split(free.plane));
         }
         if set.len() < tuning.small && tuning.probes > 0 {
             let middle = Middle::of(set, tuning);
             if !matches!(middle, Middle::Taken)
                 && set.len() >= tuning.clean_below
-                && let Some(gap) = self.sweep.clean(set, tuning)
+                && let Some(gap) = self.sweep.clean(set, tuning)?
             {
                 // Through a corner that was cut off: only sorting finds it.
-                return Choice::Split(gap.plane);
+                return Ok(Choice::Split(gap.plane));
             }
             if let Middle::Crossing(plane) = middle {
-                return Choice::Split(plane);
+                return Ok(Choice::Split(plane));
             }
         }
         if set.len() < tuning.small {
@@ -88,26 +89,31 @@ impl Auto {
         set: &Set<'_, K>,
         free: Option<Candidate>,
         is_peeled: bool,
-    ) -> Choice {
+    ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
         let terms = Terms::small(set, tuning);
-        self.sample.restart(set, set.len());
-        self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
-        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
+        self.sample.restart(set, set.len())?;
+        self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning)?;
+        let own = self.contest.best(set, &mut self.sample, &terms, tuning)?;
         if let Some(own) = own
             && own.cost.divides_evenly(set.len(), tuning.uneven)
         {
-            return Choice::Split(own.plane);
+            return Ok(Choice::Split(own.plane));
         }
         let places = self.contest.one_sided();
         if !is_peeled
             && !places.is_empty()
-            && let Some(peeled) =
-                self.peeler.search(set, &self.sample.sketch, places.iter().copied(), tuning, watch)
+            && let Some(peeled) = self.peeler.search(
+                set,
+                &self.sample.sketch,
+                places.iter().copied(),
+                tuning,
+                watch,
+            )?
         {
-            return Choice::Peel(peeled);
+            return Ok(Choice::Peel(peeled));
         }
-        better(set, own, free)
+        Ok(better(set, own, free))
     }
 
     fn best_of_large<K: Kernel>(
@@ -115,31 +121,37 @@ impl Auto {
         rules: &Rules<'_>,
         set: &Set<'_, K>,
         free: Option<Candidate>,
-    ) -> Choice {
+    ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
         let terms = Terms::large(set, tuning);
-        self.begin_large(set, &terms, tuning);
+        self.begin_large(set, &terms, tuning)?;
         if self.contest.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
-            sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
-            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch) {
-                return Choice::Peel(peeled);
+            sketch.extend(set, arrange(set, tuning.groups_per_box)?.into_iter())?;
+            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch)? {
+                return Ok(Choice::Peel(peeled));
             }
             // The sketch has another order now, in which the first are no sample.
-            self.begin_large(set, &terms, tuning);
+            self.begin_large(set, &terms, tuning)?;
         }
-        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
+        let own = self.contest.best(set, &mut self.sample, &terms, tuning)?;
         // Own planes of large sets are compared by amount alone, so the free plane is too.
         let cost_of_large = |cost| Cost { cuts: false, ..cost };
-        better(set, own, free.map(|free| Candidate { cost: cost_of_large(free.cost), ..free }))
+        let free = free.map(|free| Candidate { cost: cost_of_large(free.cost), ..free });
+        Ok(better(set, own, free))
     }
 
     /// Compares own planes of a large set with a first sample of it.
-    fn begin_large<K: Kernel>(&mut self, set: &Set<'_, K>, terms: &Terms, tuning: &Tuning) {
+    fn begin_large<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        terms: &Terms,
+        tuning: &Tuning,
+    ) -> Result<(), Error> {
         let count = tuning.few_own_planes;
-        self.sample.restart(set, count.next_multiple_of(LANES));
-        self.contest.begin(set, &mut self.sample, count, terms, tuning);
+        self.sample.restart(set, count.next_multiple_of(LANES))?;
+        self.contest.begin(set, &mut self.sample, count, terms, tuning)
     }
 }
 

@@ -8,9 +8,11 @@ use std::cmp::Ordering;
 use super::cost::{Candidate, Cost, Counts};
 use super::set::Set;
 use super::tuning::Tuning;
+use crate::Error;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
 use crate::exact::{Faces, Kernel, PlaneId};
+use crate::memory::{push, reserve};
 
 /// What a search along an axis counts as, in comparisons of each piece. Larger: cancelling is checked
 /// more often; smaller: cancelling takes longer.
@@ -111,7 +113,7 @@ impl Sweep {
         set: &Set<'_, K>,
         tuning: &Tuning,
         watch: &Watch<'_>,
-    ) -> Option<Candidate> {
+    ) -> Result<Option<Candidate>, Error> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, [low, high]) in axes(set) {
@@ -120,14 +122,14 @@ impl Sweep {
             {
                 break;
             }
-            self.fill(pieces, axis, tolerance, &Bins::new(low, high, n, tuning));
+            self.fill(pieces, axis, tolerance, &Bins::new(low, high, n, tuning))?;
             let limit = best.map_or(Cost::MOST, |best| best.cost);
             if self.bound(n, limit) {
-                self.gather(pieces, axis, tolerance);
+                self.gather(pieces, axis, tolerance)?;
                 self.walk(n, axis, &mut best);
             }
         }
-        best?.with_corner(set)
+        Ok(best.and_then(|best| best.with_corner(set)))
     }
 
     /// The free plane of least cost among those that cut nothing, for sets so small that they are
@@ -136,7 +138,7 @@ impl Sweep {
         &mut self,
         set: &Set<'_, K>,
         tuning: &Tuning,
-    ) -> Option<Candidate> {
+    ) -> Result<Option<Candidate>, Error> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis)) {
@@ -145,6 +147,7 @@ impl Sweep {
             }
             let spans = pieces.iter().zip(0..).map(|(p, i)| (p.min[axis], p.max[axis], i));
             self.spans.clear();
+            reserve(&mut self.spans, n)?;
             self.spans.extend(spans);
             self.spans.sort_unstable_by(|a, b| compare(&a.0, &b.0).then(compare(&a.1, &b.1)));
             // Of the pieces so far, the one that reaches furthest, and how far.
@@ -165,14 +168,21 @@ impl Sweep {
                 }
             }
         }
-        best?.with_corner(set)
+        Ok(best.and_then(|best| best.with_corner(set)))
     }
 
     /// Counts what begins and ends in each bin.
-    fn fill(&mut self, pieces: &[Live], axis: usize, tolerance: f64, bins: &Bins) {
+    fn fill(
+        &mut self,
+        pieces: &[Live],
+        axis: usize,
+        tolerance: f64,
+        bins: &Bins,
+    ) -> Result<(), Error> {
         self.counts.clear();
         self.counts.resize(bins.count + 1, Passed::default());
         self.bins.clear();
+        reserve(&mut self.bins, pieces.len())?;
         let counts = &mut self.counts;
         self.bins.extend(pieces.iter().map(|piece| {
             let span = Span::of(piece, axis, tolerance);
@@ -189,6 +199,7 @@ impl Sweep {
                 total.ended[kind] += ended[kind];
             }
         }
+        Ok(())
     }
 
     /// Chooses the bins that may hold a plane of less cost than the limit, and than is certain of
@@ -217,7 +228,7 @@ impl Sweep {
     }
 
     /// Gathers what is in the chosen bins.
-    fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) {
+    fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) -> Result<(), Error> {
         let chosen = &self.chosen[..];
         self.begins.iter_mut().chain(&mut self.ends).for_each(Vec::clear);
         self.candidates.clear();
@@ -228,18 +239,19 @@ impl Sweep {
             }
             let span = Span::of(piece, axis, tolerance);
             if is_chosen(begin) {
-                self.begins[span.kind].push(span.begin);
+                push(&mut self.begins[span.kind], span.begin)?;
                 if piece.min_is_corner(axis) {
-                    self.candidates.push((begin, piece.min[axis]));
+                    push(&mut self.candidates, (begin, piece.min[axis]))?;
                 }
             }
             if is_chosen(end) {
-                self.ends[span.kind].push(span.end);
+                push(&mut self.ends[span.kind], span.end)?;
                 if piece.max_is_corner(axis) {
-                    self.candidates.push((end, piece.max[axis]));
+                    push(&mut self.candidates, (end, piece.max[axis]))?;
                 }
             }
         }
+        Ok(())
     }
 
     /// Tries the candidates in the chosen bins, each upwards, with a finger in the list of each kind.

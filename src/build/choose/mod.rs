@@ -17,6 +17,7 @@ mod tests;
 mod tuning;
 
 use super::heuristic::{DEFAULT_WEIGHTS, Heuristic};
+use crate::Error;
 use crate::exact::{Kernel, PlaneId};
 use crate::random::mix;
 use auto::Auto;
@@ -50,9 +51,9 @@ impl Chooser {
         rules: &Rules<'_>,
         set: &Set<'_, K>,
         is_peeled: bool,
-    ) -> Choice {
+    ) -> Result<Choice, Error> {
         let lowest = || (0..set.len()).min_by_key(|&piece| set.pieces[piece].face).unwrap_or(0);
-        Choice::Split(match rules.heuristic {
+        Ok(Choice::Split(match rules.heuristic {
             Heuristic::First => set.own_plane(lowest()),
             Heuristic::Random { seed } => {
                 let lowest = u64::from(set.pieces[lowest()].face);
@@ -62,28 +63,28 @@ impl Chooser {
             Heuristic::FewestSplits => {
                 self.scored.best(set, MOST_CANDIDATES, rules.watch, |counts, _| {
                     (f64::from(counts.splits), f64::from(counts.imbalance()))
-                })
+                })?
             }
             Heuristic::Balanced => {
                 self.scored.best(set, MOST_CANDIDATES, rules.watch, |counts, _| {
                     (f64::from(counts.imbalance()), f64::from(counts.splits))
-                })
+                })?
             }
             Heuristic::Weighted { splits, balance, axial } => {
-                self.weighted(rules, set, MOST_CANDIDATES, [splits, balance, axial])
+                self.weighted(rules, set, MOST_CANDIDATES, [splits, balance, axial])?
             }
             Heuristic::Sampled { candidates } => {
-                self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)
+                self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)?
             }
             Heuristic::FreePlanes => {
                 if let Some(plane) = self.auto.common_plane(set) {
-                    return Choice::Split(plane);
+                    return Ok(Choice::Split(plane));
                 }
-                let free = self.sweep.best(set, rules.tuning, rules.watch);
+                let free = self.sweep.best(set, rules.tuning, rules.watch)?;
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
-        })
+        }))
     }
 
     /// A free plane that cuts nothing.
@@ -91,8 +92,8 @@ impl Chooser {
         &mut self,
         rules: &Rules<'_>,
         set: &Set<'_, K>,
-    ) -> Option<PlaneId> {
-        self.sweep.clean(set, rules.tuning).map(|free| free.plane)
+    ) -> Result<Option<PlaneId>, Error> {
+        Ok(self.sweep.clean(set, rules.tuning)?.map(|free| free.plane))
     }
 
     /// The own plane of least weighted sum.
@@ -102,7 +103,7 @@ impl Chooser {
         set: &Set<'_, K>,
         candidates: usize,
         [splits, balance, axial]: [f64; 3],
-    ) -> PlaneId {
+    ) -> Result<PlaneId, Error> {
         let bonus = axial * set.len() as f64;
         self.scored.best(set, candidates, rules.watch, |counts, is_axial| {
             let reward = if is_axial { bonus } else { 0.0 };

@@ -8,6 +8,7 @@ use super::sample::Sample;
 use super::set::Set;
 use super::sketch::{LANES, SketchPlane};
 use super::tuning::Tuning;
+use crate::Error;
 use crate::build::live::Live;
 use crate::exact::{Faces, Kernel, LATTICE_LIMIT};
 
@@ -219,7 +220,7 @@ impl Contest {
         count: usize,
         terms: &Terms,
         tuning: &Tuning,
-    ) {
+    ) -> Result<(), Error> {
         let shares = Shares::of(set.size());
         let sketch = &sample.sketch;
         self.seen = 0;
@@ -232,12 +233,13 @@ impl Contest {
             counts: Counts::default(),
             cost: Cost::MOST,
         }));
-        self.look(set, sample, tuning.first_sample, terms);
+        self.look(set, sample, tuning.first_sample, terms)?;
         let is_one_sided =
             |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
         let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
         self.one_sided.clear();
         self.one_sided.extend(found.map(|(place, _)| place));
+        Ok(())
     }
 
     /// The places in the sketch of the candidates that had all pieces of the first sample on one
@@ -253,15 +255,16 @@ impl Contest {
         sample: &mut Sample,
         terms: &Terms,
         tuning: &Tuning,
-    ) -> Option<Candidate> {
+    ) -> Result<Option<Candidate>, Error> {
         let mut pieces = tuning.first_sample;
         while pieces < set.len() {
             self.halve(tuning.rate);
             pieces *= tuning.rate;
-            self.look(set, sample, pieces, terms);
+            self.look(set, sample, pieces, terms)?;
         }
-        let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost))?;
-        Some(Candidate { plane: set.own_plane(best.piece), cost: best.cost })
+        let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost));
+        let own = |best: &Entrant| Candidate { plane: set.own_plane(best.piece), cost: best.cost };
+        Ok(best.map(own))
     }
 
     /// Keeps the best 1/`rate` of the candidates, in their order.
@@ -289,8 +292,8 @@ impl Contest {
         sample: &mut Sample,
         pieces: usize,
         terms: &Terms,
-    ) {
-        sample.grow(set, pieces);
+    ) -> Result<(), Error> {
+        sample.grow(set, pieces)?;
         let sketch = &sample.sketch;
         let groups = self.seen..pieces.min(set.len()).div_ceil(LANES);
         self.seen = groups.end;
@@ -300,5 +303,6 @@ impl Contest {
             entrant.counts += sketch.count(&entrant.plane, groups.clone());
             entrant.cost = terms.cost(&entrant.counts, entrant.share);
         }
+        Ok(())
     }
 }

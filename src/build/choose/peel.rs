@@ -8,8 +8,10 @@ use std::ops::Range;
 use super::set::Set;
 use super::sketch::{LANES, Reach, Sketch, SketchBox, SketchPlane};
 use super::tuning::Tuning;
+use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::{Kernel, PlaneId, Side};
+use crate::memory::{collect, push, reserve};
 
 /// Pieces that are taken off a set one after the other, and cut nothing of what is left.
 #[derive(Debug, Default)]
@@ -40,10 +42,11 @@ impl Peeled {
         &self.pieces[layer.range.clone()]
     }
 
-    fn push(&mut self, plane: PlaneId, rest: Side, pieces: &[u32]) {
+    fn push(&mut self, plane: PlaneId, rest: Side, pieces: &[u32]) -> Result<(), Error> {
         let start = self.pieces.len();
+        reserve(&mut self.pieces, pieces.len())?;
         self.pieces.extend_from_slice(pieces);
-        self.layers.push(Layer { plane, rest, range: start..self.pieces.len() });
+        push(&mut self.layers, Layer { plane, rest, range: start..self.pieces.len() })
     }
 }
 
@@ -98,17 +101,18 @@ impl Peeler {
         places: impl Iterator<Item = usize>,
         tuning: &Tuning,
         watch: &Watch<'_>,
-    ) -> Option<Peeled> {
+    ) -> Result<Option<Peeled>, Error> {
         let groups = sketch.groups();
-        self.boxes.fill(sketch, tuning.groups_per_box);
+        self.boxes.fill(sketch, tuning.groups_per_box)?;
         self.left.clear();
+        reserve(&mut self.left, groups)?;
         self.left.extend((0..groups).map(|group| sketch.lanes(group)));
         self.asked_first = std::array::from_fn(|i| i.min(groups - 1));
         let (peeled, left) = (Peeled::default(), sketch.len());
         let mut search = Search { lists: self, set, sketch, watch, peeled, left };
-        search.pass(places);
+        search.pass(places)?;
         let peeled = search.peeled;
-        (!peeled.layers.is_empty()).then_some(peeled)
+        Ok((!peeled.layers.is_empty()).then_some(peeled))
     }
 }
 
@@ -125,7 +129,7 @@ struct Search<'a, 'w, K: Kernel> {
 
 impl<K: Kernel> Search<'_, '_, K> {
     /// Takes off what it can, going once over the pieces at some places.
-    fn pass(&mut self, places: impl Iterator<Item = usize>) {
+    fn pass(&mut self, places: impl Iterator<Item = usize>) -> Result<(), Error> {
         for p in places {
             if self.left <= 1 {
                 break;
@@ -135,14 +139,15 @@ impl<K: Kernel> Search<'_, '_, K> {
             }
             let number = self.sketch.number(p);
             let plane = self.sketch.plane(self.set, number);
-            let (work, may_be_taken) = self.look(p, &plane);
+            let (work, may_be_taken) = self.look(p, &plane)?;
             if self.watch.work(work).is_err() {
                 break;
             }
             if may_be_taken {
-                self.left -= self.take(p, self.set.own_plane(number));
+                self.left -= self.take(p, self.set.own_plane(number))?;
             }
         }
+        Ok(())
     }
 
     /// Whether something keeps the current piece from being taken.
@@ -156,15 +161,15 @@ impl<K: Kernel> Search<'_, '_, K> {
 
     /// Compares the others with a piece's plane until there are some on both sides. Gives how many
     /// comparisons that took, and whether there may be none on one side.
-    fn look(&mut self, p: usize, plane: &SketchPlane) -> (usize, bool) {
+    fn look(&mut self, p: usize, plane: &SketchPlane) -> Result<(usize, bool), Error> {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
         for i in 0..ASKED_FIRST {
             work += LANES;
-            self.see(p, plane, self.lists.asked_first[i]);
+            self.see(p, plane, self.lists.asked_first[i])?;
             if self.is_held() {
                 self.lists.asked_first.swap(0, i);
-                return (work, false);
+                return Ok((work, false));
             }
         }
         // What is near is gathered below, where every group is looked at once.
@@ -192,25 +197,25 @@ impl<K: Kernel> Search<'_, '_, K> {
                         continue;
                     }
                     work += LANES;
-                    self.see(p, plane, group);
+                    self.see(p, plane, group)?;
                     if self.is_held() {
                         self.lists.asked_first.rotate_right(1);
                         self.lists.asked_first[0] = group;
-                        return (work, false);
+                        return Ok((work, false));
                     }
                 }
             }
             if self.is_held() {
-                return (work, false);
+                return Ok((work, false));
             }
         }
-        (work, true)
+        Ok((work, true))
     }
 
     /// Notes which pieces of a group, among those left, are witnesses against taking piece `p`, and
     /// which are near its plane.
     #[inline]
-    fn see(&mut self, p: usize, plane: &SketchPlane, group: usize) {
+    fn see(&mut self, p: usize, plane: &SketchPlane, group: usize) -> Result<(), Error> {
         let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
         let left = self.lists.left[group] & others;
         let Reach { front, back, near } = self.sketch.reach(plane, group);
@@ -223,23 +228,24 @@ impl<K: Kernel> Search<'_, '_, K> {
         }
         let mut near = near & left;
         while near != 0 {
-            self.lists.near.push(first + near.trailing_zeros());
+            push(&mut self.lists.near, first + near.trailing_zeros())?;
             near &= near - 1;
         }
+        Ok(())
     }
 
     /// Takes a piece off, with those on its plane, if all others that are left are on one side of
     /// it; says how many.
-    fn take(&mut self, p: usize, plane: PlaneId) -> usize {
+    fn take(&mut self, p: usize, plane: PlaneId) -> Result<usize, Error> {
         let splitter = self.set.splitter(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
         own.clear();
-        own.push(p as u32);
+        push(own, p as u32)?;
         let held = witnesses;
         for &q in &*near {
             let side = self.set.classify(&splitter, self.sketch.number(q as usize));
             if side == Side::Coplanar {
-                own.push(q);
+                push(own, q)?;
             }
             if matches!(side, Side::Front | Side::Spanning) {
                 held[FRONT] = q;
@@ -248,27 +254,30 @@ impl<K: Kernel> Search<'_, '_, K> {
                 held[BACK] = q;
             }
             if !held.contains(&NO_PIECE) {
-                return 0;
+                return Ok(0);
             }
         }
         let rest = match *held {
             [NO_PIECE, _] => Side::Back,
             [_, NO_PIECE] => Side::Front,
-            _ => return 0,
+            _ => return Ok(0),
         };
         for q in &mut *own {
             left[*q as usize / LANES] &= !(1 << (*q as usize % LANES));
             *q = self.sketch.number(*q as usize) as u32;
         }
-        self.peeled.push(plane, rest, own);
-        own.len()
+        self.peeled.push(plane, rest, own)?;
+        Ok(own.len())
     }
 }
 
 /// The pieces of a large set in an order in which groups, and ranges of groups, are near one
 /// another: by halving the longest side of their box again and again.
-pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, groups_per_box: usize) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..set.len()).collect();
+pub(super) fn arrange<K: Kernel>(
+    set: &Set<'_, K>,
+    groups_per_box: usize,
+) -> Result<Vec<usize>, Error> {
+    let mut order = collect(0..set.len())?;
     let middle = |piece: usize, axis: usize| {
         let live = &set.pieces[piece];
         live.min[axis] + live.max[axis]
@@ -292,7 +301,7 @@ pub(super) fn arrange<K: Kernel>(set: &Set<'_, K>, groups_per_box: usize) -> Vec
         });
         stack.extend([low, high]);
     }
-    order
+    Ok(order)
 }
 
 /// A balanced tree of boxes around the groups of a sketch: the children of node i are 2i + 1 and
@@ -312,20 +321,23 @@ struct Node {
 }
 
 impl Boxes {
-    fn fill(&mut self, sketch: &Sketch, groups_per_box: usize) {
+    fn fill(&mut self, sketch: &Sketch, groups_per_box: usize) -> Result<(), Error> {
         self.groups_per_box = groups_per_box;
         self.around.clear();
         if sketch.groups() <= groups_per_box {
-            return;
+            return Ok(());
         }
         let mut stack = vec![Node { index: 0, groups: 0..sketch.groups() }];
         while let Some(node) = stack.pop() {
             if self.around.len() <= node.index {
+                let missing = node.index + 1 - self.around.len();
+                reserve(&mut self.around, missing)?;
                 self.around.resize(node.index + 1, SketchBox::default());
             }
             self.around[node.index] = sketch.bounds(node.groups.clone());
             stack.extend(self.children(&node).into_iter().flatten());
         }
+        Ok(())
     }
 
     fn children(&self, node: &Node) -> Option<[Node; 2]> {

@@ -2,6 +2,7 @@
 
 use super::set::Set;
 use super::sketch::Sketch;
+use crate::Error;
 use crate::exact::Kernel;
 
 /// A sketch of some pieces of a set, to which others are added in an order of which every beginning
@@ -14,18 +15,23 @@ pub(super) struct Sample {
 
 impl Sample {
     /// Replaces what is sketched by the first `count` pieces, or all of them if there are not more.
-    pub(super) fn restart<K: Kernel>(&mut self, set: &Set<'_, K>, count: usize) {
+    pub(super) fn restart<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        count: usize,
+    ) -> Result<(), Error> {
         self.sketch.clear();
         self.rest = Spread::new(set.len());
-        self.grow(set, count);
+        self.grow(set, count)
     }
 
     /// Adds pieces until there are `count`, or all.
-    pub(super) fn grow<K: Kernel>(&mut self, set: &Set<'_, K>, count: usize) {
+    pub(super) fn grow<K: Kernel>(&mut self, set: &Set<'_, K>, count: usize) -> Result<(), Error> {
         let missing = count.min(set.len()).saturating_sub(self.sketch.len());
         if missing > 0 {
-            self.sketch.extend(set, self.rest.by_ref().take(missing));
+            self.sketch.extend(set, self.rest.by_ref().take(missing))?;
         }
+        Ok(())
     }
 }
 
@@ -55,7 +61,13 @@ impl Iterator for Spread {
         self.next -= if self.next < self.n { 0 } else { self.n };
         Some(here)
     }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
 }
+
+impl ExactSizeIterator for Spread {}
 
 /// A number without a common divisor with `n`, near the golden section of it: its multiples are the
 /// most evenly spread.

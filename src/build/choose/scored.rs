@@ -3,8 +3,10 @@
 use super::cost::Counts;
 use super::set::Set;
 use super::sketch::{LANES, Sketch, SketchPlane};
+use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::{Kernel, PlaneId};
+use crate::memory::reserve;
 
 /// Pieces sketched at a time, to be compared with all candidates. Larger: memory; smaller: planes
 /// are fetched more often.
@@ -34,10 +36,11 @@ impl Scored {
         candidates: usize,
         watch: &Watch<'_>,
         score: impl Fn(&Counts, bool) -> (f64, f64),
-    ) -> PlaneId {
+    ) -> Result<PlaneId, Error> {
         let Self { sketch, tried } = self;
         sketch.reset(set);
         tried.clear();
+        reserve(tried, candidates.min(set.len()))?;
         tried.extend(set.sample(candidates).map(|piece| Tried {
             piece,
             plane: sketch.plane(set, piece),
@@ -49,7 +52,7 @@ impl Scored {
                 break;
             }
             sketch.clear();
-            sketch.extend(set, part.clone());
+            sketch.extend(set, part.clone())?;
             for Tried { plane, counts, .. } in &mut *tried {
                 *counts += sketch.count(plane, 0..part.len().div_ceil(LANES));
             }
@@ -60,6 +63,6 @@ impl Scored {
         };
         let scores = tried.iter().map(|tried| (score(tried), tried.piece));
         let best = scores.min_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        set.own_plane(best.map_or(0, |(_, piece)| piece))
+        Ok(set.own_plane(best.map_or(0, |(_, piece)| piece)))
     }
 }

@@ -9,7 +9,9 @@ use glam::{DVec3, Vec3, Vec4};
 
 use super::cost::Counts;
 use super::set::Set;
+use crate::Error;
 use crate::exact::Kernel;
+use crate::memory::reserve;
 
 /// Pieces compared with a plane at once.
 pub(super) const LANES: usize = 4;
@@ -82,20 +84,23 @@ impl Sketch {
     pub(super) fn extend<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
-        numbers: impl Iterator<Item = usize>,
-    ) {
+        numbers: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<(), Error> {
         debug_assert!(self.numbers.len().is_multiple_of(LANES), "the last group is full");
         let first = self.numbers.len();
+        reserve(&mut self.numbers, numbers.len())?;
         self.numbers.extend(numbers.map(|number| number as u32));
         for start in (first..self.numbers.len()).step_by(LANES) {
-            self.add_group(set, start);
+            self.add_group(set, start)?;
         }
+        Ok(())
     }
 
-    fn add_group<K: Kernel>(&mut self, set: &Set<'_, K>, start: usize) {
+    fn add_group<K: Kernel>(&mut self, set: &Set<'_, K>, start: usize) -> Result<(), Error> {
         let group = &self.numbers[start..self.numbers.len().min(start + LANES)];
         let vertices = group.iter().map(|&piece| set.vertices(piece as usize)).max().unwrap_or(0);
         let row = self.rows.len();
+        reserve(&mut self.rows, vertices)?;
         self.rows.resize(row + vertices, [Vec4::ZERO; 3]);
         let rows = &mut self.rows[row..];
         for lane in 0..LANES {
@@ -115,9 +120,12 @@ impl Sketch {
                 }
             }
         }
+        reserve(&mut self.ends, 1)?;
         self.ends.push(self.rows.len() as u32);
         let lane = |lane| if lane < group.len() { 1.0 } else { 0.0 };
+        reserve(&mut self.lanes, 1)?;
         self.lanes.push(Vec4::from_array([0, 1, 2, 3].map(lane)));
+        Ok(())
     }
 
     /// How many pieces there are.

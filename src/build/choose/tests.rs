@@ -120,7 +120,7 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
         let fixture = Fixture::new(&prism(sides), 1e-9);
         let rules = Rules { heuristic: Heuristic::Auto, tuning: &tuning, watch: &watch };
         let mut chooser = Chooser::default();
-        let choice = chooser.choose(&rules, &fixture.set(), false);
+        let choice = chooser.choose(&rules, &fixture.set(), false).unwrap();
         let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
         assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
     }
@@ -137,7 +137,7 @@ fn a_sample_is_spread_over_the_set() {
 fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> PlaneId {
     let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
     let rules = Rules { heuristic, tuning: &Tuning::DEFAULT, watch: &watch };
-    match Chooser::default().choose(&rules, &fixture.set(), false) {
+    match Chooser::default().choose(&rules, &fixture.set(), false).unwrap() {
         Choice::Split(plane) => plane,
         Choice::Peel(_) => panic!("own planes alone are chosen"),
     }

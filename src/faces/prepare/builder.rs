@@ -15,7 +15,7 @@ use crate::exact::{Faces, MAX_LABELS, Plane, cross};
 use crate::faces::duplicates::Outlines;
 use crate::faces::listener::Listener;
 use crate::faces::triangulate;
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 
 /// Triangles that are made between two checks for a cancel. Smaller: time for checks; larger: a
 /// cancel takes longer.
@@ -168,11 +168,9 @@ impl Builder {
         plane: &Plane,
         listener: &dyn Listener,
     ) -> Result<Option<bool>, Error> {
-        let mut corners: Vec<[f64; 3]> = Vec::new();
-        reserve(&mut corners, self.kept.len())?;
-        corners.extend(self.kept.iter().map(|&(point, _)| point));
+        let corners = collect(self.kept.iter().map(|&(point, _)| point))?;
         let found = if convex {
-            triangulate::convex(&corners)
+            triangulate::convex(&corners)?
         } else {
             triangulate::any(&corners, plane, &|steps| listener.work(steps))?
         };

@@ -6,13 +6,17 @@ use crate::Error;
 use crate::exact::{LATTICE_LIMIT, Lattice, MAX_LABELS};
 use crate::faces::listener::Listener;
 use crate::input::{MAX_CORNERS, Polygon};
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 
 const _: () = assert!(MAX_CORNERS.is_multiple_of(CORNERS_AT_ONCE), "so that it is noticed");
 
 /// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
 /// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
 const TRUSTED: usize = 1 << 16;
+
+/// Polygons that are read before an iterator's size hint is believed that says that there are too many.
+/// Smaller: one that is wrong is an error; larger: one without end is noticed later.
+const DOUBTED: usize = 1 << 20;
 
 /// Polygons that are read between two checks for a cancel. Smaller: time for checks; larger: a
 /// cancel takes longer.
@@ -75,7 +79,7 @@ impl Collected {
         limit: usize,
         listener: &dyn Listener,
     ) -> Result<(), Error> {
-        let polygons = polygons.into_iter();
+        let mut polygons = polygons.into_iter();
         let too_many = || {
             if limit <= MAX_LABELS {
                 Error::polygons(limit)
@@ -85,22 +89,24 @@ impl Collected {
         };
         let limit = limit.min(MAX_LABELS);
         let expected = polygons.size_hint().0;
-        if expected > limit {
-            return Err(too_many());
-        }
         self.points.clear();
         self.ends.clear();
         self.precision = 0.0;
         reserve(&mut self.points, 3 * expected.min(TRUSTED))?;
         reserve(&mut self.ends, expected.min(TRUSTED))?;
-        for (index, polygon) in polygons.enumerate() {
+        let mut index = 0;
+        while let Some(polygon) = polygons.next() {
             if index == limit {
+                return Err(too_many());
+            }
+            if index == DOUBTED && polygons.size_hint().0 >= limit - index {
                 return Err(too_many());
             }
             if index % POLYGONS_AT_ONCE == 0 {
                 listener.read(index)?;
             }
             self.add(index, &polygon, listener)?;
+            index += 1;
         }
         Ok(())
     }
@@ -111,22 +117,24 @@ impl Collected {
         polygon: &P,
         listener: &dyn Listener,
     ) -> Result<(), Error> {
-        let corners = polygon.corners();
+        let mut corners = polygon.corners();
+        let mut read = 0;
         if let (least, Some(most)) = corners.size_hint()
             && least == most
             && most <= AT_HAND
         {
             reserve(&mut self.points, most)?;
             let before = self.points.len();
-            self.points.extend(corners);
+            self.points.extend(corners.by_ref().take(most));
             // Infinity and NaN times 0 are NaN.
             let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
             if zero != DVec3::ZERO {
                 return Err(Error::non_finite(index));
             }
-            return self.end(polygon);
+            read = self.points.len() - before;
         }
-        for (corner, point) in corners.enumerate() {
+        // All, or those that the hint had left out.
+        for (corner, point) in (read..).zip(corners) {
             if corner % CORNERS_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
                     return Err(Error::polygon_corners(index, MAX_CORNERS));
@@ -137,8 +145,7 @@ impl Collected {
             if !point.is_finite() {
                 return Err(Error::non_finite(index));
             }
-            reserve(&mut self.points, 1)?;
-            self.points.push(point);
+            push(&mut self.points, point)?;
         }
         self.end(polygon)
     }
@@ -148,9 +155,7 @@ impl Collected {
         self.check_count()?;
         // Of NaN and the other, `max` returns the other.
         self.precision = self.precision.max(polygon.precision());
-        reserve(&mut self.ends, 1)?;
-        self.ends.push(self.points.len() as u32);
-        Ok(())
+        push(&mut self.ends, self.points.len() as u32)
     }
 
     /// An error if there are more corners than can be named.

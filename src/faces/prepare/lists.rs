@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::exact::faces::{Face, Thin};
 use crate::exact::{Faces, MAX_LABELS};
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 
 impl Faces {
     pub(super) fn clear(&mut self) {
@@ -13,6 +13,22 @@ impl Faces {
         self.faces.clear();
         self.moved.clear();
         self.thin = Thin::default();
+    }
+
+    /// A copy, or an error where there is no memory for it.
+    pub(crate) fn try_clone(&self) -> Result<Self, Error> {
+        let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;
+        let Self { ref faces, ref moved, thin, .. } = *self;
+        Ok(Self {
+            lattice,
+            tolerance,
+            corners: collect(corners.iter().copied())?,
+            numbers: collect(numbers.iter().copied())?,
+            numbered: collect(numbered.iter().copied())?,
+            faces: collect(faces.iter().copied())?,
+            moved: collect(moved.iter().copied())?,
+            thin,
+        })
     }
 
     /// Gives memory back that is not needed.

@@ -11,7 +11,7 @@ use super::edge::{Edge, Point, turn};
 use super::sweep_line::{NONE, Place, SweepLine};
 use super::work::{AT_ONCE, Work};
 use crate::Error;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 
 /// How overlapping edges count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -289,17 +289,17 @@ impl<'a> Sweep<'a> {
             let arriving = &mut self.arriving[edge.ends[1] as usize];
             *arriving = Arriving { count: arriving.count + 1, last: next };
         }
-        self.remove_crossing(below, self.line.above(below));
+        self.remove_crossing(below, self.line.above(below))?;
         // The first call may have taken `above` off the line.
         if self.line.contains(above) {
-            self.remove_crossing(self.line.below(above), above);
+            self.remove_crossing(self.line.below(above), above)?;
         }
         Ok(())
     }
 
     /// Takes two neighbours off the line if they cross, and goes on with those that become
     /// neighbours by it.
-    fn remove_crossing(&mut self, mut low: u32, mut high: u32) {
+    fn remove_crossing(&mut self, mut low: u32, mut high: u32) -> Result<(), Error> {
         while low != NONE && high != NONE && self.cross(low, high) {
             let (below, above) = (self.line.below(low), self.line.above(high));
             for edge in [low, high] {
@@ -308,9 +308,10 @@ impl<'a> Sweep<'a> {
                 edge.weight = 0;
                 self.arriving[edge.ends[1] as usize].count -= 1;
             }
-            self.crossings.push([low, high]);
+            push(&mut self.crossings, [low, high])?;
             (low, high) = (below, above);
         }
+        Ok(())
     }
 
     /// Whether two edges on the line, one above the other, cross before either ends: then the one

@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 
 use super::twig::{FRAGMENTS, NODES, Permutations, Shape};
+use crate::Error;
+use crate::memory::push;
 use crate::tree::node_record::NodeRecord;
 
 /// Part number for "none".
@@ -114,15 +116,15 @@ pub(in crate::tree) struct Run {
 
 impl Schedule {
     /// Lays out a tree. O(nodes).
-    pub(in crate::tree) fn new(nodes: &[NodeRecord], fragments: u32) -> Self {
+    pub(in crate::tree) fn new(nodes: &[NodeRecord], fragments: u32) -> Result<Self, Error> {
         let mut layout = Layout { nodes, schedule: Self::default(), rows: HashMap::new(), next: 0 };
-        layout.fill(fragments);
+        layout.fill(fragments)?;
         let mut schedule = layout.schedule;
         schedule.number();
         schedule.branches.shrink_to_fit();
         schedule.twigs.shrink_to_fit();
         schedule.runs.shrink_to_fit();
-        schedule
+        Ok(schedule)
     }
 
     /// How many parts there are, [`NOBODY`] and [`NEXT`] included.
@@ -186,16 +188,16 @@ struct Subtree {
 }
 
 impl Layout<'_> {
-    fn fill(&mut self, fragments: u32) {
+    fn fill(&mut self, fragments: u32) -> Result<(), Error> {
         let all = Subtree { node: 0, nodes: self.nodes.len(), fragments, parent: None };
         let mut stack = if self.nodes.is_empty() { vec![] } else { vec![all] };
         while let Some(subtree) = stack.pop() {
             let is_twig = subtree.nodes <= NODES && subtree.fragments as usize <= FRAGMENTS;
             let part = if is_twig {
                 let nodes = &self.nodes[subtree.node..][..subtree.nodes];
-                self.twig(subtree.node, Shape::of(nodes, subtree.fragments), subtree.fragments)
+                self.twig(subtree.node, Shape::of(nodes, subtree.fragments), subtree.fragments)?
             } else {
-                self.branch(&subtree, &mut stack)
+                self.branch(&subtree, &mut stack)?
             };
             if let Some((branch, side)) = subtree.parent {
                 // Parents are laid out before their children, so the parent learns the number here.
@@ -209,9 +211,10 @@ impl Layout<'_> {
                 }
             }
         }
+        Ok(())
     }
 
-    fn branch(&mut self, subtree: &Subtree, stack: &mut Vec<Subtree>) -> u32 {
+    fn branch(&mut self, subtree: &Subtree, stack: &mut Vec<Subtree>) -> Result<u32, Error> {
         let index = self.schedule.branches.len();
         let mut links = self.links(subtree);
         let first = self.next;
@@ -226,41 +229,29 @@ impl Layout<'_> {
         let node = &self.nodes[node_index];
         let (own, front) = (node.own(), node.front_len);
         let back = subtree.fragments - (links as u32 - 1) - own - front;
-        let own_first = if own <= 1 { self.take(own) } else { self.leaf(own) };
+        let own_first = if own <= 1 { self.take(own) } else { self.leaf(own)? };
         let front_nodes = node.front_nodes as usize;
-        let front_part = if front_nodes == 0 { self.leaf(front) } else { NOBODY };
-        let back_part = if node.back_is_node() { NOBODY } else { self.leaf(back) };
+        let front_part = if front_nodes == 0 { self.leaf(front)? } else { NOBODY };
+        let back_part = if node.back_is_node() { NOBODY } else { self.leaf(back)? };
         // The back goes on the stack first, so that the front comes off first: branches, twigs and
         // fragments must be numbered depth first, as they stand in memory.
         if node.back_is_node() {
-            stack.push(Subtree {
-                node: node_index + 1 + front_nodes,
-                nodes: subtree.nodes - links - front_nodes,
-                fragments: back,
-                parent: Some((index, Side::Back)),
-            });
+            let parent = Some((index, Side::Back));
+            let nodes = subtree.nodes - links - front_nodes;
+            let node = node_index + 1 + front_nodes;
+            push(stack, Subtree { node, nodes, fragments: back, parent })?;
         }
         if front_nodes > 0 {
-            stack.push(Subtree {
-                node: node_index + 1,
-                nodes: front_nodes,
-                fragments: front,
-                parent: Some((index, Side::Front)),
-            });
+            let parent = Some((index, Side::Front));
+            let node = node_index + 1;
+            push(stack, Subtree { node, nodes: front_nodes, fragments: front, parent })?;
         }
         let (own, own_first) =
             if links > 1 { (LIST | links as u32, first) } else { (own, own_first) };
         let node = subtree.node as u32;
-        self.schedule.branches.push(Branch {
-            node,
-            own,
-            front,
-            back,
-            front_part,
-            back_part,
-            own_first,
-        });
-        ROOT + index as u32
+        let branch = Branch { node, own, front, back, front_part, back_part, own_first };
+        push(&mut self.schedule.branches, branch)?;
+        Ok(ROOT + index as u32)
     }
 
     /// How many nodes at the top of a subtree form a list.
@@ -286,28 +277,29 @@ impl Layout<'_> {
     }
 
     /// Makes a part of fragments that no node separates.
-    fn leaf(&mut self, fragments: u32) -> u32 {
+    fn leaf(&mut self, fragments: u32) -> Result<u32, Error> {
         match fragments {
-            0 => NOBODY,
+            0 => Ok(NOBODY),
             _ if fragments as usize <= FRAGMENTS => self.twig(0, Shape::leaf(fragments), fragments),
             _ => {
                 let first = self.take(fragments);
-                self.schedule.runs.push(Run { first, len: fragments });
-                RUN | (self.schedule.runs.len() as u32 - 1)
+                push(&mut self.schedule.runs, Run { first, len: fragments })?;
+                Ok(RUN | (self.schedule.runs.len() as u32 - 1))
             }
         }
     }
 
     /// Makes a twig; twigs of one shape share a row of the table.
-    fn twig(&mut self, node: usize, shape: Shape, fragments: u32) -> u32 {
+    fn twig(&mut self, node: usize, shape: Shape, fragments: u32) -> Result<u32, Error> {
+        // The table has a row for each shape, of which there is a fixed number.
         let permutations = &mut self.schedule.permutations;
         let row = *self.rows.entry(shape).or_insert_with(|| {
             permutations.push(shape.permutations());
             permutations.len() as u32 - 1
         });
         let first = self.take(fragments);
-        self.schedule.twigs.push(Twig { node: node as u32, first, row });
-        TWIG | (self.schedule.twigs.len() as u32 - 1)
+        push(&mut self.schedule.twigs, Twig { node: node as u32, first, row })?;
+        Ok(TWIG | (self.schedule.twigs.len() as u32 - 1))
     }
 
     /// Assigns the next fragments to a part, and returns the number of the first.

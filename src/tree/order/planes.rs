@@ -2,7 +2,9 @@
 
 use glam::{DVec3, Vec4};
 
+use crate::Error;
 use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, PlaneKind};
+use crate::memory::{collect, reserve};
 use crate::parallel_map;
 use crate::tree::node_record::NodeRecord;
 
@@ -31,7 +33,11 @@ impl Planes {
     }
 
     /// Replaces the planes by those of a tree's nodes.
-    pub(in crate::tree) fn fill(&mut self, faces: &Faces, nodes: &[NodeRecord]) {
+    pub(in crate::tree) fn fill(
+        &mut self,
+        faces: &Faces,
+        nodes: &[NodeRecord],
+    ) -> Result<(), Error> {
         let group = |nodes: &[NodeRecord]| {
             let mut group = [Vec4::ZERO; 4];
             for (i, node) in nodes.iter().enumerate() {
@@ -42,14 +48,18 @@ impl Planes {
             group
         };
         self.0.clear();
+        reserve(&mut self.0, nodes.len().div_ceil(GROUP))?;
         if nodes.len() <= PART * GROUP {
             self.0.extend(nodes.chunks(GROUP).map(group));
-            return;
+            return Ok(());
         }
         let parts = parallel_map::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
-            nodes.chunks(GROUP).map(group).collect::<Vec<_>>()
+            collect(nodes.chunks(GROUP).map(group))
         });
-        self.0 = parts.concat();
+        for part in parts {
+            self.0.extend(part?);
+        }
+        Ok(())
     }
 
     /// How many words the signs of all planes take, and one more to read past the end.

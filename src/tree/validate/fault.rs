@@ -20,6 +20,7 @@ pub(super) enum Fault {
     Incomplete(Culprit),
     Splits { counted: usize, found: usize },
     RoundedPlanes,
+    OutOfMemory,
     Schedule,
     Positions,
 }
@@ -62,6 +63,7 @@ impl fmt::Display for Fault {
             Self::Splits { counted, found } => {
                 write!(f, "the builder counted {counted} cuts, but the pieces show {found}")
             }
+            Self::OutOfMemory => f.write_str("there is not enough memory to check the layout"),
             Self::RoundedPlanes => f.write_str("the rounded planes are not those of the nodes"),
             Self::Schedule => f.write_str("the layout for orders does not match the nodes"),
             Self::Positions => f.write_str("the positions are not those of the vertices"),

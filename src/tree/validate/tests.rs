@@ -54,7 +54,7 @@ impl Parts {
             parts.records.push(Record { face: *face, vertices: parts.vertices.len() as u32 });
             parts.vertices.extend_from_slice(vertices);
         }
-        BspTree::new(like.faces.clone(), like.preparation, parts)
+        BspTree::new(like.faces.clone(), like.preparation, parts).unwrap()
     }
 }
 

@@ -18,10 +18,10 @@ const ALL: Tuning =
 fn best(set: &Set<'_, Exact>, tuning: &Tuning) -> Candidate {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
-    sample.sketch.extend(set, 0..set.len());
+    sample.sketch.extend(set, 0..set.len()).unwrap();
     let terms = Terms::small(set, tuning);
-    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
-    contest.best(set, &mut sample, &terms, tuning).unwrap()
+    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning).unwrap();
+    contest.best(set, &mut sample, &terms, tuning).unwrap().unwrap()
 }
 
 /// The whole face whose plane a candidate is.
@@ -89,9 +89,9 @@ fn halving_finds_a_good_plane() {
 fn begun(set: &Set<'_, Exact>, tuning: &Tuning) -> Contest {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
-    sample.sketch.extend(set, 0..set.len());
+    sample.sketch.extend(set, 0..set.len()).unwrap();
     let terms = Terms::small(set, tuning);
-    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
+    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning).unwrap();
     contest
 }
 

@@ -11,7 +11,7 @@ use crate::random::SplitMix64;
 fn sketched(set: &Set<'_, Exact>) -> Sketch {
     let mut sketch = Sketch::default();
     sketch.reset(set);
-    sketch.extend(set, 0..set.len());
+    sketch.extend(set, 0..set.len()).unwrap();
     sketch
 }
 

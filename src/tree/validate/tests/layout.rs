@@ -86,12 +86,12 @@ fn rounded_planes_of_other_nodes_are_found() {
         let distinct = first.plane != last.plane;
         let mut nodes = tree.nodes.clone();
         nodes.reverse();
-        tree.planes.fill(&tree.faces, &nodes);
+        tree.planes.fill(&tree.faces, &nodes).unwrap();
         distinct.then_some(())
     });
     let missing = assert_all(ROUNDED, |tree| {
         let enough = tree.nodes.len() > 4;
-        tree.planes.fill(&tree.faces, &tree.nodes[4.min(tree.nodes.len())..]);
+        tree.planes.fill(&tree.faces, &tree.nodes[4.min(tree.nodes.len())..]).unwrap();
         enough.then_some(())
     });
     assert!(swapped >= 20 && missing >= 20, "{swapped} {missing}");
