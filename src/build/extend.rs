@@ -82,7 +82,7 @@ fn extend<P: Polygon>(
     polygons: impl IntoIterator<Item = P>,
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
-    let (mut faces, mut preparation) = (tree.faces.clone(), tree.preparation);
+    let (mut faces, mut preparation) = (tree.faces.copied()?, tree.preparation);
     let before = preparation.polygons;
     let added = Preparer::default().append(&mut faces, polygons, before, watch)?;
     preparation.add(&added);

@@ -15,6 +15,25 @@ impl Faces {
         self.thin = Thin::default();
     }
 
+    /// No faces, with the same lattice and tolerance.
+    pub(crate) fn without_faces(&self) -> Self {
+        let Self { lattice, tolerance, .. } = *self;
+        Self { lattice, tolerance, ..Self::default() }
+    }
+
+    /// The same faces once more.
+    pub(crate) fn copied(&self) -> Result<Self, Error> {
+        Ok(Self {
+            corners: copied(&self.corners)?,
+            numbers: copied(&self.numbers)?,
+            numbered: copied(&self.numbered)?,
+            faces: copied(&self.faces)?,
+            moved: copied(&self.moved)?,
+            thin: self.thin,
+            ..self.without_faces()
+        })
+    }
+
     /// Gives memory back that is not needed.
     pub(crate) fn shrink_to_fit(&mut self) {
         self.corners.shrink_to_fit();
@@ -46,4 +65,11 @@ impl Faces {
         self.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
         Ok(())
     }
+}
+
+fn copied<T: Copy>(list: &[T]) -> Result<Vec<T>, Error> {
+    let mut copy = Vec::new();
+    reserve(&mut copy, list.len())?;
+    copy.extend_from_slice(list);
+    Ok(copy)
 }
