@@ -78,7 +78,7 @@ fn compare(curves: &[Curve], dice: &mut Dice) -> usize {
                     painted.extend(ends.map(|(end, _)| (piece.line(), piece.number(), end)));
                 }
                 Shape::Marker(marker) => {
-                    let (line, ref mark) = named[marker.point()];
+                    let (line, mark) = named[marker.point()];
                     for segment in [(line, mark.arriving, 1), (line, mark.leaving, 0)] {
                         assert!(painted.contains(&segment), "{segment:?} is not painted yet");
                         compared += 1;
