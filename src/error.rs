@@ -11,11 +11,11 @@ pub struct Error {
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     NonFinite {
-        shape: Shape,
+        shape: InputKind,
         number: usize,
     },
     Corners {
-        shape: Shape,
+        shape: InputKind,
         number: usize,
         limit: usize,
     },
@@ -41,7 +41,7 @@ enum Kind {
     Cancelled,
     Bounds,
     OffGrid {
-        shape: Shape,
+        shape: InputKind,
         number: usize,
     },
     OverlaidTree,
@@ -64,13 +64,13 @@ enum Kind {
 
 /// What an error may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shape {
+pub(crate) enum InputKind {
     Polygon,
     Line,
     Point,
 }
 
-impl fmt::Display for Shape {
+impl fmt::Display for InputKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Polygon => "polygon",
@@ -82,15 +82,15 @@ impl fmt::Display for Shape {
 
 impl Error {
     pub(crate) const fn non_finite(number: usize) -> Self {
-        Self { kind: Kind::NonFinite { shape: Shape::Polygon, number } }
+        Self { kind: Kind::NonFinite { shape: InputKind::Polygon, number } }
     }
 
     pub(crate) const fn polygon_corners(number: usize, limit: usize) -> Self {
-        Self { kind: Kind::Corners { shape: Shape::Polygon, number, limit } }
+        Self { kind: Kind::Corners { shape: InputKind::Polygon, number, limit } }
     }
 
     /// The same, where the polygon to blame is a shape of another kind.
-    pub(crate) const fn of(mut self, kind: Shape) -> Self {
+    pub(crate) const fn of(mut self, kind: InputKind) -> Self {
         match &mut self.kind {
             Kind::NonFinite { shape, .. }
             | Kind::Corners { shape, .. }
@@ -137,7 +137,7 @@ impl Error {
     }
 
     pub(crate) const fn off_grid(number: usize) -> Self {
-        Self { kind: Kind::OffGrid { shape: Shape::Polygon, number } }
+        Self { kind: Kind::OffGrid { shape: InputKind::Polygon, number } }
     }
 
     pub(crate) const fn overlaid_tree() -> Self {
@@ -171,21 +171,21 @@ impl Error {
         match self.kind {
             #[cfg(feature = "layers")]
             Kind::Layer { layer } => Some(layer),
-            _ => self.number_of(Shape::Polygon),
+            _ => self.number_of(InputKind::Polygon),
         }
     }
 
     /// The index of the overlay's line to blame, in the order in which the lines were given.
     pub const fn line(&self) -> Option<usize> {
-        self.number_of(Shape::Line)
+        self.number_of(InputKind::Line)
     }
 
     /// The index of the overlay's point to blame, in the order in which the points were given.
     pub const fn point(&self) -> Option<usize> {
-        self.number_of(Shape::Point)
+        self.number_of(InputKind::Point)
     }
 
-    const fn number_of(&self, kind: Shape) -> Option<usize> {
+    const fn number_of(&self, kind: InputKind) -> Option<usize> {
         match self.kind {
             Kind::NonFinite { shape, number }
             | Kind::Corners { shape, number, .. }

@@ -101,8 +101,8 @@ pub(crate) struct HalfSpace {
     normal: [f64; 3],
     /// Less than the offset, by more than the rounding of all that it is compared with.
     offset: f64,
-    /// Which of a box's numbers are the largest along the normal.
-    far: [usize; 3],
+    /// For each axis, whether the box's upper side is the further one along the normal.
+    is_up: [bool; 3],
 }
 
 /// Roundings in a scalar product of three terms, its comparison, and the bound itself.
@@ -117,26 +117,21 @@ impl HalfSpace {
         let normal = normal.to_array();
         // The same margin for all boxes: so a box inside another never is on the front of a plane
         // that the larger one is behind.
-        Self {
-            normal,
-            offset: offset - margin,
-            far: [0, 1, 2].map(|axis| axis + if normal[axis] > 0.0 { 3 } else { 0 }),
-        }
+        Self { normal, offset: offset - margin, is_up: normal.map(|c| c > 0.0) }
     }
 
     /// Where a box is: `Less` is behind, `Greater` in front, `Equal` neither or not certain.
     #[inline]
     pub(crate) fn side(&self, bounds: &Flat) -> Ordering {
-        let along = |corner: [f64; 3]| {
+        let (corners, _) = bounds.as_chunks::<3>();
+        let along = |is_far: bool| {
+            let at = |axis: usize| corners[usize::from(self.is_up[axis] == is_far)][axis];
             let [a, b, c] = self.normal;
-            a * corner[0] + b * corner[1] + c * corner[2]
+            a * at(0) + b * at(1) + c * at(2)
         };
-        let [i, j, k] = self.far;
-        if along([bounds[i], bounds[j], bounds[k]]) < self.offset {
-            return Ordering::Less;
-        }
-        let [i, j, k] = [(i + 3) % 6, (j + 3) % 6, (k + 3) % 6];
-        if along([bounds[i], bounds[j], bounds[k]]) >= self.offset {
+        if along(true) < self.offset {
+            Ordering::Less
+        } else if along(false) >= self.offset {
             Ordering::Greater
         } else {
             Ordering::Equal

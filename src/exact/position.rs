@@ -189,12 +189,12 @@ impl<const K: usize> Leading<K> {
 
 /// A number in two parts: `high` · 2^BITS + `low`, which is not negative.
 #[derive(Clone, Copy, Debug, Default)]
-struct Parts<const BITS: u32> {
+struct HighLow<const BITS: u32> {
     high: i128,
     low: i128,
 }
 
-impl<const BITS: u32> Parts<BITS> {
+impl<const BITS: u32> HighLow<BITS> {
     /// The number times 2^−`dropped`, rounded towards 0.
     #[inline]
     fn without(self, dropped: u32) -> i128 {
@@ -219,14 +219,14 @@ impl<const BITS: u32> Parts<BITS> {
 
 /// A plane at a lattice point, see `vertex`.
 #[inline]
-fn at(plane: &Plane, point: [i64; 3]) -> Parts<LOW_BITS> {
+fn at(plane: &Plane, point: [i64; 3]) -> HighLow<LOW_BITS> {
     let (mut high, mut low) = (0, 0);
     for ((component, x), through) in plane.normal().into_iter().zip(point).zip(plane.point()) {
         let arm = i128::from(x - through);
         low += i128::from((component & LOW) as i64) * arm;
         high += i128::from((component >> LOW_BITS) as i64) * arm;
     }
-    Parts { high: high + (low >> LOW_BITS), low: low & LOW }
+    HighLow { high: high + (low >> LOW_BITS), low: low & LOW }
 }
 
 /// How many bits the largest magnitude of some numbers has.
@@ -243,7 +243,7 @@ fn halves(number: i128) -> [i64; 2] {
 }
 
 /// A number of up to 250 bits.
-type Product = Parts<KEPT>;
+type Product = HighLow<KEPT>;
 
 impl Product {
     /// a · b − c · d, of the halves of each.

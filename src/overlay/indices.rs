@@ -5,6 +5,7 @@ use std::hint::select_unpredictable;
 use super::Overlay;
 use super::skeleton::{Branch, Group};
 use crate::error::Error;
+use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::tree::order::sides::View;
 use crate::viewpoint::Viewpoint;
@@ -23,7 +24,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for.
+    /// If the tree is not the one that the overlay was made for, or if memory runs out.
     pub fn back_to_front_into(
         &self,
         tree: &BspTree,
@@ -33,7 +34,7 @@ impl Overlay {
         self.expect(tree)?;
         tree.back_to_front_into(viewpoint, order);
         if !self.is_empty() {
-            self.insert(&View::new(tree, viewpoint), order);
+            self.insert(&View::new(tree, viewpoint), order)?;
         }
         Ok(())
     }
@@ -43,7 +44,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for.
+    /// If the tree is not the one that the overlay was made for, or if memory runs out.
     pub fn front_to_back_into(
         &self,
         tree: &BspTree,
@@ -59,13 +60,14 @@ impl Overlay {
     ///
     /// Every side of the skeleton knows how many fragments and pieces it has, so where a side begins
     /// is known before it is read, as in the tree's own order.
-    fn insert(&self, view: &View, order: &mut Vec<u32>) {
+    fn insert(&self, view: &View, order: &mut Vec<u32>) -> Result<(), Error> {
         let (fragments, pieces) = (order.len(), self.len());
         let all = fragments + pieces;
         let (slots, words) = (self.skeleton.slots(), all.div_ceil(WORD));
         // One buffer for all: the caller's, so that a frame allocates nothing.
-        order.resize(all, 0);
-        order.resize(all + slots + 2 * words + 2 * pieces, 0);
+        let room = all + slots + 2 * words + 2 * pieces;
+        reserve(order, room - fragments)?;
+        order.resize(room, 0);
         let (order_itself, rest) = order.split_at_mut(all);
         let (begins, rest) = rest.split_at_mut(slots);
         let (marks, rest) = rest.split_at_mut(words);
@@ -76,6 +78,7 @@ impl Overlay {
         self.sort(groups, (marks, before), (places, numbers), fragments as u32);
         spread(order_itself, fragments, places, numbers);
         order.truncate(all);
+        Ok(())
     }
 
     /// Writes where each slot begins in the order of both parts.

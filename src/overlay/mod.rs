@@ -6,12 +6,13 @@ mod order;
 mod place;
 mod planes;
 mod region;
+mod replace;
 mod shape;
 mod shapes;
 mod skeleton;
+mod store;
 
 use std::fmt;
-use std::ops::ControlFlow;
 
 pub use order::Overlaid;
 use place::Placer;
@@ -19,12 +20,9 @@ pub use shape::{Marker, Segment, Shape};
 pub use shapes::Shapes;
 use skeleton::Skeleton;
 
-use crate::build::Progress;
-use crate::build::progress::{Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::{ExactStored, Faces};
 use crate::faces::{Preparation, Preparer};
-use crate::input::{Point, Polygon};
 use crate::tree::parts::{Parts, Record, Stored};
 use crate::tree::{BspTree, Fragment};
 
@@ -112,7 +110,8 @@ use crate::tree::{BspTree, Fragment};
 /// points. So an axis drawn on a wall is painted over the wall. A line that goes through a plane is
 /// cut there; a point at that place comes between its two parts. Only where lines and points meet
 /// between polygons, a point at a corner of a line comes after both segments there, if the line has no
-/// point at its next corners either way. The tolerance counts as for polygons:
+/// point at its next corners either way. That holds where a line is closed, and where corners are
+/// repeated in a row. Of more than two segments that meet at a point, some may come after it. The tolerance counts as for polygons:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on it;
 /// - a segment that reaches further on one side only goes whole to that side.
@@ -137,7 +136,8 @@ use crate::tree::{BspTree, Fragment};
 /// beyond it is an error:
 /// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
 ///
-/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon.
+/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon. It is made when
+/// the overlay is first given something, in O(n).
 pub struct Overlay {
     /// The faces of the tree, and those of the overlay after them: planes of both have names in one
     /// space.
@@ -175,11 +175,11 @@ impl Base {
 }
 
 impl Overlay {
-    /// An overlay of nothing for a tree, whose polygons it copies. O(n).
+    /// An overlay of nothing for a tree. O(1): the tree's polygons are copied when the overlay is first
+    /// given something.
     pub fn new(tree: &BspTree) -> Self {
-        let faces = tree.faces.clone();
         Self {
-            faces,
+            faces: tree.faces.without_faces(),
             base: Base::of(tree),
             preparer: Preparer::default(),
             placer: Placer::default(),
@@ -188,104 +188,6 @@ impl Overlay {
             preparation: Preparation::default(),
             segments: vec![],
         }
-    }
-
-    /// Replaces all that the overlay has by polygons, and cuts them down to the leaves of the tree.
-    ///
-    /// # Errors
-    ///
-    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is not
-    /// the one that the overlay was made for. The overlay is empty then. The error names the polygon
-    /// where one is to blame, counted from 0.
-    pub fn replace<P: Polygon>(
-        &mut self,
-        tree: &BspTree,
-        polygons: impl IntoIterator<Item = P>,
-    ) -> Result<(), Error> {
-        self.replace_with(tree, Shapes::NONE.with_polygons(polygons))
-    }
-
-    /// Replaces all that the overlay has by polygons, lines and points, and cuts them down to the
-    /// leaves of the tree.
-    ///
-    /// # Errors
-    ///
-    /// As for [`replace`](Self::replace). [`Error::line`] or [`Error::point`] is what is to blame, if
-    /// it is no polygon.
-    pub fn replace_with<P, L, Q>(
-        &mut self,
-        tree: &BspTree,
-        shapes: Shapes<P, L, Q>,
-    ) -> Result<(), Error>
-    where
-        P: IntoIterator<Item: Polygon>,
-        L: IntoIterator<Item: Polygon>,
-        Q: IntoIterator<Item: Point>,
-    {
-        self.refill(tree, shapes, &Watch::default())
-    }
-
-    /// The same, with progress reported to a callback that can cancel, as
-    /// [`BuildOptions::build_with_progress`](crate::BuildOptions::build_with_progress) does.
-    ///
-    /// # Errors
-    ///
-    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. The overlay is empty then.
-    pub fn replace_with_progress<P, L, Q>(
-        &mut self,
-        tree: &BspTree,
-        shapes: Shapes<P, L, Q>,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
-    ) -> Result<(), Error>
-    where
-        P: IntoIterator<Item: Polygon>,
-        L: IntoIterator<Item: Polygon>,
-        Q: IntoIterator<Item: Point>,
-    {
-        let progress = one_at_a_time(progress);
-        self.refill(tree, shapes, &Watch::new(&progress))
-    }
-
-    fn refill<P, L, Q>(
-        &mut self,
-        tree: &BspTree,
-        shapes: Shapes<P, L, Q>,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error>
-    where
-        P: IntoIterator<Item: Polygon>,
-        L: IntoIterator<Item: Polygon>,
-        Q: IntoIterator<Item: Point>,
-    {
-        self.clear();
-        self.expect(tree)?;
-        let replaced = self.fill(tree, shapes, watch);
-        if replaced.is_err() {
-            self.clear();
-        }
-        replaced
-    }
-
-    fn fill<P, L, Q>(
-        &mut self,
-        tree: &BspTree,
-        shapes: Shapes<P, L, Q>,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error>
-    where
-        P: IntoIterator<Item: Polygon>,
-        L: IntoIterator<Item: Polygon>,
-        Q: IntoIterator<Item: Point>,
-    {
-        let Self { faces, base, preparer, placer, pieces, skeleton, segments, .. } = self;
-        let Shapes { polygons, lines, points } = shapes;
-        self.preparation = preparer.append(faces, polygons, base.polygons, watch)?;
-        placer.begin_at(base.faces, faces.len());
-        preparer.append_lines(faces, lines, segments, watch)?;
-        preparer.append_points(faces, points, watch)?;
-        watch.expect(faces.len() - base.faces)?;
-        placer.place(tree, faces, pieces, skeleton, watch)?;
-        watch.end()
     }
 
     /// Removes all that the overlay has.

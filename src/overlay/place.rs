@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::anchors::Anchors;
 use super::planes;
 use super::region::{Cell, Opened, Region, Whose};
-use super::skeleton::{self, Place, Skeleton};
+use super::skeleton::{Place, Skeleton};
 use crate::build::cell::CellBuilder;
 use crate::build::knife::Knife;
 use crate::build::live::Live;
@@ -17,7 +17,7 @@ use crate::exact::{
 use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::tree::node_record::MOST_FRAGMENTS;
-use crate::tree::parts::{Parts, Record};
+use crate::tree::parts::Parts;
 
 /// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
 /// time to look at boxes of what is scattered; larger: time to look at the pieces of a body one by one.
@@ -37,16 +37,16 @@ struct Pending {
 #[derive(Default)]
 pub(super) struct Placer {
     cells: CellBuilder,
-    cell: Cell,
+    pub(super) cell: Cell,
     anchors: Anchors,
     /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
     /// polygons, then lines, then points.
     pieces: Vec<Live>,
     /// The vertices of cut pieces, in the order of the cuts.
-    arena: Vec<ExactVertex>,
+    pub(super) arena: Vec<ExactVertex>,
     pending: Vec<Pending>,
     front: Vec<Live>,
-    own: Vec<Live>,
+    pub(super) own: Vec<Live>,
     /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
     crowd: Option<[[f64; 3]; 2]>,
     knife: Knife<ExactVertex>,
@@ -84,20 +84,20 @@ impl Placer {
 }
 
 /// What one placing reads and writes.
-struct Work<'a> {
+pub(super) struct Work<'a> {
     tree: &'a BspTree,
-    faces: &'a Faces,
-    placer: &'a mut Placer,
-    pieces: &'a mut Parts<ExactStored>,
-    skeleton: &'a mut Skeleton,
-    watch: &'a Watch<'a>,
+    pub(super) faces: &'a Faces,
+    pub(super) placer: &'a mut Placer,
+    pub(super) pieces: &'a mut Parts<ExactStored>,
+    pub(super) skeleton: &'a mut Skeleton,
+    pub(super) watch: &'a Watch<'a>,
 }
 
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
-        let Self { tree, faces, .. } = *self;
+        let Self { tree, faces, watch, .. } = *self;
         let Placer { pieces, arena, pending, anchors, crowd, first, thin, .. } = &mut *self.placer;
-        anchors.fill(faces)?;
+        anchors.fill(faces, watch)?;
         pieces.clear();
         arena.clear();
         pending.clear();
@@ -205,6 +205,9 @@ impl Work<'_> {
     /// `front`, and pieces on the plane to `own`.
     fn divide(&mut self, start: usize, splitter: &ExactSplitter) -> Result<(), Error> {
         let Placer { pieces, arena, front, own, knife, .. } = &mut *self.placer;
+        // Each piece has at most one part in front, or is one on the plane.
+        reserve(front, pieces.len() - start)?;
+        reserve(own, pieces.len() - start)?;
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
@@ -239,6 +242,7 @@ impl Work<'_> {
         let set = &pieces[start..];
         if let [piece] = *set {
             own.clear();
+            reserve(own, 1)?;
             own.push(piece);
             let side = self.store_all(0..0, 1)?;
             self.skeleton.hang(place, side);
@@ -257,52 +261,9 @@ impl Work<'_> {
             let region = cell.fill(tree);
             return Ok(Opened::of(region, self.tree, cell, self.faces));
         }
-        let numbers = skeleton::append(self.pieces, &tree)?;
-        self.skeleton.graft(place, self.faces, &tree, numbers.start)?;
-        cells.keep(tree);
+        let first = self.store_tree(&tree)?;
+        self.skeleton.graft(place, self.faces, &tree, first)?;
+        self.placer.cells.keep(tree);
         Ok(None)
     }
-
-    /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
-    /// order.
-    fn store_all(&mut self, fragments: Range<u32>, own: usize) -> Result<skeleton::Side, Error> {
-        let first = self.pieces.records.len() as u32;
-        for fragment in fragments {
-            let fragment = fragment as usize;
-            let Parts { records, vertices, positions, .. } = &self.placer.cell.parts;
-            let end =
-                records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
-            let range = records[fragment].vertices as usize..end;
-            let (symbols, places) = (&vertices[range.clone()], &positions[range]);
-            let face = records[fragment].face;
-            add(self.pieces, face, symbols.iter().copied(), places.iter().copied())?;
-        }
-        let Placer { own: list, arena, .. } = &mut *self.placer;
-        // Coplanar polygons are painted in input order.
-        list.sort_by_key(|piece| piece.face);
-        for live in &list[..own] {
-            let cut = live.piece(arena).cut.unwrap_or_default();
-            let symbols = cut.iter().map(|vertex| Exact.store(vertex));
-            add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position))?;
-            self.watch.finish(live.cuts);
-        }
-        self.skeleton.group(first..self.pieces.records.len() as u32)
-    }
-}
-
-/// Adds a piece to those that are in place.
-fn add(
-    pieces: &mut Parts<ExactStored>,
-    face: u32,
-    symbols: impl ExactSizeIterator<Item = ExactStored>,
-    places: impl ExactSizeIterator<Item = [f64; 3]>,
-) -> Result<(), Error> {
-    let Parts { records, vertices, positions, .. } = pieces;
-    reserve(records, 1)?;
-    records.push(Record { face, vertices: vertices.len() as u32 });
-    reserve(vertices, symbols.len())?;
-    vertices.extend(symbols);
-    reserve(positions, places.len())?;
-    positions.extend(places);
-    Ok(())
 }

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::exact::{ExactStored, Faces, PlaneId};
 use crate::memory::reserve;
 use crate::tree::order::planes::rounded;
-use crate::tree::parts::{Parts, RawChild, Record};
+use crate::tree::parts::{Parts, RawChild};
 
 /// Pieces that need no plane between them: one, or coplanar ones in input order.
 #[derive(Clone, Copy, Debug)]
@@ -182,6 +182,7 @@ impl Skeleton {
         mut first: u32,
     ) -> Result<(), Error> {
         self.open.clear();
+        reserve(&mut self.open, 1)?;
         self.open.push(place);
         let mut take = |len: u32| {
             let start = first;
@@ -202,6 +203,7 @@ impl Skeleton {
             let branch = Branch { rounded, plane, own: 0, pieces, front, back };
             let number = self.push(place, branch)?;
             // Nodes stand depth first, the front before the back.
+            reserve(&mut self.open, 2)?;
             if node.back == RawChild::Node {
                 self.open.push(Place::Back(number));
             }
@@ -217,21 +219,4 @@ impl Branch {
     fn len(&self) -> u32 {
         self.own + self.pieces.len + self.front.len + self.back.len
     }
-}
-
-/// Appends the fragments of a small tree to the overlay's pieces.
-pub(super) fn append(
-    pieces: &mut Parts<ExactStored>,
-    tree: &Parts<ExactStored>,
-) -> Result<Range<u32>, Error> {
-    let first = pieces.records.len() as u32;
-    let shift = pieces.vertices.len() as u32;
-    reserve(&mut pieces.records, tree.records.len())?;
-    let moved = |record: &Record| Record { vertices: record.vertices + shift, ..*record };
-    pieces.records.extend(tree.records.iter().map(moved));
-    reserve(&mut pieces.vertices, tree.vertices.len())?;
-    pieces.vertices.extend_from_slice(&tree.vertices);
-    reserve(&mut pieces.positions, tree.positions.len())?;
-    pieces.positions.extend_from_slice(&tree.positions);
-    Ok(first..pieces.records.len() as u32)
 }

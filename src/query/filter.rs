@@ -15,14 +15,14 @@ pub(super) enum Guess {
 }
 
 /// A plane along a ray: `start` + t · `slope`.
-struct AtRay {
+struct RoundedAtRay {
     start: f64,
     slope: f64,
     /// The sum of the magnitudes of all products that the components of the normal are made of.
     size: f64,
 }
 
-/// Error bounds of a plane at a ray. Let u = 2⁻⁵³, π the sum of [`AtRay::size`], M the probe's reach and
+/// Error bounds of a plane at a ray. Let u = 2⁻⁵³, π the sum of [`RoundedAtRay::size`], M the probe's reach and
 /// d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ; the
 /// origin less a corner by 2uM, the direction by ud. With three products and two sums, the start is off
 /// by 7uπM and the slope by 6uπd, less for planes along an axis; a thousandth of that for what
@@ -37,7 +37,7 @@ const SLOPE_ERROR: f64 = 3.1 * f64::EPSILON;
 /// the difference: 30u.
 const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 
-impl AtRay {
+impl RoundedAtRay {
     #[inline]
     fn face(probe: &Probe, faces: &Faces, face: u32) -> (Self, RoundedNormal) {
         let corners = faces.reference_triangle(face).map(|c| faces.corner(c));
@@ -82,7 +82,7 @@ pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Gu
         return Guess::Unsure;
     }
     let face = fragment.face();
-    let (own, rounded) = AtRay::face(probe, faces, face);
+    let (own, rounded) = RoundedAtRay::face(probe, faces, face);
     let (start_error, slope_error) =
         (START_ERROR * own.size * probe.reach, SLOPE_ERROR * own.size * probe.speed);
     // As if the ray went to the front.
@@ -107,12 +107,12 @@ pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Gu
         let (bound, inside) = match line.as_cut() {
             Some(plane) => {
                 let inside = if line.is_behind() { -1.0 } else { 1.0 };
-                (AtRay::plane(probe, faces, plane), inside)
+                (RoundedAtRay::plane(probe, faces, plane), inside)
             }
             None => {
                 let k = line.as_edge().unwrap_or(0) as usize;
                 let next = if k + 1 == corners.len() { 0 } else { k + 1 };
-                (AtRay::upright(probe, &corners[k], &corners[next], axis), inwards)
+                (RoundedAtRay::upright(probe, &corners[k], &corners[next], axis), inwards)
             }
         };
         let side = (bound.start * slope - bound.slope * start) * inside;

@@ -20,7 +20,8 @@ use normals::{Arms, Normals};
 /// [`BspTree::bounds`].
 ///
 /// A tree has none of its own: make them once if you need them, and keep them beside the tree. They
-/// take about 130 bytes a fragment.
+/// take about 130 bytes a fragment. Once the tree is built anew or [extended](BspTree::extend) they are
+/// stale: make them anew too.
 ///
 /// Boxes are `[low, high]` in the polygons' unit, rounded outwards: each contains the exact vertices
 /// of its fragments, and those that [`Fragment::vertices`] gives. It is larger than needed by at most
@@ -158,6 +159,18 @@ fn unflat(flat: &Flat) -> [DVec3; 2] {
 }
 
 impl Bounds {
+    /// Panics if these are not the bounds of a tree, as far as its size tells: a stale box would leave out
+    /// what is to be seen or hit.
+    pub(crate) fn expect(&self, tree: &BspTree) {
+        let found = [self.nodes.len(), self.fragments().len()];
+        let wanted = [tree.nodes.len(), tree.records.len()];
+        assert!(
+            found == wanted,
+            "bounds of {found:?} nodes and fragments, but the tree has {wanted:?}: make them anew by \
+             BspTree::bounds"
+        );
+    }
+
     /// The box of a subtree: of all fragments on a node's plane and on its sides. O(1).
     ///
     /// # Panics

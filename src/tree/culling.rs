@@ -5,11 +5,12 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
+use super::BspTree;
 use super::bounds::normals::Arms;
 use super::bounds::{BLOCK, Bounds};
 use super::facing::facing;
+use super::node_record::Ranges;
 use super::order::sides::View;
-use super::{BspTree, Child, Node};
 use crate::exact::Eye;
 use crate::frustum::{Flat, Frustum, HalfSpace};
 use crate::viewpoint::Viewpoint;
@@ -90,7 +91,8 @@ impl BspTree {
     ///
     /// # Panics
     ///
-    /// If the bounds are those of another, smaller tree.
+    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
+    /// Those of another tree with the same numbers give wrong answers.
     pub fn culled_back_to_front_into(
         &self,
         viewpoint: Viewpoint,
@@ -106,7 +108,8 @@ impl BspTree {
     ///
     /// # Panics
     ///
-    /// If the bounds are those of another, smaller tree.
+    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
+    /// Those of another tree with the same numbers give wrong answers.
     pub fn culled_front_to_back_into(
         &self,
         viewpoint: Viewpoint,
@@ -127,6 +130,22 @@ struct Doubts {
     sides: bool,
 }
 
+/// A subtree, or fragments alone, and what is still to be decided of them.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    /// [`LEAF`] for fragments alone.
+    node: u32,
+    first: u32,
+    end: u32,
+    doubts: Doubts,
+}
+
+const LEAF: u32 = u32::MAX;
+
+/// The boxes of subtrees of no more fragments are not looked at, only those of the fragments. Smaller:
+/// more boxes are looked at of what is in view; larger: of what is not.
+const FEW: u32 = 2;
+
 /// A tree, a viewpoint, and what is left out.
 struct Cull<'t> {
     tree: &'t BspTree,
@@ -142,6 +161,7 @@ struct Cull<'t> {
 impl<'t> Cull<'t> {
     fn new(tree: &'t BspTree, viewpoint: Viewpoint, culling: &Culling<'t>) -> Self {
         let (bounds, lattice) = (culling.bounds, tree.faces.lattice());
+        bounds.expect(tree);
         let eye = Eye::new(viewpoint, lattice);
         let (reach, step) = (bounds.reach(), lattice.length_to_world(1.0));
         let planes = culling.frustum.planes().iter().take(32);
@@ -163,26 +183,47 @@ impl<'t> Cull<'t> {
     fn write(&self, order: &mut Vec<u32>) {
         let planes = u32::MAX.checked_shr(32 - self.planes.len() as u32).unwrap_or(0);
         let doubts = Doubts { planes, sides: self.side.is_some() };
-        let mut pending = vec![(self.tree.whole(), doubts)];
-        while let Some((part, doubts)) = pending.pop() {
-            match part {
-                Child::Leaf(run) => self.write_run(run, doubts, order),
-                Child::Node(node) => {
-                    let Some(doubts) = self.left_in(node, doubts) else { continue };
-                    let is_in_front = self.view.is_in_front(self.tree, node.index());
-                    for part in node.parts(is_in_front).into_iter().rev() {
-                        pending.push((part, doubts));
-                    }
-                }
-            }
+        let node = if self.tree.nodes.is_empty() { LEAF } else { 0 };
+        let mut pending = vec![Part { node, first: 0, end: self.tree.len() as u32, doubts }];
+        while let Some(part) = pending.pop() {
+            self.descend(part, &mut pending, order);
         }
     }
 
+    /// Writes the furthest run of a part, and puts the rest on the stack.
+    fn descend(&self, part: Part, pending: &mut Vec<Part>, order: &mut Vec<u32>) {
+        let Part { mut node, first, end, mut doubts } = part;
+        let mut all = first..end;
+        while node != LEAF {
+            let index = node as usize;
+            if all.end - all.start > FEW {
+                let Some(left) = self.left_in(index, doubts) else { return };
+                doubts = left;
+            }
+            let record = &self.tree.nodes[index];
+            let Ranges { own, front, back } = record.ranges(all);
+            let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
+            let front = (child(record.front_node(index)), front);
+            let back = (child(record.back_node(index)), back);
+            let is_in_front = self.view.is_in_front(self.tree, index);
+            let (far, near) = if is_in_front { (back, front) } else { (front, back) };
+            // Back to front: the far side, what is on the plane, the near side.
+            for (node, run) in [near, (LEAF, own)] {
+                if !run.is_empty() {
+                    pending.push(Part { node, first: run.start, end: run.end, doubts });
+                }
+            }
+            (node, all) = far;
+        }
+        self.write_run(all, doubts, order);
+    }
+
     /// What is left to be decided of a subtree; `None` if all of it is left out.
-    fn left_in(&self, node: Node<'_>, doubts: Doubts) -> Option<Doubts> {
-        let planes = self.crossed(&self.bounds.nodes[node.index()], doubts.planes)?;
+    #[inline]
+    fn left_in(&self, node: usize, doubts: Doubts) -> Option<Doubts> {
+        let planes = self.crossed(&self.bounds.nodes[node], doubts.planes)?;
         let sides = match self.side {
-            Some(side) if doubts.sides => match self.bounds.seen(node.index(), &self.arms) {
+            Some(side) if doubts.sides => match self.bounds.seen(node, &self.arms) {
                 Some(seen) if seen != side => return None,
                 seen => seen.is_none(),
             },
@@ -209,10 +250,23 @@ impl<'t> Cull<'t> {
     }
 
     /// Writes those of a run that are not left out: blocks of them at once, where it is long.
-    fn write_run(&self, mut run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
+    #[inline]
+    fn write_run(&self, run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
         if doubts.planes == 0 {
             return self.write_shown(run, doubts, order);
         }
+        if run.end - run.start >= BLOCK as u32 {
+            return self.write_blocks(run, doubts, order);
+        }
+        for fragment in run {
+            let bounds = &self.bounds.fragments()[fragment as usize];
+            if self.crossed(bounds, doubts.planes).is_some() {
+                self.write_one(fragment, doubts, order);
+            }
+        }
+    }
+
+    fn write_blocks(&self, mut run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
         while !run.is_empty() {
             let (mut level, mut len) = self.bounds.block(&run);
             loop {
@@ -237,12 +291,20 @@ impl<'t> Cull<'t> {
     /// Writes those of a run that show the side that is drawn.
     #[inline]
     fn write_shown(&self, run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
-        match self.side {
-            Some(side) if doubts.sides => order.extend(run.filter(|&fragment| {
-                let face = self.tree.records[fragment as usize].face;
-                facing(&self.tree.faces, face, &self.eye) == side
-            })),
-            _ => order.extend(run),
+        for fragment in run {
+            self.write_one(fragment, doubts, order);
         }
+    }
+
+    /// Writes a fragment, if it shows the side that is drawn.
+    #[inline]
+    fn write_one(&self, fragment: u32, doubts: Doubts, order: &mut Vec<u32>) {
+        if let Some(side) = self.side.filter(|_| doubts.sides) {
+            let face = self.tree.records[fragment as usize].face;
+            if facing(&self.tree.faces, face, &self.eye) != side {
+                return;
+            }
+        }
+        order.push(fragment);
     }
 }

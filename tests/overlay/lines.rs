@@ -1,9 +1,7 @@
 //! Lines and points among polygons that stay and polygons that move, judged by rays in rationals.
 
-use std::collections::HashSet;
-
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, BuildOptions, Heuristic, Overlay, Shape, Shapes, Viewpoint};
+use binspace::{BspTree, BuildOptions, Heuristic, Overlay, Shapes};
 
 use crate::oracle::{self, Counts};
 use crate::support::dice::Dice;
@@ -198,48 +196,4 @@ fn lines_and_points_come_in_the_exact_order_in_a_tangle() {
     let Counts { lines, line_polygon, point_polygon, points, edge_on, .. } = counts;
     assert!(lines > 500 && line_polygon > 1_000 && point_polygon > 80, "{counts:?}");
     assert!(points > 4 && edge_on == 0 && counts.pieces > counts.segments * 3 / 2, "{counts:?}");
-}
-
-/// A mark on a curve is painted over the curve: over both segments that meet there.
-#[test]
-fn a_point_at_a_corner_of_a_line_comes_after_what_meets_there() {
-    let bounds = DVec3::splat(ROOM);
-    let options = BuildOptions::DEFAULT.with_tolerance(0.0).with_bounds(-bounds, bounds);
-    let tree = options.build(Vec::<Corners>::new()).expect("a tree of nothing");
-    let mut overlay = Overlay::new(&tree);
-    let mut compared = 0;
-    for seed in 0..12 {
-        let mut dice = Dice(seed);
-        let Scene { lines, .. } = tangle(0, 40, 0, &mut dice);
-        let lines: Vec<Corners> = lines.chunks(2).map(<[Corners]>::concat).collect();
-        // Not at corners next to each other: a plane cannot hold what meets at both.
-        let corners = |line: usize| (1..lines[line].len() - 1).step_by(2).map(move |k| (line, k));
-        let named: Vec<(usize, usize)> = (0..lines.len()).flat_map(corners).collect();
-        let points = named.iter().map(|&(line, k)| lines[line][k]);
-        let shapes = Shapes::NONE.with_lines(&lines).with_points(points);
-        overlay.replace_with(&tree, shapes).expect("on the grid");
-        for _ in 0..5 {
-            let eye = Viewpoint::Eye(whole(&mut dice) * 5.1);
-            let order = overlay.back_to_front(&tree, eye).expect("its own tree");
-            let mut painted = HashSet::new();
-            for shape in order {
-                match shape {
-                    Shape::Segment(piece) => {
-                        let (line, k) = (piece.line(), piece.number());
-                        let corners = [0.0, 1.0].into_iter().zip([k, k + 1]);
-                        let at_end = corners.filter(|(end, _)| piece.shares().contains(end));
-                        painted.extend(at_end.map(|(_, corner)| (line, k, corner)));
-                    }
-                    Shape::Marker(marker) => {
-                        let (line, k) = named[marker.point()];
-                        assert!(painted.contains(&(line, k - 1, k)), "{seed}: {line} {k}");
-                        assert!(painted.contains(&(line, k, k)), "{seed}: {line} {k}");
-                        compared += 1;
-                    }
-                    _ => unreachable!(),
-                }
-            }
-        }
-    }
-    assert!(compared > 2_000, "{compared}");
 }

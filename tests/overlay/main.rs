@@ -7,6 +7,7 @@ mod crowd;
 mod errors;
 mod judge;
 mod lines;
+mod marks;
 mod oracle;
 mod sight;
 #[path = "../support/mod.rs"]

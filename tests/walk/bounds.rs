@@ -3,9 +3,10 @@
 use crate::support::model::Face;
 use crate::support::rational::{self, Point, Rational};
 use crate::trees;
-use binspace::BspTree;
 use binspace::glam::DVec3;
+use binspace::{BspTree, Culling, Ray, Viewpoint, scene};
 use num_traits::ToPrimitive;
+use std::panic::{RefUnwindSafe, catch_unwind};
 
 /// The exact vertices of each fragment, in the world.
 fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {
@@ -72,4 +73,29 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
 fn a_tree_of_nothing_has_no_box() {
     let bounds = BspTree::build::<[[f64; 3]; 3]>([]).unwrap().bounds().unwrap();
     assert_eq!(bounds.all(), None);
+}
+
+/// Bounds of a smaller or a larger tree are refused, by a message that says what to do.
+#[test]
+fn bounds_of_another_tree_are_refused() {
+    let trees = [30, 300].map(|n| BspTree::build(scene::city(n, 1).polygons()).expect("built"));
+    let bounds = trees.each_ref().map(|tree| tree.bounds().expect("memory"));
+    let ray = Ray::new([0.5, 0.5, 9.0], [0.1, 0.2, -1.0]);
+    let mut refused = 0;
+    for (tree, bounds) in [(&trees[0], &bounds[1]), (&trees[1], &bounds[0])] {
+        let cull = || {
+            let culling = Culling::new(bounds);
+            tree.culled_back_to_front_into(Viewpoint::eye([1.0; 3]), &culling, &mut Vec::new());
+        };
+        let hits = || assert!(bounds.hits(tree, ray).count() < 9);
+        let is_blocked = || assert!(bounds.is_blocked(tree, ray) || !tree.is_blocked(ray));
+        let asks: [&(dyn Fn() + RefUnwindSafe); 3] = [&cull, &hits, &is_blocked];
+        for ask in asks {
+            let panic = catch_unwind(ask).expect_err("they are stale");
+            let message = panic.downcast_ref::<String>().expect("a message");
+            assert!(message.contains("BspTree::bounds"), "{message}");
+            refused += 1;
+        }
+    }
+    assert_eq!(refused, 6);
 }

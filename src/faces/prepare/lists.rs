@@ -15,6 +15,12 @@ impl Faces {
         self.thin = Thin::default();
     }
 
+    /// No faces, with the same lattice and tolerance.
+    pub(crate) fn without_faces(&self) -> Self {
+        let Self { lattice, tolerance, .. } = *self;
+        Self { lattice, tolerance, ..Self::default() }
+    }
+
     /// A copy, or an error where there is no memory for it.
     pub(crate) fn try_clone(&self) -> Result<Self, Error> {
         let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;

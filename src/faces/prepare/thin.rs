@@ -1,10 +1,12 @@
 //! Segments and points behind the faces of a finished scene.
 
+use glam::DVec3;
+
 use super::Preparer;
 use crate::Error;
-use crate::error::Shape;
+use crate::error::InputKind;
 use crate::exact::faces::{Face, Frame};
-use crate::exact::{Faces, LATTICE_LIMIT, MAX_LABELS, cross};
+use crate::exact::{Faces, LATTICE_LIMIT, Lattice, MAX_LABELS, cross};
 use crate::faces::listener::Listener;
 use crate::input::{Point, Polygon};
 use crate::memory::reserve;
@@ -25,23 +27,18 @@ impl Preparer {
         listener: &dyn Listener,
     ) -> Result<(), Error> {
         numbers.clear();
-        self.read_thin(faces, lines, Shape::Line, listener)?;
-        let mut points = Vec::new();
+        self.read_thin(faces, lines, InputKind::Line, listener)?;
+        let mut corners = Vec::new();
         for line in 0..self.input.len() {
             let given = self.input.polygon(line);
             listener.work(given.len())?;
-            points.clear();
-            reserve(&mut points, given.len())?;
-            points.extend(given.iter().map(|&point| faces.lattice.snap(point)));
-            reserve(numbers, points.len())?;
-            for (k, ends) in points.windows(2).enumerate() {
-                if ends[0] == ends[1] {
-                    continue;
-                }
-                let neighbours = [points.get(k + 2), k.checked_sub(1).map(|k| &points[k])];
-                let third = third_corner([ends[0], ends[1]], neighbours.into_iter().flatten());
-                push(faces, &[ends[0], ends[1], third], line as u32, Frame::TRIANGLE)?;
-                numbers.push(k as u32);
+            keep_distinct(given, &faces.lattice, &mut corners)?;
+            reserve(numbers, corners.len())?;
+            for (k, ends) in corners.windows(2).enumerate() {
+                let [(from, number), (to, _)] = *ends else { continue };
+                let third = third_corner([from, to], neighbours(&corners, k).into_iter().flatten());
+                push(faces, &[from, to, third], line as u32, Frame::TRIANGLE)?;
+                numbers.push(number);
             }
         }
         faces.thin.segments = numbers.len();
@@ -56,7 +53,7 @@ impl Preparer {
         listener: &dyn Listener,
     ) -> Result<(), Error> {
         let points = points.into_iter().map(|point| [point]);
-        self.read_thin(faces, points, Shape::Point, listener)?;
+        self.read_thin(faces, points, InputKind::Point, listener)?;
         for number in 0..self.input.len() {
             let at = self.input.polygon(number).iter().map(|&point| faces.lattice.snap(point));
             let at = at.collect::<smallvec::SmallVec<[_; 1]>>();
@@ -70,7 +67,7 @@ impl Preparer {
         &mut self,
         faces: &Faces,
         shapes: impl IntoIterator<Item = P>,
-        kind: Shape,
+        kind: InputKind,
         listener: &dyn Listener,
     ) -> Result<(), Error> {
         self.input.read(shapes, usize::MAX, listener).map_err(|error| error.of(kind))?;
@@ -81,14 +78,48 @@ impl Preparer {
     }
 }
 
+/// A corner of a line on the lattice, and its number. Of equal corners in a row the last is kept: its
+/// segment is the one that leads on from there.
+type Corner = ([f64; 3], u32);
+
+fn keep_distinct(
+    given: &[DVec3],
+    lattice: &Lattice,
+    corners: &mut Vec<Corner>,
+) -> Result<(), Error> {
+    corners.clear();
+    reserve(corners, given.len())?;
+    for (number, &point) in (0..).zip(given) {
+        let point = lattice.snap(point);
+        match corners.last_mut() {
+            Some((last, kept)) if *last == point => *kept = number,
+            _ => corners.push((point, number)),
+        }
+    }
+    Ok(())
+}
+
+/// The corner behind a segment's end, and the one ahead of its beginning. Where a line is closed, they
+/// are those on the other side of the closing corner.
+fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
+    let segments = corners.len() - 1;
+    let is_closed = corners[0].0 == corners[segments].0;
+    let after = match segment + 2 {
+        next if next <= segments => Some(next),
+        _ => is_closed.then_some(1),
+    };
+    let before = match segment.checked_sub(1) {
+        None => is_closed.then_some(segments - 1),
+        before => before,
+    };
+    [after, before].map(|corner| corner.map(|corner| corners[corner].0))
+}
+
 /// A lattice point that is not on the line through two others.
 ///
 /// It is that of a neighbour, if one is: of a line that lies in a plane, all segments then have that
 /// plane, and none of them cuts another.
-fn third_corner<'a>(
-    [p, q]: [[f64; 3]; 2],
-    neighbours: impl Iterator<Item = &'a [f64; 3]>,
-) -> [f64; 3] {
+fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
     // Upright planes, where there is no neighbour: seen from above, they cut each other as lines of the
     // plane do, which makes fewer pieces than planes in all directions.
     let along = |axis: usize| {
@@ -97,8 +128,7 @@ fn third_corner<'a>(
         third
     };
     let is_off = |third: &[f64; 3]| cross(p, q, *third) != [0; 3];
-    let mut candidates = neighbours.copied().chain([along(2)]);
-    candidates.find(is_off).unwrap_or_else(|| along(0))
+    neighbours.chain([along(2)]).find(is_off).unwrap_or_else(|| along(0))
 }
 
 fn push(faces: &mut Faces, corners: &[[f64; 3]], shape: u32, frame: Frame) -> Result<(), Error> {

@@ -10,7 +10,7 @@ use super::outline::{Triangulation, triangulate};
 use super::work::AT_ONCE;
 use crate::Error;
 use crate::random::SplitMix64;
-use shapes::{Shape, large, random_points, simple};
+use shapes::{Family, large, random_points, simple};
 
 fn run(corners: &[Point]) -> Triangulation {
     triangulate(corners, &|_| Ok(())).expect("memory")
@@ -105,7 +105,7 @@ fn in_all_ways(corners: &[Point], mut check: impl FnMut(&[Point])) {
 fn simple_polygons_are_covered() {
     let mut random = SplitMix64::new(1);
     for round in 0..60 {
-        for shape in Shape::ALL {
+        for shape in Family::ALL {
             let corners = simple(shape, 4 + round * 2, &mut random);
             in_all_ways(&corners, assert_covers);
         }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::twig::{FRAGMENTS, NODES, Permutations, Shape};
+use super::twig::{FRAGMENTS, NODES, Permutations, TwigShape};
 use crate::Error;
 use crate::memory::push;
 use crate::tree::node_record::NodeRecord;
@@ -173,7 +173,7 @@ enum Side {
 struct Layout<'a> {
     nodes: &'a [NodeRecord],
     schedule: Schedule,
-    rows: HashMap<Shape, u32>,
+    rows: HashMap<TwigShape, u32>,
     /// The first fragment that is not yet in a part.
     next: u32,
 }
@@ -195,7 +195,7 @@ impl Layout<'_> {
             let is_twig = subtree.nodes <= NODES && subtree.fragments as usize <= FRAGMENTS;
             let part = if is_twig {
                 let nodes = &self.nodes[subtree.node..][..subtree.nodes];
-                self.twig(subtree.node, Shape::of(nodes, subtree.fragments), subtree.fragments)?
+                self.twig(subtree.node, TwigShape::of(nodes, subtree.fragments), subtree.fragments)?
             } else {
                 self.branch(&subtree, &mut stack)?
             };
@@ -280,7 +280,9 @@ impl Layout<'_> {
     fn leaf(&mut self, fragments: u32) -> Result<u32, Error> {
         match fragments {
             0 => Ok(NOBODY),
-            _ if fragments as usize <= FRAGMENTS => self.twig(0, Shape::leaf(fragments), fragments),
+            _ if fragments as usize <= FRAGMENTS => {
+                self.twig(0, TwigShape::leaf(fragments), fragments)
+            }
             _ => {
                 let first = self.take(fragments);
                 push(&mut self.schedule.runs, Run { first, len: fragments })?;
@@ -290,7 +292,7 @@ impl Layout<'_> {
     }
 
     /// Makes a twig; twigs of one shape share a row of the table.
-    fn twig(&mut self, node: usize, shape: Shape, fragments: u32) -> Result<u32, Error> {
+    fn twig(&mut self, node: usize, shape: TwigShape, fragments: u32) -> Result<u32, Error> {
         // The table has a row for each shape, of which there is a fixed number.
         let permutations = &mut self.schedule.permutations;
         let row = *self.rows.entry(shape).or_insert_with(|| {

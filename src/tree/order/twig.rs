@@ -17,7 +17,7 @@ pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 /// fragments are on its plane, in front and behind, and which sides are nodes; for a leaf, how many
 /// fragments it has. Twigs of the same shape share a row of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(in crate::tree) struct Shape {
+pub(in crate::tree) struct TwigShape {
     nodes: [ShapeNode; NODES],
     len: u8,
     fragments: u8,
@@ -34,7 +34,7 @@ struct ShapeNode {
     back_is_node: bool,
 }
 
-impl Shape {
+impl TwigShape {
     /// The shape of a leaf.
     pub(in crate::tree) fn leaf(fragments: u32) -> Self {
         Self { fragments: fragments as u8, ..Self::default() }

@@ -20,14 +20,14 @@ type Stored = <Exact as Kernel>::Stored;
 
 /// A tree taken apart: what its builder put out.
 #[derive(Clone)]
-struct Parts {
+struct Dismantled {
     nodes: Vec<RawNode>,
     /// The face of each fragment, and its vertices; none if it is all of its face.
     pieces: Vec<(u32, Vec<Stored>)>,
     cuts: usize,
 }
 
-impl Parts {
+impl Dismantled {
     fn of(tree: &BspTree) -> Self {
         let mut walk = Walk::new(tree);
         let mut nodes = Vec::new();
@@ -65,9 +65,9 @@ fn verdict(tree: &BspTree) -> String {
 
 /// Fails unless validation says so, of the tree that an edit makes of another's parts.
 #[track_caller]
-fn assert_fault(tree: &BspTree, edit: impl FnOnce(&mut Parts), fault: &str) {
+fn assert_fault(tree: &BspTree, edit: impl FnOnce(&mut Dismantled), fault: &str) {
     assert_eq!(verdict(tree), "");
-    let mut parts = Parts::of(tree);
+    let mut parts = Dismantled::of(tree);
     edit(&mut parts);
     let said = verdict(&parts.tree(tree));
     assert!(said.contains(fault), "{said:?}, not {fault:?}");
@@ -141,7 +141,7 @@ fn trees_as_they_are_built_are_valid_and_their_cuts_are_those_counted() {
     let (mut cut, mut lists, mut large) = (0, 0, 0);
     for (name, tree) in trees() {
         assert_eq!(verdict(&tree), "", "{name}");
-        assert_eq!(verdict(&Parts::of(&tree).tree(&tree)), "", "{name} put together again");
+        assert_eq!(verdict(&Dismantled::of(&tree).tree(&tree)), "", "{name} put together again");
         let stats = tree.stats();
         assert_eq!(stats.fragments, stats.faces + stats.splits, "{name}");
         cut += usize::from(stats.splits > 0);

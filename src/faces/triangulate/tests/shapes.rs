@@ -11,7 +11,7 @@ pub(super) fn random_points(n: usize, size: i64, random: &mut SplitMix64) -> Vec
 
 /// A kind of polygons that do not cross themselves.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Shape {
+pub(super) enum Family {
     Star,
     Monotone,
     Untangled,
@@ -20,20 +20,20 @@ pub(super) enum Shape {
     Zigzag,
 }
 
-impl Shape {
+impl Family {
     pub(super) const ALL: [Self; 6] =
         [Self::Star, Self::Monotone, Self::Untangled, Self::Spiral, Self::Comb, Self::Zigzag];
 }
 
 /// A polygon of about `n` corners that does not cross itself.
-pub(super) fn simple(shape: Shape, n: usize, random: &mut SplitMix64) -> Vec<Point> {
+pub(super) fn simple(shape: Family, n: usize, random: &mut SplitMix64) -> Vec<Point> {
     match shape {
-        Shape::Star => star(n, random),
-        Shape::Monotone => monotone(n, random),
-        Shape::Untangled => untangled(n.min(40), random),
-        Shape::Spiral => square_spiral(n),
-        Shape::Comb => comb(n),
-        Shape::Zigzag => zigzag(n),
+        Family::Star => star(n, random),
+        Family::Monotone => monotone(n, random),
+        Family::Untangled => untangled(n.min(40), random),
+        Family::Spiral => square_spiral(n),
+        Family::Comb => comb(n),
+        Family::Zigzag => zigzag(n),
     }
 }
 

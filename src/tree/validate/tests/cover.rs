@@ -1,6 +1,8 @@
 //! Faces that fragments do not cover once, in trees where all sizes and sides agree.
 
-use super::{Parts, Stored, assert_fault, build, crossing, decals, square, tilted, trees, verdict};
+use super::{
+    Dismantled, Stored, assert_fault, build, crossing, decals, square, tilted, trees, verdict,
+};
 use crate::build::{BuildOptions, Heuristic};
 use crate::exact::{Exact, Kernel, Line, PlaneId, Symbol, Vertex};
 use crate::tree::BspTree;
@@ -24,8 +26,8 @@ fn place(tree: &BspTree, fragment: u32) -> (usize, usize) {
 }
 
 /// Takes a fragment out of the tree.
-fn remove(tree: &BspTree, fragment: u32) -> Parts {
-    let mut parts = Parts::of(tree);
+fn remove(tree: &BspTree, fragment: u32) -> Dismantled {
+    let mut parts = Dismantled::of(tree);
     let (node, group) = place(tree, fragment);
     let node = &mut parts.nodes[node];
     match group {
@@ -39,8 +41,8 @@ fn remove(tree: &BspTree, fragment: u32) -> Parts {
 
 /// Puts a fragment that is the only one of a leaf, or on a plane, there once more: in a leaf, with
 /// its face's plane as a node.
-fn double(tree: &BspTree, fragment: u32) -> Parts {
-    let mut parts = Parts::of(tree);
+fn double(tree: &BspTree, fragment: u32) -> Dismantled {
+    let mut parts = Dismantled::of(tree);
     let (node, group) = place(tree, fragment);
     let piece = parts.pieces[fragment as usize].clone();
     let (own, sides) = (tree.nodes[node].own(), [1, 2]);
@@ -99,7 +101,7 @@ fn a_fragment_that_is_lost_is_missed() {
 fn a_face_without_any_fragment_is_missed() {
     for (scene, face) in [(decals(), 0), (decals(), 8), (tilted(&decals()), 3)] {
         let tree = build(&scene, Heuristic::First);
-        let mut parts = Parts::of(&tree);
+        let mut parts = Dismantled::of(&tree);
         while let Some(fragment) = parts.pieces.iter().position(|&(of, _)| of == face) {
             parts = remove(&parts.tree(&tree), fragment as u32);
         }
@@ -129,9 +131,9 @@ fn a_half_that_is_lost_while_the_other_half_is_there_twice_is_found() {
         tree.fragments().filter(|half| !half.is_whole()).map(|half| half.index()).collect();
     for (lost, kept) in [(halves[0], halves[1]), (halves[1], halves[0])] {
         let doubled = double(&tree, kept).tree(&tree);
-        let (_, vertices) = &Parts::of(&tree).pieces[lost as usize];
-        let is_lost = |parts: &Parts| parts.pieces.iter().position(|(_, v)| v == vertices);
-        let at = is_lost(&Parts::of(&doubled)).expect("the other half");
+        let (_, vertices) = &Dismantled::of(&tree).pieces[lost as usize];
+        let is_lost = |parts: &Dismantled| parts.pieces.iter().position(|(_, v)| v == vertices);
+        let at = is_lost(&Dismantled::of(&doubled)).expect("the other half");
         let broken = remove(&doubled, at as u32).tree(&tree);
         assert_eq!(broken.len(), tree.len());
         assert!(verdict(&broken).contains(OVERLAP));
@@ -151,7 +153,7 @@ fn a_half_in_place_of_the_other_half_s_quarter_is_found() {
     assert_eq!(pieces.len(), 3);
     for &a in &pieces {
         for &b in pieces.iter().filter(|&&b| b != a) {
-            let edit = |parts: &mut Parts| {
+            let edit = |parts: &mut Dismantled| {
                 let vertices = parts.pieces[b as usize].1.clone();
                 parts.pieces[a as usize].1 = vertices;
             };
@@ -166,7 +168,7 @@ fn change_vertices(tree: &BspTree, change: impl Fn(u32, &Stored) -> Stored) -> u
     let mut found = 0;
     for fragment in tree.fragments() {
         for k in 0..fragment.stored().len() {
-            let mut parts = Parts::of(tree);
+            let mut parts = Dismantled::of(tree);
             let vertex = &mut parts.pieces[fragment.index() as usize].1[k];
             let changed = change(fragment.face(), vertex);
             if changed == *vertex {
@@ -223,7 +225,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     // piece, and in both.
     for edge in [3, 0] {
         for pieces in [vec![1], vec![2], vec![1, 2]] {
-            let edit = |parts: &mut Parts| {
+            let edit = |parts: &mut Dismantled| {
                 for &piece in &pieces {
                     for vertex in &mut parts.pieces[piece].1 {
                         if Exact::symbol(vertex) == Symbol::corner(0) {
@@ -232,7 +234,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
                     }
                 }
             };
-            let mut parts = Parts::of(&tree);
+            let mut parts = Dismantled::of(&tree);
             edit(&mut parts);
             let said = verdict(&parts.tree(&tree));
             // A crossing that is not between the ends of its edge may show as a wrong side first.
@@ -243,7 +245,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     // A vertex more where corner 0 is: an edge without length, in the piece that has the one edge
     // there or the other.
     for long in [0, 3] {
-        let edit = |parts: &mut Parts| {
+        let edit = |parts: &mut Dismantled| {
             for (_, vertices) in &mut parts.pieces[1..] {
                 let at = vertices.iter().position(|v| Exact::symbol(v) == Symbol::corner(0));
                 let at = at.expect("the corner");
@@ -262,7 +264,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
                 }
             }
         };
-        let mut parts = Parts::of(&tree);
+        let mut parts = Dismantled::of(&tree);
         edit(&mut parts);
         let said = verdict(&parts.tree(&tree));
         assert!([CUT, "as its place says"].iter().any(|fault| said.contains(fault)), "{said:?}");
@@ -272,14 +274,14 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
 #[test]
 fn a_vertex_that_both_pieces_call_by_the_name_of_the_other_end_of_the_cut_is_found() {
     let tree = crossing(2);
-    let symbols = |piece: usize| Parts::of(&tree).pieces[piece].1.clone();
+    let symbols = |piece: usize| Dismantled::of(&tree).pieces[piece].1.clone();
     let halves: Vec<usize> = (0..3).filter(|&piece| !symbols(piece).is_empty()).collect();
     let on_cut: Vec<Stored> = symbols(halves[0])
         .into_iter()
         .filter(|v| symbols(halves[1]).iter().any(|w| Exact::symbol(w) == Exact::symbol(v)))
         .collect();
     let [p, q] = on_cut[..] else { panic!("two vertices on the cut") };
-    let edit = |parts: &mut Parts| {
+    let edit = |parts: &mut Dismantled| {
         for &half in &halves {
             for vertex in &mut parts.pieces[half].1 {
                 if Exact::symbol(vertex) == Exact::symbol(&p) {
@@ -298,7 +300,7 @@ fn outlines_that_are_turned_round_or_lack_a_vertex_are_found() {
         let (mut found, mut edits) = (0, 0);
         for fragment in tree.fragments().filter(|fragment| !fragment.is_whole()) {
             for edit in 0..3 {
-                let mut parts = Parts::of(&tree);
+                let mut parts = Dismantled::of(&tree);
                 let vertices = &mut parts.pieces[fragment.index() as usize].1;
                 match edit {
                     0 => vertices.reverse(),
@@ -309,7 +311,7 @@ fn outlines_that_are_turned_round_or_lack_a_vertex_are_found() {
                 edits += 1;
             }
             // Where an outline begins means nothing.
-            let mut parts = Parts::of(&tree);
+            let mut parts = Dismantled::of(&tree);
             parts.pieces[fragment.index() as usize].1.rotate_left(1);
             assert_eq!(verdict(&parts.tree(&tree)), "", "{name}");
         }
@@ -325,11 +327,11 @@ fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let tree = options.build(polygons).expect("finite");
     assert_eq!((tree.len(), tree.nodes[0].own()), (4, 2));
-    let edit = |parts: &mut Parts| parts.nodes[0].plane = PlaneId::face(1);
+    let edit = |parts: &mut Dismantled| parts.nodes[0].plane = PlaneId::face(1);
     assert_fault(&tree, edit, CUT);
     // Where nothing is cut, one is as good as the other.
     let tree = options.build(&polygons[..2]).expect("finite");
-    let mut parts = Parts::of(&tree);
+    let mut parts = Dismantled::of(&tree);
     parts.nodes[0].plane = PlaneId::face(1);
     assert_eq!(verdict(&parts.tree(&tree)), "");
 }

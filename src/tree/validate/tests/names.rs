@@ -1,6 +1,6 @@
 //! Names of what is not there.
 
-use super::{Parts, Stored, assert_fault, build, crossing, verdict};
+use super::{Dismantled, Stored, assert_fault, build, crossing, verdict};
 use crate::build::Heuristic;
 use crate::exact::{Exact, Kernel, Line, PlaneId, Vertex};
 use crate::scene;
@@ -9,14 +9,14 @@ use crate::tree::BspTree;
 const OUTLINE: &str = "does not have three or more known vertices";
 
 /// The first fragment that is a piece of a face.
-fn cut_piece(parts: &Parts) -> usize {
+fn cut_piece(parts: &Dismantled) -> usize {
     parts.pieces.iter().position(|(_, vertices)| !vertices.is_empty()).expect("a cut")
 }
 
 /// Puts another vertex in place of the first of a cut piece.
 #[track_caller]
 fn assert_unknown(tree: &BspTree, vertex: Stored) {
-    let edit = |parts: &mut Parts| {
+    let edit = |parts: &mut Dismantled| {
         let piece = cut_piece(parts);
         parts.pieces[piece].1[0] = vertex;
     };
@@ -92,8 +92,8 @@ fn faces_and_vertices_that_name_nothing_are_found() {
 #[test]
 fn corners_and_lines_beyond_a_face_are_found() {
     let tree = crossing(5);
-    let piece = cut_piece(&Parts::of(&tree));
-    let vertex = Exact.restore(&tree.faces, 1, &Parts::of(&tree).pieces[piece].1[0]);
+    let piece = cut_piece(&Dismantled::of(&tree));
+    let vertex = Exact.restore(&tree.faces, 1, &Dismantled::of(&tree).pieces[piece].1[0]);
     for line in [
         Line::edge(4),
         Line::edge(u32::MAX >> 4),
@@ -117,7 +117,7 @@ fn outlines_of_two_vertices_and_those_without_a_place_are_found() {
     let tree = crossing(5);
     let mut fragments = 0;
     for fragment in 0..tree.len() {
-        let mut parts = Parts::of(&tree);
+        let mut parts = Dismantled::of(&tree);
         let vertices = &mut parts.pieces[fragment].1;
         if vertices.is_empty() {
             continue;
@@ -152,7 +152,7 @@ fn vertices_that_belong_to_no_fragment_are_found() {
 fn a_whole_face_that_lists_its_corners_is_found() {
     let tree = build(&scene::random_triangles(40, 3), Heuristic::First);
     let whole = tree.fragments().find(|fragment| fragment.is_whole()).expect("one");
-    let edit = |parts: &mut Parts| {
+    let edit = |parts: &mut Dismantled| {
         let (face, vertices) = &mut parts.pieces[whole.index() as usize];
         let corner = |k| Exact.store(&Exact.corner(&tree.faces, *face, k));
         vertices.extend((0..3).map(corner));

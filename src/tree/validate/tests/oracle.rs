@@ -1,6 +1,6 @@
 //! Trees broken at random, against what the planes make of the faces when they are cut anew.
 
-use super::{Parts, Stored, build, crossing, decals, tilted, verdict};
+use super::{Dismantled, Stored, build, crossing, decals, tilted, verdict};
 use crate::build::Heuristic;
 use crate::exact::{Exact, ExactVertex, Kernel, Line, Piece, PlaneId, Side, Vertex, split};
 use crate::random::SplitMix64;
@@ -12,7 +12,7 @@ use crate::tree::parts::{RawChild, RawNode};
 type Live = (u32, Vec<ExactVertex>);
 
 /// Whether a tree is what its planes make of its faces: by cutting them from the root down.
-fn is_right(tree: &BspTree, parts: &Parts) -> bool {
+fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
     let faces = &tree.faces;
     let mut pieces = parts.pieces.iter();
     let mut nodes = parts.nodes.iter();
@@ -80,7 +80,7 @@ fn same((face, stored): &(u32, Vec<Stored>), (expected, vertices): &Live) -> boo
 }
 
 /// One change to a tree, whatever comes of it.
-fn change(parts: &mut Parts, tree: &BspTree, random: &mut SplitMix64) {
+fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
     let mut below = |n: usize| (random.next() % n.max(1) as u64) as usize;
     let (a, b) = (below(parts.pieces.len()), below(parts.pieces.len()));
     let (node, kind) = (below(parts.nodes.len()), below(16));
@@ -146,9 +146,9 @@ fn trees_broken_at_random_are_valid_if_they_are_what_their_planes_make_of_the_fa
     ] {
         for by in [Heuristic::First, Heuristic::FreePlanes, Heuristic::default()] {
             let tree = build(&scene, by);
-            assert!(is_right(&tree, &Parts::of(&tree)), "{} by {by}", scene.name());
+            assert!(is_right(&tree, &Dismantled::of(&tree)), "{} by {by}", scene.name());
             for _ in 0..700 {
-                let mut parts = Parts::of(&tree);
+                let mut parts = Dismantled::of(&tree);
                 change(&mut parts, &tree, &mut random);
                 if random.next().is_multiple_of(4) {
                     change(&mut parts, &tree, &mut random);
@@ -168,15 +168,15 @@ fn trees_broken_at_random_are_valid_if_they_are_what_their_planes_make_of_the_fa
 #[test]
 fn the_oracle_itself_sees_a_piece_that_is_missing_or_changed() {
     let tree = crossing(4);
-    let mut parts = Parts::of(&tree);
+    let mut parts = Dismantled::of(&tree);
     parts.pieces.pop();
     assert!(!is_right(&tree, &parts));
-    let mut parts = Parts::of(&tree);
+    let mut parts = Dismantled::of(&tree);
     let vertices = &mut parts.pieces.last_mut().expect("a piece").1;
     assert!(vertices.len() > 2);
     vertices.swap(0, 1);
     assert!(!is_right(&tree, &parts));
-    let mut parts = Parts::of(&tree);
+    let mut parts = Dismantled::of(&tree);
     parts.cuts += 1;
     assert!(!is_right(&tree, &parts));
 }

@@ -1,6 +1,6 @@
 //! Fragments on wrong sides and in wrong orders.
 
-use super::{Parts, assert_fault, build, crossing, decals, tilted};
+use super::{Dismantled, assert_fault, build, crossing, decals, tilted};
 use crate::build::Heuristic;
 use crate::exact::PlaneId;
 use crate::scene;
@@ -17,7 +17,7 @@ fn sides_that_are_exchanged_are_found() {
             let sides = (node.front, node.back);
             matches!(sides, (RawChild::Leaf(a), RawChild::Leaf(b)) if a != b)
         };
-        let edit = |parts: &mut Parts| match parts.nodes.iter_mut().rfind(has_one_leaf) {
+        let edit = |parts: &mut Dismantled| match parts.nodes.iter_mut().rfind(has_one_leaf) {
             Some(node) => std::mem::swap(&mut node.front, &mut node.back),
             None => {
                 // The last node has one on each side.
@@ -34,7 +34,7 @@ fn fragments_that_change_places_are_found() {
     let tree = crossing(6);
     let mut swapped = 0;
     for (a, b) in (0..tree.len()).flat_map(|a| (a + 1..tree.len()).map(move |b| (a, b))) {
-        let edit = |parts: &mut Parts| parts.pieces.swap(a, b);
+        let edit = |parts: &mut Dismantled| parts.pieces.swap(a, b);
         assert_fault(&tree, edit, "as its place says");
         swapped += 1;
     }
@@ -45,7 +45,7 @@ fn fragments_that_change_places_are_found() {
 fn a_piece_that_grows_to_its_whole_face_is_found_on_both_sides() {
     let tree = crossing(6);
     for fragment in tree.fragments().filter(|fragment| !fragment.is_whole()) {
-        let edit = |parts: &mut Parts| parts.pieces[fragment.index() as usize].1.clear();
+        let edit = |parts: &mut Dismantled| parts.pieces[fragment.index() as usize].1.clear();
         assert_fault(&tree, edit, "Spanning");
     }
 }
@@ -53,7 +53,7 @@ fn a_piece_that_grows_to_its_whole_face_is_found_on_both_sides() {
 #[test]
 fn a_fragment_beside_the_plane_that_it_is_said_to_be_on_is_found() {
     let tree = build(&scene::chain(12), Heuristic::First);
-    let edit = |parts: &mut Parts| {
+    let edit = |parts: &mut Dismantled| {
         let last = parts.nodes.last_mut().expect("a node");
         last.own += 1;
         (last.front, last.back) = (RawChild::Leaf(0), RawChild::Leaf(0));
@@ -70,7 +70,7 @@ fn a_plane_that_faces_the_other_way_is_found() {
         for plane in (0..tree.faces.len() as u32).map(PlaneId::face) {
             let is_opposite = normal(plane).dot(normal(node.plane())) < -0.9;
             if is_opposite && node.in_front().len() + node.behind().len() > 0 {
-                let edit = |parts: &mut Parts| parts.nodes[at].plane = plane;
+                let edit = |parts: &mut Dismantled| parts.nodes[at].plane = plane;
                 assert_fault(&tree, edit, "as its place says");
                 flipped += 1;
             }
@@ -86,12 +86,13 @@ fn coplanar_fragments_out_of_input_order_are_found() {
         for by in [Heuristic::First, Heuristic::default()] {
             let tree = build(&scene, by);
             for on in tree.nodes().map(|node| node.on()).filter(|on| on.len() > 1) {
-                let edit =
-                    |parts: &mut Parts| parts.pieces.swap(on.start as usize, on.start as usize + 1);
+                let edit = |parts: &mut Dismantled| {
+                    parts.pieces.swap(on.start as usize, on.start as usize + 1)
+                };
                 let fault = format!("fragment {} on its plane comes before one", on.start);
                 assert_fault(&tree, edit, &fault);
                 let last = on.end as usize - 1;
-                let edit = |parts: &mut Parts| parts.pieces.swap(last - 1, last);
+                let edit = |parts: &mut Dismantled| parts.pieces.swap(last - 1, last);
                 assert_fault(&tree, edit, "on its plane comes before one of an earlier polygon");
                 swapped += 1;
             }
@@ -103,7 +104,7 @@ fn coplanar_fragments_out_of_input_order_are_found() {
 #[test]
 fn a_face_beside_its_own_plane_is_found_and_counts_as_misplaced() {
     let tree = build(&scene::chain(2), Heuristic::First);
-    let edit = |parts: &mut Parts| {
+    let edit = |parts: &mut Dismantled| {
         let [root] = &mut parts.nodes[..] else { panic!("one node") };
         // The other square stays on its side.
         if root.front == RawChild::Leaf(1) {

@@ -1,6 +1,6 @@
 //! Subtrees of wrong sizes.
 
-use super::{Parts, assert_fault, build, crossing, trees, verdict};
+use super::{Dismantled, assert_fault, build, crossing, trees, verdict};
 use crate::build::Heuristic;
 use crate::exact::PlaneId;
 use crate::scene;
@@ -111,7 +111,7 @@ fn fragments_that_no_plane_tells_apart_are_a_crowd() {
         let tree = build(&scene::random_triangles(50, 1), heuristic);
         // The root keeps one side as a leaf, with all that was below.
         for front in [true, false] {
-            let edit = |parts: &mut Parts| {
+            let edit = |parts: &mut Dismantled| {
                 let root = &tree.nodes[0];
                 let front_nodes = root.front_nodes as usize;
                 let back_len = tree.records.len() as u32 - root.own() - root.front_len;
