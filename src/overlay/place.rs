@@ -258,7 +258,7 @@ impl Work<'_> {
             // Lines and points go on down the small tree, after which it is read to its end.
             pieces.drain(start..start + polygons);
             cells.keep(std::mem::take(&mut cell.parts));
-            let region = cell.fill(tree);
+            let region = cell.fill(tree)?;
             return Ok(Opened::of(region, self.tree, cell, self.faces));
         }
         let first = self.store_tree(&tree)?;

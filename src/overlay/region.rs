@@ -5,9 +5,10 @@ use std::ops::Range;
 use glam::Vec4;
 
 use super::skeleton::{Branch, Side};
+use crate::Error;
 use crate::exact::{ExactStored, Faces, PlaneId};
 use crate::tree::BspTree;
-use crate::tree::node_record::{NodeRecord, Ranges, Sizes, finish};
+use crate::tree::node_record::{NodeRecord, Ranges, Sizes, finish, make_room};
 use crate::tree::order::planes::rounded;
 use crate::tree::parts::Parts;
 
@@ -53,10 +54,11 @@ pub(super) struct Cell {
 
 impl Cell {
     /// Replaces the tree, and gives all of it as a region.
-    pub(super) fn fill(&mut self, parts: Parts<ExactStored>) -> Region {
+    pub(super) fn fill(&mut self, parts: Parts<ExactStored>) -> Result<Region, Error> {
+        make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
         finish(&parts.nodes, &mut self.sizes, &mut self.nodes);
         self.parts = parts;
-        Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len())
+        Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
     }
 }
 
