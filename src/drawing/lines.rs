@@ -6,8 +6,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use super::frame::{Exact, Frame, Sheet, meeting, orientation};
 use crate::Error;
-use crate::exact::{Int, Line as Label, PlaneId};
-use crate::memory::reserve;
+use crate::exact::{Int, Line as Label, PlaneId, PlaneKind};
+use crate::memory::{push, reserve};
 use crate::random::mix;
 
 /// What made a line. Equal keys are equal lines, up to their direction.
@@ -110,6 +110,11 @@ impl Rounded {
     }
 }
 
+/// The number of no point.
+const NOWHERE: u32 = u32::MAX;
+/// Faces of more corners are not searched for one that a line goes through.
+const FEW: usize = 8;
+
 /// The relative error of one rounding.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
@@ -121,6 +126,8 @@ pub(super) struct Lines<'t> {
     reach: [f64; 2],
     keys: Vec<Key>,
     rounded: Vec<Rounded>,
+    /// Points that each line is known to go through; [`NOWHERE`] for none.
+    through: Vec<[u32; 2]>,
     numbers: Table<Key>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3]>,
@@ -139,6 +146,7 @@ impl<'t> Lines<'t> {
             reach,
             keys: vec![],
             rounded: vec![],
+            through: vec![],
             numbers: Table::default(),
             points: Table::default(),
             corners: vec![],
@@ -151,16 +159,18 @@ impl<'t> Lines<'t> {
             return Ok(number);
         }
         let exact = self.exact_of(key);
-        self.add(key, &exact)
+        let through = if let Key::Edge(points) = key { points } else { [NOWHERE; 2] };
+        self.add(key, &exact, through)
     }
 
-    fn add(&mut self, key: Key, exact: &Exact) -> Result<u32, Error> {
+    fn add(&mut self, key: Key, exact: &Exact, through: [u32; 2]) -> Result<u32, Error> {
         let number = self.keys.len() as u32;
         if number >= 1 << 31 {
             return Err(Error::too_many_indices());
         }
         reserve(&mut self.keys, 1)?;
         reserve(&mut self.rounded, 1)?;
+        push(&mut self.through, through)?;
         self.numbers.try_reserve(1).map_err(|_| Error::out_of_memory())?;
         self.keys.push(key);
         self.rounded.push(Rounded::new(exact, self.reach));
@@ -196,7 +206,7 @@ impl<'t> Lines<'t> {
         let Some(plane) = label.as_cut() else { return Err(Error::too_many_indices()) };
         let own = PlaneId::face(face);
         let (key, swapped) = match plane.kind() {
-            crate::exact::PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
+            PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
             _ => (Key::Cut(face, plane), false),
         };
         let number = match self.numbers.get(&key) {
@@ -204,10 +214,37 @@ impl<'t> Lines<'t> {
             None => {
                 let other = self.frame.sheet(plane);
                 let exact = if swapped { other.cut(sheet) } else { sheet.cut(&other) };
-                self.add(key, &exact)?
+                let through = self.on_cut(face, plane)?;
+                self.add(key, &exact, through)?
             }
         };
         Ok(Half::of(number).flipped(sheet.side().is_gt() == (label.is_behind() != swapped)))
+    }
+
+    /// Corners of a face that are known to lie on a plane that cuts it: those of the other face, or with
+    /// the coordinate of an axis plane. (Of faces whose corners all lie on their planes, and are few.)
+    fn on_cut(&mut self, face: u32, plane: PlaneId) -> Result<[u32; 2], Error> {
+        let faces = self.frame.faces;
+        let own = faces.corners(face);
+        let is_exact = |face: u32| faces.upright_axis(face).is_none();
+        let mut found = [NOWHERE; 2];
+        if own.len() > FEW || !is_exact(face) {
+            return Ok(found);
+        }
+        let other = match plane.kind() {
+            PlaneKind::Face(other) if is_exact(other) => faces.corners(other),
+            _ => &[],
+        };
+        let is_on = |corner: &[f64; 3]| match plane.kind() {
+            PlaneKind::Face(_) => other.len() <= FEW && other.contains(corner),
+            PlaneKind::Axis(axis, at) => corner[axis] == faces.corner(at)[axis],
+        };
+        let start = faces.corner_range(face).start as u32;
+        let on = (start..).zip(own).filter(|(_, corner)| is_on(corner));
+        for (place, (corner, _)) in found.iter_mut().zip(on) {
+            *place = self.point(corner)?;
+        }
+        Ok(found)
     }
 
     /// The half of the picture in which rays meet a face's plane ahead of the eye.
@@ -275,13 +312,11 @@ impl<'t> Lines<'t> {
         if self.shows(at) { (at, radius) } else { ([0.0; 2], f64::INFINITY) }
     }
 
-    /// Whether three lines are edges with a corner in common.
+    /// Whether three lines are known to go through one point.
     fn share_point(&self, lines: [Half; 3]) -> bool {
-        let keys = lines.map(|half| half.number().map(|line| self.key(line)));
-        let [Some(Key::Edge(a)), Some(Key::Edge(b)), Some(Key::Edge(c))] = keys else {
-            return false;
-        };
-        a.iter().any(|point| b.contains(point) && c.contains(point))
+        let through = lines.map(|half| half.number().map(|line| self.through[line as usize]));
+        let [Some(a), Some(b), Some(c)] = through else { return false };
+        a.iter().any(|point| *point != NOWHERE && b.contains(point) && c.contains(point))
     }
 
     /// A line in integers.

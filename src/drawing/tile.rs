@@ -148,7 +148,7 @@ fn leaves(stock: &Stock<'_>, entry: Entry) -> Result<Vec<Leaf>, Error> {
 impl Entry {
     /// The whole picture with all items.
     fn of_picture(stock: &Stock<'_>, tile: Tile) -> Result<Self, Error> {
-        let mut builder = Narrow::new(stock, tile, u32::MAX);
+        let mut builder = Narrow::new(stock, tile, u32::MAX, &List::default())?;
         for (number, item) in (0..).zip(&stock.items) {
             let rim = stock.outline(item.seen);
             if !builder.add(number, rim, stock.cuts(number))? {
@@ -177,7 +177,7 @@ impl Entry {
 
     /// What of the list may show in a part of the tile.
     fn narrowed(&self, stock: &Stock<'_>, tile: Tile) -> Result<Self, Error> {
-        let mut builder = Narrow::new(stock, tile, self.limit);
+        let mut builder = Narrow::new(stock, tile, self.limit, &self.list)?;
         for listed in &self.list.items {
             let [start, cuts, end] = listed.halves.map(|place| place as usize);
             let (rim, cuts) = (&self.list.halves[start..cuts], &self.list.halves[cuts..end]);
@@ -245,8 +245,12 @@ struct Narrow<'a, 'b> {
 }
 
 impl<'a, 'b> Narrow<'a, 'b> {
-    fn new(stock: &'a Stock<'b>, tile: Tile, limit: u32) -> Self {
-        Self { stock, tile, sides: tile.sides(), list: List::default(), limit }
+    /// The list will be a part of another.
+    fn new(stock: &'a Stock<'b>, tile: Tile, limit: u32, whole: &List) -> Result<Self, Error> {
+        let mut list = List::default();
+        reserve(&mut list.items, whole.items.len())?;
+        reserve(&mut list.halves, whole.halves.len())?;
+        Ok(Self { stock, tile, sides: tile.sides(), list, limit })
     }
 
     /// Adds an item, with the lines of its face and its cuts that may cross the tile, unless it is
