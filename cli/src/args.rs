@@ -296,7 +296,7 @@ pub(crate) struct BuildArgs {
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct LimitArgs {
     /// Coplanar tolerance, a length: points this near to a plane count as on it, and layers up to
-    /// twice as far apart may be exchanged [default: one unit in the last decimal that an OBJ file's
+    /// twice as far apart may be exchanged [default: four units in the last decimal that an OBJ file's
     /// coordinates need, but between 1e-9 and 1e-5 of the extent, the longest side of the scene's
     /// bounding box; at most 1/256 of the extent is used]
     #[arg(long, value_name = "T", value_parser = values::tolerance, allow_hyphen_values = true)]

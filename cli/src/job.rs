@@ -107,10 +107,11 @@ pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) 
             _ => "",
         };
         note(&format!(
-            "{}: the last decimal that its coordinates need is {}, so the tolerance is {}{bound}, \
-             unless you give `--tolerance`",
+            "{}: its coordinates are precise to {}, so the tolerance is {}{bound}, unless you give \
+             `--tolerance`",
             scene.name(),
-            short(scene.precision()),
+            // The precision is four units in the last decimal.
+            short(0.25 * scene.precision()),
             short(tolerance),
         ));
     }

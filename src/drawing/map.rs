@@ -101,7 +101,7 @@ impl MapCell<'_> {
 
     /// Its area in square pixels.
     pub fn area(&self) -> f64 {
-        0.5 * self.cell.double_area()
+        (0.5 * self.cell.double_area()).max(0.0)
     }
 
     fn middle(&self) -> [f64; 2] {

@@ -213,7 +213,9 @@ impl Scene {
     }
 
     /// How far corners may be off the planes that they were meant to be on, a length: of a scene
-    /// from an OBJ file, one unit in the last decimal that its coordinates need. 0 in generated scenes.
+    /// from an OBJ file, four units in the last decimal that its coordinates need. (Corners off by half a
+    /// unit each way put one off the plane of three others by three and a half, in a parallelogram.) 0 in
+    /// generated scenes.
     pub fn precision(&self) -> f64 {
         self.precision
     }

@@ -31,15 +31,17 @@ impl Scene {
     /// and so is a weight behind the three coordinates of a `v` line. A line that ends in a
     /// backslash goes on in the next.
     ///
-    /// Coordinates are read as `f64`. One unit in the last decimal that they need is the scene's
+    /// Coordinates are read as `f64`. Four units in the last decimal that they need are the scene's
     /// [`precision`](Self::precision): of the decimals, or of the significant digits of the largest
     /// coordinates, whichever number the file holds fixed. Zeros at the end of all coordinates do not
     /// count (`1.230000` and `4.500000` need two decimals). Of a coordinate with more than 15
     /// significant digits, what is left if it is rounded to 15 counts (`0.30000000000000004` needs
     /// one), and one of less than about 10⁻¹¹ of the largest counts as 0. If no more than one
-    /// coordinate in 100 has eight significant digits or more *and* more decimals than all with
+    /// coordinate in 100 has nine significant digits or more *and* more decimals than all with
     /// fewer digits, only the first three digits of such coordinates count, so that a few computed
-    /// numbers do not decide for all. Up is y, as OBJ files do not say.
+    /// numbers do not decide for all. If all coordinates of nine digits and more (but for one in 100)
+    /// are numbers of `f32`, as near as they are written, a unit is a step of `f32` of the largest.
+    /// Up is y, as OBJ files do not say.
     ///
     /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d` or `Tr` as opacity.
     /// A library that is missing or unreadable is no error; its materials show as
@@ -97,7 +99,7 @@ impl Scene {
             scene.push(polygon.iter().copied(), *material);
         }
         scene.lines = scan.face_lines;
-        scene.precision = scan.decimals.unit();
+        scene.precision = 4.0 * scan.decimals.unit();
         (scene.attributes, scan.report.skipped_attributes) = scan.attributes.finish();
         Ok((scene, scan.report))
     }

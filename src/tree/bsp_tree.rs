@@ -175,8 +175,8 @@ use crate::faces::Preparation;
 /// | input | default | take instead |
 /// |---|---|---|
 /// | `f64` | 10⁻⁹ of the extent | 0 if layers, however thin, must never be exchanged |
-/// | `f32`, computed or not | four steps of the largest coordinate, 2·10⁻⁷ to 5·10⁻⁷ of the extent | 0 if no computation has touched them, as on integers |
-/// | an OBJ file | one unit in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent | a larger length if most quads are [`bent`](crate::Stats::bent) by a coarse rounding |
+/// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | 0 if no computation has touched them, as on integers |
+/// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent | a larger length if most quads are [`bent`](crate::Stats::bent) by a coarse rounding |
 /// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), at least 10⁻⁹ of the extent | |
 /// | thin layers in a scene of large extent | | a length below half the distance of the layers |
 ///

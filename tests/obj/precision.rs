@@ -28,21 +28,21 @@ fn layers(count: usize, units: f64, write: impl Fn(f64) -> String) -> (Scene, DV
 }
 
 #[test]
-fn it_is_one_unit_in_the_last_decimal() {
+fn it_is_four_units_in_the_last_decimal() {
     let of = |text: &str| read(text).unwrap().0.precision();
-    assert_eq!(of(&with_corners("f 1 2 3")), 1.0);
-    assert_eq!(of("v 0 0 0\nv 1.50 0 0\nv 0 1 0.125\nf 1 2 3"), 1e-3);
-    assert_eq!(of("v 0.000000 0 0\nv 1.500000 0 0\nv 0 1.000000 0.125000\nf 1 2 3"), 1e-3);
+    assert_eq!(of(&with_corners("f 1 2 3")), 4.0);
+    assert_eq!(of("v 0 0 0\nv 1.50 0 0\nv 0 1 0.125\nf 1 2 3"), 4e-3);
+    assert_eq!(of("v 0.000000 0 0\nv 1.500000 0 0\nv 0 1.000000 0.125000\nf 1 2 3"), 4e-3);
     assert_eq!(binspace::scene::crossing(2).precision(), 0.0);
 }
 
 #[test]
 fn quads_that_only_the_decimals_bend_stay_whole() {
     let (scene, _) = layers(60, 1000.0, |c| format!("{c:.6}"));
-    assert_eq!(scene.precision(), 1e-6);
+    assert_eq!(scene.precision(), 4e-6);
     let stats = BspTree::build(scene.polygons()).unwrap().stats();
     assert!(stats.flattened > 40, "{stats:?}");
-    assert!(stats.triangulated < 15, "{stats:?}");
+    assert!(stats.triangulated == 0, "{stats:?}");
     // Of the same numbers, as if they were exact, most are triangulated.
     let exact: Vec<Vec<DVec3>> = scene.polygons().map(|polygon| polygon.to_vec()).collect();
     let stats = BspTree::build(&exact).unwrap().stats();
@@ -77,19 +77,60 @@ fn writers() -> [Box<dyn Fn(f64) -> String>; 4] {
 fn neither_zeros_at_the_end_nor_strays_raise_it() {
     for (k, write) in writers().iter().enumerate() {
         let (scene, _) = layers(60, 1000.0, write);
-        assert_eq!(scene.precision(), 1e-6, "{k}");
+        assert_eq!(scene.precision(), 4e-6, "{k}");
         let stats = BspTree::build(scene.polygons()).unwrap().stats();
-        assert!(stats.flattened > 40 && stats.triangulated < 15, "{k}: {stats:?}");
+        assert!(stats.flattened > 40 && stats.triangulated == 0, "{k}: {stats:?}");
     }
 }
 
-/// Layers three units apart and more are told apart, from both sides.
+/// Layers further apart than the precision are told apart, from both sides.
 #[test]
 fn layers_some_units_apart_keep_their_order() {
-    for (write, units) in writers().iter().flat_map(|w| [3.0, 4.0, 10.0].map(|units| (w, units))) {
+    for (write, units) in writers().iter().flat_map(|w| [6.0, 10.0, 30.0].map(|units| (w, units))) {
         let (scene, normal) = layers(30, units, write);
         layers_are_in_order(&scene, normal, units);
     }
+}
+
+/// Cards of one tilted plane, as a matrix makes them, written with six decimals: none is cut, and those
+/// that overlap come in the file's order.
+#[test]
+fn cards_of_one_plane_keep_their_order() {
+    let mut random = binspace::internals::SplitMix64::new(5);
+    let mut compared = 0;
+    for page in 0..60 {
+        let normal = (random.point(-1.0, 1.0) + DVec3::splat(1e-3)).normalize();
+        let (across, along) = normal.any_orthonormal_pair();
+        let (mut text, mut cards) = (String::new(), Vec::new());
+        for i in 0..40 {
+            let mut some = |low, high| random.range(low, high);
+            let low = DVec2::new(some(-3.0, 3.0), some(-3.0, 3.0));
+            let high = low + DVec2::new(some(0.5, 2.0), some(0.5, 2.0));
+            for [u, v] in [[low.x, low.y], [high.x, low.y], [high.x, high.y], [low.x, high.y]] {
+                let p = normal + across * u + along * v;
+                writeln!(text, "v {:.6} {:.6} {:.6}", p.x, p.y, p.z).unwrap();
+            }
+            writeln!(text, "f {} {} {} {}", 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4).unwrap();
+            cards.push([low, high]);
+        }
+        let tree = BspTree::build(read(text).unwrap().0.polygons()).unwrap();
+        assert_eq!(tree.len(), 40, "page {page}");
+        for direction in [normal, -normal] {
+            let viewpoint = Viewpoint::direction(direction);
+            let order: Vec<usize> = tree.back_to_front(viewpoint).map(|f| f.polygon()).collect();
+            for (place, &first) in order.iter().enumerate() {
+                for &second in &order[place + 1..] {
+                    let common = cards[first][1].min(cards[second][1])
+                        - cards[first][0].max(cards[second][0]);
+                    if common.min_element() > 0.01 {
+                        assert!(first < second, "page {page}: {first} before {second}");
+                        compared += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 5000, "{compared}");
 }
 
 /// Whole numbers, filled up with zeros, and two thin layers over a floor: they are few, but not strays.
@@ -103,7 +144,7 @@ fn few_thin_layers_among_short_numbers_keep_their_order() {
         text += "f -4 -3 -2 -1\n";
     }
     let (scene, _) = read(text).unwrap();
-    assert_eq!(scene.precision(), 1e-4);
+    assert_eq!(scene.precision(), 4e-4);
     let tree = BspTree::build(scene.polygons()).unwrap();
     let order: Vec<usize> = tree
         .back_to_front(Viewpoint::direction(DVec3::Z))

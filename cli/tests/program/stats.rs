@@ -96,15 +96,14 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
         (serde_json::from_str::<Value>(&run.good()).unwrap(), notes)
     };
     let (line, notes) = run("");
-    let said =
-        "the last decimal that its coordinates need is 1e-6, so the tolerance is 1e-6, unless";
+    let said = "its coordinates are precise to 1e-6, so the tolerance is 4e-6, unless";
     assert!(notes.contains(said), "{notes}");
     let tolerance = line["tolerance"].as_f64().unwrap();
-    assert!((tolerance - 1e-6).abs() < 1e-15, "{line}");
+    assert!((tolerance - 4e-6).abs() < 1e-15, "{line}");
     assert!(line["flattened"].as_u64() >= Some(6), "{line}");
 
     let (line, notes) = run("--tolerance 0");
-    assert!(!notes.contains("the last decimal"), "{notes}");
+    assert!(!notes.contains("precise to"), "{notes}");
     assert!(notes.contains("with four corners or more are bent by at most"), "{notes}");
     assert_eq!((line["tolerance"].as_f64(), line["flattened"].as_u64()), (Some(0.0), Some(0)));
     let bent_by = line["bent_by"].as_f64().unwrap();

@@ -12,10 +12,13 @@ use crate::exact::{Faces, LATTICE_LIMIT, Lattice};
 /// coplanar except for the rounding of a computation in `f64` cut each other into slivers.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 
-/// The largest default tolerance as a share of the extent. Larger: coordinates rounded so coarsely
-/// would merge what they still tell apart; smaller: polygons bent by such a rounding are
-/// triangulated.
+/// The largest default tolerance as a share of the extent, unless `f32` is coarser there. Larger:
+/// coordinates rounded so coarsely would merge what they still tell apart; smaller: polygons bent by
+/// such a rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
+/// Four steps of `f32`, as a share of the largest coordinate: far from the origin that is more than
+/// `LARGEST_ROUNDING` of the extent, and nothing finer than one step is in such numbers.
+const STEPS_OF_F32: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The largest tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
 /// it, so that corners moved onto a plane fit the integers of the exact predicates.
@@ -33,9 +36,9 @@ const LARGEST: f64 = LATTICE_LIMIT / 128.0;
 #[non_exhaustive]
 pub enum Tolerance {
     /// The largest [`precision`](crate::Polygon::precision) of the polygons, but between 10⁻⁹ and
-    /// 10⁻⁵ of the extent. For `f64` near the origin that is 10⁻⁹, for `f32` between 2·10⁻⁷ and
-    /// 5·10⁻⁷ of the extent, for a scene read from an OBJ file one unit in the last decimal that its
-    /// coordinates need, zeros at the end aside.
+    /// 10⁻⁵ of the extent, or four steps of `f32` of the largest coordinate where that is more. For `f64`
+    /// near the origin that is 10⁻⁹, for `f32` between 2·10⁻⁷ and 5·10⁻⁷ of the extent, for a scene read
+    /// from an OBJ file four units in the last decimal that its coordinates need, zeros at the end aside.
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -92,14 +95,14 @@ impl Ground {
         let rounding = LARGEST_ROUNDING * extent;
         let tolerance = match tolerance {
             Tolerance::Default => {
-                lattice.length_to_lattice(precision).min(rounding).max(DEFAULT_TOLERANCE * extent)
+                let furthest = min.abs().max(max.abs()).max_element();
+                let most = rounding.max(lattice.length_to_lattice(STEPS_OF_F32 * furthest));
+                lattice.length_to_lattice(precision).min(most).max(DEFAULT_TOLERANCE * extent)
             }
             Tolerance::Length(length) => lattice.length_to_lattice(length),
             Tolerance::Relative(share) => share * extent,
         };
-        // Corners that are off by half a unit each put one off the plane of three others by two
-        // units at most, if the face is not much narrower at one end.
-        let coarse = (2.0 * lattice.length_to_lattice(precision)).min(LARGEST);
+        let coarse = lattice.length_to_lattice(precision).min(LARGEST);
         Self { lattice, tolerance: tolerance.min(LARGEST), rounding: rounding.max(coarse) }
     }
 }

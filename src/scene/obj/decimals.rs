@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// The least fixed number of significant digits that programs write. Fewer: short numbers of
 /// different size, as people write them, are taken for rounded ones.
-const FEWEST_DIGITS: i32 = 5;
+const FEWEST_DIGITS: i32 = 6;
 /// The decimal digits that an `f64` holds, whatever its value; those behind are noise of a
 /// computation, as in `0.30000000000000004`.
 const DIGITS_OF_F64: i32 = 15;
@@ -13,10 +13,12 @@ const DIGITS_OF_F64: i32 = 15;
 const NOISE_PLACES: i32 = 11;
 /// Numbers of so many significant digits are long. Fewer: the heights of thin layers, as people
 /// write them, are long; more: those that a program computed in `f32` are not.
-const LONG: i32 = 8;
+const LONG: i32 = 9;
 /// At most one number in so many is a stray. Smaller: parts of a scene that are more precise than
 /// the rest are overlooked; larger: a few long numbers decide for all.
 const STRAYS: usize = 100;
+/// So many long numbers, at least, tell whether all were `f32`. Fewer: some are near one by chance.
+const TELLING: usize = 12;
 /// The first digits that count of a long number, if such numbers are strays. Fewer: layers near zero
 /// that a program computed are merged; more: a stray decides for all.
 const DIGITS_OF_STRAYS: i32 = 3;
@@ -33,6 +35,11 @@ pub(super) struct Decimals {
     zeros: usize,
     /// How many numbers have such digits.
     seen: BTreeMap<Digits, usize>,
+    /// How many long numbers there are, and how many of them are `f32` as far as they are written.
+    long: usize,
+    long_of_f32: usize,
+    /// The largest number, by its size.
+    largest: f64,
 }
 
 /// Which digits a number has; places are powers of ten.
@@ -90,6 +97,13 @@ impl Digits {
 impl Decimals {
     /// Takes notice of a number, which is finite and not malformed.
     pub(super) fn see(&mut self, number: &str) {
+        let value: f64 = number.parse().unwrap_or(0.0);
+        self.largest = self.largest.max(value.abs());
+        if let Some(digits) = Digits::of(number).filter(|digits| digits.count() >= LONG) {
+            let off = (value - f64::from(value as f32)).abs();
+            self.long += 1;
+            self.long_of_f32 += usize::from(off <= 0.51 * 10f64.powi(digits.last));
+        }
         match Digits::of(number).and_then(|digits| digits.without_noise(number)) {
             Some(digits) => *self.seen.entry(digits).or_default() += 1,
             None => self.zeros += 1,
@@ -115,8 +129,15 @@ impl Decimals {
         self.seen.keys().copied().filter(|digits| !is_zero(digits)).map(cut).collect()
     }
 
-    /// One unit in the last decimal of the largest numbers; 0 if no number was seen.
+    /// One unit in the last decimal of the largest numbers; 0 if no number was seen. Of numbers that were
+    /// `f32`, and are written with more digits than these have, a step of the largest.
     pub(super) fn unit(&self) -> f64 {
+        let is_f32 = self.long >= TELLING && self.long_of_f32 >= self.long - self.long / STRAYS;
+        let step = if is_f32 { f64::from(f32::EPSILON) * self.largest } else { 0.0 };
+        step.max(self.decimal())
+    }
+
+    fn decimal(&self) -> f64 {
         let counted = self.counted();
         let Some(last) = counted.iter().map(|digits| digits.last).min() else {
             return if self.zeros > 0 { 1.0 } else { 0.0 };
@@ -149,7 +170,7 @@ mod tests {
 
     #[test]
     fn the_unit_is_that_of_the_numbers_as_they_are_written() {
-        let cases: [(&[&str], f64); 15] = [
+        let cases: [(&[&str], f64); 16] = [
             (&[], 0.0),
             (&["0", "0"], 1.0),
             (&["0.000"], 1.0),
@@ -167,6 +188,7 @@ mod tests {
             // Whole numbers, and thin layers over them.
             (&["100", "57", "8", "0.000001", "0.000002"], 1e-6),
             (&["1", "0.000001", "0.000002"], 1e-6),
+            (&["12.345", "0.50002"], 1e-5),
             (&["5e7", "3e7"], 1e7),
             (&["1e-999999", "1"], 1.0),
         ];
@@ -182,7 +204,7 @@ mod tests {
             state = crate::random::mix(state);
             (state >> 11) as f64 * 2f64.powi(-53)
         };
-        for places in [4_usize, 6, 8] {
+        for places in [5_usize, 6, 8] {
             let (mut fixed, mut significant) = (Decimals::default(), Decimals::default());
             for _ in 0..300 {
                 let value = (random() - 0.5) * 40.0 * random() * random();
@@ -201,20 +223,22 @@ mod tests {
     fn a_few_long_numbers_do_not_decide_for_all() {
         let three: Vec<String> = (0..1000).map(|k| format!("{}.{:03}", k % 7, k)).collect();
         let with = |others: &[&str]| unit(three.iter().map(|n| &**n).chain(others.iter().copied()));
-        let cases: [(&[&str], f64); 12] = [
+        let cases: [(&[&str], f64); 14] = [
             (&[], 1e-3),
             (&["0.30000000000000004"], 1e-3),
             (&["2.9999999999999996", "30.000000000000004"], 1e-3),
             (&["0.1234567890123456", "12.345678901234567"], 1e-3),
-            (&["0.33333334"], 1e-3),
+            (&["0.333333343"], 1e-3),
             // A sine of π.
             (&["1.2246467991473532e-16", "-6.123234e-17"], 1e-3),
-            // Thin layers are not strays: neither written by people, nor near zero.
+            (&["0.0000000000015"], 1e-3),
+            // Thin layers are not strays: neither written by people, nor near zero, nor a poster on a wall.
             (&["0.0005"], 1e-4),
+            (&["123.45605"], 1e-5),
             (&["0.0000125"], 1e-7),
             (&["0.0033333333333"], 1e-5),
             // Nor are long numbers with no more decimals than short ones.
-            (&["0.1234", "1234.5678", "2345.67"], 1e-4),
+            (&["0.12345", "1234.56789", "2345.67"], 1e-5),
             // Nor are many.
             (&["0.1234567890123"; 9], 1e-3),
             (&["0.1234567890123"; 11], 1e-13),
@@ -226,5 +250,33 @@ mod tests {
         let sums: Vec<String> = (0..500).map(|k| (f64::from(k) * 0.1).to_string()).collect();
         assert!(sums.iter().any(|sum| sum.len() > 15));
         assert_eq!(unit(sums.iter().map(|sum| &**sum)), 0.1);
+    }
+
+    /// However many digits are written of them.
+    #[test]
+    fn numbers_that_were_f32_are_as_precise_as_those() {
+        let mut state = 7_u64;
+        let mut random = || {
+            state = crate::random::mix(state);
+            ((state >> 11) as f64 * 2f64.powi(-53) - 0.5) * 6.0
+        };
+        let values: Vec<f32> = (0..200).map(|_| random() as f32).collect();
+        let largest = values.iter().fold(0.0f32, |most, value| most.max(value.abs()));
+        let step = f64::from(f32::EPSILON * largest);
+        type Write = fn(f32) -> String;
+        let ways: [Write; 4] = [
+            |value| format!("{value:.8e}"),
+            |value| format!("{value:.10}"),
+            |value| format!("{value:.15}"),
+            |value| f64::from(value).to_string(),
+        ];
+        for (way, write) in ways.iter().enumerate() {
+            let numbers: Vec<String> = values.iter().map(|&value| write(value)).collect();
+            let found = unit(numbers.iter().map(|number| &**number));
+            assert!((step * 0.99..step * 1.01).contains(&found), "{way}: {found} {step}");
+        }
+        // Of f64 with as many digits, few are near an f32.
+        let numbers: Vec<String> = (0..200).map(|_| format!("{:.10}", random())).collect();
+        assert_eq!(unit(numbers.iter().map(|number| &**number)), 1e-10);
     }
 }
