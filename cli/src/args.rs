@@ -219,9 +219,10 @@ pub(crate) struct DrawArgs {
     /// Leave out polygons that show less than PX x PX pixels of area in all
     ///
     /// What is drawn behind them shows in their place, else the background: surfaces of such polygons
-    /// vanish.
-    #[arg(long, value_name = "PX", default_value_t = 0.0, value_parser = values::length)]
-    #[arg(allow_hyphen_values = true, hide_default_value = true)]
+    /// vanish. Through cracks between the faces of a mesh some of those behind show, far narrower than
+    /// any pixel, which the default leaves out. With 0, all that show are drawn.
+    #[arg(long, value_name = "PX", default_value_t = 0.01, value_parser = values::length)]
+    #[arg(allow_hyphen_values = true)]
     pub(crate) min_size: f64,
     /// Write the polygon of each path as `data-polygon="i"`, counted from 0 in the file's order
     ///

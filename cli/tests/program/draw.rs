@@ -117,7 +117,10 @@ fn the_file_shows_what_the_exact_picture_shows() {
     let folder = Folder::new("draw_exact");
     let (mut compared, mut covered, mut near, mut cut_out, mut paths) = (0, 0, 0, 0, 0);
     for view in views() {
-        let command = format!("draw {} -o a.svg --ids --json --colours polygon", view.arguments());
+        let command = format!(
+            "draw {} -o a.svg --ids --json --colours polygon --min-size 0",
+            view.arguments()
+        );
         let figures = figures(&folder.run(&command).good());
         let svg = Svg::read(&folder.path("a.svg"));
         // One path for each polygon that shows.
