@@ -357,3 +357,55 @@ fn a_drawing_is_written_completely_or_not_at_all() {
     }
     assert_eq!(folder.files(), ["a.SVG", "s.obj"]);
 }
+
+/// A wall of many parts, all of one colour: where they meet, neither the background nor what was
+/// painted before shows.
+#[test]
+fn the_background_does_not_show_in_seams() {
+    let folder = Folder::new("draw_seams");
+    folder.write("m.mtl", "newmtl grey\nKd 0.2 0.4 0.3\n");
+    // Rows of quads, triangles and darts, with corners of one row between those of the next.
+    let mut text = String::from("mtllib m.mtl\nusemtl grey\n");
+    let mut face = |corners: &[[f64; 2]]| {
+        corners.iter().for_each(|[x, y]| text += &format!("v {x} {y} 0\n"));
+        let numbers = (1..=corners.len()).rev().map(|k| format!(" -{k}")).collect::<String>();
+        text += &format!("f{numbers}\n");
+    };
+    for row in 0..8 {
+        let (y, shift) = (f64::from(row), f64::from(row % 3) * 0.25);
+        for column in 0..8 {
+            let x = f64::from(column) + shift;
+            let [a, b, c, d] = [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
+            let middle = [x + 0.375, y + 0.25];
+            match (row + column) % 3 {
+                0 => face(&[a, b, c, d]),
+                1 => [[a, b, c], [a, c, d]].iter().for_each(|triangle| face(triangle)),
+                _ => [[a, b, c, middle], [c, d, a, middle]].iter().for_each(|dart| face(dart)),
+            }
+        }
+    }
+    folder.write("s.obj", text);
+    let camera = "--direction=0.31,0.22,-1 --up=0.3,1,0 --target=4,4,0 --size 200x160";
+    folder.run(&format!("draw s.obj -o a.svg {camera}")).good();
+    let svg = Svg::read(&folder.path("a.svg"));
+    let wall = svg.paths[0].fill;
+    assert!(svg.paths.len() > 80 && svg.paths.iter().all(|path| path.fill == wall));
+    let Picture { size: [width, height], rgb } = svg.smooth_picture();
+    // Not in the outermost pixels of the wall.
+    let crisp = svg.picture().rgb;
+    let covered = |x: u32, y: u32| crisp[3 * (y * width + x) as usize..][..3] == wall;
+    let (mut pixels, mut sum, mut worst) = (0, 0, 0);
+    for y in 2..height - 2 {
+        for x in 2..width - 2 {
+            if !(0..25).all(|k| covered(x + k % 5 - 2, y + k / 5 - 2)) {
+                continue;
+            }
+            let found = &rgb[3 * (y * width + x) as usize..][..3];
+            let error = found.iter().zip(wall).map(|(a, b)| a.abs_diff(b)).max().unwrap();
+            (pixels, sum) = (pixels + 1, sum + u32::from(error));
+            worst = worst.max(error);
+        }
+    }
+    assert!(pixels > 10_000, "{pixels}");
+    assert!(f64::from(sum) < 0.1 * f64::from(pixels), "{sum} in {pixels} pixels, {worst}");
+}

@@ -38,7 +38,15 @@ impl Svg {
 
     /// What a viewer shows, one sample a pixel at its centre.
     pub(crate) fn picture(&self) -> Picture {
-        let shape_rendering = ShapeRendering::CrispEdges;
+        self.rendered(ShapeRendering::CrispEdges)
+    }
+
+    /// What a viewer shows, with edges blended.
+    pub(crate) fn smooth_picture(&self) -> Picture {
+        self.rendered(ShapeRendering::GeometricPrecision)
+    }
+
+    fn rendered(&self, shape_rendering: ShapeRendering) -> Picture {
         let options = Options { shape_rendering, ..Options::default() };
         let tree = Tree::from_str(&self.text, &options).unwrap();
         let size = tree.size().to_int_size();
