@@ -8,6 +8,7 @@ use binspace::{BuildOptions, Heuristic};
 use binspace_evidence::Family;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::camera::ViewArgs;
 use crate::colours::Colouring;
 use crate::cull::CullArgs;
 use crate::examples;
@@ -35,6 +36,7 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     Stats(StatsArgs),
     Render(RenderArgs),
+    Draw(DrawArgs),
     Report(ReportArgs),
     /// List the built-in scenes
     Scenes,
@@ -156,7 +158,9 @@ pub(crate) struct StatsArgs {
 /// Draw a scene as PNG or SVG
 ///
 /// Without a camera, all of the scene is shown. Surfaces are darker the more obliquely they are
-/// seen. Transparency shows in SVG and in the painter's PNG, but not in a depth buffer's picture.
+/// seen. Transparency shows in SVG and in the painter's PNG, but not in a depth buffer's picture. An
+/// SVG has all fragments of the tree, the hidden ones too; `binspace draw` writes one path for each
+/// polygon that shows.
 #[derive(Args, Debug)]
 #[command(after_help = examples::RENDER)]
 pub(crate) struct RenderArgs {
@@ -168,24 +172,8 @@ pub(crate) struct RenderArgs {
     /// Format to write [default: by the file's name; png for standard output]
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
-    /// Position of the eye
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub(crate) eye: Option<DVec3>,
-    /// Direction of view, from infinitely far away: a parallel projection
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
-    #[arg(allow_hyphen_values = true, conflicts_with_all = ["eye", "fov"])]
-    pub(crate) direction: Option<DVec3>,
-    /// Point in the middle of the picture [default: the scene's middle]
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub(crate) target: Option<DVec3>,
     #[command(flatten)]
-    pub(crate) up: UpArgs,
-    /// Field of view from bottom to top, in degrees
-    #[arg(long, value_name = "DEGREES", default_value = "40", value_parser = values::field_of_view)]
-    pub(crate) fov: f64,
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
-    pub(crate) size: [u32; 2],
+    pub(crate) view: ViewArgs,
     /// Where the colours of polygons come from
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
     pub(crate) colours: Colouring,
@@ -199,6 +187,57 @@ pub(crate) struct RenderArgs {
     pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) kind: KindArgs,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+}
+
+/// Draw a view as SVG with one path for each polygon that shows
+///
+/// Each polygon is drawn whole, before those that show in front of it; the few that cannot be put in
+/// order, as each hides some of another, are cut to what shows of them. What is hidden is not in the
+/// file. Decimals suit the picture's size: two from 480 pixels on. `binspace render -o FILE.svg` writes
+/// all fragments of the tree instead, the hidden ones too, and translucent ones as such.
+///
+/// Drawings are opaque: where a polygon shows that is translucent, nothing is written, unless all are
+/// to be drawn as opaque.
+#[derive(Args, Debug)]
+#[command(after_help = examples::DRAW)]
+pub(crate) struct DrawArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// File to write, complete or not at all: .svg; - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+    /// Where the colours of polygons come from
+    #[arg(long, value_name = "KIND", value_enum, default_value_t)]
+    pub(crate) colours: Colouring,
+    /// Draw translucent polygons as if they were opaque
+    #[arg(long)]
+    pub(crate) opaque: bool,
+    /// Leave out polygons that show less than PX x PX pixels of area in all
+    ///
+    /// What is drawn behind them shows in their place, else the background: surfaces of such polygons
+    /// vanish. Through cracks between the faces of a mesh some of those behind show, far narrower than
+    /// any pixel, which the default leaves out. With 0, all that show are drawn.
+    #[arg(long, value_name = "PX", default_value_t = 0.01, value_parser = values::length)]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) min_size: f64,
+    /// Write the polygon of each path as `data-polygon="i"`, counted from 0 in the file's order
+    ///
+    /// Paths of one material that follow one another are in a group `<g data-material="NAME">`.
+    #[arg(long)]
+    pub(crate) ids: bool,
+    /// Print the figures of the drawing as one JSON object
+    ///
+    /// `polygons` of the scene, `fragments` of its tree, polygons `visible`, `paths` written and how many
+    /// of these are `cut_out`, `bytes` of the file, and the time in seconds to build or read the tree and
+    /// to draw.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
 }
@@ -299,7 +338,7 @@ pub(crate) struct LimitArgs {
     /// twice as far apart may be exchanged [default: four units in the last decimal that an OBJ file's
     /// coordinates need, but between 1e-9 and 1e-5 of the extent, the longest side of the scene's
     /// bounding box; at most 1/256 of the extent is used]
-    #[arg(long, value_name = "T", value_parser = values::tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
     /// Give up if there are more fragments than this
     #[arg(long, value_name = "N", default_value_t = BuildOptions::DEFAULT.max_fragments)]

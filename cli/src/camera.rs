@@ -4,9 +4,11 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::{Camera, CameraError, Projection, views};
 
-use crate::args::RenderArgs;
+use clap::Args;
+
+use crate::args::UpArgs;
 use crate::failure::Failure;
-use crate::framing;
+use crate::{framing, values};
 
 /// The default vertical field of view in radians: 40 degrees.
 pub(crate) const FIELD_OF_VIEW: f64 = 40.0 * std::f64::consts::PI / 180.0;
@@ -14,6 +16,29 @@ pub(crate) const FIELD_OF_VIEW: f64 = 40.0 * std::f64::consts::PI / 180.0;
 /// Scenes with coordinates this large are too large for a camera: a thousandth of the largest
 /// number.
 const TOO_LARGE: f64 = f64::MAX / 1000.0;
+
+/// Options of the camera of one picture.
+#[derive(Args, Debug)]
+pub(crate) struct ViewArgs {
+    /// Position of the eye
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) eye: Option<DVec3>,
+    /// Direction of view, from infinitely far away: a parallel projection
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
+    #[arg(allow_hyphen_values = true, conflicts_with_all = ["eye", "fov"])]
+    pub(crate) direction: Option<DVec3>,
+    /// Point in the middle of the picture [default: the scene's middle]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) target: Option<DVec3>,
+    #[command(flatten)]
+    pub(crate) up: UpArgs,
+    /// Field of view from bottom to top, in degrees
+    #[arg(long, value_name = "DEGREES", default_value = "40", value_parser = values::field_of_view)]
+    pub(crate) fov: f64,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
+    pub(crate) size: [u32; 2],
+}
 
 /// A camera that shows all of the scene.
 pub(crate) fn whole(
@@ -35,7 +60,7 @@ pub(crate) fn whole(
 }
 
 /// The camera that the options ask for.
-pub(crate) fn asked(args: &RenderArgs, scene: &Scene) -> Result<Camera, Failure> {
+pub(crate) fn asked(args: &ViewArgs, scene: &Scene) -> Result<Camera, Failure> {
     let (up, fov, size) = (args.up.up, args.fov, args.size);
     let [low, high] = bounds(scene);
     let target = args.target.unwrap_or(low * 0.5 + high * 0.5);

@@ -1,5 +1,6 @@
 //! Leaving out the backs of polygons.
 
+use binspace::raster::Rays;
 use binspace::{Fragment, Viewpoint};
 use clap::{Args, ValueEnum};
 
@@ -17,6 +18,11 @@ impl Cull {
     /// Whether a fragment shows a side that is not left out.
     pub(crate) fn shows(self, fragment: &Fragment<'_>, viewpoint: Viewpoint) -> bool {
         self == Self::None || fragment.facing(viewpoint).is_gt()
+    }
+
+    /// Rays that pass through what is left out.
+    pub(crate) fn rays(self, rays: Rays) -> Rays {
+        if self == Self::Back { rays.with_front_faces_only() } else { rays }
     }
 }
 

@@ -6,7 +6,8 @@ Examples:
   binspace order scene.obj --eye=0,2,10      fragments in paint order, as JSON lines
   binspace verify teapot --views 20          every pixel against a depth buffer
   binspace stats city:100000 --heuristic all how the heuristics compare
-  binspace render scene.obj -o scene.svg     a drawing of the whole scene
+  binspace render scene.obj -o scene.png     a picture of the whole scene
+  binspace draw scene.obj -o scene.svg       a drawing of it, one path a polygon
   binspace report --quick                    every method, its speed against its error
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
 
@@ -48,6 +49,15 @@ Examples:
   binspace render city:5000 -o map.svg --direction=1,1,-1
   binspace render scene.obj -o difference.png --difference
   binspace render - -o - --format svg < scene.obj > scene.svg";
+
+pub(crate) const DRAW: &str = "\
+Examples:
+  binspace draw teapot -o teapot.svg
+  binspace draw scene.obj -o scene.svg --up z --size 1200x900
+  binspace draw city:5000 -o map.svg --direction=1,1,-1 --colours polygon
+  binspace draw room.obj -o room.svg --cull back --ids
+  binspace draw scene.obj -o scene.svg --min-size 0.5 --json
+  binspace draw - -o - < scene.obj | gzip > scene.svgz";
 
 pub(crate) const REPORT: &str = "\
 Examples:

@@ -1,5 +1,7 @@
 //! The first step of most commands: loads a scene and builds its tree.
 
+use std::time::Instant;
+
 use binspace::internals::Faces;
 use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, Error, Heuristic, Preparation};
@@ -22,6 +24,16 @@ pub(crate) fn scene_and_tree(
     scene: &SceneArgs,
     build: &BuildArgs,
 ) -> Result<(Scene, BspTree), Failure> {
+    let (scene, tree, _) = timed_scene_and_tree(scene, build)?;
+    Ok((scene, tree))
+}
+
+/// The same, with the seconds that it took to build the tree, or to read its file.
+pub(crate) fn timed_scene_and_tree(
+    scene: &SceneArgs,
+    build: &BuildArgs,
+) -> Result<(Scene, BspTree, f64), Failure> {
+    let mut begin = Instant::now();
     let Loaded { scene, tree } = scene_arg::load(scene)?;
     let options = build.limits.options(build.heuristic);
     let is_built = tree.is_some();
@@ -30,8 +42,12 @@ pub(crate) fn scene_and_tree(
             refuse_options(&scene, &[build.heuristic], &build.limits)?;
             tree
         }
-        None => measure::build(&scene, &options).map_err(|error| about(&scene, &error))?,
+        None => {
+            begin = Instant::now();
+            measure::build(&scene, &options).map_err(|error| about(&scene, &error))?
+        }
     };
+    let seconds = begin.elapsed().as_secs_f64();
     note_preparation(&scene, tree.faces(), tree.preparation());
     if !is_built {
         note_tolerance(&scene, &build.limits, &tree);
@@ -39,7 +55,7 @@ pub(crate) fn scene_and_tree(
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
-    Ok((scene, tree))
+    Ok((scene, tree, seconds))
 }
 
 /// An error if a tree that is in a file, and so is not built, is to be built in a certain way.

@@ -6,6 +6,7 @@ mod camera;
 mod colours;
 mod commands;
 mod cull;
+mod drawn_svg;
 mod examples;
 mod failure;
 mod files;
@@ -13,17 +14,20 @@ mod framing;
 mod job;
 mod measure;
 mod memory;
+mod path_data;
 mod pictures;
 mod png_file;
 mod progress;
 mod samples;
 mod saved_file;
 mod scene_arg;
+mod shading;
 mod signals;
 mod standard_input;
 mod svg;
 mod table;
 mod terminal;
+mod traps;
 mod unfinished;
 mod units;
 mod upright;
@@ -64,6 +68,7 @@ fn run(cli: &Cli) -> Result<Outcome, Failure> {
         Some(Command::Verify(args)) => commands::verify::run(args),
         Some(Command::Stats(args)) => commands::stats::run(args),
         Some(Command::Render(args)) => commands::render::run(args),
+        Some(Command::Draw(args)) => commands::draw::run(args),
         Some(Command::Report(args)) => commands::report::run(args),
         Some(Command::Scenes) => commands::scenes::run(),
     }

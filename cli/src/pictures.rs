@@ -70,7 +70,7 @@ impl Drawing<'_> {
         match kind {
             Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),
             Kind::Depth => {
-                let rays = self.culled(Rays::new(self.camera, self.tree.faces())?);
+                let rays = self.cull.rays(Rays::new(self.camera, self.tree.faces())?);
                 Ok((depth_map(&zbuffer(&rays, self.tree.faces())), None))
             }
             Kind::Difference => {
@@ -90,7 +90,7 @@ impl Drawing<'_> {
 
     /// A picture with all its samples, some rows at a time.
     fn in_parts(&self, kind: Kind) -> Result<Vec<u8>, CameraError> {
-        let rays = self.culled(Rays::sampled(self.camera, self.tree.faces(), self.samples)?);
+        let rays = self.cull.rays(Rays::sampled(self.camera, self.tree.faces(), self.samples)?);
         let ([columns, rows], [width, _]) = (rays.size(), self.camera.size());
         let at_once = (AT_ONCE / (u64::from(columns) * u64::from(self.samples))).max(1);
         let step = at_once.min(u64::from(rows)) as u32 * self.samples;
@@ -116,9 +116,5 @@ impl Drawing<'_> {
             _ => paint_tree(tree, viewpoint, rays),
         };
         picture(rays, tree.faces(), &image, |polygon| self.colours.rgb(polygon), BACKGROUND)
-    }
-
-    fn culled(&self, rays: Rays) -> Rays {
-        if self.cull == Cull::Back { rays.with_front_faces_only() } else { rays }
     }
 }

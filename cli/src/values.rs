@@ -63,8 +63,8 @@ pub(crate) fn field_of_view(text: &str) -> Result<f64, String> {
     Ok(degrees.to_radians())
 }
 
-/// A tolerance: a length of 0 or more.
-pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+/// A length of 0 or more.
+pub(crate) fn length(text: &str) -> Result<f64, String> {
     let length = finite(text)?;
     if length < 0.0 {
         return Err("expected a length of 0 or more".to_owned());
@@ -131,7 +131,7 @@ mod tests {
         }
         assert_eq!(field_of_view("90"), Ok(std::f64::consts::FRAC_PI_2));
         assert!(field_of_view("0").is_err() && field_of_view("180").is_err());
-        assert!(tolerance("0").is_ok() && tolerance("-1e-9").is_err() && tolerance("nan").is_err());
+        assert!(length("0").is_ok() && length("-1e-9").is_err() && length("nan").is_err());
     }
 
     #[test]

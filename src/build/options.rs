@@ -28,7 +28,7 @@ pub struct BuildOptions {
     pub tolerance: Tolerance,
     /// The most fragments that a tree may have, and the most polygons it may be built from.
     /// Exceeding it is an error; too many input polygons are rejected before the build starts, and
-    /// before any is read if their iterator's size hint tells. Default: 2²⁵ (33 554 432 fragments,
+    /// before the rest is read once 2²⁰ have come, if their iterator's size hint tells. Default: 2²⁵ (33 554 432 fragments,
     /// about 5 GB). More than 2²⁹ − 1 counts as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
     pub max_fragments: usize,
     /// The most nodes on a path from the root. Exceeding it is an error. Default: unlimited; no code

@@ -1,6 +1,7 @@
 //! The commands, one a file.
 
 pub(crate) mod build;
+pub(crate) mod draw;
 pub(crate) mod order;
 pub(crate) mod render;
 pub(crate) mod report;

@@ -30,8 +30,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         return Err(about_output(args, problem));
     }
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
-    note_z_up(&scene, &args.up);
-    let camera = camera::asked(args, &scene)?;
+    note_z_up(&scene, &args.view.up);
+    let camera = camera::asked(&args.view, &scene)?;
     let colours = Colours::new(&scene, args.colours);
     let (cull, samples) = (args.cull.cull, args.samples);
     if cull == Cull::None {

@@ -188,7 +188,7 @@ mod tests {
             assert_eq!(again.build.heuristic, args.build.heuristic);
             assert_eq!(again.build.limits.tolerance, Some(1e-7));
             assert_eq!(again.cull.cull, Cull::Back);
-            let camera = camera::asked(&again, &scene).unwrap();
+            let camera = camera::asked(&again.view, &scene).unwrap();
             assert_eq!((camera.viewpoint(), camera.size()), (view.viewpoint(), view.size()));
             assert!((camera.forward() - view.forward()).length() < 1e-12);
             assert!((camera.up() - view.up()).length() < 1e-12);

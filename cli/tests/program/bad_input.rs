@@ -34,12 +34,13 @@ fn every_command_refuses_a_bad_file_with_its_name_line_and_face() {
             format!("verify {name}"),
             format!("stats {name} --heuristic all --json"),
             format!("render {name} -o out.png"),
+            format!("draw {name} -o out.svg"),
         ] {
             let message = folder.run(&command).refused();
             assert!(message.contains(name) && message.contains(problem), "{command}: {message}");
         }
     }
-    assert!(!folder.path("out.png").exists());
+    assert!(!folder.path("out.png").exists() && !folder.path("out.svg").exists());
 }
 
 #[test]
@@ -76,7 +77,7 @@ fn usage_errors_say_what_is_wrong() {
         ("stats teapto", "there is no file"),
         ("stats teapot:1", "from 2 to 790"),
         ("stats newell:5", "one size"),
-        ("draw s.obj", "unrecognized subcommand"),
+        ("paint s.obj", "unrecognized subcommand"),
         ("--out x stats newell", "cannot be used with"),
     ] {
         let message = folder.run(command).refused();
@@ -185,6 +186,7 @@ fn a_tree_that_memory_does_not_hold_ends_the_program_as_an_error_does() {
         "order random:6000 --eye=1,2,3 -o a.jsonl",
         "render random:6000 -o a.svg",
         "render random:6000 -o a.png",
+        "draw random:6000 -o a.svg",
         "stats random:6000",
         "verify random:6000",
     ] {

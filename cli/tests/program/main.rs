@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod cull;
+mod draw;
 mod help;
 mod notes;
 mod order;
@@ -15,5 +16,6 @@ mod run;
 mod samples;
 mod saved;
 mod stats;
+mod svg_picture;
 mod tour;
 mod verify;

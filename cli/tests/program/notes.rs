@@ -30,6 +30,7 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     let (render, verify) = ("-o p.png --size 16x12", "--views 1 --size 16x12");
     assert!(said(&format!("render z.obj {render}")));
     assert!(said("render z.obj -o p.svg"));
+    assert!(said("draw z.obj -o p.svg"));
     assert!(said(&format!("verify z.obj {verify}")));
     for options in [
         format!("render z.obj {render} --up z"),

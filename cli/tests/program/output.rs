@@ -189,6 +189,7 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
         "order s.obj --eye=3,2,6 -o /dev/full",
         "render s.obj --size 8x6 -o full.png",
         "render s.obj --size 8x6 -o full.svg",
+        "draw s.obj --size 8x6 -o full.svg",
     ] {
         let message = folder.run(command).refused();
         assert!(message.contains("cannot be written: No space left"), "{command}: {message}");

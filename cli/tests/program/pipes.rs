@@ -14,6 +14,7 @@ fn a_scene_on_standard_input_is_that_of_the_file() {
         "order SCENE --eye=3,2,6 --edges --weights",
         "verify SCENE --views 2 --size 20x10",
         "render SCENE -o - --format svg",
+        "draw SCENE -o - --ids",
     ] {
         let piped = Run::new(&folder.pipe(&command.replace("SCENE", "-"), CROSSING));
         let file = folder.run(&command.replace("SCENE", "s.obj"));

@@ -32,6 +32,7 @@ fn every_command_says_the_same_of_a_scene_and_of_its_tree_s_file() {
         "order SCENE --direction=0,0,-1",
         "verify SCENE --views 4 --size 40x30",
         "render SCENE -o - --format svg --up z",
+        "draw SCENE -o - --up z --opaque --ids",
     ] {
         let scene = folder.run(&command.replace("SCENE", "s.obj"));
         let file = folder.run(&command.replace("SCENE", "s.bsp"));
@@ -86,6 +87,7 @@ fn a_tree_that_is_built_is_not_built_in_another_way() {
         "verify s.bsp --tolerance 0",
         "stats s.bsp --heuristic all",
         "render s.bsp -o a.png --max-fragments 5",
+        "draw s.bsp -o a.svg --heuristic first",
         "build s.bsp -o b.bsp --tolerance 1",
     ] {
         let message = folder.run(command).refused();

@@ -11,7 +11,13 @@ use super::set::Set;
 use super::sketch::LANES;
 use super::tuning::Tuning;
 use crate::Error;
+use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
+
+/// Of so many pieces the largest one's plane may be that of all. Fewer: only small ones are seen.
+const SEEN: usize = 16;
+/// How many pieces are sketched before cancellation is checked.
+const AT_ONCE: usize = 1 << 14;
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -69,16 +75,22 @@ impl Auto {
         }
     }
 
-    /// The plane on which all pieces lie, if the first one's is such a plane. Of one piece as well.
+    /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.
     pub(super) fn common_plane<K: Kernel>(&mut self, set: &Set<'_, K>) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
+        // The planes of small ones may miss the others by what rounding has left.
+        let size = |&piece: &usize| {
+            let Live { min, max, .. } = set.pieces[piece];
+            (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
+        };
+        let large = set.sample(SEEN).max_by(|a, b| size(a).total_cmp(&size(b)))?;
         // The last is likely to be far from the first.
         let pieces = || (0..set.len()).rev();
-        if !pieces().all(|piece| sketch.may_be_on(set, 0, piece)) {
+        if !pieces().all(|piece| sketch.may_be_on(set, large, piece)) {
             return None;
         }
-        let plane = set.own_plane(0);
+        let plane = set.own_plane(large);
         let splitter = set.splitter(plane);
         pieces().all(|piece| set.classify(&splitter, piece) == Side::Coplanar).then_some(plane)
     }
@@ -124,16 +136,25 @@ impl Auto {
     ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
         let terms = Terms::large(set, tuning);
+        // Each step is a pass over the set, or several.
+        watch.work(set.len())?;
         self.begin_large(set, &terms, tuning)?;
+        watch.work(set.len())?;
         if self.contest.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
-            sketch.extend(set, arrange(set, tuning.groups_per_box)?.into_iter())?;
+            let arranged = arrange(set, tuning.groups_per_box)?;
+            watch.work(set.len())?;
+            for part in arranged.chunks(AT_ONCE) {
+                sketch.extend(set, part.iter().copied())?;
+                watch.work(part.len())?;
+            }
             if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch)? {
                 return Ok(Choice::Peel(peeled));
             }
             // The sketch has another order now, in which the first are no sample.
             self.begin_large(set, &terms, tuning)?;
+            watch.work(set.len())?;
         }
         let own = self.contest.best(set, &mut self.sample, &terms, tuning)?;
         // Own planes of large sets are compared by amount alone, so the free plane is too.

@@ -1,0 +1,72 @@
+//! SVG files as a viewer shows them.
+
+use std::fs;
+use std::path::Path;
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::roxmltree::{Document, Node};
+use resvg::usvg::{Options, ShapeRendering, Tree};
+
+use crate::png_picture::Picture;
+
+/// A path of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DrawnPath {
+    /// `data-polygon`.
+    pub(crate) polygon: Option<usize>,
+    /// Its own, or that of the groups around it.
+    pub(crate) fill: [u8; 3],
+    pub(crate) material: Option<String>,
+}
+
+/// A file that is valid XML.
+pub(crate) struct Svg {
+    pub(crate) text: String,
+    pub(crate) paths: Vec<DrawnPath>,
+}
+
+impl Svg {
+    pub(crate) fn read(path: &Path) -> Self {
+        let text = fs::read_to_string(path).unwrap();
+        let document = Document::parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let root = document.root_element();
+        assert_eq!(root.tag_name().namespace(), Some("http://www.w3.org/2000/svg"));
+        let paths =
+            root.descendants().filter(|node| node.has_tag_name("path")).map(drawn).collect();
+        Self { paths, text }
+    }
+
+    /// What a viewer shows, one sample a pixel at its centre.
+    pub(crate) fn picture(&self) -> Picture {
+        self.rendered(ShapeRendering::CrispEdges)
+    }
+
+    /// What a viewer shows, with edges blended.
+    pub(crate) fn smooth_picture(&self) -> Picture {
+        self.rendered(ShapeRendering::GeometricPrecision)
+    }
+
+    fn rendered(&self, shape_rendering: ShapeRendering) -> Picture {
+        let options = Options { shape_rendering, ..Options::default() };
+        let tree = Tree::from_str(&self.text, &options).unwrap();
+        let size = tree.size().to_int_size();
+        let mut pixels = Pixmap::new(size.width(), size.height()).unwrap();
+        resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
+        let rgb = pixels.data().chunks_exact(4).flat_map(|rgba| {
+            assert_eq!(rgba[3], 255, "the background is opaque");
+            [rgba[0], rgba[1], rgba[2]]
+        });
+        Picture { size: [size.width(), size.height()], rgb: rgb.collect() }
+    }
+}
+
+fn drawn(node: Node<'_, '_>) -> DrawnPath {
+    let inherited = |name: &str| node.ancestors().find_map(|node| node.attribute(name));
+    let fill = inherited("fill").unwrap();
+    let channel = |at: usize| u8::from_str_radix(&fill[at..at + 2], 16).unwrap();
+    DrawnPath {
+        polygon: node.attribute("data-polygon").map(|number| number.parse().unwrap()),
+        fill: [1, 3, 5].map(channel),
+        material: inherited("data-material").map(str::to_owned),
+    }
+}
