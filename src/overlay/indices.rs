@@ -24,7 +24,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for, or if memory runs out.
+    /// If the tree is not the one that the overlay was made for, as far as its size, grid and tolerance
+    /// tell, or if memory runs out.
     pub fn back_to_front_into(
         &self,
         tree: &BspTree,
@@ -44,7 +45,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for, or if memory runs out.
+    /// If the tree is not the one that the overlay was made for, as far as its size, grid and tolerance
+    /// tell, or if memory runs out.
     pub fn front_to_back_into(
         &self,
         tree: &BspTree,

@@ -105,13 +105,16 @@ use crate::tree::{BspTree, Fragment};
 /// tree. The tree's fragments come in the tree's own order, with pieces between them.
 ///
 /// Where lines cross each other or polygons in a picture, the nearer comes later; where a point and
-/// something else are in one place of it, too. What is in one place in *space* depends on the plane
-/// that it lies in: on one plane first come the polygons, then the lines in input order, then the
-/// points. So an axis drawn on a wall is painted over the wall. A line that goes through a plane is
-/// cut there; a point at that place comes between its two parts. Only where lines and points meet
-/// between polygons, a point at a corner of a line comes after both segments there, if the line has no
-/// point at its next corners either way. That holds where a line is closed, and where corners are
-/// repeated in a row. Of more than two segments that meet at a point, some may come after it. The tolerance counts as for polygons:
+/// something else are in one place of it, too; but not if both lie in one plane with the eye. What is in
+/// one place in *space*, or in one plane that is seen edge-on, depends on the plane that it lies in: on
+/// one plane first come the polygons, then the lines in input order, then the points. So an axis drawn
+/// on a wall is painted over the wall. (Of markers on a grid that is seen exactly along one of its planes,
+/// the nearest may come first: move the eye a little, or give them in another order.) A line that goes
+/// through a plane is cut there; a point at that place comes between its two parts. Only where lines and
+/// points meet between polygons, a point at a corner of a line comes after both segments there, if the
+/// line has no point at its next corners either way. That holds where a line is closed, and where corners
+/// are repeated in a row. Of more than two segments that meet at a point, some may come after it.
+/// The tolerance counts as for polygons:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on it;
 /// - a segment that reaches further on one side only goes whole to that side.

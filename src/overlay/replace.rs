@@ -16,7 +16,8 @@ impl Overlay {
     /// # Errors
     ///
     /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is not
-    /// the one that the overlay was made for. The overlay is empty then. The error names the polygon
+    /// the one that the overlay was made for, as far as its size, grid and tolerance tell. The overlay is
+    /// empty then. The error names the polygon
     /// where one is to blame, counted from 0.
     pub fn replace<P: Polygon>(
         &mut self,
