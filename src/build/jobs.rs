@@ -7,7 +7,7 @@ use super::builder::{Memory, Shared, build};
 use super::job::Job;
 use crate::Error;
 use crate::exact::Kernel;
-use crate::memory::{self, reserve};
+use crate::memory;
 use crate::tree::parts::Parts;
 
 /// A build of fewer pieces starts on the calling thread. Larger: the pool's threads idle at first;
@@ -69,7 +69,7 @@ pub(super) fn run<K: Kernel>(
     let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     // The scope has waited for every job, so every slot is filled.
     let mut outputs = Vec::new();
-    reserve(&mut outputs, slots.len())?;
+    memory::reserve(&mut outputs, slots.len())?;
     for output in slots.into_iter().flatten() {
         outputs.push(output?);
     }

@@ -25,11 +25,12 @@ const UNIT: f64 = (1u64 << HALF) as f64;
 /// The sum of the weights must be 2⁷⁰ times the error of one. Smaller: positions are off by more;
 /// larger: more of them are computed in full.
 const MARGIN: u32 = 70;
-/// The same on edges, where weights of 62 bits do: they do not cancel. Larger: none is told.
+/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with
+/// a larger margin than that, no position could be computed from them.
 const EDGE_MARGIN: u32 = 60;
 /// What cutting off adds to the error of a position, at most, in lattice units: on an edge as long as
-/// the lattice is wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (Elsewhere, for three weights above the
-/// line of the quotient and three below, only 6 · 2⁻⁷⁰ of its size.)
+/// the lattice is wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is
+/// less: 6 · 2⁻⁷⁰ of its size, as three weights are in the numerator and three in the denominator.)
 pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 
 impl Faces {

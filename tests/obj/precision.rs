@@ -60,7 +60,7 @@ fn writers() -> [Box<dyn Fn(f64) -> String>; 4] {
             written.set(written.get() + 1);
             let c: f64 = format!("{c:.6}").parse().unwrap();
             if written.get().is_multiple_of(150) {
-                format!("{:.17}", c + 1e-9)
+                format!("{:.17}", c * (1.0 + 1e-9))
             } else {
                 c.to_string()
             }

@@ -132,8 +132,8 @@ impl Sweep {
         Ok(best.and_then(|best| best.with_corner(set)))
     }
 
-    /// The free plane of least cost among those that cut nothing, for sets so small that they are
-    /// sorted in less time than to count takes.
+    /// The free plane of least cost among those that cut nothing. It sorts the set, which for a small one
+    /// takes less time than counting by bins.
     pub(super) fn clean<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
@@ -202,8 +202,8 @@ impl Sweep {
         Ok(())
     }
 
-    /// Chooses the bins that may hold a plane of less cost than the limit, and than is certain of
-    /// another bin; tells whether there are any.
+    /// Chooses the bins that may hold the best plane: those whose least possible cost is below the limit,
+    /// and below what some other bin certainly reaches. Tells whether there are any.
     fn bound(&mut self, pieces: usize, mut limit: Cost) -> bool {
         let cost = |begun: &Passed, ended: &Passed| {
             Passed { begun: begun.begun, ended: ended.ended }.cost(pieces)

@@ -106,10 +106,10 @@ impl Shares {
 
 /// The share of its set's box that a piece has to fill for its plane to be trusted at once.
 ///
-/// Where corners were rounded, as those of `f32` are, the planes of small polygons of one plane differ
-/// by more than the tolerance further away, and would tell them apart there. Less: forty cards of one
-/// plane, all small against it, lose their order (in 3 pages of 400 at 1/16, in 10 at 1/50); more: each
-/// set of layers in `f32` is searched for its best plane.
+/// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have planes of
+/// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
+/// others that belong together. Less: of 400 pages with forty small cards in one plane, 3 lose their order
+/// at 1/16, and 10 at 1/50. More: each set of layers in `f32` is searched for its best plane.
 pub(super) fn trusted_share(faces: &Faces) -> f64 {
     // Not where the tolerance is far above what rounding has left.
     if faces.tolerance() > COARSE * LATTICE_LIMIT { 0.25 } else { 0.0 }

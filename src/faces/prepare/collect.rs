@@ -14,8 +14,8 @@ const _: () = assert!(MAX_CORNERS.is_multiple_of(CORNERS_AT_ONCE), "so that it i
 /// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
 const TRUSTED: usize = 1 << 16;
 
-/// Polygons that are read before an iterator's size hint is believed that says that there are too many.
-/// Smaller: one that is wrong is an error; larger: one without end is noticed later.
+/// An iterator's hint that it has too many polygons is believed once so many have been read. Smaller: a
+/// hint that is wrong is an error more often; larger: an iterator without end is noticed later.
 const DOUBTED: usize = 1 << 20;
 
 /// Polygons that are read between two checks for a cancel. Smaller: time for checks; larger: a

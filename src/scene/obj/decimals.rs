@@ -102,7 +102,9 @@ impl Decimals {
         if let Some(digits) = Digits::of(number).filter(|digits| digits.count() >= LONG) {
             let off = (value - f64::from(value as f32)).abs();
             self.long += 1;
-            self.long_of_f32 += usize::from(off <= 0.51 * 10f64.powi(digits.last));
+            // What was rounded away, and what reading has rounded.
+            let rounding = 0.51 * 10f64.powi(digits.last) + f64::EPSILON * value.abs();
+            self.long_of_f32 += usize::from(off <= rounding);
         }
         match Digits::of(number).and_then(|digits| digits.without_noise(number)) {
             Some(digits) => *self.seen.entry(digits).or_default() += 1,
@@ -260,7 +262,7 @@ mod tests {
             state = crate::random::mix(state);
             ((state >> 11) as f64 * 2f64.powi(-53) - 0.5) * 6.0
         };
-        let values: Vec<f32> = (0..200).map(|_| random() as f32).collect();
+        let values: Vec<f32> = (0..200).map(|_| (5.0 * random()) as f32).collect();
         let largest = values.iter().fold(0.0f32, |most, value| most.max(value.abs()));
         let step = f64::from(f32::EPSILON * largest);
         type Write = fn(f32) -> String;

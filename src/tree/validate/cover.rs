@@ -144,8 +144,8 @@ fn glue<V: Vertex>(
     Some(outline)
 }
 
-/// An outline turned so that it begins with an edge on a line. There is but one: another would be
-/// left over, and found at the root.
+/// An outline turned so that it begins with its edge on a line. It has one such edge: a second one would
+/// be left over in the end, and be found at the root.
 fn from_cut<V: Vertex>(outline: &[V], cut: Line) -> Option<Vec<V>> {
     // Fragments have three vertices, but what is glued wrongly may have fewer.
     if outline.len() < 3 {
