@@ -16,7 +16,7 @@ use support::model::Face;
 use support::rational::{self, Rational};
 use support::tally::tally;
 
-/// World coordinates as (lattice + origin) · step, found from the corners of the scene.
+/// World coordinates as (lattice + origin) · step, found from the corners of the scene if they tell.
 struct World {
     step: Rational,
     origin: [Rational; 3],
@@ -31,9 +31,13 @@ impl World {
             let place = |corner: &DVec3| rational::exact(corner[axis]) / &step;
             // Halfway between two grid points, a corner may be rounded to either.
             let is_halfway = |corner: &&DVec3| (place(corner).fract().abs() - &half) == zero;
-            let told = corners().find(|corner| !is_halfway(corner)).or(corners().next());
-            let corner = told.expect("a scene has corners");
-            place(corner).round() - rational::exact(faces.lattice().snap(*corner)[axis])
+            match corners().find(|corner| !is_halfway(corner)) {
+                Some(corner) => {
+                    place(corner).round() - rational::exact(faces.lattice().snap(*corner)[axis])
+                }
+                // Of a scene of nothing else, no corner tells.
+                None => rational::exact(faces.lattice().to_world([0.0; 3])[axis]) / &step,
+            }
         });
         Self { step, origin }
     }
