@@ -56,6 +56,27 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     }
 }
 
+/// Most cards are far smaller than the page, the first one too: the plane of any of these would cut others.
+#[test]
+fn a_page_of_cards_of_every_size_is_not_cut() {
+    let mut random = SplitMix64::new(2);
+    for number in 0..20 {
+        let turn = turn(number);
+        let card = |_| {
+            let mut some = |low: f64, high: f64| random.range(low, high) as f32;
+            let (x, y, size) = (some(-1.0, 1.0), some(-1.0, 1.0), some(-8.0, -1.0).exp());
+            let corners = [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
+            corners.map(|[x, y]| turn.transform_point3(vec3(x, y, 0.0)))
+        };
+        let mut cards: Vec<[Vec3; 4]> = (0..500).map(card).collect();
+        cards.sort_by(|a, b| a[0].distance(a[1]).total_cmp(&b[0].distance(b[1])));
+        for heuristic in [Heuristic::FreePlanes, Heuristic::Auto] {
+            let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(&cards).unwrap();
+            assert_eq!(tree.len(), tree.face_count(), "page {number}, {heuristic}");
+        }
+    }
+}
+
 /// Builds a page of cards, none of them thin, half of them upon the one before, and gives the pairs of overlapping cards
 /// that were found in input order.
 fn pairs_in_order(number: u64, size: f64) -> usize {

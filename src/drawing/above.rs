@@ -6,11 +6,13 @@
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 
+use smallvec::SmallVec;
+
 use super::lines::{Half, Mixer};
 use super::stock::Stock;
 use super::tile::{Across, Leaf, Visible};
 use crate::Error;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 use crate::parallel_map;
 
 /// "`below` has to be drawn before `above`", by polygons' places in a list of those that show.
@@ -113,10 +115,8 @@ impl Reaches {
         let start = self.halves.len();
         reserve(&mut self.halves, halves.len())?;
         self.halves.extend_from_slice(halves);
-        reserve(&mut self.list, 1)?;
-        self.list
-            .push(Reach { seen, halves: [start, self.halves.len()].map(|place| place as u32) });
-        Ok(())
+        let halves = [start, self.halves.len()].map(|place| place as u32);
+        push(&mut self.list, Reach { seen, halves })
     }
 
     fn halves_of(&self, reach: &Reach) -> &[Half] {
@@ -133,7 +133,7 @@ impl Reaches {
             if (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis]) {
                 continue;
             }
-            let mut kept: smallvec::SmallVec<[Half; 8]> = smallvec::SmallVec::new();
+            let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
             let mut is_out = false;
             for &half in self.halves_of(reach) {
                 match stock.lines.across(half, region) {

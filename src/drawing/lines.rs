@@ -6,8 +6,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use super::frame::{Exact, Frame, Sheet, meeting, orientation};
 use crate::Error;
-use crate::exact::{Int, Line as Label, PlaneId, PlaneKind};
-use crate::memory::{push, reserve};
+use crate::exact::{Int, PlaneId, PlaneKind};
+use crate::memory::push;
 use crate::random::mix;
 
 /// What made a line. Equal keys are equal lines, up to their direction.
@@ -154,7 +154,7 @@ impl<'t> Lines<'t> {
     }
 
     /// The number of a line, which is added if it is new.
-    pub(super) fn number(&mut self, key: Key) -> Result<u32, Error> {
+    fn number(&mut self, key: Key) -> Result<u32, Error> {
         if let Some(&number) = self.numbers.get(&key) {
             return Ok(number);
         }
@@ -164,16 +164,12 @@ impl<'t> Lines<'t> {
     }
 
     fn add(&mut self, key: Key, exact: &Exact, through: [u32; 2]) -> Result<u32, Error> {
-        let number = self.keys.len() as u32;
-        if number >= 1 << 31 {
-            return Err(Error::too_many_indices());
-        }
-        reserve(&mut self.keys, 1)?;
-        reserve(&mut self.rounded, 1)?;
+        // A number takes less memory than its line.
+        let number = u32::try_from(self.keys.len()).map_err(|_| Error::out_of_memory())?;
+        push(&mut self.keys, key)?;
+        push(&mut self.rounded, Rounded::new(exact, self.reach))?;
         push(&mut self.through, through)?;
         self.numbers.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        self.keys.push(key);
-        self.rounded.push(Rounded::new(exact, self.reach));
         self.numbers.insert(key, number);
         Ok(number)
     }
@@ -201,9 +197,14 @@ impl<'t> Lines<'t> {
         Ok(Half::of(self.number(key)?).flipped(front == (a < b)))
     }
 
-    /// The half of a cut of a face on which a piece lies.
-    pub(super) fn cut(&mut self, face: u32, label: Label, sheet: &Sheet) -> Result<Half, Error> {
-        let Some(plane) = label.as_cut() else { return Err(Error::too_many_indices()) };
+    /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front.
+    pub(super) fn cut(
+        &mut self,
+        face: u32,
+        plane: PlaneId,
+        behind: bool,
+        sheet: &Sheet,
+    ) -> Result<Half, Error> {
         let own = PlaneId::face(face);
         let (key, swapped) = match plane.kind() {
             PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
@@ -218,7 +219,7 @@ impl<'t> Lines<'t> {
                 self.add(key, &exact, through)?
             }
         };
-        Ok(Half::of(number).flipped(sheet.side().is_gt() == (label.is_behind() != swapped)))
+        Ok(Half::of(number).flipped(sheet.side().is_gt() == (behind != swapped)))
     }
 
     /// Corners of a face that are known to lie on a plane that cuts it: those of the other face, or with
@@ -258,9 +259,8 @@ impl<'t> Lines<'t> {
             return Ok(number);
         }
         let number = self.corners.len() as u32;
-        reserve(&mut self.corners, 1)?;
+        push(&mut self.corners, corner)?;
         self.points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        self.corners.push(corner);
         self.points.insert(place, number);
         Ok(number)
     }

@@ -93,8 +93,7 @@ impl MapCell<'_> {
         self.polygon
     }
 
-    /// The corners, rounded, with the cell on the left of the way from each to the next, as seen with x
-    /// to the right and y *up*: clockwise in the picture.
+    /// The corners, rounded, three or more, clockwise in the picture, with x to the right and y down.
     pub fn corners(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + Clone {
         self.cell.sides.iter().map(|side| side.start.at)
     }

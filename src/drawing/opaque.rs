@@ -11,7 +11,7 @@ use super::outline::{Edge, outlines};
 use super::stock::Stock;
 use super::tile::{Leaf, Tile, Visible};
 use crate::Error;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 
 /// A view as filled outlines, in the order to paint them: one for each polygon that shows.
 #[derive(Clone, Debug)]
@@ -80,8 +80,7 @@ impl Drawing {
         // there each part is an outline of its own.
         let all = outlines(edges).unwrap_or_else(|| apart(edges));
         for outline in all {
-            reserve(&mut self.outlines, 1)?;
-            self.outlines.push(self.corners.len() as u32);
+            push(&mut self.outlines, self.corners.len() as u32)?;
             reserve(&mut self.corners, outline.len())?;
             self.corners.extend(outline);
         }
@@ -112,7 +111,10 @@ impl<'d> Path<'d> {
         self.record.is_cut_out
     }
 
-    /// Its outlines: closed, and with the area on their left.
+    /// Its outlines, to be filled together by the nonzero rule, as far as the polygon is in the picture:
+    /// each by its corners, in pixels from the centre of the first one, x to the right and y down,
+    /// clockwise around what is filled, counter-clockwise around holes. There is one at least. Those of a
+    /// folded polygon overlap.
     pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
         let Drawing { outlines, corners, .. } = self.drawing;
         self.record.outlines.clone().map(move |outline| {

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::above::Pair;
 use crate::Error;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 
 /// An order of nodes.
 #[derive(Debug)]
@@ -34,6 +34,8 @@ struct Search {
     /// The least number that it leads to.
     least: Vec<u32>,
     is_on_stack: Vec<bool>,
+    /// From which node it was reached last, in the search for a cycle.
+    reached: Vec<u32>,
 }
 
 /// No component, and of nodes that are not searched, no number.
@@ -59,7 +61,8 @@ pub(super) fn order(nodes: usize, pairs: &[Pair], rank: &[u32]) -> Result<Ordere
     }
     let (is_cut_out, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
     let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
-    let search = Search { number, least, is_on_stack: filled(nodes, false)? };
+    let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
+    let search = Search { number, least, is_on_stack, reached };
     let mut graph = Graph { pairs, starts, is_cut_out, component, search };
     graph.open_cycles()?;
     let order = graph.sorted(rank)?;
@@ -117,9 +120,8 @@ impl Graph<'_> {
             self.component[node as usize] = nodes[0];
         }
         cut_out.sort_by_key(|&node| self.above(node).count());
-        let mut met: Vec<u32> = filled(self.is_cut_out.len(), NONE)?;
         for node in cut_out {
-            if !self.closes_cycle(node, nodes[0], &mut met)? {
+            if !self.closes_cycle(node, nodes[0])? {
                 self.is_cut_out[node as usize] = false;
             }
         }
@@ -129,29 +131,31 @@ impl Graph<'_> {
         Ok(())
     }
 
-    fn closes_cycle(&self, start: u32, component: u32, met: &mut [u32]) -> Result<bool, Error> {
-        let mut stack = vec![start];
+    fn closes_cycle(&mut self, start: u32, component: u32) -> Result<bool, Error> {
+        let mut reached = std::mem::take(&mut self.search.reached);
+        let (mut stack, mut is_closed) = (vec![start], false);
         while let Some(node) = stack.pop() {
             for above in self.above(node) {
                 let index = above as usize;
-                if above == start {
-                    return Ok(true);
-                }
-                let is_new = met[index] != start && self.component[index] == component;
+                is_closed |= above == start;
+                let is_new = reached[index] != start && self.component[index] == component;
                 if is_new && !self.is_cut_out[index] {
-                    met[index] = start;
-                    reserve(&mut stack, 1)?;
-                    stack.push(above);
+                    reached[index] = start;
+                    push(&mut stack, above)?;
                 }
             }
+            if is_closed {
+                break;
+            }
         }
-        Ok(false)
+        self.search.reached = reached;
+        Ok(is_closed)
     }
 
     /// The strongly connected components of several nodes among these (R. Tarjan, "Depth-first search
     /// and linear graph algorithms", 1972). Their numbers are left in `component`.
     fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
-        let Search { number, least, is_on_stack } = &mut self.search;
+        let Search { number, least, is_on_stack, .. } = &mut self.search;
         nodes.iter().for_each(|&node| number[node as usize] = UNMET);
         let (mut stack, mut path, mut found) = (Vec::new(), Vec::new(), Vec::new());
         let mut next = 0;

@@ -6,7 +6,7 @@ use super::frame::{Frame, Sheet};
 use super::lines::{Half, Lines};
 use crate::Error;
 use crate::exact::PlaneId;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -66,14 +66,15 @@ impl<'t> Stock<'t> {
             }
             let seen = *number;
             let start = stock.halves.len() as u32;
-            for line in fragment.lines().filter(|line| line.as_edge().is_none()) {
-                let half = stock.lines.cut(face, line, &sheets[seen as usize])?;
-                stock.push(half)?;
+            for line in fragment.lines() {
+                let Some(plane) = line.as_cut() else { continue };
+                let sheet = &sheets[seen as usize];
+                let half = stock.lines.cut(face, plane, line.is_behind(), sheet)?;
+                push(&mut stock.halves, half)?;
             }
             stock.seen[seen as usize].last = stock.items.len() as u32;
-            reserve(&mut stock.items, 1)?;
             let cuts = [start, stock.halves.len() as u32];
-            stock.items.push(Item { seen, cuts });
+            push(&mut stock.items, Item { seen, cuts })?;
         }
         Ok(stock)
     }
@@ -93,26 +94,18 @@ impl<'t> Stock<'t> {
         let start = self.halves.len() as u32;
         for k in 0..faces.corners(face).len() as u32 {
             let half = self.lines.edge(face, k, &sheet, front)?;
-            self.push(half)?;
+            push(&mut self.halves, half)?;
         }
         // Edges in a plane bound a cone, all of it ahead of the eye; others may bound its image
         // behind the eye as well.
         if may_be_behind {
             let half = self.lines.ahead(face, &sheet)?;
-            self.push(half)?;
+            push(&mut self.halves, half)?;
         }
         let halves = start..self.halves.len() as u32;
-        reserve(sheets, 1)?;
-        sheets.push(sheet);
-        reserve(&mut self.seen, 1)?;
-        self.seen.push(Seen { face, halves, last: 0, region });
+        push(sheets, sheet)?;
+        push(&mut self.seen, Seen { face, halves, last: 0, region })?;
         Ok(self.seen.len() as u32 - 1)
-    }
-
-    fn push(&mut self, half: Half) -> Result<(), Error> {
-        reserve(&mut self.halves, 1)?;
-        self.halves.push(half);
-        Ok(())
     }
 
     /// The halves that bound a whole face.

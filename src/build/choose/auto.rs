@@ -14,7 +14,8 @@ use crate::Error;
 use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
 
-/// Of so many pieces the largest one's plane may be that of all. Fewer: only small ones are seen.
+/// The plane of the largest of so many pieces is tried as that of all. Fewer: all of them may be small;
+/// more: time.
 const SEEN: usize = 16;
 /// How many pieces are sketched before cancellation is checked.
 const AT_ONCE: usize = 1 << 14;

@@ -11,8 +11,8 @@ const DIGITS_OF_F64: i32 = 15;
 /// Numbers are zero but for noise if they begin so many places behind the largest. Smaller: thin
 /// layers near zero are not seen; larger: one sine of a rounded π decides.
 const NOISE_PLACES: i32 = 11;
-/// Numbers of so many significant digits are long. Fewer: the heights of thin layers, as people
-/// write them, are long; more: those that a program computed in `f32` are not.
+/// Numbers of so many significant digits are long: as many as tell one `f32` from another. Fewer: the
+/// heights of thin layers, as people write them, are long; more: those of an `f32` are not.
 const LONG: i32 = 9;
 /// At most one number in so many is a stray. Smaller: parts of a scene that are more precise than
 /// the rest are overlooked; larger: a few long numbers decide for all.
@@ -99,14 +99,15 @@ impl Decimals {
     pub(super) fn see(&mut self, number: &str) {
         let value: f64 = number.parse().unwrap_or(0.0);
         self.largest = self.largest.max(value.abs());
-        if let Some(digits) = Digits::of(number).filter(|digits| digits.count() >= LONG) {
+        let digits = Digits::of(number);
+        if let Some(digits) = digits.filter(|digits| digits.count() >= LONG) {
             let off = (value - f64::from(value as f32)).abs();
             self.long += 1;
             // What was rounded away, and what reading has rounded.
             let rounding = 0.51 * 10f64.powi(digits.last) + f64::EPSILON * value.abs();
             self.long_of_f32 += usize::from(off <= rounding);
         }
-        match Digits::of(number).and_then(|digits| digits.without_noise(number)) {
+        match digits.and_then(|digits| digits.without_noise(number)) {
             Some(digits) => *self.seen.entry(digits).or_default() += 1,
             None => self.zeros += 1,
         }
