@@ -48,7 +48,8 @@ pub struct MapCell<'m> {
 }
 
 impl<'t> VisibilityMap<'t> {
-    /// What rays meet first of a tree's polygons.
+    /// What rays meet first of a tree's polygons: of both sides, or of fronts alone, as the rays say. They
+    /// have to be made for [`tree.faces()`](BspTree::faces); those of another scene give a wrong map.
     ///
     /// # Errors
     ///
