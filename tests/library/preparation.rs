@@ -1,17 +1,15 @@
 //! From polygons of any kind to convex planar faces, by example: what becomes triangles, what is
 //! dropped, what is an error.
 
-mod support;
-
+use crate::support::checks::{area, assert_convex_and_planar, face_area};
+use crate::support::hard;
+use crate::support::rational;
+use crate::support::shapes::{self, Corners};
 use binspace::Preparation;
 use binspace::glam::{DMat3, DVec3};
 use binspace::internals::{DEFAULT_TOLERANCE, Faces, LATTICE_LIMIT};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
-use support::checks::{area, assert_convex_and_planar, face_area};
-use support::hard;
-use support::rational;
-use support::shapes::{self, Corners};
 
 fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
     Faces::new(polygons, None).expect("finite")

@@ -1,14 +1,12 @@
 //! Which side of a fragment faces a viewpoint, against exact rationals.
 
-mod support;
-
+use crate::support::dice::Dice;
+use crate::support::model;
+use crate::support::views::View;
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
 use binspace::{BspTree, BuildOptions, Viewpoint, scene, verify_fronts, view};
 use std::cmp::Ordering;
-use support::dice::Dice;
-use support::model;
-use support::views::View;
 
 /// Viewpoints of every kind: anywhere, on corners, in the planes of faces and along them.
 fn viewpoints(tree: &BspTree, dice: &mut Dice) -> Vec<View> {

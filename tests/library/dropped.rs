@@ -1,8 +1,10 @@
 //! Which polygons preparation drops, keeps whole and counts as duplicates, checked by brute force
 //! in big integers, on polygons with little or no area.
 
-mod support;
-
+use crate::support::dice::Dice;
+use crate::support::hard;
+use crate::support::shapes::{self, Corners};
+use crate::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Lattice};
 use num_bigint::BigInt;
@@ -10,10 +12,6 @@ use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
-use support::dice::Dice;
-use support::hard;
-use support::shapes::{self, Corners};
-use support::tally::tally;
 
 type Vector = [BigInt; 3];
 

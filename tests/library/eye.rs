@@ -1,18 +1,16 @@
 //! The side of a plane on which an eye lies, against exact rationals; and the lattice that eyes and
 //! corners are put on.
 
-mod support;
-
+use crate::support::hard;
+use crate::support::model;
+use crate::support::rational::{self, Plane, Point, Rational};
+use crate::support::views::{power_of_two, rounded_eye};
 use binspace::Viewpoint;
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
 use num_traits::Signed;
 use proptest::prelude::*;
 use std::cmp::Ordering;
-use support::hard;
-use support::model;
-use support::rational::{self, Plane, Point, Rational};
-use support::views::{power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {
     Exact.eye_side(faces, plane, &Eye::new(viewpoint, faces.lattice()))

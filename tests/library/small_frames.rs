@@ -1,12 +1,8 @@
 //! Trees of frames, of the small sets that are divided from a table: squares of a few planes, many on
 //! one plane and many cut.
 
-#[path = "support/dice.rs"]
-#[allow(dead_code, reason = "every test program uses its own part")]
-mod dice;
-
+use crate::support::dice::Dice;
 use binspace::{BuildOptions, FrameBuilder};
-use dice::Dice;
 
 type Square = [[f64; 3]; 4];
 

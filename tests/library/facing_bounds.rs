@@ -1,15 +1,11 @@
 //! Bounds tell which side polygons show only where the exact predicate tells the same: eyes far away in
 //! the plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
 
-#[path = "support/dice.rs"]
-#[allow(dead_code, reason = "every test program uses its own part")]
-mod dice;
-
 use std::cmp::Ordering;
 
+use crate::support::dice::Dice;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Viewpoint};
-use dice::Dice;
 
 #[test]
 fn bounds_of_normals_hold_the_exact_normals() {

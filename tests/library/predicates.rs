@@ -1,16 +1,14 @@
 //! The exact kernel against exact rationals, on scenes that are hard to decide.
 
-mod support;
-
+use crate::support::hard::{self, HardScene};
+use crate::support::model::{self, Face};
+use crate::support::rational::{self, Point, Rational};
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, Vertex, split};
 use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{TestCaseError, TestRunner};
-use support::hard::{self, HardScene};
-use support::model::{self, Face};
-use support::rational::{self, Point, Rational};
 
 type ExactVertex = <Exact as Kernel>::Vertex;
 type Outcome<T> = Result<T, TestCaseError>;

@@ -1,18 +1,16 @@
 //! Facts about the faces of any scene: convex, planar, where the input is, and whole if they can be.
 
-mod support;
-
+use crate::support::checks::{area, assert_convex_and_planar};
+use crate::support::hard::{self, HardScene};
+use crate::support::model::Face;
+use crate::support::rational::{self, Rational};
+use crate::support::shapes;
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestCaseError;
-use support::checks::{area, assert_convex_and_planar};
-use support::hard::{self, HardScene};
-use support::model::Face;
-use support::rational::{self, Rational};
-use support::shapes;
 
 /// Corners moved onto a plane moved by little, the others not at all.
 fn assert_corners_are_the_input_s(

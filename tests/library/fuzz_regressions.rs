@@ -1,9 +1,7 @@
 //! Inputs that a fuzz target once failed on, and a few to start from, replayed.
 
-mod support;
-
+use crate::support::targets;
 use std::path::Path;
-use support::targets;
 
 /// Runs a target on every file of its folder; the file's name says what it is about.
 fn replay(target: &str, run: fn(&[u8])) {
