@@ -6,34 +6,14 @@
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 
-use smallvec::SmallVec;
-
-use super::lines::{Half, Mixer};
+use super::lines::Mixer;
+use super::order::Pair;
+use super::reaches::Reaches;
 use super::stock::Stock;
-use super::tile::{Across, Leaf, Visible};
+use super::tile::{Leaf, Visible};
 use crate::Error;
-use crate::memory::{push, reserve};
+use crate::memory::reserve;
 use crate::parallel_map;
-
-/// "`below` has to be drawn before `above`", by polygons' places in a list of those that show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Pair {
-    pub(super) below: u32,
-    pub(super) above: u32,
-}
-
-/// A whole face of a polygon that shows, in a part of the picture: those of its lines that may cross it.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    seen: u32,
-    halves: [u32; 2],
-}
-
-#[derive(Debug, Default)]
-struct Reaches {
-    list: Vec<Reach>,
-    halves: Vec<Half>,
-}
 
 /// Leaves with the faces that may reach into them.
 struct Entry<'l> {
@@ -51,9 +31,10 @@ pub(super) fn pairs(
     leaves: &[Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
 ) -> Result<Vec<Pair>, Error> {
+    // Whole faces.
     let mut all = Reaches::default();
     for seen in (0..stock.seen.len() as u32).filter(|&seen| place(seen) != u32::MAX) {
-        all.push(seen, stock.outline(seen))?;
+        all.push(seen, stock.outline(seen).iter().copied())?;
     }
     let mut shares = vec![Entry { leaves, reaches: all }];
     for _ in 0..SHARED {
@@ -95,7 +76,7 @@ fn pairs_of(
         for Visible { item, cell } in &leaf.cells {
             let above = place(stock.items[*item as usize].seen);
             for reach in &reaches.list {
-                let pair = Pair { below: place(reach.seen), above };
+                let pair = Pair { below: place(reach.number), above };
                 if pair.below == above || found.contains(&pair) {
                     continue;
                 }
@@ -110,46 +91,6 @@ fn pairs_of(
     Ok(found.into_iter().collect())
 }
 
-impl Reaches {
-    fn push(&mut self, seen: u32, halves: &[Half]) -> Result<(), Error> {
-        let start = self.halves.len();
-        reserve(&mut self.halves, halves.len())?;
-        self.halves.extend_from_slice(halves);
-        let halves = [start, self.halves.len()].map(|place| place as u32);
-        push(&mut self.list, Reach { seen, halves })
-    }
-
-    fn halves_of(&self, reach: &Reach) -> &[Half] {
-        let [start, end] = reach.halves;
-        &self.halves[start as usize..end as usize]
-    }
-
-    /// Those that may reach into a box.
-    fn narrowed(&self, stock: &Stock<'_>, region: &[[f64; 2]; 2]) -> Result<Self, Error> {
-        let mut part = Self::default();
-        let [low, high] = region;
-        for reach in &self.list {
-            let [from, to] = stock.seen[reach.seen as usize].region;
-            if (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis]) {
-                continue;
-            }
-            let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
-            let mut is_out = false;
-            for &half in self.halves_of(reach) {
-                match stock.lines.across(half, region) {
-                    Across::Inside => {}
-                    Across::Outside => is_out = true,
-                    Across::Maybe => kept.push(half),
-                }
-            }
-            if !is_out {
-                part.push(reach.seen, &kept)?;
-            }
-        }
-        Ok(part)
-    }
-}
-
 impl<'l> Entry<'l> {
     /// The first and the second half of the leaves; `None` of a single one.
     fn halves(&self, stock: &Stock<'_>) -> Result<Option<[Self; 2]>, Error> {
@@ -158,7 +99,8 @@ impl<'l> Entry<'l> {
         }
         let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
-            let reaches = self.reaches.narrowed(stock, &region(leaves))?;
+            let around = |seen: u32| stock.seen[seen as usize].region;
+            let reaches = self.reaches.narrowed(&stock.lines, &region(leaves), around)?;
             Ok(Self { leaves, reaches })
         };
         Ok(Some([part(first)?, part(second)?]))

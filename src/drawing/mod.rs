@@ -16,19 +16,27 @@
 //! | `order` | an order of them, and who is in cycles |
 //! | `outline` | outlines of areas in parts |
 //! | `opaque` | the drawing |
+//! | `overlaps` | which pieces overlap, nothing hidden |
+//! | `join` | pieces joined while an order is left |
+//! | `translucent` | the drawing in which nothing is hidden |
+//! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
 
 mod above;
 mod cell;
 mod edges;
 mod frame;
+mod join;
 mod lines;
 mod map;
 mod opaque;
 mod order;
 mod outline;
+mod overlaps;
+mod reaches;
 mod stock;
 mod tile;
+mod translucent;
 
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};

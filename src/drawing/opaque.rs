@@ -1,4 +1,4 @@
-//! Drawings of opaque polygons.
+//! Drawings, and those of opaque polygons.
 
 use std::ops::Range;
 
@@ -17,14 +17,14 @@ use crate::memory::{push, reserve};
 #[derive(Clone, Debug)]
 pub struct Drawing {
     size: [u32; 2],
-    paths: Vec<Record>,
+    pub(super) paths: Vec<Record>,
     /// Where each outline begins, and all corners.
     outlines: Vec<u32>,
     corners: Vec<[f64; 2]>,
 }
 
 #[derive(Clone, Debug)]
-struct Record {
+pub(super) struct Record {
     polygon: usize,
     is_cut_out: bool,
     outlines: Range<u32>,
@@ -53,7 +53,7 @@ impl VisibilityMap<'_> {
         let place = |seen: u32| shown.places[seen as usize];
         let pairs = pairs(stock, leaves, &place)?;
         let Ordered { order, is_cut_out } = order(shown.polygons.len(), &pairs, &shown.ranks)?;
-        let mut drawing = Drawing { size, paths: vec![], outlines: vec![], corners: vec![] };
+        let mut drawing = Drawing::empty(size);
         let cells = shown.cells(stock, leaves, &is_cut_out);
         reserve(&mut drawing.paths, order.len())?;
         let mut edges = Vec::new();
@@ -61,10 +61,12 @@ impl VisibilityMap<'_> {
             let index = node as usize;
             edges.clear();
             if is_cut_out[index] {
-                cells[index].iter().for_each(|cell| add_edges(cell, &mut edges));
+                for cell in &cells[index] {
+                    add_sides(cell, &mut edges)?;
+                }
             } else {
                 for &seen in &shown.faces[index] {
-                    whole(stock, seen, size, &mut edges)?;
+                    add_edges(stock, stock.outline(seen), &mut edges)?;
                 }
             }
             drawing.push(shown.polygons[index], is_cut_out[index], &edges)?;
@@ -74,7 +76,18 @@ impl VisibilityMap<'_> {
 }
 
 impl Drawing {
-    fn push(&mut self, polygon: usize, is_cut_out: bool, edges: &[Edge]) -> Result<(), Error> {
+    /// Nothing is painted.
+    pub(super) fn empty(size: [u32; 2]) -> Self {
+        Self { size, paths: vec![], outlines: vec![], corners: vec![] }
+    }
+
+    /// Adds a path that fills what edges go around.
+    pub(super) fn push(
+        &mut self,
+        polygon: usize,
+        is_cut_out: bool,
+        edges: &[Edge],
+    ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
         // Parts of a folded polygon lie on one another, and specks are smaller than outlines can be:
         // there each part is an outline of its own.
@@ -106,7 +119,8 @@ impl<'d> Path<'d> {
         self.record.polygon
     }
 
-    /// Whether only what shows of the polygon is filled, as it is in a cycle with others.
+    /// Whether only a part of the polygon is filled, as it is in a cycle with others: what shows of it,
+    /// or one of several parts if nothing is hidden.
     pub fn is_cut_out(&self) -> bool {
         self.record.is_cut_out
     }
@@ -189,21 +203,26 @@ fn apart(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
     parts.map(|part| part.iter().map(|edge| edge.from).collect()).collect()
 }
 
-fn add_edges(cell: &Cell, edges: &mut Vec<Edge>) {
+fn add_sides(cell: &Cell, edges: &mut Vec<Edge>) -> Result<(), Error> {
     let n = cell.sides.len();
+    reserve(edges, n)?;
     edges.extend((0..n).map(|i| {
         let side = &cell.sides[i];
         Edge { line: side.half.line(), from: side.start.at, to: cell.sides[(i + 1) % n].start.at }
     }));
+    Ok(())
 }
 
-/// Adds the edges of a whole face, as far as it is in or near the picture.
-fn whole(stock: &Stock<'_>, seen: u32, size: [u32; 2], edges: &mut Vec<Edge>) -> Result<(), Error> {
-    let Tile { low, high } = Tile::picture(size);
+/// Adds the edges of a convex piece, as far as it is in the picture.
+pub(super) fn add_edges(
+    stock: &Stock<'_>,
+    halves: &[Half],
+    edges: &mut Vec<Edge>,
+) -> Result<(), Error> {
+    let Tile { low, high } = Tile::picture(stock.lines.frame.rays.size());
     let picture = Cell::rectangle(&stock.lines, low, high);
-    let halves: &[Half] = stock.outline(seen);
     if let Some(cell) = picture.within(&stock.lines, halves, None)? {
-        add_edges(&cell, edges);
+        add_sides(&cell, edges)?;
     }
     Ok(())
 }

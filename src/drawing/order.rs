@@ -3,9 +3,15 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::above::Pair;
 use crate::Error;
-use crate::memory::{push, reserve};
+use crate::memory::{collect, push, reserve};
+
+/// "`below` has to be drawn before `above`", by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub(super) below: u32,
+    pub(super) above: u32,
+}
 
 /// An order of nodes.
 #[derive(Debug)]
@@ -52,21 +58,37 @@ const AT_ONCE: usize = 64;
 /// those are given back that close no cycle, so that none is cut out in vain. (To cut out as few as
 /// possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
 pub(super) fn order(nodes: usize, pairs: &[Pair], rank: &[u32]) -> Result<Ordered, Error> {
-    let mut starts = filled(nodes + 1, 0)?;
-    for pair in pairs {
-        starts[pair.below as usize + 1] += 1;
-    }
-    for node in 0..nodes {
-        starts[node + 1] += starts[node];
-    }
-    let (is_cut_out, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
-    let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
-    let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
-    let search = Search { number, least, is_on_stack, reached };
-    let mut graph = Graph { pairs, starts, is_cut_out, component, search };
+    let mut graph = Graph::new(nodes, pairs)?;
     graph.open_cycles()?;
     let order = graph.sorted(rank)?;
     Ok(Ordered { order, is_cut_out: graph.is_cut_out })
+}
+
+/// Whether each node is in a cycle, by sorted pairs; then the number of its strongly connected
+/// component, that of one of its nodes.
+pub(super) fn cycles(nodes: usize, pairs: &[Pair]) -> Result<Vec<Option<u32>>, Error> {
+    let mut graph = Graph::new(nodes, pairs)?;
+    let all: Vec<u32> = collect(0..nodes as u32)?;
+    graph.components(&all)?;
+    let number = |&component: &u32| (component != NONE).then_some(component);
+    collect(graph.component.iter().map(number))
+}
+
+impl<'p> Graph<'p> {
+    fn new(nodes: usize, pairs: &'p [Pair]) -> Result<Self, Error> {
+        let mut starts = filled(nodes + 1, 0)?;
+        for pair in pairs {
+            starts[pair.below as usize + 1] += 1;
+        }
+        for node in 0..nodes {
+            starts[node + 1] += starts[node];
+        }
+        let (is_cut_out, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
+        let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
+        let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
+        let search = Search { number, least, is_on_stack, reached };
+        Ok(Self { pairs, starts, is_cut_out, component, search })
+    }
 }
 
 impl Graph<'_> {
@@ -77,7 +99,7 @@ impl Graph<'_> {
 
     /// Cuts out nodes until there is no cycle.
     fn open_cycles(&mut self) -> Result<(), Error> {
-        let all: Vec<u32> = (0..self.is_cut_out.len() as u32).collect();
+        let all: Vec<u32> = collect(0..self.is_cut_out.len() as u32)?;
         let first = self.components(&all)?;
         for nodes in first {
             let mut cut_out = Vec::new();

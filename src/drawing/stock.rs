@@ -120,6 +120,11 @@ impl<'t> Stock<'t> {
         &self.halves[start as usize..end as usize]
     }
 
+    /// The place of an item's face in [`Stock::seen`].
+    pub(super) fn seen_of(&self, item: u32) -> u32 {
+        self.items[item as usize].seen
+    }
+
     /// The polygon of an item.
     pub(super) fn polygon(&self, item: u32) -> usize {
         let seen = self.items[item as usize].seen;

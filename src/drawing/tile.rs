@@ -40,7 +40,7 @@ pub(super) struct Leaf {
 const SHORT: usize = 16;
 /// Tiles that were halved in vain so often are leaves. Many items may meet along a line of the picture,
 /// as the columns of a terrain do that is seen along its rows: halving would go on and on along it.
-const IN_VAIN: u32 = 3;
+pub(super) const IN_VAIN: u32 = 3;
 /// Tiles of this size, in steps, are not halved: 2⁻¹⁸ of a pixel.
 const TINY: i64 = 64;
 /// Of so many faces at most, the front ones, it is asked whether all their pieces cover a tile.
@@ -93,7 +93,7 @@ impl Tile {
     }
 
     /// Whether it is too small to be halved.
-    fn is_tiny(&self) -> bool {
+    pub(super) fn is_tiny(&self) -> bool {
         (0..2).all(|axis| self.high[axis] - self.low[axis] <= TINY)
     }
 
@@ -101,6 +101,17 @@ impl Tile {
     pub(super) fn sides(&self) -> [[f64; 2]; 2] {
         [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
     }
+}
+
+/// How often both parts of a tile were halved in vain, of so many items: both have nearly all of them.
+/// A part that has many more than half of them keeps the count.
+pub(super) fn in_vain(before: u32, all: usize, parts: [usize; 2]) -> [u32; 2] {
+    let is_in_vain = parts.iter().all(|part| part * 8 >= all * 7);
+    parts.map(|part| match is_in_vain {
+        true => before + 1,
+        false if part * 8 >= all * 6 => before,
+        false => 0,
+    })
 }
 
 /// What is visible of all items, in the order of the tiles: the same for any number of threads.
@@ -162,16 +173,8 @@ impl Entry {
     fn halves(&self, stock: &Stock<'_>) -> Result<[Self; 2], Error> {
         let [first, second] = self.tile.halves();
         let mut parts = [self.narrowed(stock, first)?, self.narrowed(stock, second)?];
-        let all = self.list.items.len();
-        let share = |part: &Self, of: usize| part.list.items.len() * 8 >= all * of;
-        let is_in_vain = parts.iter().all(|part| share(part, 7));
-        for part in &mut parts {
-            part.in_vain = match is_in_vain {
-                true => self.in_vain + 1,
-                false if share(part, 6) => self.in_vain,
-                false => 0,
-            };
-        }
+        let [all, first, second] = [self, &parts[0], &parts[1]].map(|entry| entry.list.items.len());
+        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, all, [first, second]);
         Ok(parts)
     }
 

@@ -3,10 +3,11 @@
 use super::fill::{Score, check};
 use super::support::hard::{self, HardScene};
 use super::support::tally::tally;
+use super::translucent::{Layers, check_layers};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
-use binspace::view::views;
-use binspace::{BuildOptions, Heuristic};
+use binspace::view::{Camera, views};
+use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 
@@ -15,17 +16,34 @@ fn hard_scenes_are_drawn_as_rays_meet_them() {
     let heuristic = prop::sample::select(Heuristic::ALL);
     let cases = (hard::scene(), heuristic, any::<u64>());
     let score = tally(file!(), 256, cases, |score: &mut Score, (scene, heuristic, seed)| {
-        draw(&scene, heuristic, seed, score).map_err(TestCaseError::fail)
+        for_each_view(&scene, heuristic, seed, |tree, camera, rays| {
+            check(tree, camera, rays, score)
+        })
+        .map_err(TestCaseError::fail)
     });
     assert!(score.pictures > 400 && score.pixels > 500_000, "{score:?}");
     assert!(score.paths > 1000 && score.cut_out > 10, "{score:?}");
 }
 
-fn draw(
+#[test]
+fn layers_of_hard_scenes_are_those_of_the_tree() {
+    let heuristic = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), heuristic, any::<u64>());
+    let score = tally(file!(), 256, cases, |score: &mut Layers, (scene, heuristic, seed)| {
+        for_each_view(&scene, heuristic, seed, |tree, camera, rays| {
+            check_layers(tree, camera, rays, score)
+        })
+        .map_err(TestCaseError::fail)
+    });
+    assert!(score.pixels > 500_000 && score.layers > 100_000, "{score:?}");
+    assert!(score.paths > score.polygons + 10 && score.fragments > 2 * score.paths, "{score:?}");
+}
+
+fn for_each_view(
     scene: &HardScene,
     heuristic: Heuristic,
     seed: u64,
-    score: &mut Score,
+    mut check: impl FnMut(&BspTree, &Camera, Rays) -> Result<(), String>,
 ) -> Result<(), String> {
     let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
     let options = match scene.tolerance() {
@@ -41,7 +59,7 @@ fn draw(
     for camera in views([low, high], DVec3::Z, 3, [48, 36], seed).into_iter().flatten() {
         // Some scenes are flat: a camera inside is too near for pixels to be told apart.
         let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
-        check(&tree, &camera, rays, score)?;
+        check(&tree, &camera, rays)?;
     }
     Ok(())
 }

@@ -8,3 +8,4 @@ mod lines;
 mod scenes;
 #[path = "../support/mod.rs"]
 mod support;
+mod translucent;

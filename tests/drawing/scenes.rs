@@ -12,20 +12,20 @@ use binspace::{BspTree, BuildOptions};
 const SIZE: [u32; 2] = [240, 180];
 
 /// Cameras around a scene and inside it, perspective and parallel.
-fn cameras(scene: &Scene, count: usize) -> Vec<Camera> {
+pub(crate) fn cameras(scene: &Scene, count: usize, size: [u32; 2]) -> Vec<Camera> {
     let (low, high) = scene.bounds().expect("polygons");
-    let mut cameras = views([low, high], scene.up(), count, SIZE, 5).unwrap();
-    let size = (high - low).max_element();
+    let mut cameras = views([low, high], scene.up(), count, size, 5).unwrap();
+    let extent = (high - low).max_element();
     for direction in [DVec3::new(1.0, 2.0, -0.7), DVec3::NEG_Z, DVec3::X] {
         let up = if direction.x == 0.0 { DVec3::Y } else { DVec3::Z };
-        cameras.push(Camera::parallel(direction, up, (low + high) * 0.5, size, SIZE).unwrap());
+        cameras.push(Camera::parallel(direction, up, (low + high) * 0.5, extent, size).unwrap());
     }
     cameras
 }
 
 fn check_scene(scene: &Scene, score: &mut Score) {
     let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
-    for camera in cameras(scene, 4) {
+    for camera in cameras(scene, 4, SIZE) {
         let rays = Rays::new(&camera, tree.faces()).unwrap();
         let checked = check(&tree, &camera, rays.clone(), score);
         checked
@@ -68,7 +68,7 @@ fn nothing_is_cut_out_of_scans() {
     for builtin in [Builtin::Terrain, Builtin::Sphere] {
         let scene = builtin.build(Some(2000), 3);
         let tree = BspTree::build(scene.polygons()).unwrap();
-        for camera in cameras(&scene, 4) {
+        for camera in cameras(&scene, 4, SIZE) {
             let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
             let drawing = map.drawing().unwrap();
             assert!(drawing.paths().all(|path| !path.is_cut_out()), "{builtin:?}");
@@ -82,7 +82,7 @@ fn parts_of_a_picture_show_the_same_polygons() {
     let scene = Builtin::City.build(Some(1000), 3);
     let tree = BspTree::build(scene.polygons()).unwrap();
     let mut compared = 0;
-    for camera in cameras(&scene, 4) {
+    for camera in cameras(&scene, 4, SIZE) {
         let rays = Rays::new(&camera, tree.faces()).unwrap();
         let shown = |rays: Rays| {
             let map = VisibilityMap::of(&tree, rays).unwrap();

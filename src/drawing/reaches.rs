@@ -1,0 +1,78 @@
+//! Convex pieces in a part of the picture.
+
+use smallvec::SmallVec;
+
+use super::lines::{Half, Lines};
+use super::tile::Across;
+use crate::Error;
+use crate::memory::{push, reserve};
+
+/// A piece, with those of its lines that may cross a part of the picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// Of an item, or of a face, by its place in the stock.
+    pub(super) number: u32,
+    halves: [u32; 2],
+}
+
+impl Reach {
+    /// Whether it covers the whole part.
+    pub(super) const fn covers(&self) -> bool {
+        self.halves[0] == self.halves[1]
+    }
+}
+
+/// The pieces that may reach into a part of the picture.
+#[derive(Debug, Default)]
+pub(super) struct Reaches {
+    pub(super) list: Vec<Reach>,
+    halves: Vec<Half>,
+}
+
+impl Reaches {
+    /// Adds a piece.
+    pub(super) fn push(
+        &mut self,
+        number: u32,
+        halves: impl IntoIterator<Item = Half>,
+    ) -> Result<(), Error> {
+        let start = self.halves.len() as u32;
+        for half in halves {
+            push(&mut self.halves, half)?;
+        }
+        push(&mut self.list, Reach { number, halves: [start, self.halves.len() as u32] })
+    }
+
+    pub(super) fn halves_of(&self, reach: &Reach) -> &[Half] {
+        let [start, end] = reach.halves;
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// Those that may reach into a box; `around` gives a box around a piece.
+    pub(super) fn narrowed(
+        &self,
+        lines: &Lines<'_>,
+        region: &[[f64; 2]; 2],
+        around: impl Fn(u32) -> [[f64; 2]; 2],
+    ) -> Result<Self, Error> {
+        let mut part = Self::default();
+        let [low, high] = region;
+        'pieces: for reach in &self.list {
+            let [from, to] = around(reach.number);
+            if (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis]) {
+                continue;
+            }
+            let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
+            for &half in self.halves_of(reach) {
+                match lines.across(half, region) {
+                    Across::Inside => {}
+                    Across::Outside => continue 'pieces,
+                    Across::Maybe => kept.push(half),
+                }
+            }
+            reserve(&mut part.list, 1)?;
+            part.push(reach.number, kept)?;
+        }
+        Ok(part)
+    }
+}
