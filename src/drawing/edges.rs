@@ -14,7 +14,7 @@ use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::memory::reserve;
 
-/// What an edge is to a drawing of lines.
+/// What a line is in a drawing of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EdgeKind {
@@ -26,17 +26,19 @@ pub enum EdgeKind {
     /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
     /// back on the other.
     Crease(f64),
+    /// The polygon and another one, of this number, go through one another there.
+    Crossing(usize),
 }
 
-/// A part of an edge, visible or hidden from one end to the other.
+/// A part of an edge or of a crossing, visible or hidden from one end to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EdgeRun {
     /// A polygon that has the edge, and shows a side to the camera.
     pub polygon: usize,
-    /// The number, within that polygon, of the corner where the edge begins.
-    pub edge: u32,
-    /// What the edge is.
+    /// The number, within that polygon, of the corner where the edge begins; `None` of a crossing.
+    pub edge: Option<u32>,
+    /// What the line is.
     pub kind: EdgeKind,
     /// Where the run begins and ends in the picture, in pixels from the centre of the first one.
     pub ends: [[f64; 2]; 2],
@@ -45,7 +47,7 @@ pub struct EdgeRun {
 }
 
 /// Runs and gaps shorter than this, in pixels, are what rounding has left.
-const SHORTEST: f64 = 1e-6;
+pub(super) const SHORTEST: f64 = 1e-6;
 
 type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 /// The number of an edge, by a face and which of its edges it is.
@@ -67,7 +69,8 @@ impl VisibilityMap<'_> {
     /// What is visible is read off the map, so it is as exact: only the ends of runs are rounded. An edge
     /// is hidden by what lies before it, not by the polygons that have it. Polygons have an edge in common
     /// if both of its corners are the same. Edges inside a polygon, which triangulation made, are none;
-    /// nor are edges of polygons that are all seen exactly edge-on.
+    /// nor are edges of polygons that are all seen exactly edge-on. Where polygons go through one another,
+    /// [`crossings`](Self::crossings) tells.
     ///
     /// O(n log n) for n edges and cells. (What is hidden, and how to tell for lines: A. Appel, "The notion
     /// of quantitative invisibility and the machine rendering of solids", 1967.)
@@ -263,7 +266,8 @@ impl Views<'_> {
         let faces = self.map.stock.lines.frame.faces;
         let (face, k) = edge.faces[owner];
         let kind = kind(faces, edge, &sides);
-        let (polygon, number) = (faces.polygon(face), faces.outline_edge(face, k).unwrap_or(k));
+        let polygon = faces.polygon(face);
+        let number = Some(faces.outline_edge(face, k).unwrap_or(k));
         let mut add = |from: f64, to: f64, is_visible: bool| {
             if to - from < SHORTEST {
                 return Ok(());

@@ -114,6 +114,13 @@ pub(super) fn orientation([a, b, c]: [&Exact; 3]) -> Ordering {
     (term(0, minor(1, 2)) + term(1, minor(2, 0)) + term(2, minor(0, 1))).sign()
 }
 
+/// Whether two lines are one, in whatever direction.
+pub(super) fn is_same_line(a: &Exact, b: &Exact) -> bool {
+    [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .all(|&(i, j)| (a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i])).sign().is_eq())
+}
+
 /// Where two lines meet, each coordinate rounded three times; NaN where they do not.
 pub(super) fn meeting([a, b]: [&Exact; 2]) -> [f64; 2] {
     let minor = |i: usize, j: usize| {

@@ -338,7 +338,8 @@ impl<'t> Lines<'t> {
         }
     }
 
-    fn exact(&self, half: Half) -> Exact {
+    /// The line of a half, in integers.
+    pub(super) fn exact(&self, half: Half) -> Exact {
         match half.number() {
             Some(line) => self.exact_of(self.key(line)),
             None => {

@@ -21,9 +21,11 @@
 //! | `translucent` | the drawing in which nothing is hidden |
 //! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
+//! | `crossings` | lines in which polygons go through one another |
 
 mod above;
 mod cell;
+mod crossings;
 mod edges;
 mod frame;
 mod join;

@@ -56,7 +56,7 @@ fn a_bar_hides_the_middle_of_an_edge() {
     for edge in [0, 2] {
         let mut parts: Vec<(bool, f64)> = runs
             .iter()
-            .filter(|run| run.polygon == 0 && run.edge == edge)
+            .filter(|run| run.polygon == 0 && run.edge == Some(edge))
             .map(|run| (run.is_visible, (run.ends[1][0] - run.ends[0][0]).abs()))
             .collect();
         parts.iter_mut().for_each(|part| part.1 = (part.1 * 1e6).round() / 1e6);
@@ -98,8 +98,8 @@ fn check_runs(
 ) {
     for run in edges(tree, camera) {
         let corners = &polygons[run.polygon];
-        let [a, b] =
-            [run.edge as usize, (run.edge as usize + 1) % corners.len()].map(|k| corners[k]);
+        let edge = run.edge.expect("an edge") as usize;
+        let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| corners[k]);
         let has_edge = |polygon: usize| {
             let corners = &polygons[polygon];
             (0..corners.len()).any(|k| {

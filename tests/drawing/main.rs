@@ -2,6 +2,7 @@
 //! hand, and against rays.
 
 mod coincidences;
+mod crossings;
 mod fill;
 mod hidden;
 mod lines;
