@@ -10,8 +10,9 @@ use super::lines::Mixer;
 use super::order::Pair;
 use super::reaches::Reaches;
 use super::stock::Stock;
-use super::tile::{Leaf, Visible};
+use super::tile::{CUT, Leaf, NARROWED, Visible};
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::reserve;
 use crate::parallel_map;
 
@@ -30,6 +31,7 @@ pub(super) fn pairs(
     stock: &Stock<'_>,
     leaves: &[Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     // Whole faces.
     let mut all = Reaches::default();
@@ -47,13 +49,19 @@ pub(super) fn pairs(
         }
         shares = next;
     }
-    let parts = parallel_map::map(shares, |entry| pairs_of(stock, entry, place));
+    watch.expect(shares.len())?;
+    let parts = parallel_map::map(shares, |entry| {
+        let pairs = pairs_of(stock, entry, place, watch);
+        watch.finish(0);
+        pairs
+    });
     let mut pairs = Vec::new();
     for part in parts {
         let mut part = part?;
         reserve(&mut pairs, part.len())?;
         pairs.append(&mut part);
     }
+    watch.end()?;
     pairs.sort_unstable();
     pairs.dedup();
     Ok(pairs)
@@ -63,10 +71,12 @@ fn pairs_of(
     stock: &Stock<'_>,
     entry: Entry<'_>,
     place: &(dyn Fn(u32) -> u32 + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let mut found: HashSet<Pair, BuildHasherDefault<Mixer>> = HashSet::default();
     let mut stack = vec![entry];
     while let Some(entry) = stack.pop() {
+        watch.work(entry.reaches.list.len() * NARROWED)?;
         if let Some([first, second]) = entry.halves(stock)? {
             stack.push(second);
             stack.push(first);
@@ -74,6 +84,7 @@ fn pairs_of(
         }
         let Entry { leaves: [leaf], reaches } = &entry else { continue };
         for Visible { item, cell } in &leaf.cells {
+            watch.work(reaches.list.len() * CUT)?;
             let above = place(stock.items[*item as usize].seen);
             for reach in &reaches.list {
                 let pair = Pair { below: place(reach.number), above };

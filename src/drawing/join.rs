@@ -1,7 +1,8 @@
 //! Joining pieces of polygons while an order of them is left.
 
-use super::order::Pair;
+use super::order::{Pair, VISITED};
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::{collect, push};
 
 /// Groups of nodes in an order that keeps all pairs: an order of a graph without cycles that stays one
@@ -59,14 +60,15 @@ impl Groups {
 
     /// Makes one group of those of two nodes, if neither has to come before a third that has to come
     /// before the other, as far as a search of limited length can tell.
-    pub(super) fn join(&mut self, a: u32, b: u32) -> Result<(), Error> {
+    pub(super) fn join(&mut self, a: u32, b: u32, watch: &Watch<'_>) -> Result<(), Error> {
+        watch.work(VISITED)?;
         let [a, b] = [self.group(a), self.group(b)];
         if a == b {
             return Ok(());
         }
         let (a, b) = if self.place[a as usize] < self.place[b as usize] { (a, b) } else { (b, a) };
-        let Some(after) = self.reach(a, b, Way::After)? else { return Ok(()) };
-        let Some(before) = self.reach(b, a, Way::Before)? else { return Ok(()) };
+        let Some(after) = self.reach(a, b, Way::After, watch)? else { return Ok(()) };
+        let Some(before) = self.reach(b, a, Way::Before, watch)? else { return Ok(()) };
         // What has to come before keeps its order in the first of their places, then the joined
         // group, then what has to come after.
         let ends = [&before[..], &[a, b], &after[..]].concat();
@@ -84,7 +86,13 @@ impl Groups {
 
     /// The groups between two that are reached from the first, in their order; `None` if the second is
     /// one of them, or there are too many.
-    fn reach(&mut self, from: u32, to: u32, way: Way) -> Result<Option<Vec<u32>>, Error> {
+    fn reach(
+        &mut self,
+        from: u32,
+        to: u32,
+        way: Way,
+        watch: &Watch<'_>,
+    ) -> Result<Option<Vec<u32>>, Error> {
         self.search += 1;
         let end = self.place[to as usize];
         let mut found: Vec<u32> = vec![];
@@ -97,6 +105,7 @@ impl Groups {
             };
             let mut neighbours = std::mem::take(list);
             let mut is_met = false;
+            watch.work(neighbours.len() * VISITED)?;
             for node in &mut neighbours {
                 // Lists name groups, as they are now, so that the next search is shorter.
                 *node = self.group(*node);

@@ -1,11 +1,14 @@
 //! The visibility map: what shows of a scene.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::stock::Stock;
 use super::tile::{Leaf, Tile, Visible, visible};
 use crate::Error;
+use crate::build::Progress;
+use crate::build::progress::{Watch, one_at_a_time};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -55,9 +58,29 @@ impl<'t> VisibilityMap<'t> {
     ///
     /// If there is not enough memory.
     pub fn of(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
+        Self::new(tree, rays, &Watch::default())
+    }
+
+    /// As [`of`](Self::of). Now and then `progress` is called with how much of the picture is done, by any
+    /// thread, one at a time; if it returns `Break`, the map is cancelled. While the tree is read, nothing
+    /// is done.
+    ///
+    /// # Errors
+    ///
+    /// As for `of`, and [`Error`] if it was cancelled.
+    pub fn of_with_progress(
+        tree: &'t BspTree,
+        rays: Rays,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<Self, Error> {
+        let progress = one_at_a_time(progress);
+        Self::new(tree, rays, &Watch::new(&progress))
+    }
+
+    fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
         let size = rays.size();
-        let stock = Stock::new(tree, rays)?;
-        let leaves = visible(&stock, Tile::picture(size))?;
+        let stock = Stock::new(tree, rays, watch)?;
+        let leaves = visible(&stock, Tile::picture(size), watch)?;
         Ok(Self { stock, leaves })
     }
 

@@ -1,6 +1,6 @@
 //! Drawings, and those of opaque polygons.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 use super::above::pairs;
 use super::cell::Cell;
@@ -9,8 +9,10 @@ use super::map::VisibilityMap;
 use super::order::{Ordered, order};
 use super::outline::{Edge, outlines};
 use super::stock::Stock;
-use super::tile::{Leaf, Tile, Visible};
+use super::tile::{CUT, Leaf, Tile, Visible};
 use crate::Error;
+use crate::build::Progress;
+use crate::build::progress::{Watch, one_at_a_time};
 use crate::memory::{push, reserve};
 
 /// A view as filled outlines, in the order to paint them: one for each polygon that shows.
@@ -47,17 +49,37 @@ impl VisibilityMap<'_> {
     ///
     /// If there is not enough memory.
     pub fn drawing(&self) -> Result<Drawing, Error> {
+        self.drawn(&Watch::default())
+    }
+
+    /// As [`drawing`](Self::drawing). Now and then `progress` is called with how far the drawing has come,
+    /// by any thread, one at a time; if it returns `Break`, the drawing is cancelled.
+    ///
+    /// # Errors
+    ///
+    /// As for `drawing`, and [`Error`] if it was cancelled.
+    pub fn drawing_with_progress(
+        &self,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<Drawing, Error> {
+        let progress = one_at_a_time(progress);
+        self.drawn(&Watch::new(&progress))
+    }
+
+    fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
         let Self { stock, leaves } = self;
         let size = self.size();
         let shown = Nodes::of(stock, leaves)?;
         let place = |seen: u32| shown.places[seen as usize];
-        let pairs = pairs(stock, leaves, &place)?;
-        let Ordered { order, is_cut_out } = order(shown.polygons.len(), &pairs, &shown.ranks)?;
+        let pairs = pairs(stock, leaves, &place, watch)?;
+        let Ordered { order, is_cut_out } =
+            order(shown.polygons.len(), &pairs, &shown.ranks, watch)?;
         let mut drawing = Drawing::empty(size);
         let cells = shown.cells(stock, leaves, &is_cut_out);
         reserve(&mut drawing.paths, order.len())?;
         let mut edges = Vec::new();
         for node in order {
+            watch.work(CUT)?;
             let index = node as usize;
             edges.clear();
             if is_cut_out[index] {

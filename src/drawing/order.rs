@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::{collect, push, reserve};
 
 /// "`below` has to be drawn before `above`", by their numbers.
@@ -30,6 +31,7 @@ struct Graph<'p> {
     /// The strongly connected component of each node, among those that are searched.
     component: Vec<u32>,
     search: Search,
+    watch: &'p Watch<'p>,
 }
 
 /// What a search for components knows of each node.
@@ -48,6 +50,8 @@ struct Search {
 const NONE: u32 = u32::MAX;
 /// The number of nodes that are searched, but were not met so far.
 const UNMET: u32 = u32::MAX - 1;
+/// To visit a node takes as long as a build takes to examine so many pieces.
+pub(super) const VISITED: usize = 4;
 /// Of a large component, one in so many nodes is cut out at once. Larger: components are searched
 /// again and again; smaller: more is cut out (and given back one by one).
 const AT_ONCE: usize = 64;
@@ -57,8 +61,13 @@ const AT_ONCE: usize = 64;
 /// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides, and then
 /// those are given back that close no cycle, so that none is cut out in vain. (To cut out as few as
 /// possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
-pub(super) fn order(nodes: usize, pairs: &[Pair], rank: &[u32]) -> Result<Ordered, Error> {
-    let mut graph = Graph::new(nodes, pairs)?;
+pub(super) fn order(
+    nodes: usize,
+    pairs: &[Pair],
+    rank: &[u32],
+    watch: &Watch<'_>,
+) -> Result<Ordered, Error> {
+    let mut graph = Graph::new(nodes, pairs, watch)?;
     graph.open_cycles()?;
     let order = graph.sorted(rank)?;
     Ok(Ordered { order, is_cut_out: graph.is_cut_out })
@@ -66,8 +75,12 @@ pub(super) fn order(nodes: usize, pairs: &[Pair], rank: &[u32]) -> Result<Ordere
 
 /// Whether each node is in a cycle, by sorted pairs; then the number of its strongly connected
 /// component, that of one of its nodes.
-pub(super) fn cycles(nodes: usize, pairs: &[Pair]) -> Result<Vec<Option<u32>>, Error> {
-    let mut graph = Graph::new(nodes, pairs)?;
+pub(super) fn cycles(
+    nodes: usize,
+    pairs: &[Pair],
+    watch: &Watch<'_>,
+) -> Result<Vec<Option<u32>>, Error> {
+    let mut graph = Graph::new(nodes, pairs, watch)?;
     let all: Vec<u32> = collect(0..nodes as u32)?;
     graph.components(&all)?;
     let number = |&component: &u32| (component != NONE).then_some(component);
@@ -75,7 +88,7 @@ pub(super) fn cycles(nodes: usize, pairs: &[Pair]) -> Result<Vec<Option<u32>>, E
 }
 
 impl<'p> Graph<'p> {
-    fn new(nodes: usize, pairs: &'p [Pair]) -> Result<Self, Error> {
+    fn new(nodes: usize, pairs: &'p [Pair], watch: &'p Watch<'p>) -> Result<Self, Error> {
         let mut starts = filled(nodes + 1, 0)?;
         for pair in pairs {
             starts[pair.below as usize + 1] += 1;
@@ -87,7 +100,7 @@ impl<'p> Graph<'p> {
         let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
         let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
         let search = Search { number, least, is_on_stack, reached };
-        Ok(Self { pairs, starts, is_cut_out, component, search })
+        Ok(Self { pairs, starts, is_cut_out, component, search, watch })
     }
 }
 
@@ -157,6 +170,7 @@ impl Graph<'_> {
         let mut reached = std::mem::take(&mut self.search.reached);
         let (mut stack, mut is_closed) = (vec![start], false);
         while let Some(node) = stack.pop() {
+            self.watch.work(VISITED)?;
             for above in self.above(node) {
                 let index = above as usize;
                 is_closed |= above == start;
@@ -187,6 +201,7 @@ impl Graph<'_> {
             }
             path.push((root, self.starts[root as usize]));
             while let Some((node, at)) = path.last_mut() {
+                self.watch.work(VISITED)?;
                 let (v, place) = (*node as usize, *at);
                 if place == self.starts[v] {
                     (number[v], least[v]) = (next, next);

@@ -8,8 +8,9 @@ use super::lines::Mixer;
 use super::order::Pair;
 use super::reaches::Reaches;
 use super::stock::Stock;
-use super::tile::{IN_VAIN, Tile, in_vain};
+use super::tile::{CUT, IN_VAIN, NARROWED, Tile, in_vain};
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 use crate::parallel_map;
 
@@ -31,7 +32,11 @@ const SHARED: usize = 6;
 
 /// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
 /// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
-pub(super) fn overlaps(stock: &Stock<'_>, picture: Tile) -> Result<Vec<Pair>, Error> {
+pub(super) fn overlaps(
+    stock: &Stock<'_>,
+    picture: Tile,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
     let mut reaches = Reaches::default();
     for (number, item) in (0..).zip(&stock.items) {
         let halves = stock.outline(item.seen).iter().chain(stock.cuts(number));
@@ -44,30 +49,40 @@ pub(super) fn overlaps(stock: &Stock<'_>, picture: Tile) -> Result<Vec<Pair>, Er
         for entry in shares {
             match entry.is_leaf() {
                 true => next.push(entry),
-                false => next.extend(entry.halves(stock)?),
+                false => {
+                    watch.work(entry.reaches.list.len() * NARROWED)?;
+                    next.extend(entry.halves(stock)?);
+                }
             }
         }
         shares = next;
     }
-    let parts = parallel_map::map(shares, |entry| overlaps_in(stock, entry));
+    watch.expect(shares.len())?;
+    let parts = parallel_map::map(shares, |entry| {
+        let pairs = overlaps_in(stock, entry, watch);
+        watch.finish(0);
+        pairs
+    });
     let mut pairs = Vec::new();
     for part in parts {
         let part = part?;
         reserve(&mut pairs, part.len())?;
         pairs.extend(part);
     }
+    watch.end()?;
     pairs.sort_unstable();
     pairs.dedup();
     Ok(pairs)
 }
 
-fn overlaps_in(stock: &Stock<'_>, entry: Entry) -> Result<Found, Error> {
+fn overlaps_in(stock: &Stock<'_>, entry: Entry, watch: &Watch<'_>) -> Result<Found, Error> {
     let (mut found, mut stack) = (Found::default(), vec![entry]);
     while let Some(entry) = stack.pop() {
         if entry.is_leaf() {
-            entry.leaf(stock, &mut found)?;
+            entry.leaf(stock, &mut found, watch)?;
             continue;
         }
+        watch.work(entry.reaches.list.len() * NARROWED)?;
         let [first, second] = entry.halves(stock)?;
         push(&mut stack, second)?;
         push(&mut stack, first)?;
@@ -98,7 +113,7 @@ impl Entry {
     }
 
     /// Adds the pairs of the tile.
-    fn leaf(&self, stock: &Stock<'_>, found: &mut Found) -> Result<(), Error> {
+    fn leaf(&self, stock: &Stock<'_>, found: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
         let lines = &stock.lines;
         let mut add = |below: u32, above: u32| {
             found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
@@ -109,6 +124,7 @@ impl Entry {
         let mut cover: Option<u32> = None;
         let mut behind: Vec<(u32, Cell)> = Vec::new();
         for reach in &self.reaches.list {
+            watch.work((1 + behind.len()) * CUT)?;
             let item = reach.number;
             if reach.covers() {
                 if let (Some(cover), true) = (cover, behind.is_empty()) {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::frame::{Frame, Sheet};
 use super::lines::{Half, Lines};
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::exact::PlaneId;
 use crate::memory::{push, reserve};
 use crate::raster::Rays;
@@ -40,6 +41,8 @@ pub(super) struct Stock<'t> {
     halves: Vec<Half>,
 }
 
+/// To make the lines of a fragment takes as long as a build takes to examine so many pieces.
+const LINES: usize = 64;
 /// Faces that show nothing.
 const UNSEEN: u32 = u32::MAX;
 /// Faces that were not met so far.
@@ -47,7 +50,7 @@ const UNKNOWN: u32 = u32::MAX - 1;
 
 impl<'t> Stock<'t> {
     /// The pieces of a tree that rays may meet.
-    pub(super) fn new(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
+    pub(super) fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
         let (faces, viewpoint) = (tree.faces(), rays.viewpoint());
         let lines = Lines::new(Frame { rays, faces });
         let mut stock = Self { lines, items: vec![], seen: vec![], halves: vec![] };
@@ -56,6 +59,7 @@ impl<'t> Stock<'t> {
         numbers.resize(faces.len(), UNKNOWN);
         let mut sheets: Vec<Sheet> = Vec::new();
         for fragment in tree.front_to_back(viewpoint) {
+            watch.work(LINES)?;
             let face = fragment.face();
             let number = &mut numbers[face as usize];
             if *number == UNKNOWN {

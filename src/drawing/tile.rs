@@ -11,6 +11,7 @@ use super::cell::Cell;
 use super::lines::{Half, Lines, STEPS};
 use super::stock::Stock;
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::reserve;
 use crate::parallel_map;
 
@@ -47,6 +48,11 @@ const TINY: i64 = 64;
 const FACES: usize = 8;
 /// Tiles are shared out to threads after so many halvings.
 const SHARED: usize = 6;
+
+/// To compare an item with a tile takes as long as a build takes to examine so many pieces.
+pub(super) const NARROWED: usize = 8;
+/// So does cutting a cell with an item.
+pub(super) const CUT: usize = 64;
 
 /// A tile with the pieces that may show in it.
 #[derive(Debug)]
@@ -115,7 +121,11 @@ pub(super) fn in_vain(before: u32, all: usize, parts: [usize; 2]) -> [u32; 2] {
 }
 
 /// What is visible of all items, in the order of the tiles: the same for any number of threads.
-pub(super) fn visible(stock: &Stock<'_>, picture: Tile) -> Result<Vec<Leaf>, Error> {
+pub(super) fn visible(
+    stock: &Stock<'_>,
+    picture: Tile,
+    watch: &Watch<'_>,
+) -> Result<Vec<Leaf>, Error> {
     let all = Entry::of_picture(stock, picture)?;
     let mut shares = vec![all];
     for _ in 0..SHARED {
@@ -125,20 +135,29 @@ pub(super) fn visible(stock: &Stock<'_>, picture: Tile) -> Result<Vec<Leaf>, Err
                 next.push(entry);
                 continue;
             }
+            watch.work(entry.list.items.len() * NARROWED)?;
             next.extend(entry.halves(stock)?);
         }
         shares = next;
     }
-    let parts = parallel_map::map(shares, |entry| leaves(stock, entry));
+    watch.expect(shares.len())?;
+    let parts = parallel_map::map(shares, |entry| {
+        let leaves = leaves(stock, entry, watch);
+        watch.finish(0);
+        leaves
+    });
     let mut all = Vec::new();
     for part in parts {
-        all.append(&mut part?);
+        let mut part = part?;
+        reserve(&mut all, part.len())?;
+        all.append(&mut part);
     }
+    watch.end()?;
     Ok(all)
 }
 
 /// The leaves of a tile.
-fn leaves(stock: &Stock<'_>, entry: Entry) -> Result<Vec<Leaf>, Error> {
+fn leaves(stock: &Stock<'_>, entry: Entry, watch: &Watch<'_>) -> Result<Vec<Leaf>, Error> {
     let (mut stack, mut leaves) = (vec![entry], Vec::new());
     while let Some(entry) = stack.pop() {
         if entry.list.items.is_empty() {
@@ -146,9 +165,10 @@ fn leaves(stock: &Stock<'_>, entry: Entry) -> Result<Vec<Leaf>, Error> {
         }
         if entry.is_leaf() {
             reserve(&mut leaves, 1)?;
-            leaves.push(entry.leaf(stock)?);
+            leaves.push(entry.leaf(stock, watch)?);
             continue;
         }
+        watch.work(entry.list.items.len() * NARROWED)?;
         let [first, second] = entry.halves(stock)?;
         stack.push(second);
         stack.push(first);
@@ -198,7 +218,7 @@ impl Entry {
     }
 
     /// Takes what each piece shows from what is left open of the tile.
-    fn leaf(&self, stock: &Stock<'_>) -> Result<Leaf, Error> {
+    fn leaf(&self, stock: &Stock<'_>, watch: &Watch<'_>) -> Result<Leaf, Error> {
         let Self { tile, list, .. } = self;
         let lines = &stock.lines;
         let mut open = vec![Cell::rectangle(lines, tile.low, tile.high)];
@@ -208,6 +228,7 @@ impl Entry {
             if open.is_empty() {
                 break;
             }
+            watch.work(open.len() * CUT)?;
             for cell in open.drain(..) {
                 outside.clear();
                 let halves = list.halves_of(listed);

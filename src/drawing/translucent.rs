@@ -1,12 +1,16 @@
 //! Drawings in which nothing is hidden: polygons may be translucent.
 
+use std::ops::ControlFlow;
+
 use super::join::Groups;
 use super::opaque::{Drawing, add_edges};
 use super::order::{Ordered, Pair, cycles, order};
 use super::overlaps::overlaps;
 use super::stock::Stock;
-use super::tile::Tile;
+use super::tile::{CUT, Tile};
 use crate::Error;
+use crate::build::Progress;
+use crate::build::progress::{Watch, one_at_a_time};
 use crate::memory::{collect, push, reserve};
 use crate::raster::Rays;
 use crate::tree::BspTree;
@@ -31,11 +35,30 @@ impl Drawing {
     ///
     /// If there is not enough memory.
     pub fn translucent(tree: &BspTree, rays: Rays) -> Result<Self, Error> {
+        Self::with_all(tree, rays, &Watch::default())
+    }
+
+    /// As [`translucent`](Self::translucent). Now and then `progress` is called with how far the drawing has
+    /// come, by any thread, one at a time; if it returns `Break`, the drawing is cancelled.
+    ///
+    /// # Errors
+    ///
+    /// As for `translucent`, and [`Error`] if it was cancelled.
+    pub fn translucent_with_progress(
+        tree: &BspTree,
+        rays: Rays,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<Self, Error> {
+        let progress = one_at_a_time(progress);
+        Self::with_all(tree, rays, &Watch::new(&progress))
+    }
+
+    fn with_all(tree: &BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
         let size = rays.size();
-        let stock = Stock::new(tree, rays)?;
-        let overlaps = overlaps(&stock, Tile::picture(size))?;
-        let parts = Parts::new(&stock, &overlaps)?;
-        let Ordered { order, .. } = parts.order(&stock, &overlaps)?;
+        let stock = Stock::new(tree, rays, watch)?;
+        let overlaps = overlaps(&stock, Tile::picture(size), watch)?;
+        let parts = Parts::new(&stock, &overlaps, watch)?;
+        let Ordered { order, .. } = parts.order(&stock, &overlaps, watch)?;
         let mut pieces: Vec<u32> = collect(stock.seen.iter().map(|_| 0))?;
         stock.items.iter().for_each(|item| pieces[item.seen as usize] += 1);
         let count = (0..stock.items.len() as u32).map(|item| stock.polygon(item) + 1).max();
@@ -45,6 +68,7 @@ impl Drawing {
         reserve(&mut drawing.paths, order.len())?;
         let mut edges = Vec::new();
         for part in order {
+            watch.work(CUT)?;
             let items = &parts.items[part as usize];
             edges.clear();
             for same in items.chunk_by(|&a, &b| stock.seen_of(a) == stock.seen_of(b)) {
@@ -77,10 +101,10 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(stock: &Stock<'_>, overlaps: &[Pair]) -> Result<Self, Error> {
+    fn new(stock: &Stock<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Self, Error> {
         let units = units(stock, overlaps)?;
         let count = units.iter().max().map_or(0, |&most| most as usize + 1);
-        let cycles = cycles(count, &contracted(overlaps, &units)?)?;
+        let cycles = cycles(count, &contracted(overlaps, &units)?, watch)?;
         // Units in no cycle are whole. The pieces of the others start by themselves.
         let mut nodes: Vec<u32> = Vec::new();
         for item in 0..units.len() as u32 {
@@ -106,7 +130,7 @@ impl Parts {
         }
         let mut groups = Groups::new(nodes.len(), &pairs)?;
         for (a, b) in candidates(&nodes, &units)? {
-            groups.join(a, b)?;
+            groups.join(a, b, watch)?;
         }
         // A part for each unit that is whole, and for each group.
         let mut of_item = units;
@@ -124,11 +148,16 @@ impl Parts {
     }
 
     /// An order to paint parts in: it keeps all pairs, and else that of the tree.
-    fn order(&self, stock: &Stock<'_>, overlaps: &[Pair]) -> Result<Ordered, Error> {
+    fn order(
+        &self,
+        stock: &Stock<'_>,
+        overlaps: &[Pair],
+        watch: &Watch<'_>,
+    ) -> Result<Ordered, Error> {
         let count = stock.items.len() as u32;
         let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
         let ranks = collect(self.items.iter().map(rank))?;
-        order(self.items.len(), &contracted(overlaps, &self.of_item)?, &ranks)
+        order(self.items.len(), &contracted(overlaps, &self.of_item)?, &ranks, watch)
     }
 }
 

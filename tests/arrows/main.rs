@@ -31,7 +31,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("raster", &["exact", "view"]),
     ("verify", &["exact", "tree", "view", "raster"]),
     ("occlusion", &["tree", "raster", "verify"]),
-    ("drawing", &["exact", "tree", "raster"]),
+    ("drawing", &["exact", "tree", "build", "raster"]),
 ];
 
 fn source() -> PathBuf {
