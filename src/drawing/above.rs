@@ -6,6 +6,7 @@
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 
+use super::cell::are_apart;
 use super::lines::Mixer;
 use super::order::Pair;
 use super::reaches::Reaches;
@@ -86,13 +87,14 @@ fn pairs_of(
         for Visible { item, cell } in &leaf.cells {
             watch.work(reaches.list.len() * CUT)?;
             let above = place(stock.items[*item as usize].seen);
+            let around = cell.region();
             for reach in &reaches.list {
                 let pair = Pair { below: place(reach.number), above };
-                if pair.below == above || found.contains(&pair) {
+                let is_apart = are_apart(&around, &stock.seen[reach.number as usize].region);
+                if is_apart || pair.below == above || found.contains(&pair) {
                     continue;
                 }
-                let halves = reaches.halves_of(reach);
-                if cell.clone().within(&stock.lines, halves, None)?.is_some() {
+                if cell.meets(&stock.lines, reaches.halves_of(reach))? {
                     found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
                     found.insert(pair);
                 }

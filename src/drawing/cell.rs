@@ -56,15 +56,38 @@ impl Cell {
     /// The part of the cell in all of the halves, if it has one. The rest of it goes to `outside`, in
     /// convex parts.
     pub(super) fn within(
-        mut self,
+        &self,
+        lines: &Lines<'_>,
+        halves: &[Half],
+        outside: Option<&mut Vec<Self>>,
+    ) -> Result<Option<Self>, Error> {
+        let part = self.common(lines, halves, outside)?;
+        Ok(part.map(|part| part.unwrap_or_else(|| self.clone())))
+    }
+
+    /// Whether any of the cell is in all of the halves.
+    pub(super) fn meets(&self, lines: &Lines<'_>, halves: &[Half]) -> Result<bool, Error> {
+        Ok(self.common(lines, halves, None)?.is_some())
+    }
+
+    /// As [`within`](Self::within): `Some(None)` is all of the cell. (Cells are large, and most calls
+    /// end before one is made.)
+    fn common(
+        &self,
         lines: &Lines<'_>,
         halves: &[Half],
         mut outside: Option<&mut Vec<Self>>,
-    ) -> Result<Option<Self>, Error> {
+    ) -> Result<Option<Option<Self>>, Error> {
+        let mut part: Option<Self> = None;
         for &half in halves {
-            let signs = self.signs(lines, half);
+            let cell = part.as_ref().unwrap_or(self);
+            let signs = cell.signs(lines, half);
             if !signs.contains(&Ordering::Less) {
-                self.relabel(half, &signs);
+                if let Some(side) = side_on_line(&signs) {
+                    // A side that is on a line counts as made by it: the last line that was asked
+                    // for has made it.
+                    part.get_or_insert_with(|| self.clone()).sides[side].half = half;
+                }
                 continue;
             }
             if !signs.contains(&Ordering::Greater) {
@@ -72,21 +95,23 @@ impl Cell {
             }
             if let Some(outside) = &mut outside {
                 reserve(outside, 1)?;
-                outside.push(self.part(lines, half.flipped(true), &signs, Ordering::Less));
+                outside.push(cell.part(lines, half.flipped(true), &signs, Ordering::Less));
             }
-            self = self.part(lines, half, &signs, Ordering::Greater);
+            part = Some(cell.part(lines, half, &signs, Ordering::Greater));
         }
-        Ok(Some(self))
+        Ok(Some(part))
     }
 
-    /// A side that is on a line counts as made by it: the last line that was asked for has made it.
-    fn relabel(&mut self, half: Half, signs: &[Ordering]) {
-        let n = signs.len();
-        let is_on =
-            |i: usize| signs[i].is_eq() && signs[if i + 1 == n { 0 } else { i + 1 }].is_eq();
-        if let Some(on) = (0..n).find(|&i| is_on(i)) {
-            self.sides[on].half = half;
+    /// A box around it.
+    pub(super) fn region(&self) -> [[f64; 2]; 2] {
+        let mut region = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for Corner { at, radius } in self.sides.iter().map(|side| side.start) {
+            for axis in 0..2 {
+                region[0][axis] = region[0][axis].min(at[axis] - radius);
+                region[1][axis] = region[1][axis].max(at[axis] + radius);
+            }
         }
+        region
     }
 
     /// On which side of a half's line each corner lies.
@@ -140,6 +165,17 @@ impl Cell {
             })
             .sum()
     }
+}
+
+/// The side of which both ends are on a line.
+fn side_on_line(signs: &[Ordering]) -> Option<usize> {
+    let next = |i: usize| if i + 1 == signs.len() { 0 } else { i + 1 };
+    (0..signs.len()).find(|&i| signs[i].is_eq() && signs[next(i)].is_eq())
+}
+
+/// Whether two boxes are apart.
+pub(super) fn are_apart([low, high]: &[[f64; 2]; 2], [from, to]: &[[f64; 2]; 2]) -> bool {
+    (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis])
 }
 
 impl Corner {

@@ -144,9 +144,7 @@ impl Entry {
             }
             let face = |item: u32| stock.items[item as usize].seen;
             for (above, other) in &behind {
-                if face(*above) != face(item)
-                    && other.clone().within(lines, halves, None)?.is_some()
-                {
+                if face(*above) != face(item) && other.meets(lines, halves)? {
                     add(item, *above)?;
                 }
             }

@@ -2,6 +2,7 @@
 
 use smallvec::SmallVec;
 
+use super::cell::are_apart;
 use super::lines::{Half, Lines};
 use super::tile::Across;
 use crate::Error;
@@ -56,10 +57,8 @@ impl Reaches {
         around: impl Fn(u32) -> [[f64; 2]; 2],
     ) -> Result<Self, Error> {
         let mut part = Self::default();
-        let [low, high] = region;
         'pieces: for reach in &self.list {
-            let [from, to] = around(reach.number);
-            if (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis]) {
+            if are_apart(region, &around(reach.number)) {
                 continue;
             }
             let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
