@@ -17,6 +17,8 @@
 //! | `outline` | outlines of areas in parts |
 //! | `opaque` | the drawing |
 //! | `edges` | visible and hidden runs of edges |
+//! | `pen` | segments joined to lines, in an order for a pen |
+//! | `near` | the nearest of the ends that are left |
 
 mod above;
 mod cell;
@@ -24,12 +26,15 @@ mod edges;
 mod frame;
 mod lines;
 mod map;
+mod near;
 mod opaque;
 mod order;
 mod outline;
+mod pen;
 mod stock;
 mod tile;
 
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};
+pub use pen::{Polyline, polylines};

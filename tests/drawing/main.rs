@@ -5,6 +5,7 @@ mod coincidences;
 mod fill;
 mod hidden;
 mod lines;
+mod pen;
 mod scenes;
 #[path = "../support/mod.rs"]
 mod support;
