@@ -8,7 +8,7 @@ use pdf_writer::{Content, Filter, Finish, Pdf, Rect, Ref};
 
 use crate::colours::BACKGROUND;
 use crate::drawn::{DASHES, Drawn, HIDDEN_WIDTH, WIDTH};
-use crate::path_data::{Steps, points, unit};
+use crate::path_data::{Steps, points, units};
 use crate::strokes::Strokes;
 
 /// The longest side of a page, in points, as the standard has it (ISO 32000-1, annex C).
@@ -35,8 +35,8 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
 /// The operators that paint a page.
 fn painted(drawn: &Drawn<'_>) -> Vec<u8> {
     let [width, height] = drawn.size.map(|side| side as f32);
-    let unit = unit(drawn.size);
-    let scale = 10f32.powi(-(unit as i32));
+    let units = units(drawn.size);
+    let scale = 1.0 / units as f32;
     let mut content = Content::new();
     fill_colour(&mut content, BACKGROUND);
     content.rect(0.0, 0.0, width, height).fill_nonzero();
@@ -48,7 +48,7 @@ fn painted(drawn: &Drawn<'_>) -> Vec<u8> {
             fill_colour(&mut content, filled.fill);
             last = filled.fill;
         }
-        add(&mut content, &Steps::filled(filled.outlines.iter().map(Vec::as_slice), unit));
+        add(&mut content, &Steps::filled(filled.outlines.iter().map(Vec::as_slice), units));
         content.fill_nonzero();
     }
     content.set_line_join(LineJoinStyle::RoundJoin).set_stroke_gray(0.0);
@@ -61,7 +61,7 @@ fn painted(drawn: &Drawn<'_>) -> Vec<u8> {
             content.set_line_width(HIDDEN_WIDTH as f32 / scale).set_dash_pattern(dashes, 0.0);
         }
         for Strokes { lines, .. } in same {
-            add(&mut content, &Steps::drawn(points(lines), unit));
+            add(&mut content, &Steps::drawn(points(lines), units));
             content.stroke();
         }
     }

@@ -4,38 +4,38 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 
 use crate::drawn::{DASHES, Drawn, Filled, HIDDEN_WIDTH, WIDTH};
-use crate::path_data::{Steps, points, unit};
+use crate::path_data::{Steps, points, units};
 use crate::shading::hex;
 use crate::strokes::Strokes;
 use crate::svg::begin;
 
 /// Writes a drawing. Paths of one colour that follow one another share it in a group.
 ///
-/// Coordinates are whole hundredths of a pixel, or less in small pictures, so that they need no points.
+/// Coordinates are whole numbers of a small unit, so that they need no points.
 pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
     begin(out, drawn.size)?;
-    let unit = unit(drawn.size);
-    writeln!(out, "<g transform=\"scale(.{:0>width$})\">", 1, width = unit as usize)?;
+    let units = units(drawn.size);
+    writeln!(out, "<g transform=\"scale({})\">", 1.0 / f64::from(units))?;
     for run in drawn.fills.chunk_by(|a, b| a.material == b.material) {
         let material = run.first().map_or("", |filled| filled.material);
         if !material.is_empty() {
             writeln!(out, "<g data-material=\"{}\">", escaped(material))?;
         }
         for same in run.chunk_by(|a, b| a.fill == b.fill) {
-            write_same(out, same, unit, drawn.ids)?;
+            write_same(out, same, units, drawn.ids)?;
         }
         if !material.is_empty() {
             writeln!(out, "</g>")?;
         }
     }
     for same in drawn.strokes.chunk_by(|a, b| a.is_visible == b.is_visible) {
-        write_strokes(out, same, unit, drawn.ids)?;
+        write_strokes(out, same, units, drawn.ids)?;
     }
     writeln!(out, "</g>\n</svg>")
 }
 
 /// Writes paths of one colour.
-fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], unit: u32, ids: bool) -> io::Result<()> {
+fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], units: u32, ids: bool) -> io::Result<()> {
     let fill =
         paths.first().map_or(String::new(), |first| format!(" fill=\"{}\"", hex(first.fill)));
     // For one path a group is longer than it saves.
@@ -51,7 +51,7 @@ fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], unit: u32, ids: bool) -
         if !is_group {
             write!(out, "{fill}")?;
         }
-        let steps = Steps::filled(outlines.iter().map(Vec::as_slice), unit);
+        let steps = Steps::filled(outlines.iter().map(Vec::as_slice), units);
         writeln!(out, " d=\"{}\"/>", steps.data())?;
     }
     if is_group { writeln!(out, "</g>") } else { Ok(()) }
@@ -59,13 +59,13 @@ fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], unit: u32, ids: bool) -
 
 /// Writes lines, all of them visible or all hidden: one path for each kind of edges, or, named, for each
 /// run of an edge.
-fn write_strokes(out: &mut dyn Write, all: &[Strokes], unit: u32, ids: bool) -> io::Result<()> {
-    let units = |pixels: f64| pixels * 10f64.powi(unit as i32);
+fn write_strokes(out: &mut dyn Write, all: &[Strokes], units: u32, ids: bool) -> io::Result<()> {
+    let scaled = |pixels: f64| pixels * f64::from(units);
     if all.first().is_some_and(|strokes| strokes.is_visible) {
-        let width = units(WIDTH);
+        let width = scaled(WIDTH);
         write!(out, "<g class=\"visible\" stroke-width=\"{width}\" stroke-linecap=\"round\"")?;
     } else {
-        let ([dash, gap], width) = (DASHES.map(units), units(HIDDEN_WIDTH));
+        let ([dash, gap], width) = (DASHES.map(scaled), scaled(HIDDEN_WIDTH));
         write!(
             out,
             "<g class=\"hidden\" stroke-width=\"{width}\" stroke-dasharray=\"{dash} {gap}\""
@@ -74,14 +74,14 @@ fn write_strokes(out: &mut dyn Write, all: &[Strokes], unit: u32, ids: bool) -> 
     writeln!(out, " fill=\"none\" stroke=\"#000000\" stroke-linejoin=\"round\">")?;
     for Strokes { class, runs, lines, .. } in all {
         if !ids {
-            let data = Steps::drawn(points(lines), unit).data();
+            let data = Steps::drawn(points(lines), units).data();
             writeln!(out, "<path class=\"{class}\" d=\"{data}\"/>")?;
             continue;
         }
         writeln!(out, "<g class=\"{class}\">")?;
         for line in lines {
             for (ends, &number) in line.points.windows(2).zip(&line.segments) {
-                let data = Steps::drawn([ends].into_iter(), unit).data();
+                let data = Steps::drawn([ends].into_iter(), units).data();
                 let (polygon, edge) = (runs[number].polygon, runs[number].edge);
                 writeln!(
                     out,

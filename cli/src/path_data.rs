@@ -4,11 +4,13 @@ use std::fmt::Write;
 
 use binspace::drawing::Polyline;
 
-/// Coordinates have no more decimals than this. What is smaller is nothing in floats of viewers, too.
-const MOST_DECIMALS: u32 = 9;
-/// From this longer side of a picture on, two decimals are enough: a five-hundredth of a pixel is not
-/// seen, also when the picture is enlarged a few times. Each tenth of it needs one more.
+/// A pixel has no more steps than this. What is smaller is nothing in floats of viewers, too.
+const MOST_STEPS: f64 = 1e9;
+/// From this longer side of a picture on, units of a fiftieth of a pixel are enough: a hundredth, by which
+/// corners are off at most, is not seen, also when the picture is enlarged a few times. Each tenth of the
+/// side has units a tenth as large.
 const LARGE: u32 = 480;
+const UNITS: u32 = 50;
 
 /// Outlines and lines in whole numbers of steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +27,11 @@ pub(crate) struct Line {
     pub(crate) is_closed: bool,
 }
 
-/// The unit of coordinates of a picture of some size in pixels: a pixel has as many as this power of ten.
-pub(crate) fn unit([width, height]: [u32; 2]) -> u32 {
+/// How many units of coordinates a pixel has in a picture of some size in pixels.
+pub(crate) fn units([width, height]: [u32; 2]) -> u32 {
     let longer = width.max(height);
-    2 + (1..4).filter(|&k| longer < LARGE.div_ceil(10u32.pow(k - 1))).count() as u32
+    let smaller = (1..4).filter(|&k| longer < LARGE.div_ceil(10u32.pow(k - 1))).count();
+    UNITS * 10u32.pow(smaller as u32)
 }
 
 impl Steps {
@@ -38,24 +41,28 @@ impl Steps {
     /// decimals.
     pub(crate) fn filled<'o>(
         outlines: impl Iterator<Item = &'o [[f64; 2]]> + Clone,
-        unit: u32,
+        units: u32,
     ) -> Self {
-        for decimals in 0..MOST_DECIMALS - unit {
-            let mut lines: Vec<Line> =
-                outlines.clone().map(|o| closed(round(o, unit + decimals))).collect();
-            lines.retain(|line| line.corners.len() > 2);
+        let mut steps = f64::from(units);
+        for decimals in 0.. {
+            let all = outlines.clone().map(|outline| closed(round(outline, steps)));
+            let mut lines: Vec<Line> = all.clone().filter(|line| line.corners.len() > 2).collect();
             if lines.iter().any(|line| has_area(&line.corners)) {
                 return Self { lines, decimals };
             }
+            if steps * 10.0 > MOST_STEPS {
+                lines = all.collect();
+                return Self { lines, decimals };
+            }
+            steps *= 10.0;
         }
-        let lines = outlines.map(|outline| closed(round(outline, MOST_DECIMALS))).collect();
-        Self { lines, decimals: MOST_DECIMALS - unit }
+        Self { lines: vec![], decimals: 0 }
     }
 
     /// Of lines to be drawn. One that ends where it begins is closed.
-    pub(crate) fn drawn<'l>(lines: impl Iterator<Item = &'l [[f64; 2]]>, unit: u32) -> Self {
+    pub(crate) fn drawn<'l>(lines: impl Iterator<Item = &'l [[f64; 2]]>, units: u32) -> Self {
         let line = |points: &[[f64; 2]]| {
-            let mut corners = round(points, unit);
+            let mut corners = round(points, f64::from(units));
             if corners.len() > 3 && corners.first() == corners.last() {
                 corners.pop();
                 return Line { corners, is_closed: true };
@@ -103,8 +110,7 @@ fn closed(mut corners: Vec<[i64; 2]>) -> Line {
 }
 
 /// Corners in steps from the corner of the picture, without those that fall on the one before.
-fn round(points: &[[f64; 2]], decimals: u32) -> Vec<[i64; 2]> {
-    let scale = 10f64.powi(decimals as i32);
+fn round(points: &[[f64; 2]], scale: f64) -> Vec<[i64; 2]> {
     let steps = |corner: [f64; 2]| corner.map(|c| ((c + 0.5) * scale).round() as i64);
     let mut rounded: Vec<[i64; 2]> = points.iter().map(|&corner| steps(corner)).collect();
     rounded.dedup();
@@ -169,17 +175,17 @@ fn push(text: &mut String, number: u64) {
 mod tests {
     use super::*;
 
-    fn data(outlines: &[&[[f64; 2]]], unit: u32) -> String {
-        Steps::filled(outlines.iter().copied(), unit).data()
+    fn data(outlines: &[&[[f64; 2]]], units: u32) -> String {
+        Steps::filled(outlines.iter().copied(), units).data()
     }
 
     #[test]
     fn steps_are_short_and_set_apart() {
         let outline = [[11.5, 4.1], [12.75, 3.0], [12.7, 3.0], [12.7, 3.05], [13.7, -0.5]];
-        assert_eq!(data(&[&outline], 2), "m1200 460 125-110-5 0 0 5 100-355z");
+        assert_eq!(data(&[&outline], 100), "m1200 460 125-110-5 0 0 5 100-355z");
         let square = [[-0.5, -0.5], [0.0, -0.5], [0.0, 0.0]];
         let hole = [[0.75, 1.0], [1.0, 1.25], [1.25, 1.0]];
-        assert_eq!(data(&[&square, &hole], 2), "m0 0 50 0 0 50zm125 150 25 25 25-25z");
+        assert_eq!(data(&[&square, &hole], 100), "m0 0 50 0 0 50zm125 150 25 25 25-25z");
     }
 
     #[test]
@@ -188,7 +194,7 @@ mod tests {
         let ring = [[0.5, 1.5], [1.5, 1.5], [0.5, 2.5], [0.5, 1.5]];
         let dot = [[3.5, 3.5], [3.501, 3.5]];
         let lines: [&[[f64; 2]]; 4] = [&corner, &ring, &dot, &corner[..2]];
-        let data = Steps::drawn(lines.into_iter(), 1).data();
+        let data = Steps::drawn(lines.into_iter(), 10).data();
         // After an open line the pen is at its end, after a closed one where that began.
         assert_eq!(data, "m10 10 10 0 0 20m-10-10 10 0-10 10zm30 20 0 0m-30-30 10 0");
     }
@@ -198,8 +204,8 @@ mod tests {
         // Each step is 0.004, which alone would be rounded to nothing.
         let mut outline: Vec<[f64; 2]> = (0..1000).map(|i| [f64::from(i) * 0.004, 0.5]).collect();
         outline.push([2.0, 9.5]);
-        let text = data(&[&outline], 2);
-        let ends = data(&[&[outline[0], outline[999], outline[1000]]], 2);
+        let text = data(&[&outline], 100);
+        let ends = data(&[&[outline[0], outline[999], outline[1000]]], 100);
         assert_eq!(ends, "m50 100 400 0-200 900z");
         assert!(text.starts_with("m50 100 1 0"), "{text}");
         assert!(text.ends_with(" 0-200 900z"), "{text}");
@@ -208,17 +214,17 @@ mod tests {
     #[test]
     fn what_is_small_keeps_an_area() {
         let speck = [[3.0, 3.0], [3.001, 3.0], [3.0, 3.0003]];
-        assert_eq!(data(&[&speck], 2), "m350 350 .1 0-.1.03z");
-        // Smaller than all decimals: a path all the same.
-        assert_eq!(data(&[&[[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]]], 2), "m350 350z");
+        assert_eq!(data(&[&speck], 100), "m350 350 .1 0-.1.03z");
+        // Smaller than all steps: a path all the same.
+        assert_eq!(data(&[&[[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]]], 100), "m350 350z");
         // Corners that fall together are one, and what is left of a hole is nothing.
         let square = [[0.0, 0.0], [0.001, 0.0], [4.0, 0.0], [4.0, 4.0], [0.001, 0.001]];
-        assert_eq!(data(&[&square, &speck], 2), "m50 50 400 0 0 400z");
+        assert_eq!(data(&[&square, &speck], 100), "m50 50 400 0 0 400z");
     }
 
     #[test]
     fn units_go_with_the_size() {
         let sizes = [[640, 480], [480, 1], [479, 300], [48, 20], [47, 3], [1, 1]];
-        assert_eq!(sizes.map(unit), [2, 2, 3, 3, 4, 5]);
+        assert_eq!(sizes.map(units), [50, 50, 500, 500, 5_000, 50_000]);
     }
 }
