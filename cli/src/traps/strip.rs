@@ -54,12 +54,18 @@ impl Frame {
 /// The least share of a strip that a triangle in its place has to have. Smaller: the background shows near
 /// the ends of edges; larger: most neighbours get strips, which have one corner more.
 const ENOUGH: f64 = 0.85;
+/// Strips with less area than this, in square pixels, are left out. Larger: seams of small polygons show;
+/// smaller: drawings of small polygons have many corners for nothing that is seen.
+const SMALLEST: f64 = 0.1;
 
 /// What lies outside of a side and inside of a convex neighbour, along the edges that both have in common:
 /// its corners in local coordinates, from the lower to the upper end along the side.
 pub(super) fn strip(frame: &Frame, neighbour: &[[f64; 2]]) -> Option<Outline> {
     let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
     let strip = band(frame, &corners)?;
+    if 0.5 * double_area(&strip).abs() < SMALLEST {
+        return None;
+    }
     Some(triangle(&corners, &strip).unwrap_or(strip))
 }
 
