@@ -12,13 +12,14 @@ use crate::svg_picture::Svg;
 fn is_near_edge(truth: &[Option<Option<usize>>], size: [u32; 2], at: usize, reach: i64) -> bool {
     let [width, height] = size.map(i64::from);
     let (x, y) = (at as i64 % width, at as i64 / width);
-    let around = (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (x + dx, y + dy)));
-    let found = around.map(|(x, y)| {
+    let mut around =
+        (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (x + dx, y + dy)));
+    around.any(|(x, y)| {
         // What is beyond the picture's border may have edges.
         let is_inside = (0..width).contains(&x) && (0..height).contains(&y);
-        if is_inside { truth[(y * width + x) as usize] } else { None }
-    });
-    found.map(|found| found.is_none() || found != truth[at]).any(|differs| differs)
+        let found = if is_inside { truth[(y * width + x) as usize] } else { None };
+        found.is_none() || found != truth[at]
+    })
 }
 
 fn pixel(picture: &Picture, at: usize) -> [u8; 3] {
