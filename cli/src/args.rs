@@ -13,6 +13,7 @@ use crate::colours::Colouring;
 use crate::cull::CullArgs;
 use crate::examples;
 use crate::samples;
+use crate::strokes::{EdgeChoice, Hidden};
 use crate::values::{self, Heuristics};
 
 /// Exact back-to-front orders of polygons from one BSP tree.
@@ -191,12 +192,16 @@ pub(crate) struct RenderArgs {
     pub(crate) build: BuildArgs,
 }
 
-/// Draw a view as SVG with one path for each polygon that shows
+/// Draw a view as SVG or PDF with one path for each polygon that shows, or as lines
 ///
 /// Each polygon is drawn whole, before those that show in front of it; the few that cannot be put in
 /// order, as each hides some of another, are cut to what shows of them. What is hidden is not in the
-/// file. Decimals suit the picture's size: two from 480 pixels on. `binspace render -o FILE.svg` writes
-/// all fragments of the tree instead, the hidden ones too, and translucent ones as such.
+/// file. Coordinates are rounded by the picture's size: to hundredths of a pixel from 480 pixels on.
+/// `binspace render -o FILE.svg` writes all fragments of the tree instead, the hidden ones too, and
+/// translucent ones as such.
+///
+/// A PDF has one page, with a point for each pixel. A PNG has in each pixel the colours that show there,
+/// each by the exact area that it has of the pixel, and blended by their numbers as SVG viewers do.
 ///
 /// Drawings are opaque: where a polygon shows that is translucent, nothing is written, unless all are
 /// to be drawn as opaque.
@@ -205,9 +210,31 @@ pub(crate) struct RenderArgs {
 pub(crate) struct DrawArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// File to write, complete or not at all: .svg; - for standard output
+    /// File to write, complete or not at all: .svg, .pdf or .png; - for standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
+    /// Format to write [default: by the file's name; svg for standard output]
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    pub(crate) format: Option<DrawFormat>,
+    /// Draw lines alone, without filling polygons: by default the edges of `--edges creases`
+    ///
+    /// Polygons hide what lies behind them all the same. Lines are black, a pixel wide, joined where they
+    /// have common ends, and in an order in which a pen travels little between them.
+    #[arg(long, conflicts_with = "colours")]
+    pub(crate) lines: bool,
+    /// Edges to draw as lines, over the filled polygons or, with --lines, alone: none, all,
+    /// creases[=DEG] or silhouettes
+    ///
+    /// `silhouettes` are edges where a body turns away from the eye, and borders, which no other polygon
+    /// has. `creases` are these, edges where two polygons meet at DEG degrees or more, 30 unless you say,
+    /// and lines where polygons go through each other. `all` are these and all other edges of polygons.
+    /// Lines of each kind have a class in an SVG: crossing, crease, border or silhouette. [default: none;
+    /// creases with --lines]
+    #[arg(long, value_name = "KIND", value_parser = EdgeChoice::parse)]
+    pub(crate) edges: Option<EdgeChoice>,
+    /// How to draw the hidden parts of these edges [default: none]
+    #[arg(long, value_name = "STYLE", value_enum)]
+    pub(crate) hidden: Option<Hidden>,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
     /// Where the colours of polygons come from
@@ -216,24 +243,27 @@ pub(crate) struct DrawArgs {
     /// Draw translucent polygons as if they were opaque
     #[arg(long)]
     pub(crate) opaque: bool,
-    /// Leave out polygons that show less than PX x PX pixels of area in all
+    /// Leave out polygons that show less than PX x PX pixels of area in all, and lines shorter than PX
+    /// [default: 0.01]
     ///
     /// What is drawn behind them shows in their place, else the background: surfaces of such polygons
     /// vanish. Through cracks between the faces of a mesh some of those behind show, far narrower than
     /// any pixel, which the default leaves out. With 0, all that show are drawn.
-    #[arg(long, value_name = "PX", default_value_t = 0.01, value_parser = values::length)]
+    #[arg(long, value_name = "PX", value_parser = values::length)]
     #[arg(allow_hyphen_values = true)]
-    pub(crate) min_size: f64,
+    pub(crate) min_size: Option<f64>,
     /// Write the polygon of each path as `data-polygon="i"`, counted from 0 in the file's order
     ///
-    /// Paths of one material that follow one another are in a group `<g data-material="NAME">`.
+    /// Paths of one material that follow one another are in a group `<g data-material="NAME">`. Lines have
+    /// a path for each part of an edge, with `data-edge="k"`, the number of the polygon's corner where
+    /// the edge begins, or `data-crosses="j"`, the polygon that goes through it there.
     #[arg(long)]
     pub(crate) ids: bool,
     /// Print the figures of the drawing as one JSON object
     ///
     /// `polygons` of the scene, `fragments` of its tree, polygons `visible`, `paths` written and how many
-    /// of these are `cut_out`, `bytes` of the file, and the time in seconds to build or read the tree and
-    /// to draw.
+    /// of these are `cut_out`, `runs` of edges and the `lines` that these are joined to, `bytes` of the
+    /// file, and the time in seconds to build or read the tree and to draw.
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
@@ -289,6 +319,17 @@ pub(crate) struct KindArgs {
     /// Draw the depth of every pixel: the nearer, the brighter
     #[arg(long)]
     pub(crate) depth: bool,
+}
+
+/// The format of a drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DrawFormat {
+    /// Paths and lines
+    Svg,
+    /// Paths and lines, on a page
+    Pdf,
+    /// Pixels
+    Png,
 }
 
 /// The format of a picture.

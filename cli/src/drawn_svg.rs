@@ -1,65 +1,43 @@
-//! Drawings as SVG: one path a polygon, in the order to paint them.
+//! Drawings as SVG: one path a polygon, in the order to paint them, and lines above.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-use binspace::drawing::Path;
-use binspace::scene::Scene;
-use binspace::view::Camera;
+use binspace::drawing::{EdgeKind, EdgeRun};
 
-use crate::colours::Colours;
-use crate::path_data::{decimals, path_data};
-use crate::shading::{hex, shaded};
+use crate::drawn::{DASHES, Drawn, Filled, HIDDEN_WIDTH, WIDTH};
+use crate::path_data::{Steps, points, units};
+use crate::shading::hex;
+use crate::strokes::Strokes;
 use crate::svg::begin;
-use crate::traps::{Outline, trapped};
 
-/// How to write a drawing.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Style<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) camera: &'a Camera,
-    pub(crate) colours: &'a Colours<'a>,
-    /// Whether polygons and materials are named.
-    pub(crate) ids: bool,
-}
-
-/// A path and its colour.
-struct Filled {
-    polygon: usize,
-    outlines: Vec<Outline>,
-    fill: [u8; 3],
-}
-
-/// Writes paths of a drawing. Those of one colour that follow one another share it in a group.
-pub(crate) fn write(out: &mut dyn Write, paths: &[Path<'_>], style: &Style<'_>) -> io::Result<()> {
-    let Style { scene, camera, colours, ids } = *style;
-    begin(out, camera.size())?;
-    let decimals = decimals(camera.size());
-    let outlines = trapped(paths, camera.size());
-    let filled = paths.iter().zip(outlines).map(|(path, outlines)| {
-        let polygon = path.polygon();
-        let fill = shaded(colours.rgb(polygon), scene.polygon(polygon), camera);
-        Filled { polygon, outlines, fill }
-    });
-    let filled: Vec<Filled> = filled.collect();
-    let name = |filled: &Filled| scene.material(filled.polygon).name.as_str();
-    for run in filled.chunk_by(|a, b| !ids || name(a) == name(b)) {
-        let material = run.first().filter(|_| ids).map_or("", name);
+/// Writes a drawing. Paths of one colour that follow one another share it in a group.
+///
+/// Coordinates are whole numbers of a small unit, so that they need no points.
+pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
+    begin(out, drawn.size)?;
+    let units = units(drawn.size);
+    writeln!(out, "<g transform=\"scale({})\">", 1.0 / f64::from(units))?;
+    for run in drawn.fills.chunk_by(|a, b| a.material == b.material) {
+        let material = run.first().map_or("", |filled| filled.material);
         if !material.is_empty() {
             writeln!(out, "<g data-material=\"{}\">", escaped(material))?;
         }
         for same in run.chunk_by(|a, b| a.fill == b.fill) {
-            write_same(out, same, decimals, ids)?;
+            write_same(out, same, units, drawn.ids)?;
         }
         if !material.is_empty() {
             writeln!(out, "</g>")?;
         }
     }
-    writeln!(out, "</svg>")
+    for same in drawn.strokes.chunk_by(|a, b| a.is_visible == b.is_visible) {
+        write_strokes(out, same, units, drawn.ids)?;
+    }
+    writeln!(out, "</g>\n</svg>")
 }
 
 /// Writes paths of one colour.
-fn write_same(out: &mut dyn Write, paths: &[Filled], decimals: u32, ids: bool) -> io::Result<()> {
+fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], units: u32, ids: bool) -> io::Result<()> {
     let fill =
         paths.first().map_or(String::new(), |first| format!(" fill=\"{}\"", hex(first.fill)));
     // For one path a group is longer than it saves.
@@ -75,9 +53,50 @@ fn write_same(out: &mut dyn Write, paths: &[Filled], decimals: u32, ids: bool) -
         if !is_group {
             write!(out, "{fill}")?;
         }
-        writeln!(out, " d=\"{}\"/>", path_data(outlines.iter().map(Vec::as_slice), decimals))?;
+        let steps = Steps::filled(outlines.iter().map(Vec::as_slice), units);
+        writeln!(out, " d=\"{}\"/>", steps.data())?;
     }
     if is_group { writeln!(out, "</g>") } else { Ok(()) }
+}
+
+/// Writes lines, all of them visible or all hidden: one path for each kind of edges, or, named, for each
+/// run of an edge.
+fn write_strokes(out: &mut dyn Write, all: &[Strokes], units: u32, ids: bool) -> io::Result<()> {
+    let scaled = |pixels: f64| pixels * f64::from(units);
+    if all.first().is_some_and(|strokes| strokes.is_visible) {
+        let width = scaled(WIDTH);
+        write!(out, "<g class=\"visible\" stroke-width=\"{width}\" stroke-linecap=\"round\"")?;
+    } else {
+        let ([dash, gap], width) = (DASHES.map(scaled), scaled(HIDDEN_WIDTH));
+        write!(
+            out,
+            "<g class=\"hidden\" stroke-width=\"{width}\" stroke-dasharray=\"{dash} {gap}\""
+        )?;
+    }
+    writeln!(out, " fill=\"none\" stroke=\"#000000\" stroke-linejoin=\"round\">")?;
+    for Strokes { class, runs, lines, .. } in all {
+        if !ids {
+            let data = Steps::drawn(points(lines), units).data();
+            writeln!(out, "<path class=\"{class}\" d=\"{data}\"/>")?;
+            continue;
+        }
+        writeln!(out, "<g class=\"{class}\">")?;
+        for line in lines {
+            for (ends, &number) in line.points.windows(2).zip(&line.segments) {
+                let data = Steps::drawn([ends].into_iter(), units).data();
+                let EdgeRun { polygon, edge, kind, .. } = runs[number];
+                write!(out, "<path data-polygon=\"{polygon}\"")?;
+                match (edge, kind) {
+                    (Some(edge), _) => write!(out, " data-edge=\"{edge}\"")?,
+                    (_, EdgeKind::Crossing(other)) => write!(out, " data-crosses=\"{other}\"")?,
+                    _ => {}
+                }
+                writeln!(out, " d=\"{data}\"/>")?;
+            }
+        }
+        writeln!(out, "</g>")?;
+    }
+    writeln!(out, "</g>")
 }
 
 /// A text as the value of an attribute. Characters that XML cannot hold are replaced.

@@ -8,6 +8,7 @@ Examples:
   binspace stats city:100000 --heuristic all how the heuristics compare
   binspace render scene.obj -o scene.png     a picture of the whole scene
   binspace draw scene.obj -o scene.svg       a drawing of it, one path a polygon
+  binspace draw part.obj -o part.pdf --lines its visible edges
   binspace report --quick                    every method, its speed against its error
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
 
@@ -53,7 +54,11 @@ Examples:
 pub(crate) const DRAW: &str = "\
 Examples:
   binspace draw teapot -o teapot.svg
-  binspace draw scene.obj -o scene.svg --up z --size 1200x900
+  binspace draw scene.obj -o scene.pdf --up z --size 1200x900
+  binspace draw scene.obj -o smooth.png
+  binspace draw part.obj -o part.svg --lines --hidden dashed
+  binspace draw part.obj -o part.pdf --edges creases=20
+  binspace draw mesh.obj -o plot.svg --lines --edges silhouettes
   binspace draw city:5000 -o map.svg --direction=1,1,-1 --colours polygon
   binspace draw room.obj -o room.svg --cull back --ids
   binspace draw scene.obj -o scene.svg --min-size 0.5 --json

@@ -22,6 +22,8 @@
 //! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
 //! | `crossings` | lines in which polygons go through one another |
+//! | `pen` | segments joined to lines, in an order for a pen |
+//! | `near` | the nearest of the ends that are left |
 
 mod above;
 mod cell;
@@ -31,10 +33,12 @@ mod frame;
 mod join;
 mod lines;
 mod map;
+mod near;
 mod opaque;
 mod order;
 mod outline;
 mod overlaps;
+mod pen;
 mod reaches;
 mod stock;
 mod tile;
@@ -43,3 +47,4 @@ mod translucent;
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};
+pub use pen::{Polyline, polylines};

@@ -36,7 +36,10 @@ fn layers_of_hard_scenes_are_those_of_the_tree() {
         .map_err(TestCaseError::fail)
     });
     assert!(score.pixels > 500_000 && score.layers > 100_000, "{score:?}");
-    assert!(score.paths > score.polygons + 10 && 2 * score.fragments > 3 * score.paths, "{score:?}");
+    assert!(
+        score.paths > score.polygons + 10 && 2 * score.fragments > 3 * score.paths,
+        "{score:?}"
+    );
 }
 
 fn for_each_view(

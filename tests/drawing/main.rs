@@ -6,6 +6,7 @@ mod crossings;
 mod fill;
 mod hidden;
 mod lines;
+mod pen;
 mod progress;
 mod scenes;
 #[path = "../support/mod.rs"]

@@ -1,32 +1,44 @@
-//! `binspace draw`: a view as a vector picture with one path a polygon.
+//! `binspace draw`: a view as a vector picture with one path a polygon, and lines.
 
 use std::ffi::OsStr;
 use std::io::{self, Write};
 use std::path::Path;
 use std::time::Instant;
 
-use binspace::drawing::{Shown, VisibilityMap};
+use binspace::drawing::{Drawing, Shown, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::scene::Scene;
+use binspace::view::Camera;
 use serde::Serialize;
 
 use super::Outcome;
-use crate::args::DrawArgs;
+use crate::args::{DrawArgs, DrawFormat};
 use crate::backs::note_backs;
 use crate::colours::Colours;
 use crate::cull::Cull;
-use crate::drawn_svg::{self, Style};
+use crate::drawn::{Drawn, Style, filled};
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
 use crate::progress::Progress;
+use crate::shading::shaded;
+use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::say;
 use crate::upright::note_z_up;
-use crate::{camera, job};
+use crate::{camera, coverage, drawn_pdf, drawn_svg, job, png_file};
+
+/// The side of the square, in pixels, that a polygon has to show, unless the user says.
+const MIN_SIZE: f64 = 0.01;
 
 /// Runs the command.
 pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
-    check_output(args)?;
+    let format = format(args)?;
+    let edges = edges(args);
+    check(args, format, edges).map_err(|problem| about_output(args, &problem))?;
     let output = Output::open(Some(&args.output))?;
+    if format != DrawFormat::Svg && output.is_terminal() {
+        let problem = "a PDF or PNG is not for a terminal: pipe it, or name a file";
+        return Err(about_output(args, problem));
+    }
     let (scene, tree, tree_seconds) = job::timed_scene_and_tree(&args.scene, &args.build)?;
     note_z_up(&scene, &args.view.up);
     let camera = camera::asked(&args.view, &scene)?;
@@ -43,52 +55,125 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if !args.opaque {
         refuse_translucent(&scene, &colours, &shown)?;
     }
-    let drawing = map.drawing().map_err(about)?;
-    let draw_seconds = start.elapsed().as_secs_f64();
-    let mut is_small = vec![false; scene.len()];
-    for shown in &shown {
-        // Areas of specks are rounded, to below 0 as well.
-        is_small[shown.polygon] = shown.area.max(0.0) < args.min_size * args.min_size;
+    let view = View { args, scene: &scene, camera: &camera, colours: &colours };
+    let mut figures = Figures {
+        polygons: scene.len(),
+        fragments: tree.len(),
+        visible: shown.len(),
+        tree_seconds,
+        ..Figures::default()
+    };
+    if format == DrawFormat::Png {
+        let pixels = coverage::picture(&map, |polygon| view.colour(polygon));
+        figures.draw_seconds = start.elapsed().as_secs_f64();
+        figures.bytes = written(output, |out| png_file::write(out, camera.size(), &pixels))?;
+    } else {
+        let drawing = (!args.lines).then(|| map.drawing()).transpose().map_err(about)?;
+        let strokes = match edges {
+            EdgeChoice::None => vec![],
+            _ => view.strokes(&map, edges).map_err(about)?,
+        };
+        figures.draw_seconds = start.elapsed().as_secs_f64();
+        let drawn = view.drawn(drawing.as_ref(), &shown, strokes, &mut figures);
+        figures.bytes = written(output, |out| match format {
+            DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
+            _ => drawn_svg::write(out, &drawn),
+        })?;
     }
-    let paths: Vec<_> = drawing.paths().filter(|path| !is_small[path.polygon()]).collect();
-    let style = Style { scene: &scene, camera: &camera, colours: &colours, ids: args.ids };
-    let mut bytes = 0;
-    output.write(|out| {
-        let mut counted = Counted { out, bytes: 0 };
-        drawn_svg::write(&mut counted, &paths, &style)?;
-        bytes = counted.bytes;
-        Ok(())
-    })?;
     drop(progress);
     if args.json {
-        let figures = Figures {
-            polygons: scene.len(),
-            fragments: tree.len(),
-            visible: shown.len(),
-            paths: paths.len(),
-            cut_out: paths.iter().filter(|path| path.is_cut_out()).count(),
-            bytes,
-            tree_seconds,
-            draw_seconds,
-        };
         say(serde_json::to_string(&figures).map_err(|error| Failure::about(scene.name(), error))?)?;
     }
     Ok(Outcome::Done)
 }
 
+/// What is drawn, and how.
+struct View<'a> {
+    args: &'a DrawArgs,
+    scene: &'a Scene,
+    camera: &'a Camera,
+    colours: &'a Colours<'a>,
+}
+
+impl<'a> View<'a> {
+    fn colour(&self, polygon: usize) -> [u8; 3] {
+        shaded(self.colours.rgb(polygon), self.scene.polygon(polygon), self.camera)
+    }
+
+    fn min_size(&self) -> f64 {
+        self.args.min_size.unwrap_or(MIN_SIZE)
+    }
+
+    fn strokes(
+        &self,
+        map: &VisibilityMap<'_>,
+        edges: EdgeChoice,
+    ) -> Result<Vec<Strokes>, binspace::Error> {
+        let hidden = self.args.hidden.unwrap_or(Hidden::None);
+        let mut runs = map.edges()?;
+        if edges != EdgeChoice::Silhouettes {
+            runs.append(&mut map.crossings()?);
+        }
+        strokes(&runs, edges, hidden, self.min_size())
+    }
+
+    /// The paths and lines that are written, counted.
+    fn drawn(
+        &self,
+        drawing: Option<&Drawing>,
+        shown: &[Shown],
+        strokes: Vec<Strokes>,
+        figures: &mut Figures,
+    ) -> Drawn<'a> {
+        let &Self { args, scene, camera, colours } = self;
+        let mut is_small = vec![false; scene.len()];
+        for shown in shown {
+            // Areas of specks are rounded, to below 0 as well.
+            is_small[shown.polygon] = shown.area.max(0.0) < self.min_size() * self.min_size();
+        }
+        let paths = drawing.into_iter().flat_map(Drawing::paths);
+        let paths: Vec<_> = paths.filter(|path| !is_small[path.polygon()]).collect();
+        figures.paths = paths.len();
+        figures.cut_out = paths.iter().filter(|path| path.is_cut_out()).count();
+        let lines = strokes.iter().flat_map(|strokes| &strokes.lines);
+        figures.lines = lines.clone().count();
+        figures.runs = lines.map(|line| line.segments.len()).sum();
+        let style = Style { scene, camera, colours, ids: args.ids };
+        Drawn { size: camera.size(), fills: filled(&paths, &style), strokes, ids: args.ids }
+    }
+}
+
 /// The figures of a drawing.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Figures {
     polygons: usize,
     fragments: usize,
     visible: usize,
     paths: usize,
     cut_out: usize,
+    /// Parts of edges that are drawn, and the lines that they are joined to.
+    runs: usize,
+    lines: usize,
     bytes: u64,
     /// To build the tree, or to read it.
     tree_seconds: f64,
     /// For the map and the paths, without writing them.
     draw_seconds: f64,
+}
+
+/// Writes a file, and says how long it is.
+fn written(
+    output: Output,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<u64, Failure> {
+    let mut bytes = 0;
+    output.write(|out| {
+        let mut counted = Counted { out, bytes: 0 };
+        write(&mut counted)?;
+        bytes = counted.bytes;
+        Ok(())
+    })?;
+    Ok(bytes)
 }
 
 /// Counts what is written.
@@ -109,20 +194,66 @@ impl Write for Counted<'_> {
     }
 }
 
-/// An error if the output is not to be an SVG, or not the only one on standard output.
-fn check_output(args: &DrawArgs) -> Result<(), Failure> {
+/// Which edges are drawn: those of a line drawing that are seen best, unless the user says.
+fn edges(args: &DrawArgs) -> EdgeChoice {
+    let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
+    args.edges.unwrap_or(default)
+}
+
+/// The format that is asked for, or that a name means.
+fn format(args: &DrawArgs) -> Result<DrawFormat, Failure> {
     let path: &Path = &args.output;
-    let is_standard = path == Path::new(STANDARD);
-    if is_standard && args.json {
-        let problem = "the drawing and the figures of --json cannot both go there: name a file";
-        return Err(Failure::about("standard output", problem));
+    let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
+    let named = match extension.as_deref() {
+        Some("svg") => Some(DrawFormat::Svg),
+        Some("pdf") => Some(DrawFormat::Pdf),
+        Some("png") => Some(DrawFormat::Png),
+        _ if path == Path::new(STANDARD) => args.format.or(Some(DrawFormat::Svg)),
+        _ => None,
+    };
+    match (named, args.format) {
+        (Some(named), Some(asked)) if named != asked => {
+            Err(about_output(args, "its name and --format are of different formats"))
+        }
+        (_, Some(format)) | (Some(format), None) => Ok(format),
+        (None, None) => {
+            Err(about_output(args, "name a file that ends in .svg, .pdf or .png, or give --format"))
+        }
     }
-    let is_svg =
-        path.extension().and_then(OsStr::to_str).is_some_and(|ext| ext.eq_ignore_ascii_case("svg"));
-    if is_standard || is_svg {
+}
+
+/// An error if options do not fit together.
+fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), String> {
+    let has_lines = edges != EdgeChoice::None;
+    let longest = args.view.size[0].max(args.view.size[1]);
+    let problem = if args.json && args.output == Path::new(STANDARD) {
+        "the drawing and the figures of --json cannot both go there: name a file"
+    } else if args.lines && !has_lines {
+        "with --lines and `--edges none` there is nothing to draw: choose other edges"
+    } else if args.hidden == Some(Hidden::Dashed) && !has_lines {
+        "`--hidden dashed` is for lines: add --lines, or --edges for lines over the polygons"
+    } else if format == DrawFormat::Png && has_lines {
+        "a PNG has no lines: write .svg or .pdf, or leave out --lines and --edges"
+    } else if format != DrawFormat::Svg && args.ids {
+        "--ids is for SVG: other formats have no place for names"
+    } else if format == DrawFormat::Png && args.min_size.is_some() {
+        "--min-size is for SVG and PDF: a PNG has of each polygon just what it shows"
+    } else if format == DrawFormat::Pdf && longest > drawn_pdf::LONGEST {
+        return Err(format!(
+            "a page of a PDF has at most {} points each way, one for each pixel: give a smaller --size",
+            drawn_pdf::LONGEST
+        ));
+    } else {
         return Ok(());
+    };
+    Err(problem.to_owned())
+}
+
+fn about_output(args: &DrawArgs, problem: &str) -> Failure {
+    if args.output == Path::new(STANDARD) {
+        return Failure::about("standard output", problem);
     }
-    Err(Failure::about(path.display(), "drawings are SVG: name a file that ends in .svg, or -"))
+    Failure::about(args.output.display(), problem)
 }
 
 /// An error if something shows through a polygon that shows.

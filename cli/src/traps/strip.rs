@@ -51,24 +51,62 @@ impl Frame {
     }
 }
 
-/// The strip outside of a side, along the edges that it has in common with a convex neighbour, as far
-/// as it is in that: its corners in local coordinates, from the lower to the upper end along the side.
+/// The least share of a strip that a triangle in its place has to have. Smaller: the background shows near
+/// the ends of edges; larger: most neighbours get strips, which have one corner more.
+const ENOUGH: f64 = 0.85;
+/// Strips with less area than this, in square pixels, are left out. Larger: seams of small polygons show;
+/// smaller: drawings of small polygons have many corners for nothing that is seen.
+const SMALLEST: f64 = 0.1;
+
+/// What lies outside of a side and inside of a convex neighbour, along the edges that both have in common:
+/// its corners in local coordinates, from the lower to the upper end along the side.
 pub(super) fn strip(frame: &Frame, neighbour: &[[f64; 2]]) -> Option<Outline> {
     let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
-    let turn = double_area(&corners).signum();
+    let strip = band(frame, &corners)?;
+    if 0.5 * double_area(&strip).abs() < SMALLEST {
+        return None;
+    }
+    Some(triangle(&corners, &strip).unwrap_or(strip))
+}
+
+/// A triangle on the edge of a strip that covers nearly as much of it, and reaches further into the
+/// neighbour. It makes drawings shorter.
+fn triangle(neighbour: &[[f64; 2]], strip: &[[f64; 2]]) -> Option<Outline> {
+    let [low, high] = [*strip.first()?, *strip.last()?];
+    let length = high[0] - low[0];
+    let far: Outline = neighbour.iter().copied().filter(|corner| corner[1] > NEAR).collect();
+    // From the middle of the edge to that of the corners which are not on it.
+    let apex = [0, 1].map(|axis: usize| {
+        let end = far.iter().map(|corner| corner[axis]).sum::<f64>() / far.len() as f64;
+        let start = 0.5 * (low[axis] + high[axis]);
+        start + SHARE * (end - start)
+    });
+    let width = strip.iter().map(|corner| corner[1]).fold(0.0, f64::max);
+    let covered = if apex[1] > width {
+        length * width * (1.0 - 0.5 * width / apex[1])
+    } else {
+        0.5 * length * apex[1]
+    };
+    let is_enough = covered >= ENOUGH * 0.5 * double_area(strip).abs();
+    is_enough.then(|| vec![low, apex, high])
+}
+
+/// A strip along the common edges, as far as it is in the neighbour, which is given in local coordinates.
+fn band(frame: &Frame, corners: &[[f64; 2]]) -> Option<Outline> {
+    let turn = double_area(corners).signum();
     let height = corners.iter().map(|corner| corner[1]).fold(0.0, f64::max);
     let common = |ends: [[f64; 2]; 2]| {
         let is_outside = turn * (ends[1][0] - ends[0][0]) > 0.0;
         frame.along(ends).filter(|_| is_outside)
     };
-    let hull = sides(&corners).filter_map(common);
+    let hull = sides(corners).filter_map(common);
     let [low, high] = hull.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
     if height <= NEAR {
         return None;
     }
     let width = WIDTH.min(SHARE * height);
     let mut strip = vec![[low, 0.0], [low, width], [high, width], [high, 0.0]];
-    for [a, b] in sides(&corners).filter(|&ends| common(ends).is_none()) {
+    for [a, b] in sides(corners).filter(|&ends| common(ends).is_none()) {
         strip = inside(&strip, a, b, turn);
     }
     // The corners on the side are its ends, all others come in between.
@@ -107,13 +145,17 @@ mod tests {
     fn strips_are_inside_of_the_neighbour() {
         // The side from (1, 2) to (5, 2) of what is below it, with y up.
         let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
+        let strip = |outline: &[[f64; 2]]| {
+            let corners: Outline = outline.iter().map(|&corner| frame.local(corner)).collect();
+            band(&frame, &corners)
+        };
         let triangle = [[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]];
         assert_eq!(frame.along([[0.0, 0.0], [4.0, 0.0]]), Some([0.0, 4.0]));
         assert_eq!(frame.along([[4.0, 0.0], [2.0, 10.0]]), None);
         // Inwards by less than a pixel, and outwards by more than a rounding.
         assert_eq!(frame.along([[-4.0, -0.8], [3.0, -0.5]]), Some([0.0, 3.0]));
         assert_eq!(frame.along([[0.0, 0.5], [3.0, 0.5]]), None);
-        let found = strip(&frame, &triangle).unwrap();
+        let found = strip(&triangle).unwrap();
         assert_eq!(found.len(), 4);
         for (found, expected) in found.iter().zip([[0.0, 0.0], [0.2, 1.0], [3.8, 1.0], [4.0, 0.0]])
         {
@@ -122,15 +164,27 @@ mod tests {
         assert_eq!(frame.world([0.5, 1.0]), [4.5, 3.0]);
         // The other way round; a low neighbour has a narrow strip.
         let low = [[3.0, 2.5], [4.0, 2.0], [2.0, 2.0]];
-        let found = strip(&frame, &low).unwrap();
+        let found = strip(&low).unwrap();
         assert!(found.iter().all(|corner| corner[1] <= 0.3 + 1e-12), "{found:?}");
         assert_eq!(found.first(), Some(&[1.0, 0.0]));
         assert_eq!(found.last(), Some(&[3.0, 0.0]));
         // A wedge along the side that leaves it on the other side of its tip.
         let wedge = [[0.9, 2.01], [4.0, 1.5], [30.0, 9.0], [3.0, 2.005]];
-        let found = strip(&frame, &wedge).unwrap();
+        let found = strip(&wedge).unwrap();
         assert!(found.iter().all(|corner| corner[1] < 0.01), "{found:?}");
         // On the same side of the edge there is nothing to reach under.
-        assert_eq!(strip(&frame, &[[1.0, 2.0], [5.0, 2.0], [3.0, -9.0]]), None);
+        assert_eq!(strip(&[[1.0, 2.0], [5.0, 2.0], [3.0, -9.0]]), None);
+    }
+    #[test]
+    fn a_triangle_stands_for_a_strip_that_it_nearly_covers() {
+        let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
+        let found = strip(&frame, &[[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]]).unwrap();
+        assert_eq!(found.len(), 3);
+        for (found, expected) in found.iter().zip([[0.0, 0.0], [2.0, 6.0], [4.0, 0.0]]) {
+            assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
+        }
+        // Of a low neighbour it would leave out too much near the ends.
+        let low = [[1.0, 2.0], [5.0, 2.0], [5.0, 2.8], [1.0, 2.8]];
+        assert_eq!(strip(&frame, &low).unwrap().len(), 4);
     }
 }

@@ -14,20 +14,20 @@ use crate::png_picture::Picture;
 use crate::run::{CROSSING, Folder, Run};
 use crate::svg_picture::Svg;
 
-const WHITE: [u8; 3] = [255; 3];
+pub(crate) const WHITE: [u8; 3] = [255; 3];
 /// Samples each way in a pixel of the exact picture: a centre is away from edges if the samples around
 /// it agree with it. Viewers round corners to 1/64 of a pixel or so.
 const SAMPLES: usize = 21;
 
 /// A built-in scene and a camera.
-struct View {
+pub(crate) struct View {
     scene: Builtin,
     size: u32,
     eye: DVec3,
     target: DVec3,
     up: DVec3,
     fov: f64,
-    pixels: [u32; 2],
+    pub(crate) pixels: [u32; 2],
 }
 
 impl View {
@@ -37,7 +37,7 @@ impl View {
     }
 
     /// The command-line arguments that ask for it.
-    fn arguments(&self) -> String {
+    pub(crate) fn arguments(&self) -> String {
         let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
         let scene = match self.size {
             0 => self.scene.to_string(),
@@ -54,12 +54,18 @@ impl View {
         )
     }
 
-    fn tree(&self) -> BspTree {
+    pub(crate) fn tree(&self) -> BspTree {
         let size = (self.size > 0).then_some(self.size);
         BspTree::build(self.scene.build(size, 1).polygons()).unwrap()
     }
 
-    fn camera(&self) -> Camera {
+    /// How many corners a polygon has.
+    pub(crate) fn corners_of(&self, number: usize) -> usize {
+        let size = (self.size > 0).then_some(self.size);
+        self.scene.build(size, 1).polygon(number).len()
+    }
+
+    pub(crate) fn camera(&self) -> Camera {
         let fov = self.fov.to_radians();
         Camera::perspective(self.eye, self.target, self.up, fov, self.pixels).unwrap()
     }
@@ -72,7 +78,7 @@ impl View {
     }
 
     /// The polygon at each pixel's centre; `None` near an edge.
-    fn truth(&self) -> Vec<Option<Option<usize>>> {
+    pub(crate) fn truth(&self) -> Vec<Option<Option<usize>>> {
         let (tree, camera) = (self.tree(), self.camera());
         let rays = Rays::sampled(&camera, tree.faces(), SAMPLES as u32).unwrap();
         let [width, height] = self.pixels.map(|side| side as usize);
@@ -96,7 +102,7 @@ impl View {
     }
 }
 
-fn views() -> Vec<View> {
+pub(crate) fn views() -> Vec<View> {
     vec![
         View::new(Builtin::Newell, 0, [2.0, -4.0, 9.0], [0.0, 0.0, 0.0]),
         View::new(Builtin::Cornell, 0, [278.0, 273.0, 100.0], [250.0, 150.0, 559.0]),
@@ -107,7 +113,7 @@ fn views() -> Vec<View> {
     ]
 }
 
-fn figures(output: &str) -> Value {
+pub(crate) fn figures(output: &str) -> Value {
     assert_eq!(output.lines().count(), 1, "{output}");
     serde_json::from_str(output).unwrap()
 }
@@ -203,7 +209,7 @@ fn colours_are_those_of_render() {
 fn a_drawing_is_a_small_part_of_the_list_of_fragments() {
     let folder = Folder::new("draw_bytes");
     let length = |name: &str| fs::metadata(folder.path(name)).unwrap().len();
-    for scene in ["random:500", "city:2000", "teapot:8"] {
+    for scene in ["random:500", "city:2000", "teapot:8", "sphere:2000"] {
         folder.run(&format!("render {scene} -o a.svg")).good();
         folder.run(&format!("draw {scene} -o b.svg")).good();
         let [all, drawn] = ["a.svg", "b.svg"].map(length);
@@ -316,15 +322,31 @@ fn what_cannot_be_drawn_is_said_at_once() {
     let folder = Folder::new("draw_bad");
     for (options, problem) in [
         ("", "--output"),
-        ("-o p.png", "p.png: drawings are SVG: name a file that ends in .svg"),
-        ("-o p.pdf", "drawings are SVG"),
-        ("-o p", "drawings are SVG"),
+        ("-o p.gif", "p.gif: name a file that ends in .svg, .pdf or .png"),
+        ("-o p", "p: name a file that ends in .svg, .pdf or .png, or give --format"),
+        ("-o p.svg --format pdf", "p.svg: its name and --format are of different formats"),
+        ("-o p.svg --format gif", "--format"),
+        ("-o p.svg --lines --edges none", "there is nothing to draw"),
+        ("-o p.svg --hidden dashed", "`--hidden dashed` is for lines: add --lines, or --edges"),
+        ("-o p.svg --hidden dashed --edges none", "`--hidden dashed` is for lines"),
+        ("-o p.svg --lines --hidden dotted", "--hidden"),
+        ("-o p.svg --lines --colours polygon", "cannot be used with"),
+        ("-o p.svg --edges creases=x", "from 0 to 180 degrees, as in creases=20"),
+        ("-o p.svg --edges outlines", "none, all, creases, creases=DEG or silhouettes"),
+        ("-o p.png --lines", "p.png: a PNG has no lines"),
+        ("-o p.png --edges all", "p.png: a PNG has no lines"),
+        ("-o - --format png --edges all", "standard output: a PNG has no lines"),
+        ("-o p.png --ids", "--ids is for SVG"),
+        ("-o p.pdf --ids", "--ids is for SVG"),
+        ("-o p.png --min-size 0", "--min-size is for SVG and PDF"),
+        ("-o p.pdf --size 14401x2", "a PDF has at most 14400 points each way"),
+        ("-o missing/p.pdf", "cannot be written"),
+        ("-o missing/p.png", "cannot be written"),
         ("-o missing/p.svg", "cannot be written"),
         ("-o - --json", "standard output: the drawing and the figures"),
         ("-o p.svg --samples 2", "--samples"),
         ("-o p.svg --z-buffer", "--z-buffer"),
         ("-o p.svg --depth", "--depth"),
-        ("-o p.svg --format svg", "--format"),
         ("-o p.svg --cull front", "--cull"),
         ("-o p.svg --min-size=-1", "0 or more"),
         ("-o p.svg --min-size nan", "not a finite number"),
@@ -407,5 +429,5 @@ fn the_background_does_not_show_in_seams() {
         }
     }
     assert!(pixels > 10_000, "{pixels}");
-    assert!(f64::from(sum) < 0.1 * f64::from(pixels), "{sum} in {pixels} pixels, {worst}");
+    assert!(f64::from(sum) < 0.2 * f64::from(pixels), "{sum} in {pixels} pixels, {worst}");
 }

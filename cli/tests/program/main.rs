@@ -3,6 +3,9 @@
 mod bad_input;
 mod cull;
 mod draw;
+mod draw_lines;
+mod draw_pdf;
+mod draw_png;
 mod help;
 mod notes;
 mod order;

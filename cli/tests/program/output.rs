@@ -164,6 +164,7 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
     folder.write("s.obj", CROSSING);
     std::os::unix::fs::symlink("/dev/full", folder.path("full.png")).unwrap();
     std::os::unix::fs::symlink("/dev/full", folder.path("full.svg")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", folder.path("full.pdf")).unwrap();
     let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     for command in [
         "--help",
@@ -190,6 +191,8 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
         "render s.obj --size 8x6 -o full.png",
         "render s.obj --size 8x6 -o full.svg",
         "draw s.obj --size 8x6 -o full.svg",
+        "draw s.obj --size 8x6 -o full.pdf",
+        "draw s.obj --size 8x6 -o full.png",
     ] {
         let message = folder.run(command).refused();
         assert!(message.contains("cannot be written: No space left"), "{command}: {message}");

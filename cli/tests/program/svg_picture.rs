@@ -9,7 +9,17 @@ use resvg::usvg::{Options, ShapeRendering, Tree};
 
 use crate::png_picture::Picture;
 
-/// A path of a drawing.
+/// Lines of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DrawnLines {
+    /// The classes of the groups that they are in and their own, outermost first.
+    pub(crate) classes: Vec<String>,
+    /// `data-polygon` and `data-edge`.
+    pub(crate) edge: Option<[usize; 2]>,
+    pub(crate) data: String,
+}
+
+/// A filled path of a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawnPath {
     /// `data-polygon`.
@@ -23,17 +33,24 @@ pub(crate) struct DrawnPath {
 pub(crate) struct Svg {
     pub(crate) text: String,
     pub(crate) paths: Vec<DrawnPath>,
+    pub(crate) lines: Vec<DrawnLines>,
 }
 
 impl Svg {
     pub(crate) fn read(path: &Path) -> Self {
-        let text = fs::read_to_string(path).unwrap();
-        let document = Document::parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        Self::parse(&fs::read_to_string(path).unwrap())
+    }
+
+    pub(crate) fn parse(text: &str) -> Self {
+        let document = Document::parse(text).unwrap_or_else(|error| panic!("{error}: {text}"));
         let root = document.root_element();
         assert_eq!(root.tag_name().namespace(), Some("http://www.w3.org/2000/svg"));
-        let paths =
-            root.descendants().filter(|node| node.has_tag_name("path")).map(drawn).collect();
-        Self { paths, text }
+        let all = root.descendants().filter(|node| node.has_tag_name("path"));
+        let (lines, filled): (Vec<_>, Vec<_>) =
+            all.partition(|node| inherited(node, "fill") == Some("none"));
+        let paths = filled.into_iter().map(drawn).collect();
+        let lines = lines.into_iter().map(drawn_lines).collect();
+        Self { paths, lines, text: text.to_owned() }
     }
 
     /// What a viewer shows, one sample a pixel at its centre.
@@ -60,13 +77,30 @@ impl Svg {
     }
 }
 
+/// An attribute of a node or of the nearest group around it that has it.
+fn inherited<'d>(node: &Node<'d, '_>, name: &str) -> Option<&'d str> {
+    node.ancestors().find_map(|node| node.attribute(name))
+}
+
+fn number(node: &Node<'_, '_>, name: &str) -> Option<usize> {
+    node.attribute(name).map(|number| number.parse().unwrap())
+}
+
 fn drawn(node: Node<'_, '_>) -> DrawnPath {
-    let inherited = |name: &str| node.ancestors().find_map(|node| node.attribute(name));
-    let fill = inherited("fill").unwrap();
+    let fill = inherited(&node, "fill").unwrap();
     let channel = |at: usize| u8::from_str_radix(&fill[at..at + 2], 16).unwrap();
     DrawnPath {
-        polygon: node.attribute("data-polygon").map(|number| number.parse().unwrap()),
+        polygon: number(&node, "data-polygon"),
         fill: [1, 3, 5].map(channel),
-        material: inherited("data-material").map(str::to_owned),
+        material: inherited(&node, "data-material").map(str::to_owned),
     }
+}
+
+fn drawn_lines(node: Node<'_, '_>) -> DrawnLines {
+    let mut classes: Vec<String> =
+        node.ancestors().filter_map(|node| node.attribute("class")).map(str::to_owned).collect();
+    classes.reverse();
+    let edge = number(&node, "data-polygon").zip(number(&node, "data-edge"));
+    let data = node.attribute("d").unwrap().to_owned();
+    DrawnLines { classes, edge: edge.map(|(polygon, edge)| [polygon, edge]), data }
 }

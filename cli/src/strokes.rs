@@ -1,0 +1,142 @@
+//! Lines of a drawing: which edges are drawn, joined and in an order for a pen.
+
+use binspace::Error;
+use binspace::drawing::{EdgeKind, EdgeRun, Polyline, polylines};
+use clap::ValueEnum;
+
+/// The angle from which on a crease is drawn, in degrees, unless the user says. Larger: edges of parts
+/// with many sides are missing; smaller: the facets of curved surfaces are drawn.
+const CREASE: f64 = 30.0;
+
+/// Which edges are drawn as lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum EdgeChoice {
+    None,
+    All,
+    /// Those where polygons meet at this angle in radians or more, borders, silhouettes, and where
+    /// polygons go through each other.
+    Creases(f64),
+    /// Silhouettes and borders.
+    Silhouettes,
+}
+
+/// How hidden parts of edges are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Hidden {
+    /// Dashed, and thinner
+    Dashed,
+    /// Not at all
+    None,
+}
+
+/// Lines that are drawn alike.
+#[derive(Debug)]
+pub(crate) struct Strokes {
+    pub(crate) is_visible: bool,
+    /// The kind of the edges.
+    pub(crate) class: &'static str,
+    /// What the segments of the lines are, by their numbers.
+    pub(crate) runs: Vec<EdgeRun>,
+    pub(crate) lines: Vec<Polyline>,
+}
+
+impl EdgeChoice {
+    pub(crate) const DEFAULT: Self = Self::Creases(CREASE.to_radians());
+
+    /// What `none`, `all`, `creases`, `creases=DEG` or `silhouettes` means.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        match text.split_once('=').unwrap_or((text, "")) {
+            ("none", "") => Ok(Self::None),
+            ("all", "") => Ok(Self::All),
+            ("creases", "") => Ok(Self::DEFAULT),
+            ("silhouettes", "") => Ok(Self::Silhouettes),
+            ("creases", degrees) => match degrees.trim().parse::<f64>() {
+                Ok(degrees) if (0.0..=180.0).contains(&degrees) => {
+                    Ok(Self::Creases(degrees.to_radians()))
+                }
+                _ => Err("expected an angle from 0 to 180 degrees, as in creases=20".to_owned()),
+            },
+            _ => Err("expected none, all, creases, creases=DEG or silhouettes".to_owned()),
+        }
+    }
+
+    fn draws(self, kind: EdgeKind) -> bool {
+        match (self, kind) {
+            (Self::None, _) => false,
+            (Self::All, _) | (_, EdgeKind::Border | EdgeKind::Silhouette) => true,
+            // A hundred-millionth of a right angle is rounding.
+            (Self::Creases(least), EdgeKind::Crease(angle)) => angle > least - 1e-8,
+            (Self::Silhouettes, _) => false,
+            (Self::Creases(_), _) => true,
+        }
+    }
+}
+
+/// What edges are called in a file, in the order to draw them.
+const CLASSES: [&str; 4] = ["crossing", "crease", "border", "silhouette"];
+
+fn class(kind: EdgeKind) -> &'static str {
+    match kind {
+        EdgeKind::Border => "border",
+        EdgeKind::Silhouette => "silhouette",
+        EdgeKind::Crease(_) => "crease",
+        _ => "crossing",
+    }
+}
+
+/// The lines of some edges, hidden ones before visible ones, without those shorter than a length.
+///
+/// Lines of a kind are joined before the short ones are left out: what a crack shows of an edge is short,
+/// but so are the edges of a fine mesh.
+pub(crate) fn strokes(
+    runs: &[EdgeRun],
+    edges: EdgeChoice,
+    hidden: Hidden,
+    shortest: f64,
+) -> Result<Vec<Strokes>, Error> {
+    let mut all = Vec::new();
+    for is_visible in [false, true] {
+        for name in CLASSES {
+            let is_drawn = is_visible || hidden == Hidden::Dashed;
+            let runs = runs.iter().copied().filter(|run| {
+                is_drawn
+                    && run.is_visible == is_visible
+                    && class(run.kind) == name
+                    && edges.draws(run.kind)
+            });
+            let runs: Vec<EdgeRun> = runs.collect();
+            let mut lines = polylines(runs.iter().map(|run| run.ends))?;
+            lines.retain(|line| line.length() >= shortest);
+            if !lines.is_empty() {
+                all.push(Strokes { is_visible, class: name, runs, lines });
+            }
+        }
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn choices_are_words_and_an_angle() {
+        assert_eq!(EdgeChoice::parse("all"), Ok(EdgeChoice::All));
+        assert_eq!(EdgeChoice::parse("creases"), EdgeChoice::parse("creases=30"));
+        assert_eq!(EdgeChoice::parse("creases=0"), Ok(EdgeChoice::Creases(0.0)));
+        for text in ["", "creases=", "creases=x", "creases=-1", "creases=181", "all=3", "nan"] {
+            let is_default = text == "creases=";
+            assert_eq!(EdgeChoice::parse(text).is_ok(), is_default, "{text}");
+        }
+        let kinds =
+            [EdgeKind::Border, EdgeKind::Silhouette, EdgeKind::Crease(0.5), EdgeKind::Crease(0.6)];
+        for (choice, expected) in [
+            (EdgeChoice::None, [false; 4]),
+            (EdgeChoice::All, [true; 4]),
+            (EdgeChoice::Silhouettes, [true, true, false, false]),
+            (EdgeChoice::DEFAULT, [true, true, false, true]),
+        ] {
+            assert_eq!(kinds.map(|kind| choice.draws(kind)), expected, "{choice:?}");
+        }
+    }
+}

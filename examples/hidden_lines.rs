@@ -1,0 +1,132 @@
+//! A drawing of lines, as of a part to be made: visible edges drawn out, hidden ones dashed.
+//!
+//! ```sh
+//! cargo run --release --example hidden_lines -- docs/hidden_lines.svg
+//! ```
+//!
+//! The map of what shows gives each edge in runs that are visible or hidden, and says what the edge is:
+//! where the body turns away from the eye, or where two polygons meet at an angle. Edges of round parts,
+//! where they meet at almost none, are left out. Runs that are drawn alike are joined to lines.
+//!
+//! ![A nut with a flange, with its hidden edges dashed](../docs/hidden_lines.svg)
+
+#![allow(clippy::print_stdout, reason = "a program")]
+
+use binspace::BspTree;
+use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap, polylines};
+use binspace::glam::{DVec3, dvec3};
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use std::error::Error;
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
+use std::fmt::Write;
+
+const SIZE: [u32; 2] = [640, 420];
+/// Quads around the part.
+const QUADS: usize = 96;
+/// The angle from which on a crease is drawn.
+const CREASE: f64 = 0.3;
+
+type Ring = [DVec3; QUADS];
+
+fn circle(radius: f64, z: f64) -> Ring {
+    std::array::from_fn(|k| {
+        let (sin, cos) = (TAU * k as f64 / QUADS as f64).sin_cos();
+        dvec3(radius * cos, radius * sin, z)
+    })
+}
+
+/// With flat sides this far from the axis.
+fn hexagon(distance: f64, z: f64) -> Ring {
+    let mut ring = circle(distance, z);
+    for (k, point) in ring.iter_mut().enumerate() {
+        let angle = (TAU * k as f64 / QUADS as f64) % FRAC_PI_3 - FRAC_PI_6;
+        *point = dvec3(point.x / angle.cos(), point.y / angle.cos(), z);
+    }
+    ring
+}
+
+/// A nut with a flange and a step in its bore: rings, each joined to the next, and the last to the first.
+fn part() -> Vec<[DVec3; 4]> {
+    let rings = [
+        circle(3.1, 0.0),
+        circle(3.1, 0.35),
+        circle(2.6, 0.55),
+        hexagon(2.1, 0.55),
+        hexagon(2.1, 2.4),
+        circle(1.5, 2.4),
+        circle(1.2, 2.1),
+        circle(1.2, 0.9),
+        circle(1.7, 0.9),
+        circle(1.7, 0.0),
+    ];
+    let quad = |r: usize, k: usize| {
+        let (ring, next) = (&rings[r], &rings[(r + 1) % rings.len()]);
+        let after = (k + 1) % QUADS;
+        [ring[k], ring[after], next[after], next[k]]
+    };
+    (0..rings.len() * QUADS).map(|i| quad(i / QUADS, i % QUADS)).collect()
+}
+
+fn runs() -> Result<Vec<EdgeRun>, Box<dyn Error>> {
+    let tree = BspTree::build(part())?;
+    let eye = dvec3(7.0, -9.0, 9.0);
+    let camera = Camera::perspective(eye, dvec3(0.0, 0.0, 0.8), DVec3::Z, 0.46, SIZE)?;
+    let rays = Rays::new(&camera, tree.faces())?;
+    let mut runs = VisibilityMap::of(&tree, rays)?.edges()?;
+    runs.retain(|run| !matches!(run.kind, EdgeKind::Crease(angle) if angle < CREASE));
+    Ok(runs)
+}
+
+/// Lines as an SVG, hidden ones below the others.
+fn svg(runs: &[EdgeRun]) -> Result<String, Box<dyn Error>> {
+    let [width, height] = SIZE;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n\
+         <g fill=\"none\" stroke=\"#123\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
+    );
+    for (is_visible, style) in
+        [(false, "stroke-width=\".8\" stroke-dasharray=\"3.5 3\""), (true, "stroke-width=\"1.6\"")]
+    {
+        let alike = runs.iter().filter(|run| run.is_visible == is_visible);
+        write!(svg, "<path {style} d=\"")?;
+        for line in polylines(alike.map(|run| run.ends))? {
+            for (i, [x, y]) in line.points.iter().enumerate() {
+                // Pixels begin half a pixel before their centres.
+                write!(svg, "{}{:.1} {:.1}", if i == 0 { 'M' } else { 'L' }, x + 0.5, y + 0.5)?;
+            }
+        }
+        writeln!(svg, "\"/>")?;
+    }
+    Ok(svg + "</g>\n</svg>\n")
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let runs = runs()?;
+    let visible = runs.iter().filter(|run| run.is_visible).count();
+    println!(
+        "{} quads; {visible} visible runs of edges, {} hidden",
+        part().len(),
+        runs.len() - visible
+    );
+    if let Some(path) = std::env::args().nth(1) {
+        std::fs::write(path, svg(&runs)?)?;
+    }
+    Ok(())
+}
+
+/// Each edge of the part is that of two quads, and all are in the picture.
+#[test]
+fn outlines_are_closed_and_some_edges_hidden() {
+    let runs = runs().unwrap();
+    assert!(runs.iter().all(|run| run.kind != EdgeKind::Border));
+    let count = |is_visible: bool| runs.iter().filter(|run| run.is_visible == is_visible).count();
+    assert!(count(true) > 300 && count(false) > 300, "{} {}", count(true), count(false));
+    // All of it is in the picture.
+    for [x, y] in runs.iter().flat_map(|run| run.ends) {
+        assert!(x > 5.0 && x < f64::from(SIZE[0]) - 5.0 && y > 5.0 && y < f64::from(SIZE[1]) - 5.0);
+    }
+    let text = svg(&runs).unwrap();
+    assert!(text.matches('M').count() < 120 && text.len() < 20_000, "{}", text.len());
+}

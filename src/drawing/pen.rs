@@ -1,0 +1,263 @@
+//! Lines for a pen: segments joined at their ends, and ordered for short ways between them.
+
+use super::near::Ends;
+use crate::Error;
+use crate::memory::{push, reserve};
+
+/// Ends nearer than this, in pixels, are one. Smaller: corners that two projections rounded apart tear
+/// lines; larger: lines of a very fine mesh lose their shape.
+const GRID: f64 = 1.0 / 1024.0;
+/// Of how many segments at a corner the straightest is taken. Larger: time at corners of many; smaller:
+/// lines turn where they could go on.
+const CHOICES: usize = 8;
+
+/// A line through points, which a pen draws without being lifted.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Polyline {
+    /// Where it goes, from one end to the other. A closed line ends where it begins.
+    pub points: Vec<[f64; 2]>,
+    /// The segments that it is made of, by their numbers in the order given: one less than points.
+    pub segments: Vec<usize>,
+}
+
+impl Polyline {
+    /// Its length, in pixels if its points are.
+    pub fn length(&self) -> f64 {
+        self.points.windows(2).map(|ends| distance(ends[0], ends[1])).sum()
+    }
+
+    fn ends(&self) -> [[f64; 2]; 2] {
+        [self.points.first(), self.points.last()].map(|end| end.copied().unwrap_or_default())
+    }
+}
+
+/// Joins segments that have ends in common to as few lines as there can be, and puts these in an order,
+/// each from that of its ends, in which a pen travels little between them.
+///
+/// It is for [runs of edges](super::EdgeRun), those that are drawn alike:
+///
+/// ```
+/// use binspace::drawing::{EdgeRun, VisibilityMap, polylines};
+///
+/// # fn lines(map: &VisibilityMap<'_>) -> Result<(), binspace::Error> {
+/// let runs = map.edges()?;
+/// let visible = runs.iter().filter(|run| run.is_visible).map(|run| run.ends);
+/// for line in polylines(visible)? {
+///     println!("pen down at {:?}, {} more points", line.points[0], line.segments.len());
+/// }
+/// # Ok(())
+/// # }
+/// ```
+///
+/// Each segment is drawn once. Where an odd number of them meet, a line ends, and nowhere else: these are
+/// Euler's trails, found by Hierholzer's algorithm (1873). Where a line can go on in several ways, it
+/// takes the straightest of a few. Ends are common if they are equal up to a thousandth of a pixel.
+/// Segments with an infinite or NaN coordinate are left out.
+///
+/// The next line is always the one with an end nearest to the pen, which begins at (0, 0). O(n log n) for
+/// n segments, unless ends are spread very unevenly.
+///
+/// # Errors
+///
+/// If there is not enough memory.
+pub fn polylines(
+    segments: impl IntoIterator<Item = [[f64; 2]; 2]>,
+) -> Result<Vec<Polyline>, Error> {
+    let mut net = Net::default();
+    for (number, ends) in segments.into_iter().enumerate() {
+        if ends.as_flattened().iter().all(|c| c.is_finite()) {
+            push(&mut net.segments, Segment { number, ends, corners: [0; 2] })?;
+        }
+    }
+    net.find_corners()?;
+    let joined = net.trails()?;
+    ordered(joined)
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    number: usize,
+    ends: [[f64; 2]; 2],
+    corners: [u32; 2],
+}
+
+/// Segments, and which of their ends meet. End `2 s + e` is end `e` of segment `s`.
+#[derive(Debug, Default)]
+struct Net {
+    segments: Vec<Segment>,
+    /// The ends at all corners, one corner after another, and where each begins.
+    ends: Vec<u32>,
+    begins: Vec<u32>,
+    /// Up to where the ends at a corner are used, and which segments are.
+    done: Vec<u32>,
+    is_used: Vec<bool>,
+    /// To each corner where an odd number of ends meet another such, to be reached without drawing.
+    jumps: Vec<Option<u32>>,
+}
+
+/// A step of a trail: the corner that it leads to, and the end that it leaves from; `None` for a jump.
+type Step = (u32, Option<u32>);
+
+impl Net {
+    /// Numbers the places where ends meet.
+    fn find_corners(&mut self) -> Result<(), Error> {
+        let mut places: Vec<([i64; 2], u32)> = Vec::new();
+        reserve(&mut places, 2 * self.segments.len())?;
+        for (s, segment) in (0u32..).zip(&self.segments) {
+            // Shifted, so that round numbers do not lie between two places of the grid.
+            let place = |end: [f64; 2]| end.map(|c| (c / GRID + 0.3137).round() as i64);
+            places.extend([0, 1].map(|e| (place(segment.ends[e as usize]), 2 * s + e)));
+        }
+        places.sort_unstable();
+        let mut last = None;
+        for &(place, end) in &places {
+            if last != Some(place) {
+                push(&mut self.begins, self.ends.len() as u32)?;
+                last = Some(place);
+            }
+            push(&mut self.ends, end)?;
+            let corner = self.begins.len() as u32 - 1;
+            self.segments[end as usize / 2].corners[end as usize % 2] = corner;
+        }
+        reserve(&mut self.done, self.begins.len())?;
+        self.done.extend_from_slice(&self.begins);
+        push(&mut self.begins, self.ends.len() as u32)?;
+        reserve(&mut self.is_used, self.segments.len())?;
+        self.is_used.resize(self.segments.len(), false);
+        self.pair_odd_corners()
+    }
+
+    fn pair_odd_corners(&mut self) -> Result<(), Error> {
+        let corners = self.done.len();
+        reserve(&mut self.jumps, corners)?;
+        self.jumps.resize(corners, None);
+        let mut open = None;
+        for corner in 0..corners {
+            if (self.begins[corner + 1] - self.begins[corner]).is_multiple_of(2) {
+                continue;
+            }
+            match open.take() {
+                None => open = Some(corner),
+                Some(other) => {
+                    self.jumps[corner] = Some(other as u32);
+                    self.jumps[other] = Some(corner as u32);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Trails through all segments: circuits of segments and jumps, parted at the jumps.
+    fn trails(&mut self) -> Result<Vec<Polyline>, Error> {
+        let mut lines = Vec::new();
+        let (mut path, mut circuit): (Vec<Step>, Vec<Step>) = (vec![], vec![]);
+        let corners = self.done.len();
+        // From odd corners first, so that circuits there begin with a jump.
+        for start in 0..2 * corners {
+            circuit.clear();
+            let jump = self.jumps[start % corners].take();
+            let begin = match jump {
+                Some(to) => to,
+                None if start < corners => continue,
+                None => (start - corners) as u32,
+            };
+            if jump.is_some() {
+                self.jumps[begin as usize] = None;
+            }
+            push(&mut path, (begin, None))?;
+            while let Some(&(corner, from)) = path.last() {
+                match self.step(corner, from) {
+                    Some(step) => push(&mut path, step)?,
+                    None => {
+                        path.pop();
+                        push(&mut circuit, (corner, from))?;
+                    }
+                }
+            }
+            circuit.reverse();
+            self.part(&circuit, &mut lines)?;
+        }
+        Ok(lines)
+    }
+
+    /// A step on from a corner that was reached from an end, or by a jump.
+    fn step(&mut self, corner: u32, from: Option<u32>) -> Option<Step> {
+        let at = corner as usize;
+        let all = self.done[at]..self.begins[at + 1];
+        let is_open = |&i: &u32| !self.is_used[self.ends[i as usize] as usize / 2];
+        let open = all.clone().find(is_open);
+        self.done[at] = open.unwrap_or(all.end);
+        let choices = (self.done[at]..all.end).take(CHOICES).filter(is_open);
+        let straightness = |&i: &u32| {
+            let way = |end: u32| {
+                let ends = self.segments[end as usize / 2].ends;
+                let [a, b] = [ends[end as usize % 2], ends[1 - end as usize % 2]];
+                [b[0] - a[0], b[1] - a[1]].map(|c| c / distance(a, b).max(GRID))
+            };
+            let next = way(self.ends[i as usize]);
+            from.map(way).map_or(0.0, |before| before[0] * next[0] + before[1] * next[1])
+        };
+        let best = choices.max_by(|a, b| straightness(a).total_cmp(&straightness(b)));
+        let Some(best) = best else {
+            let to = self.jumps[at].take()?;
+            self.jumps[to as usize] = None;
+            return Some((to, None));
+        };
+        let end = self.ends[best as usize];
+        let segment = &self.segments[end as usize / 2];
+        self.is_used[end as usize / 2] = true;
+        Some((segment.corners[1 - end as usize % 2], Some(end)))
+    }
+
+    /// Adds the lines of a circuit.
+    fn part(&self, circuit: &[Step], lines: &mut Vec<Polyline>) -> Result<(), Error> {
+        for steps in circuit.split(|(_, from)| from.is_none()).filter(|steps| !steps.is_empty()) {
+            let mut line = Polyline { points: vec![], segments: vec![] };
+            // Exactly, as most lines are short and many.
+            let points = line.points.try_reserve_exact(steps.len() + 1);
+            let segments = line.segments.try_reserve_exact(steps.len());
+            points.and(segments).map_err(|_| Error::out_of_memory())?;
+            for &(_, from) in steps {
+                let end = from.unwrap_or_default() as usize;
+                let segment = &self.segments[end / 2];
+                if line.points.is_empty() {
+                    line.points.push(segment.ends[end % 2]);
+                }
+                line.points.push(segment.ends[1 - end % 2]);
+                line.segments.push(segment.number);
+            }
+            push(lines, line)?;
+        }
+        Ok(())
+    }
+}
+
+/// Lines in an order, and each in the direction, in which a pen travels little.
+fn ordered(mut lines: Vec<Polyline>) -> Result<Vec<Polyline>, Error> {
+    let mut ends = Vec::new();
+    reserve(&mut ends, 2 * lines.len())?;
+    ends.extend(lines.iter().flat_map(Polyline::ends));
+    let mut left = Ends::new(ends)?;
+    let mut ordered = Vec::new();
+    reserve(&mut ordered, lines.len())?;
+    let mut pen = [0.0; 2];
+    while let Some(end) = left.nearest(pen) {
+        let line = end as usize / 2;
+        left.remove(2 * line as u32);
+        left.remove(2 * line as u32 + 1);
+        let mut line =
+            std::mem::replace(&mut lines[line], Polyline { points: vec![], segments: vec![] });
+        if end % 2 == 1 {
+            line.points.reverse();
+            line.segments.reverse();
+        }
+        pen = line.ends()[1];
+        ordered.push(line);
+    }
+    Ok(ordered)
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
