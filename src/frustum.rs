@@ -36,7 +36,8 @@ impl Frustum {
     }
 
     /// The box between two corners, given by its least and largest coordinates: with a
-    /// [`Culling`](crate::Culling), orders have the fragments whose boxes meet it.
+    /// [`Culling`](crate::Culling), orders have the fragments whose boxes meet it, and
+    /// [`Bounds::fragments_in`](crate::Bounds::fragments_in) gives those that do so themselves.
     ///
     /// ```
     /// use binspace::glam::DVec3;

@@ -13,6 +13,7 @@
 //! | [`Fragment`], [`Node`] | what it consists of |
 //! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
 //! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
+//! | [`Grid`] | the exact numbers behind it |
 //! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
 //!
 //! # Conventions
@@ -80,13 +81,13 @@ pub use input::{MAX_CORNERS, Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
 pub use overlay::{Marker, Overlaid, Overlay, Segment, Shape, Shapes};
-pub use query::{Hit, Hits, Location};
+pub use query::{FragmentsIn, Hit, Hits, Location};
 pub use ray::Ray;
 #[cfg(feature = "save")]
 pub use save::LoadError;
 pub use tree::{
-    Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Invalid, Mesh, MeshVertex, Node,
-    Nodes, Ordered, Part, Sides, Stats, Triangles,
+    Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Grid, Invalid, Mesh, MeshVertex,
+    Node, Nodes, Ordered, Part, Sides, Stats, Triangles,
 };
 #[cfg(feature = "raster")]
 pub use verify::{

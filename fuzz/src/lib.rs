@@ -34,3 +34,8 @@ pub fn saved(data: &[u8]) {
 pub fn faces(data: &[u8]) {
     support::targets::faces::run(data);
 }
+
+/// Asks what rays hit, and where points are, and compares with exact rationals.
+pub fn query(data: &[u8]) {
+    support::targets::query::run(data);
+}

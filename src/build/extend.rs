@@ -16,8 +16,10 @@ impl BspTree {
     /// The tree is built anew, of its own polygons and the others: it is the tree of all of them, on
     /// the grid and with the tolerance that it has. Its fragments have other numbers than before, and
     /// [overlays](crate::Overlay), [meshes](crate::Mesh) and [bounds](crate::Bounds) have to be made
-    /// anew. It takes as long as a build; what moves belongs into an overlay. (Duplicates among the new
-    /// polygons, or of old ones, are kept as always, but not counted.)
+    /// anew. It takes as long as a build; what moves belongs into an overlay. Duplicates among the new
+    /// polygons, and of old ones, are kept and counted as always. (Of an old polygon that was triangulated,
+    /// a corner that no triangle has is not known, as on a straight run or where it crosses itself: then its
+    /// duplicate is not found.)
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};
@@ -83,8 +85,9 @@ fn extend<P: Polygon>(
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
     let (mut faces, mut preparation) = (tree.faces.try_clone()?, tree.preparation);
-    let before = preparation.polygons;
-    let added = Preparer::default().append(&mut faces, polygons, before, watch)?;
+    let (before, mut preparer) = (faces.len(), Preparer::default());
+    let mut added = preparer.append(&mut faces, polygons, preparation.polygons, watch)?;
+    added.duplicates = preparer.duplicates_added(&faces, before, watch)?;
     preparation.add(&added);
     faces.shrink_to_fit();
     *tree = tree_of_faces(options, faces, preparation, watch)?;

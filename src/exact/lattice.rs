@@ -1,6 +1,7 @@
 //! The scene lattice: corners are rounded to it once, and everything after that is exact.
 
 mod fine;
+pub(crate) mod half_space;
 #[cfg(feature = "save")]
 mod saved;
 

@@ -15,6 +15,7 @@
 //! | `along` | in which order points of one line come |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
 //! | `exact_ray` | where a ray meets planes, and in which order |
+//! | `half_space` | whether a fragment meets several half-spaces |
 
 pub(crate) mod along;
 mod convex;
@@ -25,6 +26,7 @@ mod eye;
 pub(crate) mod faces;
 mod filter;
 mod flatten;
+pub(crate) mod half_space;
 mod int;
 mod kernel;
 pub(crate) mod label;

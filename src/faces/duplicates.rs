@@ -21,8 +21,7 @@ impl Outlines {
 
     /// Adds a polygon by its corners on the lattice.
     pub(super) fn add(&mut self, polygon: usize, corners: impl Iterator<Item = [f64; 3]>) {
-        let sum = corners.fold(0u64, |sum, corner| sum.wrapping_add(mix(corner)));
-        self.seen.push((sum, polygon as u32));
+        self.seen.push((hash(corners), polygon as u32));
     }
 
     /// Adds the polygons of another list.
@@ -56,29 +55,54 @@ impl Outlines {
     /// or its reverse. Exact, in O(n log n), and O(n) if there are none; `corners` must return the corners of a polygon again.
     pub(super) fn duplicates(
         &mut self,
-        mut corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
+        corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
     ) -> Result<usize, Error> {
         if !self.has_alike()? {
             return Ok(0);
         }
         self.seen.sort_unstable();
-        let alike = self.seen.chunk_by(|a, b| a.0 == b.0).filter(|polygons| polygons.len() > 1);
+        let nothing = |_| std::iter::empty::<Result<Vec<[f64; 3]>, Error>>();
+        self.duplicates_of(nothing, corners)
+    }
+
+    /// The same of polygons in the order of their hashes, where others came before: `earlier` gives the
+    /// corners of those with some hash.
+    pub(super) fn duplicates_of<I: Iterator<Item = Result<Vec<[f64; 3]>, Error>>>(
+        &self,
+        mut earlier: impl FnMut(u64) -> I,
+        mut corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
+    ) -> Result<usize, Error> {
         let mut duplicates = 0;
-        for polygons in alike {
-            let mut outlines = HashSet::new();
-            for &(_, polygon) in polygons {
-                let corners = corners(polygon as usize)?;
-                let outline = canonical(collect(corners.into_iter().map(integers))?)?;
-                outlines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                outlines.insert(outline);
+        for polygons in self.seen.chunk_by(|a, b| a.0 == b.0) {
+            let mut earlier = earlier(polygons[0].0).peekable();
+            if polygons.len() == 1 && earlier.peek().is_none() {
+                continue;
             }
-            duplicates += polygons.len() - outlines.len();
+            let mut outlines = HashSet::new();
+            for corners in earlier {
+                add(&mut outlines, corners?)?;
+            }
+            for &(_, polygon) in polygons {
+                duplicates += usize::from(!add(&mut outlines, corners(polygon as usize)?)?);
+            }
         }
         Ok(duplicates)
     }
 }
 
+/// A hash of a polygon's corners that does not depend on their order.
+pub(super) fn hash(corners: impl Iterator<Item = [f64; 3]>) -> u64 {
+    corners.fold(0, |sum, corner| sum.wrapping_add(mix(corner)))
+}
+
 type Corner = [i64; 3];
+
+/// Adds an outline to others; whether it is a new one.
+fn add(outlines: &mut HashSet<Vec<Corner>>, corners: Vec<[f64; 3]>) -> Result<bool, Error> {
+    let outline = canonical(collect(corners.into_iter().map(integers))?)?;
+    outlines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+    Ok(outlines.insert(outline))
+}
 
 /// Lattice coordinates as integers.
 fn integers(corner: [f64; 3]) -> Corner {

@@ -1,5 +1,6 @@
 //! Decides what becomes of each input polygon: one face, triangles, or nothing.
 
+mod again;
 mod append;
 mod builder;
 mod collect;
@@ -23,7 +24,7 @@ use super::listener::{Listener, Unheard};
 use crate::Error;
 use crate::exact::{Faces, Lattice};
 use crate::input::Polygon;
-use crate::memory::{collect, reserve};
+use crate::memory::reserve;
 use crate::parallel_map;
 
 /// Polygons that one thread prepares as one job. Smaller: overhead per job; larger: threads wait
@@ -94,11 +95,9 @@ impl Preparer {
         self.outlines.clear();
         let mut report = self.prepare_all(&ground, listener)?;
         let (input, builder) = (&self.input, &mut self.builder);
-        report.duplicates = self.outlines.duplicates(|polygon| {
-            listener.work(input.polygon(polygon).len())?;
-            builder.keep_distinct(input.polygon(polygon))?;
-            collect(builder.kept.iter().map(|&(corner, _)| corner))
-        })?;
+        report.duplicates = self
+            .outlines
+            .duplicates(|polygon| builder.corners(input.polygon(polygon), listener))?;
         *faces = std::mem::take(&mut self.builder.faces);
         Ok(report.in_world(&lattice))
     }

@@ -52,7 +52,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. The overlay is empty then.
+    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. The overlay is empty then,
+    /// and so it is after a panic of the callback.
     pub fn replace_with_progress<P, L, Q>(
         &mut self,
         tree: &BspTree,
@@ -81,24 +82,50 @@ impl Overlay {
     {
         self.clear();
         self.expect(tree)?;
+        let mut filling = Filling { overlay: self, is_done: false };
+        filling.overlay.fill(tree, shapes, watch)?;
+        filling.is_done = true;
+        Ok(())
+    }
+
+    /// Fills an empty overlay; after an error it may have anything.
+    fn fill<P, L, Q>(
+        &mut self,
+        tree: &BspTree,
+        shapes: Shapes<P, L, Q>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error>
+    where
+        P: IntoIterator<Item: Polygon>,
+        L: IntoIterator<Item: Polygon>,
+        Q: IntoIterator<Item: Point>,
+    {
         let Self { faces, base, preparer, placer, pieces, skeleton, preparation, segments } = self;
         let Shapes { polygons, lines, points } = shapes;
-        let fill = || {
-            if faces.is_empty() {
-                *faces = tree.faces.try_clone()?;
-            }
-            *preparation = preparer.append(faces, polygons, base.polygons, watch)?;
-            placer.begin_at(base.faces, faces.len());
-            preparer.append_lines(faces, lines, segments, watch)?;
-            preparer.append_points(faces, points, watch)?;
-            watch.expect(faces.len() - base.faces)?;
-            placer.place(tree, faces, pieces, skeleton, watch)?;
-            watch.end()
-        };
-        let filled = fill();
-        if filled.is_err() {
-            self.clear();
+        if faces.is_empty() {
+            *faces = tree.faces.try_clone()?;
         }
-        filled
+        *preparation = preparer.append(faces, polygons, base.polygons, watch)?;
+        placer.begin_at(base.faces, faces.len());
+        preparer.append_lines(faces, lines, segments, watch)?;
+        preparer.append_points(faces, points, watch)?;
+        watch.expect(faces.len() - base.faces)?;
+        placer.place(tree, faces, pieces, skeleton, watch)?;
+        watch.end()
+    }
+}
+
+/// An overlay that is being filled. Unless that is done, it is emptied: after an error, and where the
+/// caller's callback or iterators panic.
+struct Filling<'a> {
+    overlay: &'a mut Overlay,
+    is_done: bool,
+}
+
+impl Drop for Filling<'_> {
+    fn drop(&mut self) {
+        if !self.is_done {
+            self.overlay.clear();
+        }
     }
 }

@@ -24,9 +24,9 @@ impl Work<'_> {
             let face = records[fragment].face;
             add(self.pieces, face, symbols.iter().copied(), places.iter().copied())?;
         }
-        let Placer { own: list, arena, .. } = &mut *self.placer;
-        // Coplanar polygons are painted in input order.
-        list.sort_unstable_by_key(|piece| piece.face);
+        let Placer { own: list, arena, .. } = &*self.placer;
+        // Coplanar polygons are painted in input order, which sets keep when they are divided.
+        debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
         for live in &list[..own] {
             let cut = live.piece(arena).cut.unwrap_or_default();
             let symbols = cut.iter().map(|vertex| Exact.store(vertex));

@@ -9,6 +9,7 @@ use std::cmp::Ordering;
 use crate::exact::exact_ray::{AtRay, ExactRay, Parameter};
 use crate::exact::{Faces, Line, Plane, PlaneId};
 use crate::tree::Fragment;
+use crate::tree::grid::{along, integers, plane_points};
 
 /// A point of a ray by what defines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,15 +45,36 @@ impl Spot {
     }
 }
 
+impl Spot {
+    /// Three lattice points of the plane that it is on; `None` for an end of the ray.
+    pub(super) fn grid_points(self, faces: &Faces) -> Option<[[i64; 3]; 3]> {
+        match self {
+            Self::Start | Self::End => None,
+            Self::Plane(plane) => Some(plane_points(faces, plane)),
+            Self::Edge(face, k) => {
+                let corners = faces.corners(face);
+                let (k, n) = (k as usize, corners.len());
+                let [a, b] = [k, (k + 1) % n].map(|k| integers(corners[k]));
+                Some([a, b, along(a, upright_axis(faces, face))])
+            }
+        }
+    }
+}
+
 /// The plane through an edge of a face and along the axis in which the face is least steep, and the
 /// side of it on which the face is.
-fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
+pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
     let own = faces.plane(PlaneId::face(face));
-    let axis = faces.upright_axis(face).unwrap_or_else(|| own.main_axis());
+    let axis = upright_axis(faces, face);
     let corners = faces.corners(face);
     let next = if k + 1 == corners.len() { 0 } else { k + 1 };
     let inside = if own.normal()[axis] < 0 { Ordering::Greater } else { Ordering::Less };
     (Plane::upright(corners[k], corners[next], axis), inside)
+}
+
+/// The axis in which a face is least steep: the one along which its corners were moved, if they were.
+fn upright_axis(faces: &Faces, face: u32) -> usize {
+    faces.upright_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).main_axis())
 }
 
 /// A plane that bounds a fragment.

@@ -68,6 +68,17 @@ impl<'t> Hit<'t> {
         }
     }
 
+    /// The exact point, by what defines it: three points of the tree's [grid](BspTree::grid). The hit is
+    /// where the ray meets the plane through them: mostly that of the fragment; for a ray that lies in the
+    /// fragment's plane, one through an edge. `None` if it is an end of the ray, which is then within the
+    /// polygon: its beginning if [`parameter`](Self::parameter) is 0.
+    ///
+    /// With the ray as it is given (see [`Ray`]) this is the point exactly, as a fraction: with n the
+    /// vector product of q − p and r − p, its parameter is n·(p − from) / n·direction.
+    pub fn grid_points(&self) -> Option<[[i64; 3]; 3]> {
+        self.spot.grid_points(&self.tree.faces)
+    }
+
     /// The point by what defines it: a plane, mostly that of the face, and the ray.
     #[doc(hidden)]
     pub fn spot(&self) -> Spot {

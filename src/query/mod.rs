@@ -10,7 +10,8 @@
 //! | `meeting` | which of two meetings comes first |
 //! | `hits` | what is one hit |
 //! | `blocked` | whether there is any |
-//! | `locate` | in which leaf a point is |
+//! | `locate` | in which leaf a point is, and whose planes it is on |
+//! | `region` | which fragments have points in a region |
 
 mod blocked;
 mod boxes;
@@ -21,9 +22,11 @@ mod hits;
 mod locate;
 mod meeting;
 mod probe;
+mod region;
 mod walk;
 
 pub use chord::Spot;
 pub use hit::Hit;
 pub use hits::Hits;
 pub use locate::Location;
+pub use region::FragmentsIn;

@@ -80,6 +80,11 @@ impl Probe {
         })
     }
 
+    /// Whether the beginning is off by no more than one rounding and a thousandth of one.
+    pub(super) fn is_near(&self) -> bool {
+        self.reach < FAR
+    }
+
     /// The origin and the direction in the polygons' unit, the latter rounded once.
     pub(super) fn in_world(&self) -> (DVec3, DVec3) {
         let (Ray::Segment { from, .. } | Ray::Endless { from, .. }) = self.ray;

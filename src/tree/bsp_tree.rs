@@ -110,8 +110,9 @@ use crate::faces::Preparation;
 ///
 /// [`hits`](Self::hits) gives what a [`Ray`](crate::Ray) hits, the nearest first, as far as you read it;
 /// [`is_blocked`](Self::is_blocked) tells whether anything lies between two points, and
-/// [`locate`](Self::locate) in which leaf a point is. All of them decide exactly for the numbers that they
-/// are given: a ray through an edge or a corner never slips between two polygons that share it
+/// [`locate`](Self::locate) in which leaf a point is, and in which polygons' planes.
+/// [`Bounds::fragments_in`](crate::Bounds::fragments_in) gives what is in a box or in front of planes. All of
+/// them decide exactly for the numbers that they are given: a ray through an edge or a corner never slips between two polygons that share it
 /// (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
 ///
 /// ```
@@ -155,7 +156,7 @@ use crate::faces::Preparation;
 /// The corners are rounded once, to a grid of 2⁻⁵² of the scene's extent (the longest side of its
 /// bounding box). After that, every decision is the one that exact arithmetic makes, however often
 /// a polygon is cut. Only the vertices that you read are rounded again, to `f64`; no decision uses
-/// them.
+/// them. [`grid`](Self::grid) and the `grid_points` of nodes, fragments and hits give the exact numbers.
 ///
 /// The order is right up to the coplanar tolerance τ, a length
 /// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). Where polygons reach across a

@@ -61,7 +61,8 @@ impl<'b> Culling<'b> {
     }
 
     /// Leaves out what is outside of a region: fragments whose boxes
-    /// ([`Bounds::of_fragment`]) lie behind one of its planes. At most 32 planes are used.
+    /// ([`Bounds::of_fragment`]) lie behind one of its planes. At most 32 planes are used. For speed it goes
+    /// by boxes: [`Bounds::fragments_in`] is exact.
     ///
     /// Boxes count as larger by one step of the scene's grid and some 10⁻¹⁵ of the largest coordinate:
     /// more than the rounding of the test, and of an eye in the apex of the region.

@@ -20,8 +20,8 @@ use crate::viewpoint::Viewpoint;
 /// as cheap to copy as a reference.
 ///
 /// The plane holds the points p with `normal().dot(p) == offset()`; its front is where the left side
-/// is larger. Both are rounded. The tree itself decides by the exact plane: that of the polygon that
-/// [`polygon`](Self::polygon) names.
+/// is larger. Both are rounded. The tree itself decides by the exact plane, which
+/// [`grid_points`](Self::grid_points) gives.
 ///
 /// Fragments of a subtree have consecutive numbers, so those of a node, on its plane and on its
 /// sides, are ranges.

@@ -42,6 +42,11 @@ fn saved_regressions_pass() {
     replay("saved", targets::saved::run);
 }
 
+#[test]
+fn query_regressions_pass() {
+    replay("query", targets::query::run);
+}
+
 #[cfg(feature = "obj")]
 #[test]
 fn obj_regressions_pass() {

@@ -9,10 +9,10 @@ use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
-    Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FrameBuilder,
-    Frustum, Heuristic, Hit, Hits, Invalid, Location, Marker, Mesh, Node, Nodes, Ordered, Overlaid,
-    Overlay, ParseHeuristicError, Part, Preparation, Progress, Ray, Segment, Shape, Stats,
-    Triangles, Verification, Viewpoint,
+    Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FragmentsIn,
+    FrameBuilder, Frustum, Grid, Heuristic, Hit, Hits, Invalid, Location, Marker, Mesh, Node,
+    Nodes, Ordered, Overlaid, Overlay, ParseHeuristicError, Part, Preparation, Progress, Ray,
+    Segment, Shape, Stats, Triangles, Verification, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -30,7 +30,7 @@ assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint,);
 assert_shared!(Overlay, Overlaid<'_>, Shape<'_>, Segment<'_>, Marker);
-assert_shared!(Hit<'_>, Hits<'_>, Location<'_>, Ray);
+assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
 
 // Building, and what can go wrong.
 assert_shared!(BuildOptions, Heuristic, Progress, Error, Invalid, ParseHeuristicError, CameraError,);

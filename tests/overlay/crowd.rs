@@ -67,3 +67,40 @@ fn a_crowd_is_cut_as_each_of_it_is_alone() {
     }
     assert!(compared == 240 && (60..240).contains(&cut), "{cut} in {compared}");
 }
+
+/// A crowd that has gone to its leaf says nothing of the next one.
+#[test]
+fn crowds_in_several_leaves_are_placed_each_by_its_own_box() {
+    let wall =
+        |x: f64| [[-1.0, -1.0], [9.0, -1.0], [9.0, 9.0], [-1.0, 9.0]].map(|[y, z]| dvec3(x, y, z));
+    let walls = [0.0, 10.0, 20.0, 30.0, 40.0].map(wall);
+    let room = DVec3::splat(100.0);
+    let tree = BuildOptions::DEFAULT.with_bounds(-room, room).build(walls).expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    let mut checked = 0;
+    // Between which walls the crowds are.
+    for slabs in [vec![0, 2], vec![2, 0], vec![3, 1], vec![0, 1, 2, 3], vec![3, 2, 1, 0]] {
+        let of_slab = |&slab: &usize| {
+            (0..300).map(move |k| {
+                let at = dvec3(10.0 * slab as f64 + 1.0, 0.01 * f64::from(k), 0.0);
+                [at, at + dvec3(8.0, 0.001, 0.0), at + dvec3(4.0, 0.0, 1.0)]
+            })
+        };
+        let crowds: Vec<[DVec3; 3]> = slabs.iter().flat_map(of_slab).collect();
+        overlay.replace(&tree, &crowds).expect("on the grid");
+        // Along x: wall 0, all of slab 0, wall 1, and so on.
+        let view = Viewpoint::direction([-1.0, 0.0, 0.0]);
+        let mut behind = 0;
+        for shape in overlay.back_to_front(&tree, view).expect("its own tree") {
+            let fragment = shape.fragment().expect("a polygon");
+            match fragment.polygon().checked_sub(walls.len()) {
+                None => behind = fragment.polygon() + 1,
+                Some(moving) => {
+                    assert_eq!(slabs[moving / 300] + 1, behind, "{slabs:?}: {moving}");
+                    checked += 1;
+                }
+            }
+        }
+    }
+    assert!(checked >= 5 * 600, "{checked}");
+}

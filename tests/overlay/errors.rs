@@ -94,6 +94,33 @@ fn another_tree_is_refused() {
     overlay.replace(&tree.clone(), [triangle(DVec3::ONE)]).expect("a copy is the same");
 }
 
+/// Trees that differ in nothing that is counted: in the grid alone, or in the tolerance alone.
+#[test]
+fn a_tree_of_another_grid_or_tolerance_is_refused() {
+    let scene = scene::city(100, 1);
+    let scaled = |by: f64| {
+        let polygons = scene.polygons().map(|p| p.iter().map(|&c| c * by).collect::<Vec<_>>());
+        BspTree::build(polygons).expect("within budget")
+    };
+    // Twice as large, its grid is as fine for its size, and its tolerance as many steps.
+    let (tree, twice) = (scaled(1.0), scaled(2.0));
+    assert_eq!(tree.faces().tolerance(), twice.faces().tolerance());
+    let tolerance = scene.bounds().map(|(low, high)| (high - low).max_element() * 2e-9);
+    let options = BuildOptions::DEFAULT.with_tolerance(tolerance.expect("corners"));
+    let coarse = options.build(scene.polygons()).expect("within budget");
+    assert_eq!(tree.faces().lattice(), coarse.faces().lattice());
+    let (eye, mut order) = (Viewpoint::eye([1.0, 2.0, 3.0]), Vec::new());
+    for other in [&twice, &coarse] {
+        let counts = |tree: &BspTree| (tree.len(), tree.nodes().len(), tree.faces().corner_count());
+        assert_eq!(counts(&tree), counts(other), "they would be refused anyway");
+        let mut overlay = Overlay::new(&tree);
+        overlay.replace(&tree, [triangle(DVec3::ONE)]).expect("on the grid");
+        assert!(overlay.back_to_front_into(other, eye, &mut order).is_err());
+        assert!(overlay.replace(other, [triangle(DVec3::ONE)]).is_err());
+        check_empty(&overlay, &tree);
+    }
+}
+
 #[test]
 fn lines_and_points_to_blame_are_named() {
     let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
@@ -148,4 +175,57 @@ fn a_replacement_says_how_far_it_is_and_can_be_cancelled() {
     }
     overlay.replace_with(&tree, shapes).expect("on the grid");
     assert_eq!(overlay.len(), whole);
+}
+
+/// Whatever the overlay is at when the caller's callback or iterator panics.
+#[test]
+fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
+    let scene = scene::random_triangles(60, 3);
+    let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1e3), DVec3::splat(1e3));
+    let tree = room.build(scene.polygons()).expect("within budget");
+    let moving: Vec<Vec<DVec3>> =
+        scene::random_triangles(1400, 4).polygons().map(|polygon| polygon.to_vec()).collect();
+    let lines: Vec<Vec<DVec3>> = moving[..40].to_vec();
+    let points: Vec<DVec3> = lines.iter().map(|line| line[0]).collect();
+    let shapes = || {
+        Shapes::NONE.with_polygons(&moving).with_lines(&lines).with_points(points.iter().copied())
+    };
+    let eye = Viewpoint::eye([9.0, 2.0, 30.0]);
+    let (mut whole, mut expected) = (Overlay::new(&tree), Vec::new());
+    let mut calls = 0;
+    whole
+        .replace_with_progress(&tree, shapes(), |_| {
+            calls += 1;
+            ControlFlow::Continue(())
+        })
+        .expect("on the grid");
+    whole.back_to_front_into(&tree, eye, &mut expected).expect("its own tree");
+    assert!(calls > 4, "{calls}");
+    let mut overlay = Overlay::new(&tree);
+    let mut panics = 0;
+    for at in (0..calls).filter(|at| *at < 6 || at % (calls / 6 + 1) == 0) {
+        let mut left = at;
+        let replace = || {
+            overlay.replace_with_progress(&tree, shapes(), |_| {
+                assert!(left > 0, "the caller's fault");
+                left -= 1;
+                ControlFlow::Continue(())
+            })
+        };
+        let caught = std::panic::catch_unwind(std::panic::AssertUnwindSafe(replace));
+        panics += usize::from(caught.is_err());
+        check_empty(&overlay, &tree);
+        overlay.replace_with(&tree, shapes()).expect("as if nothing had happened");
+        let mut order = Vec::new();
+        overlay.back_to_front_into(&tree, eye, &mut order).expect("its own tree");
+        assert_eq!(order, expected, "call {at}");
+    }
+    assert!(panics > 4, "{panics}");
+    let bad = (0..9).map(|k| {
+        assert!(k < 7, "the caller's fault");
+        triangle(DVec3::splat(f64::from(k)))
+    });
+    let replace = || overlay.replace(&tree, bad);
+    assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(replace)).is_err());
+    check_empty(&overlay, &tree);
 }

@@ -2,6 +2,7 @@
 
 use super::support::dice::Dice;
 use super::support::hits::{Oracle, Score};
+use super::support::quick_hits::QuickOracle;
 use super::support::shapes;
 use super::support::shots::Shots;
 use binspace::glam::{DMat3, DVec3};
@@ -116,6 +117,26 @@ fn rays_through_large_scenes_hit_what_rationals_say() {
     assert!(all.rays > 4000 && all.hits > 15_000, "{scores:#?}");
     assert!(all.in_plane > 1500 && all.ties > 6000 && all.at_ends > 1500, "{scores:#?}");
     assert!(all.blocked.min(all.clear) > 600, "{scores:#?}");
+}
+
+/// Many more, by the quick oracle.
+#[test]
+fn thousands_of_rays_through_large_scenes_hit_what_integers_say() {
+    let shoot = |(name, polygons, rays): &(&'static str, Polygons, usize)| {
+        let tree = BspTree::build(polygons).unwrap();
+        let (oracle, shots) = (QuickOracle::new(&tree), Shots::new(tree.faces()));
+        let (mut dice, mut score) = (Dice(23), Score::default());
+        for _ in 0..4 * rays {
+            oracle
+                .check(shots.ray(&mut dice), &mut score)
+                .unwrap_or_else(|what| panic!("{name}: {what}"));
+        }
+        score
+    };
+    let all = scenes().par_iter().map(shoot).reduce(Score::default, Score::add);
+    assert!(all.rays > 15_000 && all.hits > 60_000, "{all:?}");
+    assert!(all.in_plane > 6000 && all.ties > 20_000 && all.at_ends > 6000, "{all:?}");
+    assert!(all.blocked.min(all.clear) > 2500, "{all:?}");
 }
 
 pub(crate) fn check(tree: &BspTree, rays: usize, score: &mut Score) -> Result<(), String> {

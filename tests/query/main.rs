@@ -5,6 +5,8 @@ mod cases;
 mod hard;
 mod large;
 mod locate;
+mod names;
 mod real;
+mod region;
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,62 +1,80 @@
-//! Real scenes, from the folder that `BINSPACE_SCENES` names. A million rays take minutes:
+//! Real scenes, from the folder that `BINSPACE_SCENES` names. With `BINSPACE_LONG` it is a million rays, which
+//! take some minutes:
 //!
 //! ```sh
-//! BINSPACE_SCENES=… cargo test --release --test query a_million -- --ignored --nocapture
+//! BINSPACE_LONG=1 BINSPACE_SCENES=… cargo test --release --test query real -- --nocapture
 //! ```
 
 #![allow(clippy::print_stderr, reason = "the scores are shown on request")]
 
 use super::support::dice::Dice;
 use super::support::hits::{Oracle, Score};
+use super::support::quick_hits::QuickOracle;
 use super::support::real_scenes;
 use super::support::shots::Shots;
 use binspace::BspTree;
 use binspace::scene::Scene;
 use rayon::prelude::*;
 
-const SCENES: [&str; 6] = [
+const SCENES: [&str; 7] = [
     "bunny_4k.obj",
     "doom_e1m1.obj",
+    "doom_map12_big.obj",
     "forklift_1k.obj",
     "spider_1k.obj",
     "suzanne_2k.obj",
     "teapot_quads_2k.obj",
 ];
 
-fn shoot(rays: usize) {
+/// Shoots rays from many seeds.
+fn shoot(
+    (name, tree): (&str, &BspTree),
+    rays: usize,
+    check: impl Fn(binspace::Ray, &mut Score) -> Result<(), String> + Sync,
+) -> Score {
+    let (shots, parts) = (Shots::new(tree.faces()), 64);
+    (0..parts)
+        .into_par_iter()
+        .map(|part| {
+            let (mut dice, mut score) = (Dice(part), Score::default());
+            for _ in 0..rays / parts as usize + 1 {
+                check(shots.ray(&mut dice), &mut score)
+                    .unwrap_or_else(|what| panic!("{name}: {what}"));
+            }
+            score
+        })
+        .reduce(Score::default, Score::add)
+}
+
+#[test]
+fn rays_at_real_scenes_hit_what_integers_say() {
     let Some(folder) = real_scenes::folder("rays at real scenes") else { return };
+    let rays = if std::env::var_os("BINSPACE_LONG").is_some() { 1_000_000 } else { 7_000 };
     let mut all = Score::default();
     for name in SCENES {
         let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
         let tree = BspTree::build(scene.polygons()).expect("within budget");
-        let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
-        let (each, parts) = (rays / SCENES.len(), 64);
-        let score = (0..parts)
-            .into_par_iter()
-            .map(|part| {
-                let (mut dice, mut score) = (Dice(part), Score::default());
-                for _ in 0..each / parts as usize + 1 {
-                    oracle
-                        .check(shots.ray(&mut dice), &mut score)
-                        .unwrap_or_else(|what| panic!("{name}: {what}"));
-                }
-                score
-            })
-            .reduce(Score::default, Score::add);
-        eprintln!("{name}: {score:?}");
+        let oracle = QuickOracle::new(&tree);
+        let begin = std::time::Instant::now();
+        let check = |ray, score: &mut Score| oracle.check(ray, score);
+        let score = shoot((name, &tree), rays / SCENES.len(), check);
+        eprintln!("{name}: {score:?}, {:.1} s", begin.elapsed().as_secs_f64());
         all = all.add(score);
     }
+    eprintln!("all: {all:?}");
     assert!(all.rays >= rays && all.hits > rays && all.ties > rays / 4, "{all:?}");
     assert!(all.blocked.min(all.clear) > rays / 10 && all.in_plane > rays / 10, "{all:?}");
 }
 
+/// A few, by the other oracle.
 #[test]
 fn rays_at_real_scenes_hit_what_rationals_say() {
-    shoot(3000);
-}
-
-#[test]
-#[ignore = "takes minutes"]
-fn a_million_rays_at_real_scenes_hit_what_rationals_say() {
-    shoot(1_000_000);
+    let Some(folder) = real_scenes::folder("rays at real scenes") else { return };
+    for name in ["forklift_1k.obj", "spider_1k.obj"] {
+        let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
+        let tree = BspTree::build(scene.polygons()).expect("within budget");
+        let oracle = Oracle::new(&tree);
+        let score = shoot((name, &tree), 500, |ray, score| oracle.check(ray, score));
+        assert!(score.rays >= 500 && score.hits > 500, "{score:?}");
+    }
 }

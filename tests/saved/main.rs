@@ -4,6 +4,7 @@
 mod support;
 
 mod damage;
+mod forged;
 mod refused;
 mod same;
 mod scenes;

@@ -20,10 +20,11 @@ pub(crate) struct Oracle<'t> {
     origin: Point,
 }
 
-struct Rough {
+/// A face in floats, or all that is in a ball.
+pub(crate) struct Rough {
     corners: Vec<DVec3>,
-    centre: DVec3,
-    radius: f64,
+    pub(crate) centre: DVec3,
+    pub(crate) radius: f64,
 }
 
 /// A ray in lattice units: from a point, along a direction, up to a parameter.
@@ -85,12 +86,7 @@ impl<'t> Oracle<'t> {
     pub(crate) fn new(tree: &'t BspTree) -> Self {
         let faces = tree.faces();
         let lattice = faces.lattice();
-        let rough = |face: u32| {
-            let corners: Vec<DVec3> = faces.corners(face).iter().map(|&c| DVec3::from(c)).collect();
-            let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
-            let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
-            Rough { corners, centre, radius }
-        };
+        let rough = |face: u32| Rough::new(faces, face);
         Self {
             tree,
             bounds: tree.bounds().expect("memory"),
@@ -113,6 +109,20 @@ impl<'t> Oracle<'t> {
     pub(crate) fn to_lattice(&self, point: DVec3) -> Point {
         let offset = rational::difference(&rational::point(point), &self.origin);
         offset.map(|c| c / &self.step)
+    }
+
+    /// The plane of the points p of the world with `normal.dot(p) == offset`, in lattice units.
+    pub(crate) fn plane(&self, normal: DVec3, offset: f64) -> rational::Plane {
+        let normal = rational::point(normal);
+        let offset = rational::exact(offset) - rational::scalar(&normal, &self.origin);
+        rational::Plane { normal: normal.map(|c| c * &self.step), offset }
+    }
+
+    /// The exact vertices of a fragment.
+    pub(crate) fn vertices(&self, fragment: u32) -> Vec<Point> {
+        let fragment = self.tree.fragment(fragment);
+        let face = &self.faces[fragment.face() as usize];
+        fragment.symbols().map(|symbol| face.resolve(self.faces(), symbol)).collect()
     }
 
     fn line(&self, ray: Ray) -> Line {
@@ -147,6 +157,11 @@ impl<'t> Oracle<'t> {
         let (from, direction) = (float(&line.from), float(&line.direction));
         let near = (0..self.faces.len()).filter(|&face| self.rough[face].is_near(from, direction));
         near.filter_map(|face| self.chord(line, face as u32)).collect()
+    }
+
+    /// The exact plane of a face.
+    pub(crate) fn face_plane(&self, face: u32) -> &rational::Plane {
+        &self.faces[face as usize].plane
     }
 
     fn chord(&self, line: &Line, face: u32) -> Option<Chord> {
@@ -260,8 +275,7 @@ impl<'t> Oracle<'t> {
     /// The fragment has the point.
     fn check_fragment(&self, line: &Line, hit: &Hit<'_>, truth: &Truth) -> Result<(), String> {
         let face = &self.faces[truth.face as usize];
-        let resolve = |symbol| face.resolve(self.faces(), symbol);
-        let vertices: Vec<Point> = hit.fragment().symbols().map(resolve).collect();
+        let vertices = self.vertices(hit.fragment().index());
         if !contains(&vertices, &line.at(&truth.t), model::main_axis(&face.plane)) {
             return Err("the fragment does not have the point".into());
         }
@@ -276,8 +290,23 @@ impl Line {
 }
 
 impl Rough {
+    pub(crate) fn new(faces: &Faces, face: u32) -> Self {
+        let corners: Vec<DVec3> = faces.corners(face).iter().map(|&c| DVec3::from(c)).collect();
+        let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
+        Self { corners, centre, radius }
+    }
+
+    /// A ball around others.
+    pub(crate) fn around(others: &[Self]) -> Self {
+        let centre = others.iter().map(|other| other.centre).sum::<DVec3>() / others.len() as f64;
+        let reach = |other: &Self| other.centre.distance(centre) + other.radius;
+        let radius = others.iter().map(reach).fold(0.0, f64::max);
+        Self { corners: vec![], centre, radius }
+    }
+
     /// Whether a line may meet the face: generous.
-    fn is_near(&self, from: DVec3, direction: DVec3) -> bool {
+    pub(crate) fn is_near(&self, from: DVec3, direction: DVec3) -> bool {
         let size = from.abs().max_element() + self.centre.abs().max_element() + self.radius;
         let slack = 1e-9 * size;
         let length = direction.length();
@@ -288,6 +317,9 @@ impl Rough {
         let along = direction / length;
         if along.cross(arm).length() > self.radius * 1.001 + slack {
             return false;
+        }
+        if self.corners.is_empty() {
+            return true;
         }
         let mut seen = [false; 2];
         for (k, &a) in self.corners.iter().enumerate() {

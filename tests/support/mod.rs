@@ -11,6 +11,7 @@ pub(crate) mod homogeneous;
 pub(crate) mod judge;
 pub(crate) mod model;
 pub(crate) mod orders;
+pub(crate) mod quick_hits;
 pub(crate) mod rational;
 pub(crate) mod rays;
 pub(crate) mod real_scenes;

@@ -4,8 +4,8 @@ use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
 use binspace::glam::{DVec3, dvec3};
 use binspace::{
-    BspTree, Culling, Flow, Frustum, Mesh, Node, Overlay, Part, Sides, Viewpoint, verify,
-    verify_fronts, view,
+    BspTree, BuildOptions, Culling, Flow, Frustum, Mesh, Node, Overlay, Part, Ray, Shape, Shapes,
+    Sides, Viewpoint, verify, verify_fronts, view,
 };
 
 /// A tree's file.
@@ -57,7 +57,9 @@ pub(crate) fn use_all(tree: &BspTree) -> Verdict {
         let _ = (node.normal(), node.offset(), node.polygon(), node.front(), node.back());
     }
     use_walks(tree)?;
+    use_queries(tree)?;
     use_overlay(tree);
+    use_extend(tree);
     for mesh in [tree.mesh(), tree.welded_mesh()] {
         use_mesh(tree, &mesh.map_err(|error| error.to_string())?)?;
     }
@@ -93,6 +95,72 @@ fn use_walks(tree: &BspTree) -> Verdict {
     Ok(())
 }
 
+/// Places of a tree, some of them: vertices, and points between them.
+fn places(tree: &BspTree) -> Vec<DVec3> {
+    let vertices = tree.fragments().flat_map(|fragment| fragment.vertices());
+    let some: Vec<DVec3> = vertices.take(200).step_by(1 + tree.len() / 4).take(7).collect();
+    let between = some.windows(2).map(|pair| pair[0] * 0.25 + pair[1] * 0.75);
+    between.chain(some.iter().copied()).collect()
+}
+
+/// How many hits of a ray are read: a forged tree may have the same polygon in many places.
+const HITS: usize = 100;
+
+/// Asks everything that can be asked of points, rays and regions. What is found with boxes and without
+/// is the same where the tree is valid; a forged one may have its fragments elsewhere.
+pub(crate) fn use_queries(tree: &BspTree) -> Verdict {
+    let bounds = tree.bounds().map_err(|error| error.to_string())?;
+    let (places, is_valid) = (places(tree), tree.validate().is_ok());
+    let _ = tree.grid();
+    for (k, &place) in places.iter().enumerate() {
+        if let Some(location) = tree.locate(place) {
+            ensure(location.coplanar().all(|f| (f as usize) < tree.len()), || "coplanar".into())?;
+            let _ = (location.node(), location.fragments(), location.planes().len());
+        }
+        let other = places[(k + 3) % places.len()];
+        for ray in [
+            Ray::between(place, other),
+            Ray::new(place, other - place),
+            Ray::between(place, place),
+            Ray::new(place + (place - other) * 3.0, DVec3::new(0.1, 0.0, -1.0)),
+        ] {
+            let hits: Vec<_> = tree.hits(ray).take(HITS).collect();
+            let boxed: Vec<_> = bounds.hits(tree, ray).take(HITS).collect();
+            let blocked = [tree.is_blocked(ray), bounds.is_blocked(tree, ray)];
+            let same = hits.iter().map(|hit| hit.polygon()).eq(boxed.iter().map(|h| h.polygon()));
+            ensure(!is_valid || same && blocked[0] == blocked[1], || format!("{ray:?}"))?;
+            for pair in hits.windows(2) {
+                ensure(pair[0].compare(&pair[1]).is_le(), || format!("order: {ray:?}"))?;
+            }
+            for hit in hits.iter().chain(&boxed) {
+                let _ = (hit.point(), hit.parameter(), hit.facing(), hit.grid_points());
+                let _ = (format!("{hit:?}"), hit.fragment().grid_points());
+            }
+        }
+        let region = Frustum::of_box([place.min(other), place.max(other)]);
+        let inside: Vec<u32> = bounds.fragments_in(tree, &region).collect();
+        ensure(inside.is_sorted_by(|a, b| a < b), || "fragments in a region".into())?;
+        let _ = bounds.fragments_in(tree, &Frustum::new([(other - place, 0.0)])).count();
+    }
+    for node in tree.nodes() {
+        let _ = node.grid_points();
+    }
+    Ok(())
+}
+
+fn use_extend(tree: &BspTree) {
+    let mut more = tree.clone();
+    let places = places(tree);
+    let polygons = [places.iter().copied().take(3).collect::<Vec<_>>(), places];
+    // It may well be refused: a budget keeps it short.
+    let options = BuildOptions::DEFAULT.with_max_fragments(4 * tree.len() + 100);
+    if options.extend(&mut more, &polygons).is_ok() {
+        assert_eq!(more.preparation().polygons, tree.preparation().polygons + 2);
+    } else {
+        assert_eq!(more.len(), tree.len());
+    }
+}
+
 fn use_overlay(tree: &BspTree) {
     let mut overlay = Overlay::new(tree);
     let corners = tree.fragments().flat_map(|fragment| fragment.vertices()).take(9);
@@ -104,6 +172,24 @@ fn use_overlay(tree: &BspTree) {
         for viewpoint in EYES {
             let written = overlay.back_to_front_into(tree, viewpoint, &mut order);
             assert!(written.is_ok() && order.len() == tree.len() + overlay.len());
+        }
+    }
+    let shapes = Shapes::NONE.with_polygons(&polygons).with_lines([&corners[..]]);
+    if overlay.replace_with(tree, shapes.with_points(corners.iter().copied())).is_ok() {
+        for viewpoint in EYES {
+            let shapes = overlay.back_to_front(tree, viewpoint).expect("its own tree");
+            let mut seen = 0;
+            for shape in shapes {
+                let at = match shape {
+                    Shape::Fragment(fragment) => fragment.vertices().next(),
+                    Shape::Segment(segment) => Some(segment.ends()[0]),
+                    Shape::Marker(marker) => Some(marker.position()),
+                    _ => None,
+                };
+                assert!(at.is_some_and(|at| at.is_finite()));
+                seen += 1;
+            }
+            assert_eq!(seen, tree.len() + overlay.len());
         }
     }
 }
@@ -148,5 +234,19 @@ fn use_pictures(tree: &BspTree) {
     let cameras = view::views([low, high], DVec3::Z, 2, [24, 18], 3).unwrap_or_default();
     for camera in cameras {
         let _ = (verify(tree, &camera), verify_fronts(tree, &camera));
+        use_drawing(tree, &camera);
     }
 }
+
+/// The map of what is visible, and the drawings of it; a forged tree may have none.
+#[cfg(feature = "drawing")]
+fn use_drawing(tree: &BspTree, camera: &view::Camera) {
+    let Ok(rays) = binspace::raster::Rays::new(camera, tree.faces()) else { return };
+    let Ok(map) = binspace::drawing::VisibilityMap::of(tree, rays) else { return };
+    let corners: usize = map.cells().map(|cell| cell.corners().len()).sum();
+    let paths = map.drawing().map_or(0, |drawing| drawing.paths().len());
+    let _ = (corners, paths, map.polygons().count(), map.edges().map(|runs| runs.len()));
+}
+
+#[cfg(not(feature = "drawing"))]
+fn use_drawing(_: &BspTree, _: &view::Camera) {}

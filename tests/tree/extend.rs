@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use crate::support::dice::Dice;
 use crate::support::snapshot::Snapshot;
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
@@ -76,4 +77,69 @@ fn what_cannot_be_added_leaves_the_tree_as_it_was() {
     assert_eq!(Snapshot::of(&tree), before);
     tree.extend([at(0.0)]).expect("on the grid");
     assert_eq!(tree.preparation().polygons, scene.len() + 1);
+}
+
+/// Among the new polygons and of old ones; whole ones and triangulated ones, from any corner and in
+/// either direction, with corners repeated, and moved by the tolerance.
+#[test]
+fn duplicates_of_old_and_new_polygons_are_counted() {
+    let mut dice = Dice(3);
+    let (mut counted, mut triangulated) = (0, 0);
+    for round in 0..60 {
+        let point = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(3)));
+        let mut all: Vec<Corners> = Vec::new();
+        for _ in 0..30 {
+            let count = 3 + dice.below(4);
+            all.push(match dice.below(4) {
+                // Bent ones.
+                0 => {
+                    let around = [[3, 0], [2, 2], [0, 3], [-2, 2], [-3, 0], [0, -3]];
+                    let lift = |[x, y]: [i32; 2]| {
+                        DVec3::new(f64::from(x), f64::from(y), dice.around_zero(1))
+                    };
+                    around[..count].iter().copied().map(lift).collect()
+                }
+                // Flat ones, moved by less than the tolerance.
+                1 => {
+                    let at = point(&mut dice);
+                    let lift = DVec3::Z * dice.share() * 5e-7;
+                    vec![at, at + DVec3::X, at + DVec3::ONE - DVec3::Z + lift, at + DVec3::Y]
+                }
+                // An arrow.
+                2 => {
+                    let at = point(&mut dice);
+                    let corners = [[0.0, 0.0], [4.0, 1.0], [0.0, 2.0], [1.0, 1.0]];
+                    corners.map(|[x, y]| at + DVec3::new(x, y, 0.0)).to_vec()
+                }
+                _ => {
+                    let earlier = all.len();
+                    if earlier == 0 { continue } else { all[dice.below(earlier)].clone() }
+                }
+            });
+            let last = all.len() - 1;
+            let polygon = &mut all[last];
+            let turn = dice.below(polygon.len());
+            polygon.rotate_left(turn);
+            if dice.below(2) == 0 {
+                polygon.reverse();
+            }
+            if dice.below(4) == 0 {
+                let again = dice.below(polygon.len());
+                polygon.insert(again, polygon[again]);
+            }
+        }
+        let options = BuildOptions::DEFAULT.with_tolerance(1e-6);
+        let options = options.with_bounds(DVec3::splat(-8.0), DVec3::splat(8.0));
+        let expected = options.build(&all).expect("within budget");
+        let mut tree = options.build(&all[..dice.below(all.len())]).expect("within budget");
+        while tree.preparation().polygons < all.len() {
+            let start = tree.preparation().polygons;
+            let end = all.len().min(start + 1 + dice.below(12));
+            options.extend(&mut tree, &all[start..end]).expect("on the grid");
+        }
+        assert_eq!(tree.preparation(), expected.preparation(), "round {round}");
+        counted += expected.preparation().duplicates;
+        triangulated += expected.preparation().triangulated;
+    }
+    assert!(counted > 200 && triangulated > 300, "{counted} {triangulated}");
 }

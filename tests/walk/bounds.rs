@@ -1,10 +1,11 @@
 //! Boxes against exact vertices.
 
+use crate::support::dice::Dice;
 use crate::support::model::Face;
 use crate::support::rational::{self, Point, Rational};
 use crate::trees;
 use binspace::glam::DVec3;
-use binspace::{BspTree, Culling, Ray, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, Culling, Ray, Viewpoint, scene};
 use num_traits::ToPrimitive;
 use std::panic::{RefUnwindSafe, catch_unwind};
 
@@ -67,6 +68,40 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
         }
     }
     assert!(cut > 1000 && exact > 1000, "{cut} {exact}");
+}
+
+/// Corners that the tolerance moves are stored as the nearest points of the grid: the exact ones may be
+/// beyond, by half a step. And the exact vertices of cuts are on either side of the rounded ones. Scenes
+/// around the origin, where no rounding of the box itself makes up for it.
+#[test]
+fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
+    let mut dice = Dice(8);
+    let [mut moved, mut cut, mut beyond] = [0; 3];
+    for _ in 0..60 {
+        let mut share = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+        // Planar but for a rounding that counts, and through each other.
+        let quad = |_| {
+            let (at, u, v) = (share() * 0.25, share(), share());
+            [at - u, at - v, at + u * 0.9, at + v * 1.1].map(|p| p + share() * 1e-12)
+        };
+        let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-2.0), DVec3::splat(2.0));
+        let tree = options.build((0..4).map(quad)).unwrap();
+        let (bounds, vertices) = (tree.bounds().unwrap(), vertices(&tree));
+        for fragment in tree.fragments() {
+            let index = fragment.index();
+            let [low, high] = bounds.of_fragment(index);
+            let [least, most] = hull(vertices[index as usize].iter());
+            let rounded = fragment.vertices().reduce(DVec3::max).unwrap();
+            for axis in 0..3 {
+                assert!(rational::exact(low[axis]) <= least[axis], "{index}");
+                assert!(rational::exact(high[axis]) >= most[axis], "{index}");
+                beyond += usize::from(rational::exact(rounded[axis]) < most[axis]);
+            }
+            moved += usize::from(fragment.is_whole());
+            cut += usize::from(!fragment.is_whole());
+        }
+    }
+    assert!(moved + cut > 400 && beyond > 200, "{moved} {cut} {beyond}");
 }
 
 #[test]

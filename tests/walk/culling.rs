@@ -10,8 +10,10 @@ use binspace::glam::DVec3;
 use binspace::internals::{PlaneId, paint_order};
 use binspace::raster::Rays;
 use binspace::view::{self, Camera};
-use binspace::{Bounds, BspTree, Culling, Frustum, Sides, Viewpoint, paint_tree, scene};
-use num_traits::Zero;
+use binspace::{
+    Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Sides, Viewpoint, paint_tree, scene,
+};
+use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 use std::cmp::Ordering;
 
@@ -271,4 +273,92 @@ fn indices_of_what_is_in_view_are_those_of_the_list() {
     assert!(expected.eq(&indices[..count]));
     assert!(indices[count..].iter().all(|&place| place == 7));
     assert!(triangles.write_order(&found, &mut indices[..count - 1]).is_err());
+}
+
+/// The margin of a scene's boxes: a step of its grid, even where coordinates are 0 and nothing is rounded.
+#[test]
+fn boxes_count_as_larger_by_a_step_of_the_grid() {
+    let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let tree = BspTree::build([flat]).unwrap();
+    let (bounds, step) = (tree.bounds().unwrap(), 2f64.powi(tree.grid().exponent));
+    assert_eq!(bounds.of_fragment(0).map(|corner| corner.z), [0.0; 2]);
+    let is_kept = |normal: DVec3, offset: f64| {
+        let culling = Culling::new(&bounds).with_frustum(Frustum::new([(normal, offset)]));
+        culled(&tree, Viewpoint::eye([0.0, 0.0, 5.0]), &culling).len() == 1
+    };
+    for normal in [DVec3::Z, DVec3::NEG_Z] {
+        assert!(is_kept(normal, 0.0) && is_kept(normal, 0.9 * step), "{normal}");
+        assert!(!is_kept(normal, 1.1 * step), "{normal}");
+    }
+}
+
+/// Planes that go through a corner of a far-off box exactly, or as near behind it as an offset can be: their
+/// products are a million times their sum, and rounded by more than a step of the grid.
+#[test]
+fn a_box_is_kept_however_the_test_is_rounded() {
+    let mut dice = Dice(31);
+    let [mut kept, mut inexact] = [0; 2];
+    for far in [1e3, 1e6, 1e9] {
+        let mut share = || DVec3::from_array([0; 3].map(|_| dice.share()));
+        let shift = DVec3::new(far, -far, 0.7 * far) + share();
+        let corners: Vec<[DVec3; 3]> =
+            (0..40).map(|_| [shift + share(), shift + share(), shift + share()]).collect();
+        let tree = BspTree::build(corners).unwrap();
+        let bounds = tree.bounds().unwrap();
+        for fragment in 0..tree.len() as u32 {
+            for _ in 0..8 {
+                let [low, high] = bounds.of_fragment(fragment);
+                // Nearly perpendicular to the way to the box, so that the products cancel.
+                let normal = (share() - 0.5).cross(shift.normalize()) + share() * 1e-6;
+                let corner = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
+                let [n, c] = [normal, corner].map(rational::point);
+                let exact = rational::scalar(&n, &c);
+                let mut offset = exact.to_f64().unwrap();
+                if rational::exact(offset) > exact {
+                    offset = offset.next_down();
+                }
+                assert!(rational::exact(offset) <= exact);
+                let [x, y, z] = (normal * corner).to_array();
+                inexact += usize::from(x + y + z < offset);
+                let region = Frustum::new([(normal, offset)]);
+                assert!(region.meets([low, high]), "{normal} {offset}");
+                let culling = Culling::new(&bounds).with_frustum(region);
+                let found = culled(&tree, Viewpoint::eye([0.0; 3]), &culling);
+                assert!(found.contains(&fragment), "{normal} {offset}");
+                kept += 1;
+            }
+        }
+    }
+    assert!(kept > 960 && inexact > 300, "{inexact} of {kept}");
+}
+
+/// Of many coplanar polygons, whose boxes are looked at by the block, those in the region alone.
+#[test]
+fn blocks_that_a_plane_goes_through_are_looked_into() {
+    let square = |k: u32| {
+        let (x, y) = (f64::from(k % 40), f64::from(k / 40));
+        [[x, y, 0.0], [x + 0.5, y, 0.0], [x + 0.5, y + 0.5, 0.0], [x, y + 0.5, 0.0]]
+    };
+    let wall = [[0.0, 0.0, 9.0], [1.0, 0.0, 9.0], [0.0, 1.0, 9.0], [0.0, 0.5, 9.0]];
+    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+    let tree = options.build((0..1600).map(square).chain([wall])).unwrap();
+    assert_eq!(tree.root().unwrap().on().len(), 1600);
+    let (bounds, mut compared) = (tree.bounds().unwrap(), 0);
+    for (low, high) in [(3.2, 3.4), (7.6, 9.1), (0.2, 38.9), (11.7, 11.9), (-3.0, 20.3)] {
+        for axis in [DVec3::X, DVec3::Y] {
+            let region = Frustum::new([(axis, low), (-axis, -high)]);
+            let culling = Culling::new(&bounds).with_frustum(region);
+            let mut found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
+            found.sort_unstable();
+            let is_in = |fragment: &u32| {
+                let at = |p: DVec3| p.dot(axis);
+                let ends = tree.fragment(*fragment).vertices().map(at);
+                ends.clone().fold(-9.0, f64::max) >= low && ends.fold(99.0, f64::min) <= high
+            };
+            let expected: Vec<u32> = (0..tree.len() as u32).filter(is_in).collect();
+            assert_eq!(found, expected, "{low} {high} {axis}");
+            compared += expected.len();
+        }
+    }
+    assert!(compared > 4000, "{compared}");
 }

@@ -39,10 +39,30 @@ impl Preparer {
         }
         self.outlines.clear();
         let (before, ground) = (faces.len(), Ground::of(faces));
-        self.builder.faces = std::mem::take(faces);
-        let report = self.prepare_all(&ground, listener);
-        *faces = std::mem::take(&mut self.builder.faces);
+        let lent = Lent::new(self, faces);
+        let report = lent.preparer.prepare_all(&ground, listener);
+        drop(lent);
         faces.faces[before..].iter_mut().for_each(|face| face.polygon += first as u32);
         Ok(report?.in_world(&ground.lattice))
+    }
+}
+
+/// Faces that a preparer has while it appends to them. They are given back when this is dropped, also
+/// where a callback of the caller's panics.
+struct Lent<'a> {
+    preparer: &'a mut Preparer,
+    faces: &'a mut Faces,
+}
+
+impl<'a> Lent<'a> {
+    fn new(preparer: &'a mut Preparer, faces: &'a mut Faces) -> Self {
+        preparer.builder.faces = std::mem::take(faces);
+        Self { preparer, faces }
+    }
+}
+
+impl Drop for Lent<'_> {
+    fn drop(&mut self) {
+        *self.faces = std::mem::take(&mut self.preparer.builder.faces);
     }
 }

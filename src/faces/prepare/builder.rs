@@ -189,6 +189,17 @@ impl Builder {
         Ok((self.faces.len() > before).then_some(found.crosses_itself))
     }
 
+    /// The corners of a polygon on the lattice. Of equal corners in a row there is one.
+    pub(super) fn corners(
+        &mut self,
+        points: &[DVec3],
+        listener: &dyn Listener,
+    ) -> Result<Vec<[f64; 3]>, Error> {
+        listener.work(points.len())?;
+        self.keep_distinct(points)?;
+        collect(self.kept.iter().map(|&(corner, _)| corner))
+    }
+
     pub(super) fn keep_distinct(&mut self, points: &[DVec3]) -> Result<(), Error> {
         self.kept.clear();
         self.runs.clear();

@@ -5,6 +5,7 @@ pub(crate) mod faces;
 pub(crate) mod large;
 #[cfg(feature = "obj")]
 pub(crate) mod obj;
+pub(crate) mod query;
 pub(crate) mod saved;
 pub(crate) mod split;
 pub(crate) mod tree;

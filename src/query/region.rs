@@ -1,0 +1,203 @@
+//! Which fragments have points in a convex region.
+
+use std::iter::FusedIterator;
+
+use smallvec::SmallVec;
+
+use super::chord::upright;
+use crate::exact::half_space::{self, HalfSpace, LineValues};
+use crate::exact::{Faces, Line, POSITION_OFF, SymbolKind};
+use crate::frustum::{self, Frustum};
+use crate::tree::{Bounds, BspTree, Fragment};
+
+/// The numbers of the fragments that have points in a region: [`Bounds::fragments_in`].
+#[derive(Clone, Debug)]
+pub struct FragmentsIn<'t> {
+    tree: &'t BspTree,
+    bounds: &'t Bounds,
+    sides: SmallVec<[Side; 6]>,
+    next: u32,
+    /// The fragments up to here are inside.
+    inside: u32,
+}
+
+/// A plane of a region.
+#[derive(Clone, Debug)]
+struct Side {
+    exact: HalfSpace,
+    /// A box that is behind this has no point in front of the plane or on it.
+    outer: frustum::HalfSpace,
+    /// A box that is behind this is in front of the plane.
+    inner: frustum::HalfSpace,
+}
+
+/// Where a box is.
+enum Place {
+    Inside,
+    Outside,
+    Unsure,
+}
+
+/// A stored corner that was moved is the lattice point nearest to its place.
+const MOVED: f64 = 0.5;
+/// What three roundings of a cut vertex lose, as a share of a coordinate.
+const SHARE: f64 = 2.0 * f64::EPSILON;
+
+impl<'t> FragmentsIn<'t> {
+    fn new(tree: &'t BspTree, bounds: &'t Bounds, region: &Frustum) -> Self {
+        let (lattice, reach) = (tree.faces.lattice(), bounds.reach());
+        let side = |&(normal, offset): &(glam::DVec3, f64)| {
+            let of = |plane| frustum::HalfSpace::new(plane, reach, 0.0);
+            let exact = HalfSpace::new((normal, offset), lattice)?;
+            Some(Side { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
+        };
+        let sides = region.planes().iter().filter_map(side).collect();
+        Self { tree, bounds, sides, next: 0, inside: 0 }
+    }
+
+    fn place(&self, bounds: &frustum::Flat) -> Place {
+        if self.sides.iter().any(|side| side.outer.side(bounds).is_lt()) {
+            Place::Outside
+        } else if self.sides.iter().all(|side| side.inner.side(bounds).is_lt()) {
+            Place::Inside
+        } else {
+            Place::Unsure
+        }
+    }
+
+    /// Whether a fragment has a point in the region: exact.
+    fn meets(&self, number: u32) -> bool {
+        let (fragment, faces) = (self.tree.fragment(number), &self.tree.faces);
+        let bounds = &self.bounds.levels[0][number as usize];
+        // Those that the whole fragment is in front of need not be looked at.
+        let crossed = self.sides.iter().filter(|side| !side.inner.side(bounds).is_lt());
+        let crossed: SmallVec<[&HalfSpace; 6]> = crossed.map(|side| &side.exact).collect();
+        match guess(&fragment, faces, &crossed) {
+            Some(meets) => meets,
+            None => half_space::meets(faces, fragment.face(), outline(&fragment, faces), &crossed),
+        }
+    }
+}
+
+/// Whether a fragment has a point in all of some half-spaces, where the rounded positions of its vertices
+/// tell: one of them is inside of all, or all of them are outside of one.
+fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&HalfSpace]) -> Option<bool> {
+    let mut is_out = SmallVec::<[bool; 6]>::from_elem(true, sides.len());
+    let moved = faces.upright_axis(fragment.face());
+    for (vertex, symbol) in fragment.lattice_vertices().zip(fragment.symbols()) {
+        let is_cut = !matches!(symbol.kind(), SymbolKind::Corner(_));
+        let off = std::array::from_fn(|axis| {
+            let rounded =
+                if is_cut { vertex[axis].abs() * SHARE + 2.0 * POSITION_OFF } else { 0.0 };
+            if moved == Some(axis) { rounded + MOVED } else { rounded }
+        });
+        let mut is_in = true;
+        for (side, is_out) in sides.iter().zip(&mut is_out) {
+            let [least, most] = side.range(&vertex, off);
+            is_in &= least > 0.0;
+            *is_out &= most < 0.0;
+        }
+        if is_in {
+            return Some(true);
+        }
+    }
+    is_out.contains(&true).then_some(false)
+}
+
+/// The vertices of a fragment, with the line from each to the next.
+fn outline<'f>(
+    fragment: &Fragment<'f>,
+    faces: &'f Faces,
+) -> impl Iterator<Item = (crate::exact::Symbol, LineValues)> + use<'f> {
+    let face = fragment.face();
+    let triangle = faces.reference_triangle(face).map(|corner| faces.corner(corner));
+    let values = move |line: Line| {
+        let plane = match line.as_cut() {
+            Some(plane) => faces.plane(plane),
+            None => upright(faces, face, line.as_edge().unwrap_or(0) as usize).0,
+        };
+        triangle.map(|point| plane.at(&point))
+    };
+    fragment.symbols().zip(fragment.lines().map(values))
+}
+
+impl Iterator for FragmentsIn<'_> {
+    type Item = u32;
+
+    fn next(&mut self) -> Option<u32> {
+        let end = self.bounds.levels[0].len() as u32;
+        while self.next < end {
+            let number = self.next;
+            if number >= self.inside {
+                let (level, len) = self.bounds.block(&(number..end));
+                let whole = (0..=level).rev().map(|level| (level, block_len(level)));
+                debug_assert_eq!(len, block_len(level));
+                let mut is_skipped = false;
+                for (level, len) in whole {
+                    match self.place(&self.bounds.levels[level][(number / len) as usize]) {
+                        Place::Inside => self.inside = number + len,
+                        Place::Outside => {
+                            self.next = number + len;
+                            is_skipped = true;
+                        }
+                        Place::Unsure => continue,
+                    }
+                    break;
+                }
+                if is_skipped {
+                    continue;
+                }
+            }
+            self.next = number + 1;
+            if number < self.inside || self.meets(number) {
+                return Some(number);
+            }
+        }
+        None
+    }
+}
+
+impl FusedIterator for FragmentsIn<'_> {}
+
+/// How many fragments a block of some level has.
+fn block_len(level: usize) -> u32 {
+    (crate::tree::BLOCK as u32).pow(level as u32)
+}
+
+impl Bounds {
+    /// The numbers of the fragments that have a point in a region, in ascending order: what is in a box, or
+    /// in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon meets
+    /// the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
+    ///
+    /// ```
+    /// use binspace::glam::DVec3;
+    /// use binspace::{BspTree, Frustum};
+    ///
+    /// let slanted = |x: f64| [[x, 0.0, 0.0], [x + 8.0, 0.0, 8.0], [x, 1.0, 0.0]];
+    /// let tree = BspTree::build([slanted(0.0), slanted(4.0)])?;
+    /// let bounds = tree.bounds()?;
+    /// // It is in the bounding boxes of both, but only one of them goes through it.
+    /// let region = Frustum::of_box([DVec3::new(6.0, 0.0, 1.0), DVec3::new(7.0, 1.0, 2.5)]);
+    /// let inside: Vec<u32> = bounds.fragments_in(&tree, &region).collect();
+    /// assert_eq!(inside.len(), 1);
+    /// assert_eq!(tree.fragment(inside[0]).polygon(), 1);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// Fragments are as the tree has them, as for [`BspTree::hits`]. Numbers of the planes are taken as they
+    /// are given, up to digits below 2⁻¹¹⁵ of the normal's largest, and of the offset up to as many below
+    /// the scene's extent. All of the region's planes are used, but for those with a number that is infinite
+    /// or NaN, which keep everything.
+    ///
+    /// Whole blocks of fragments are passed over, or taken, by their boxes: the time follows what the
+    /// region's sides go through, and a 16th of 16th and so on of what it does not contain.
+    ///
+    /// # Panics
+    ///
+    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
+    /// Those of another tree with the same numbers give wrong answers.
+    pub fn fragments_in<'t>(&'t self, tree: &'t BspTree, region: &Frustum) -> FragmentsIn<'t> {
+        self.expect(tree);
+        FragmentsIn::new(tree, self, region)
+    }
+}

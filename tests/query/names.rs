@@ -1,0 +1,131 @@
+//! From what the library says in public, everything about a hit can be computed exactly.
+
+use super::support::dice::Dice;
+use super::support::rational::{self, Plane, Point, Rational};
+use super::support::shots::Shots;
+use binspace::glam::DVec3;
+use binspace::{BspTree, Child, Grid, Ray, scene};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+fn world(grid: Grid, point: [i64; 3]) -> Point {
+    let two = Rational::from_integer(2.into());
+    let step = if grid.exponent >= 0 {
+        num_traits::pow(two, grid.exponent as usize)
+    } else {
+        num_traits::pow(two, -grid.exponent as usize).recip()
+    };
+    let base = rational::point(grid.base);
+    std::array::from_fn(|i| &base[i] + &step * Rational::from_integer(point[i].into()))
+}
+
+fn plane(grid: Grid, points: [[i64; 3]; 3]) -> Plane {
+    let [p, q, r] = points.map(|point| world(grid, point));
+    Plane::through([&p, &q, &r])
+}
+
+/// Where a ray meets a plane.
+fn parameter(plane: &Plane, from: &Point, direction: &Point) -> Rational {
+    let slope = rational::scalar(&plane.normal, direction);
+    assert!(!slope.is_zero(), "a ray that meets the plane");
+    -plane.at(from) / slope
+}
+
+fn directed(ray: Ray) -> (Point, Point) {
+    match ray {
+        Ray::Segment { from, to } => {
+            let from = rational::point(from);
+            let direction = rational::difference(&rational::point(to), &from);
+            (from, direction)
+        }
+        Ray::Endless { from, direction } => (rational::point(from), rational::point(direction)),
+    }
+}
+
+#[test]
+fn hits_can_be_computed_again_from_points_of_the_grid() {
+    let (mut dice, mut hits, mut in_plane, mut ends) = (Dice(4), 0, 0, 0);
+    for scene in [
+        scene::random_triangles(40, 2),
+        scene::city(120, 1),
+        scene::crossing(7),
+        scene::cornell_box(),
+        scene::teapot(2),
+    ] {
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        let (grid, shots) = (tree.grid(), Shots::new(tree.faces()));
+        for _ in 0..150 {
+            let ray = shots.ray(&mut dice);
+            let (from, direction) = directed(ray);
+            let mut last = Rational::zero();
+            for hit in tree.hits(ray) {
+                let own = plane(grid, hit.fragment().grid_points());
+                let t = match hit.grid_points() {
+                    Some(points) => parameter(&plane(grid, points), &from, &direction),
+                    None if hit.parameter() == 0.0 => Rational::zero(),
+                    None => Rational::one(),
+                };
+                ends += usize::from(hit.grid_points().is_none());
+                // On the line by its making: on the fragment's plane, in order, and where floats say.
+                let point = rational::sum(&from, &direction.clone().map(|c| c * &t));
+                assert!(own.at(&point).is_zero(), "{hit:?}");
+                let slope = rational::sign(&rational::scalar(&own.normal, &direction));
+                assert_eq!(hit.facing(), slope.reverse());
+                in_plane += usize::from(slope.is_eq());
+                assert!(t >= last, "{hit:?}");
+                let rounded = t.to_f64().expect("in range");
+                assert!((hit.parameter() - rounded).abs() <= rounded.abs() * 2f64.powi(-51));
+                let off = rational::distance_to_rounded(&point, hit.point().to_array());
+                assert!(off <= 1e-12 * (1.0 + hit.point().abs().max_element()), "{off} {hit:?}");
+                last = t;
+                hits += 1;
+            }
+        }
+    }
+    assert!(hits > 1500 && in_plane > 150 && ends > 100, "{hits} {in_plane} {ends}");
+}
+
+#[test]
+fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
+    let (mut checked, mut axes) = (0, 0);
+    for (scene, far) in [
+        (scene::random_triangles(60, 2), DVec3::ZERO),
+        (scene::city(300, 1), DVec3::new(1e6, -3.0, 7e4)),
+        (scene::teapot(3), DVec3::splat(-5.0)),
+    ] {
+        let moved = scene.polygons().map(|p| p.iter().map(|&c| c + far).collect::<Vec<_>>());
+        let polygons: Vec<Vec<DVec3>> = moved.collect();
+        let tree = BspTree::build(&polygons).unwrap();
+        let grid = tree.grid();
+        for fragment in tree.fragments() {
+            // The corners as given, but for the rounding to the grid.
+            for point in fragment.grid_points().map(|point| world(grid, point)) {
+                let near = |c: &DVec3| rational::distance_to_rounded(&point, c.to_array());
+                let least = polygons[fragment.polygon()].iter().map(near).fold(1.0, f64::min);
+                assert!(least <= 2f64.powi(grid.exponent - 1), "{least:e}");
+            }
+        }
+        for node in tree.nodes() {
+            let exact = plane(grid, node.grid_points());
+            let normal = DVec3::from_array(exact.normal.each_ref().map(|c| c.to_f64().unwrap()));
+            assert!((normal.normalize() - node.normal()).length() < 1e-14);
+            let offset = exact.offset.to_f64().unwrap() / normal.length();
+            assert!((offset - node.offset()).abs() <= 1e-9 * (1.0 + offset.abs()));
+            axes += usize::from(node.polygon().is_none());
+            // A free plane is exactly the one that floats give.
+            if node.polygon().is_none() {
+                let unit = rational::exact(normal.length());
+                assert_eq!(&exact.offset / unit, rational::exact(node.offset()));
+            }
+            for (child, side) in [(node.front(), 1), (node.back(), -1)] {
+                let Child::Leaf(fragments) = child else { continue };
+                for corner in fragments.flat_map(|f| tree.fragment(f).vertices()) {
+                    let at = exact.at(&rational::point(corner)) * rational::exact(f64::from(side));
+                    let slack = rational::exact(normal.length() * 1e-6);
+                    assert!(!(at + slack).is_negative());
+                    checked += 1;
+                }
+            }
+        }
+    }
+    assert!(checked > 500 && axes > 50, "{checked} {axes}");
+}

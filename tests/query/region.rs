@@ -1,0 +1,234 @@
+//! Which fragments meet a region, by clipping every one of them in rationals.
+
+use super::support::dice::Dice;
+use super::support::hard;
+use super::support::hits::Oracle;
+use super::support::rational::{self, Plane, Point};
+use super::support::shots::Shots;
+use super::support::tally::tally;
+use binspace::glam::DVec3;
+use binspace::scene;
+use binspace::{Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Viewpoint};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use std::cmp::Ordering;
+
+/// What was compared: of all pairs of a fragment and a region.
+#[derive(Clone, Copy, Debug, Default)]
+struct Score {
+    pairs: usize,
+    /// That meet.
+    met: usize,
+    /// That meet in nothing but their borders.
+    touching: usize,
+    /// That do not meet, although the fragment is behind none of the planes.
+    passed: usize,
+    /// That culling keeps in vain.
+    kept_in_vain: usize,
+}
+
+/// The part of a polygon in front of planes: of the closed sides, or of the open ones.
+fn clip(polygon: &[Point], planes: &[Plane]) -> Vec<Point> {
+    let mut part = polygon.to_vec();
+    for plane in planes {
+        let values: Vec<_> = part.iter().map(|point| plane.at(point)).collect();
+        let mut next = Vec::new();
+        for i in 0..part.len() {
+            let j = (i + 1) % part.len();
+            let sides = [i, j].map(|k| rational::sign(&values[k]));
+            if sides[0].is_ge() {
+                next.push(part[i].clone());
+            }
+            if sides[0].is_ne() && sides[0] == sides[1].reverse() {
+                next.push(rational::crossing([&part[i], &part[j]], [&values[i], &values[j]]));
+            }
+        }
+        part = next;
+    }
+    part
+}
+
+/// A region of some kind that is hard for a scene.
+fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
+    let normal = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));
+    let through = |normal: DVec3, point: DVec3| (normal, normal.dot(point));
+    match dice.below(8) {
+        // Boxes with sides through corners, some of them flat.
+        0 | 1 => {
+            let [a, b] = [shots.corner(dice), shots.corner(dice)];
+            Frustum::of_box([a.min(b), a.max(b)])
+        }
+        2 => {
+            let [a, b] = [shots.corner(dice), shots.around(1.1, dice)];
+            Frustum::of_box([a.min(b), a.max(b)])
+        }
+        // A point, and a line.
+        3 => {
+            let face = dice.below(tree.faces().len()) as u32;
+            let a =
+                if dice.below(2) == 0 { shots.corner(dice) } else { shots.on_plane(face, dice) };
+            let mut b = a;
+            if dice.below(2) == 0 {
+                let axis = dice.below(3);
+                b[axis] = shots.around(1.0, dice)[axis];
+            }
+            Frustum::of_box([a.min(b), a.max(b)])
+        }
+        // A wedge or a pyramid with its apex at a corner.
+        4 | 5 => {
+            let (apex, count) = (shots.corner(dice), 1 + dice.below(4));
+            Frustum::new((0..count).map(|_| through(normal(dice), apex)).collect::<Vec<_>>())
+        }
+        // Between parallel planes through corners.
+        6 => {
+            let (normal, [a, b]) = (normal(dice), [shots.corner(dice), shots.corner(dice)]);
+            Frustum::new([through(normal, a), through(-normal, b)])
+        }
+        // The planes of polygons, as they are rounded.
+        _ => {
+            let planes = (0..1 + dice.below(3)).map(|_| {
+                let fragment = tree.fragment(dice.below(tree.len()) as u32);
+                let v: Vec<DVec3> = fragment.vertices().take(3).collect();
+                let normal = (v[1] - v[0]).cross(v[2] - v[0]);
+                through(if dice.below(2) == 0 { normal } else { -normal }, v[0])
+            });
+            Frustum::new(planes.collect::<Vec<_>>())
+        }
+    }
+}
+
+fn check(
+    oracle: &Oracle<'_>,
+    bounds: &Bounds,
+    region: &Frustum,
+    score: &mut Score,
+) -> Result<(), String> {
+    let tree = oracle.tree();
+    if region.planes().iter().any(|(normal, offset)| !normal.is_finite() || !offset.is_finite()) {
+        return Ok(());
+    }
+    let found: Vec<u32> = bounds.fragments_in(tree, region).collect();
+    let planes: Vec<Plane> = region.planes().iter().map(|&(n, d)| oracle.plane(n, d)).collect();
+    let mut order = Vec::new();
+    let culling = Culling::new(bounds).with_frustum(region.clone());
+    tree.culled_back_to_front_into(Viewpoint::Direction(DVec3::Z), &culling, &mut order);
+    let mut truth = Vec::new();
+    for fragment in 0..tree.len() as u32 {
+        let polygon = oracle.vertices(fragment);
+        let part = clip(&polygon, &planes);
+        let is_behind =
+            |plane: &Plane| polygon.iter().all(|point| rational::sign(&plane.at(point)).is_lt());
+        if part.is_empty() {
+            score.passed += usize::from(!planes.iter().any(is_behind));
+            score.kept_in_vain += usize::from(order.contains(&fragment));
+        } else {
+            truth.push(fragment);
+            let on = |plane: &Plane| {
+                part.iter().all(|point| rational::sign(&plane.at(point)) == Ordering::Equal)
+            };
+            score.touching += usize::from(planes.iter().any(on));
+            if !order.contains(&fragment) {
+                return Err(format!("culled: {fragment} by {region:?}"));
+            }
+        }
+        score.pairs += 1;
+    }
+    score.met += truth.len();
+    if found == truth { Ok(()) } else { Err(format!("{region:?}: {found:?}, in truth {truth:?}")) }
+}
+
+#[test]
+fn fragments_in_regions_are_those_of_rationals() {
+    let heuristic = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), heuristic, any::<u64>());
+    let score = tally(file!(), 96, cases, |score: &mut Score, (scene, heuristic, seed)| {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        let options = scene.tolerance().map_or(options, |t| options.with_tolerance(t));
+        let fail = |error: binspace::Error| TestCaseError::fail(error.to_string());
+        let tree = options.build(&scene.polygons).map_err(fail)?;
+        if tree.is_empty() {
+            return Ok(());
+        }
+        let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
+        let (bounds, mut dice) = (tree.bounds().map_err(fail)?, Dice(seed));
+        for _ in 0..1 + 150 / tree.len().max(10) {
+            let region = region(&tree, &shots, &mut dice);
+            check(&oracle, &bounds, &region, score).map_err(TestCaseError::fail)?;
+        }
+        Ok(())
+    });
+    assert!(score.pairs > 5000 && score.met > 1500, "{score:?}");
+    assert!(score.touching > 300 && score.passed > 100, "{score:?}");
+}
+
+/// Larger scenes, where blocks of fragments are passed over or taken at once, and far-off ones.
+#[test]
+fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
+    let mut score = Score::default();
+    for (scene, move_by) in [
+        (scene::city(300, 1), DVec3::ZERO),
+        (scene::terrain(900, 1), DVec3::new(1e7, -3e5, 0.0)),
+        (scene::random_triangles(160, 3), DVec3::splat(1e3)),
+    ] {
+        let moved = scene
+            .polygons()
+            .map(|polygon| polygon.iter().map(|&corner| corner + move_by).collect::<Vec<_>>());
+        let tree = BspTree::build(moved).unwrap();
+        let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
+        let (bounds, mut dice) = (tree.bounds().unwrap(), Dice(5));
+        assert!(tree.len() > 256, "blocks of blocks: {}", tree.len());
+        for _ in 0..24 {
+            let region = region(&tree, &shots, &mut dice);
+            check(&oracle, &bounds, &region, &mut score).unwrap();
+        }
+    }
+    assert!(score.pairs > 20_000 && score.met > 4000 && score.kept_in_vain > 10, "{score:?}");
+}
+
+#[test]
+fn planes_of_odd_numbers_keep_everything_or_nothing() {
+    let square = |z: f64| [[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 4.0, z], [0.0, 4.0, z]];
+    for scale in [0, -660, 660, -1015].map(|exponent| 2f64.powi(exponent)) {
+        let tree =
+            BspTree::build([0.0, 1.0].map(|z| square(z).map(|p| p.map(|c| c * scale)))).unwrap();
+        let bounds = tree.bounds().unwrap();
+        let count = |normal: DVec3, offset: f64| {
+            bounds.fragments_in(&tree, &Frustum::new([(normal, offset)])).count()
+        };
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(count(DVec3::Z, odd), 2);
+            assert_eq!(count(DVec3::new(0.0, odd, 1.0), 0.0), 2);
+        }
+        assert_eq!(count(DVec3::ZERO, 0.0), 2);
+        assert_eq!([count(DVec3::ZERO, 1.0), count(DVec3::ZERO, -1.0)], [0, 2]);
+        assert_eq!([count(DVec3::Z, f64::MAX), count(DVec3::Z, f64::MIN)], [0, 2]);
+        // Normals of every length.
+        for length in [1.0, 4.0, 2f64.powi(200)] {
+            assert_eq!(count(DVec3::Z * length, scale * length), 1, "{scale} {length}");
+            assert_eq!(count(DVec3::NEG_Z * length, -scale * length), 2, "{scale} {length}");
+            assert_eq!(count(DVec3::Z * length, (scale * length).next_up()), 0);
+        }
+        assert_eq!(bounds.fragments_in(&tree, &Frustum::default()).count(), 2);
+    }
+    let nothing = BspTree::build::<[[f64; 3]; 3]>([]).unwrap();
+    let bounds = nothing.bounds().unwrap();
+    assert_eq!(bounds.fragments_in(&nothing, &Frustum::default()).count(), 0);
+}
+
+/// A corner that the tolerance moves counts where it is exactly, between two points of the grid.
+#[test]
+fn a_moved_corner_is_where_its_plane_is() {
+    let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1.0), DVec3::ONE);
+    let step = 2f64.powi(room.build([[DVec3::X, DVec3::Y, DVec3::Z]]).unwrap().grid().exponent);
+    // On the plane z = x / 3 of the three others, the third is at z = 2/3, and stored at 1.
+    let corners = [[0.0, 0.0, 0.0], [3.0, 0.0, 1.0], [2.0, 2.0, 1.0], [0.0, 3.0, 0.0]];
+    let tree = room.build([corners.map(|corner| corner.map(|c| c * step))]).unwrap();
+    assert_eq!((tree.len(), tree.preparation().flattened), (1, 1));
+    assert_eq!(tree.grid().exponent, step.log2() as i32);
+    let bounds = tree.bounds().unwrap();
+    let far_end = (DVec3::Y, 1.9 * step);
+    for (height, is_in) in [(0.66, true), (0.69, false), (0.9, false), (1.0, false)] {
+        let above = Frustum::new([far_end, (DVec3::Z, height * step)]);
+        assert_eq!(bounds.fragments_in(&tree, &above).count(), usize::from(is_in), "{height}");
+    }
+}
