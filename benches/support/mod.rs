@@ -50,15 +50,19 @@ pub fn random_quads(count: u32) -> Scene {
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
 
-/// Strips along both families of lines of z = x y, 60 of them a patch: many planes hold one line,
-/// and many lines meet in one point.
-pub fn rulings(patches: i32) -> Scene {
-    const HALF: i32 = 15;
-    let mut scene = Scene::new(format!("rulings:{}", 4 * HALF * patches), DVec3::Z);
+/// Strips along both families of lines of z = x y, on some patches of it side by side: many planes
+/// hold one line, and many lines meet in one point. `strips`: of each patch, a multiple of 4.
+pub fn rulings(strips: i32, patches: i32) -> Scene {
+    let half = strips / 4;
+    let name = match patches {
+        1 => format!("rulings:{strips}"),
+        _ => format!("rulings:{strips}, {patches} times"),
+    };
+    let mut scene = Scene::new(name, DVec3::Z);
     for patch in 0..patches {
         let place = [patch % 4, patch / 4 % 4, 8 * (patch / 16)].map(|k| f64::from(200 * k));
-        for i in -HALF..HALF {
-            let along_x = [[i, -HALF, -HALF * i], [i, HALF, HALF * i]];
+        for i in -half..half {
+            let along_x = [[i, -half, -half * i], [i, half, half * i]];
             let along_y = along_x.map(|[x, y, z]| [y, x, z]);
             let (flat, upright) = ((7 * i + patch).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
             for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {

@@ -38,6 +38,11 @@ impl Auto {
         is_peeled: bool,
     ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
+        if set.len() == 2
+            && let Some(plane) = plane_of_pair(set)
+        {
+            return Ok(Choice::Split(plane));
+        }
         if let Some(plane) = self.common_plane(set) {
             return Ok(Choice::Split(plane));
         }
@@ -177,6 +182,15 @@ impl Auto {
     }
 }
 
+/// The plane of one of two pieces, if it does not cut the other: no plane is better, and there is
+/// nothing to search for.
+fn plane_of_pair<K: Kernel>(set: &Set<'_, K>) -> Option<PlaneId> {
+    [0, 1].into_iter().find_map(|own| {
+        let plane = set.own_plane(own);
+        (set.classify(&set.splitter(plane), 1 - own) != Side::Spanning).then_some(plane)
+    })
+}
+
 /// The better of an own plane and a free one; any, if there are none.
 fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Candidate>) -> Choice {
     Choice::Split(match (own, free) {
@@ -247,9 +261,28 @@ impl Middle {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{Fixture, grid};
-    use super::Auto;
+    use super::super::tests::{Fixture, grid, triangles};
+    use super::{Auto, plane_of_pair};
+    use crate::exact::Side;
     use crate::random::SplitMix64;
+
+    #[test]
+    fn two_pieces_are_divided_by_a_plane_of_theirs_unless_both_are_cut() {
+        let mut random = SplitMix64::new(9);
+        let mut found = [0; 3];
+        for _ in 0..300 {
+            let fixture = Fixture::new(&triangles(&mut random, 2, 1.0), 0.0);
+            let set = fixture.set();
+            let is_whole = |own: usize| {
+                let splitter = set.splitter(set.own_plane(own));
+                set.classify(&splitter, 1 - own) != Side::Spanning
+            };
+            let expected = [0, 1].into_iter().find(|&own| is_whole(own));
+            assert_eq!(plane_of_pair(&set), expected.map(|own| set.own_plane(own)));
+            found[expected.unwrap_or(2)] += 1;
+        }
+        assert!(found.iter().all(|&count| count > 30), "{found:?}");
+    }
 
     #[test]
     fn a_common_plane_is_one_exactly_or_within_the_tolerance() {
