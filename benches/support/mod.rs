@@ -4,7 +4,8 @@
 
 pub mod pages;
 
-use binspace::glam::DVec3;
+use binspace::glam::{DQuat, DVec3, EulerRot};
+use binspace::internals::SplitMix64;
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
 use std::path::Path;
@@ -48,6 +49,30 @@ pub fn small_triangles(count: u32) -> Scene {
 pub fn random_quads(count: u32) -> Scene {
     let name = format!("random quads:{count}");
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
+}
+
+/// A heap of turned boxes that cross each other.
+pub fn boxes(count: u32) -> Scene {
+    let mut random = SplitMix64::new(SEED);
+    let mut scene = Scene::new(format!("boxes:{count}"), DVec3::Z);
+    for _ in 0..count {
+        let centre = random.point(-1.0, 1.0);
+        let angles = random.point(-3.0, 3.0);
+        let turn = DQuat::from_euler(EulerRot::XYZ, angles.x, angles.y, angles.z);
+        let half = random.point(0.05, 0.3);
+        for axis in 0..3 {
+            for side in [-1.0, 1.0] {
+                let corner = |[u, v]: [f64; 2]| {
+                    let mut corner = DVec3::splat(side);
+                    corner[(axis + 1) % 3] = side * u;
+                    corner[(axis + 2) % 3] = v;
+                    centre + turn * (corner * half)
+                };
+                scene.push([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner), 0);
+            }
+        }
+    }
+    scene
 }
 
 /// Strips along both families of lines of z = x y, on some patches of it side by side: many planes

@@ -17,6 +17,7 @@
 //! | `exact_ray` | where a ray meets planes, and in which order |
 
 pub(crate) mod along;
+mod barycentric;
 mod convex;
 mod edge;
 pub(crate) mod exact_kernel;

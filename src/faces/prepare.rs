@@ -3,8 +3,8 @@
 mod append;
 mod builder;
 mod collect;
+mod corners;
 mod lists;
-mod planar;
 mod preparation;
 mod quad;
 mod thin;
@@ -96,8 +96,8 @@ impl Preparer {
         let (input, builder) = (&self.input, &mut self.builder);
         report.duplicates = self.outlines.duplicates(|polygon| {
             listener.work(input.polygon(polygon).len())?;
-            builder.keep_distinct(input.polygon(polygon))?;
-            collect(builder.kept.iter().map(|&(corner, _)| corner))
+            builder.corners.keep_distinct(input.polygon(polygon), &lattice)?;
+            collect(builder.corners.kept.iter().map(|&(corner, _)| corner))
         })?;
         *faces = std::mem::take(&mut self.builder.faces);
         Ok(report.in_world(&lattice))

@@ -12,13 +12,8 @@ use super::sketch::LANES;
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
+use crate::build::progress::AT_ONCE;
 use crate::exact::{Kernel, PlaneId, Side};
-
-/// The plane of the largest of so many pieces is tried as that of all. Fewer: all of them may be small;
-/// more: time.
-const SEEN: usize = 16;
-/// How many pieces are sketched before cancellation is checked.
-const AT_ONCE: usize = 1 << 14;
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -43,7 +38,7 @@ impl Auto {
         {
             return Ok(Choice::Split(plane));
         }
-        if let Some(plane) = self.common_plane(set) {
+        if let Some(plane) = self.common_plane(set, tuning) {
             return Ok(Choice::Split(plane));
         }
         if set.len() < tuning.small
@@ -82,7 +77,11 @@ impl Auto {
     }
 
     /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.
-    pub(super) fn common_plane<K: Kernel>(&mut self, set: &Set<'_, K>) -> Option<PlaneId> {
+    pub(super) fn common_plane<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        tuning: &Tuning,
+    ) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
         // The planes of small ones may miss the others by what rounding has left.
@@ -90,7 +89,7 @@ impl Auto {
             let Live { min, max, .. } = set.pieces[piece];
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
         };
-        let large = set.sample(SEEN).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let large = set.sample(tuning.first_sample).max_by(|a, b| size(a).total_cmp(&size(b)))?;
         // The last is likely to be far from the first.
         let pieces = || (0..set.len()).rev();
         if !pieces().all(|piece| sketch.may_be_on(set, large, piece)) {
@@ -205,7 +204,7 @@ fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Cand
 fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
     let shares = Shares::of(set.size());
-    let least_share = trusted_share(set.faces);
+    let least_share = trusted_share(set.faces, tuning);
     let is_trusted = |&piece: &usize| shares.get(&set.pieces[piece]) >= least_share;
     let mut planes = set.sample(tuning.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
     planes.find(|&plane| {
@@ -262,6 +261,7 @@ impl Middle {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{Fixture, grid, triangles};
+    use super::super::tuning::Tuning;
     use super::{Auto, plane_of_pair};
     use crate::exact::Side;
     use crate::random::SplitMix64;
@@ -292,7 +292,7 @@ mod tests {
             let mut random = SplitMix64::new(1);
             let polygons = grid(4, |_| height * random.point(-1.0, 1.0).x);
             let fixture = Fixture::new(&polygons, tolerance);
-            let plane = Auto::default().common_plane(&fixture.set());
+            let plane = Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT);
             assert_eq!(plane.is_some(), expected, "{height} within {tolerance}");
         }
     }
