@@ -10,7 +10,7 @@ use super::set::Set;
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
-use crate::build::progress::Watch;
+use crate::build::progress::{SWEEP, Watch};
 use crate::exact::{Faces, Kernel, PlaneId};
 use crate::memory::{push, reserve};
 
@@ -114,7 +114,7 @@ impl Sweep {
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, [low, high]) in axes(set) {
             if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven))
-                || watch.work(n).is_err()
+                || watch.work(n * SWEEP).is_err()
             {
                 break;
             }
