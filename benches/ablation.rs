@@ -14,7 +14,7 @@ use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
 use support::pages::Page;
-use support::{SEED, Table, check, print_head, random_quads, scene, small_triangles};
+use support::{SEED, Table, boxes, check, print_head, random_quads, scene, small_triangles};
 
 const BUILTIN: [&str; 13] = [
     "crossing:100",
@@ -64,13 +64,14 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 40] = changes! {
+const CHANGES: [Change; 43] = changes! {
     table: "32" => 32;
     probes: "4" => 4;
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
     few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
+    largest: "0" => 0, "½" => 1, "×2" => 4;
     one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
     uneven: "never" => 1, "½" => 2, "×2" => 8;
     first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;
@@ -83,10 +84,12 @@ const CHANGES: [Change; 40] = changes! {
 };
 
 /// Those that frames have of their own.
-const OF_FRAMES: [Change; 7] = changes! {
+const OF_FRAMES: [Change; 11] = changes! {
     table: "0" => 0, "½" => 16;
     crossings: "0" => 0, "½" => 1, "all" => MOST;
     probes: "0" => 0, "×2" => 8;
+    trusted_share: "½" => 0.125, "×2" => 0.5;
+    coarse: "0" => 0.0, "∞" => f64::INFINITY;
 };
 
 fn main() {
@@ -167,6 +170,7 @@ fn scenes() -> Vec<Scene> {
     let mut scenes: Vec<Scene> = BUILTIN.into_iter().filter_map(scene).collect();
     scenes.extend(TURNED.into_iter().filter_map(scene).map(|scene| turned(&scene)));
     scenes.extend([random_quads(200), random_quads(300), small_triangles(5000)]);
+    scenes.extend([boxes(100), boxes(300)]);
     scenes.extend(FILES.into_iter().filter_map(scene));
     scenes
 }

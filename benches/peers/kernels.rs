@@ -17,8 +17,8 @@ const SAMPLED: Heuristic = Heuristic::Sampled { candidates: 16 };
 const SCENES: [(&str, Heuristic, f64); 17] = [
     ("rulings:60", SAMPLED, 3.0),
     ("rulings:60", Heuristic::Auto, 3.0),
-    ("rulings:840", SAMPLED, 3.0),
-    ("rulings:840", Heuristic::Auto, 3.0),
+    ("rulings:600", SAMPLED, 3.0),
+    ("rulings:600", Heuristic::Auto, 3.0),
     ("random:1000", SAMPLED, 1.3),
     ("random:1000", Heuristic::Auto, 1.3),
     ("bunny_4k.obj", SAMPLED, 1.3),
@@ -51,7 +51,7 @@ pub(crate) fn run() {
     );
     for (name, heuristic, target) in SCENES {
         let found = match name.strip_prefix("rulings:") {
-            Some(strips) => Some(rulings(strips.parse::<i32>().expect("a number") / 60)),
+            Some(strips) => Some(rulings(strips.parse().expect("a number"), 1)),
             None => scene(name),
         };
         let Some(scene) = found else { continue };

@@ -4,7 +4,8 @@
 
 pub mod pages;
 
-use binspace::glam::DVec3;
+use binspace::glam::{DQuat, DVec3, EulerRot};
+use binspace::internals::SplitMix64;
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
 use std::path::Path;
@@ -50,15 +51,43 @@ pub fn random_quads(count: u32) -> Scene {
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
 
-/// Strips along both families of lines of z = x y, 60 of them a patch: many planes hold one line,
-/// and many lines meet in one point.
-pub fn rulings(patches: i32) -> Scene {
-    const HALF: i32 = 15;
-    let mut scene = Scene::new(format!("rulings:{}", 4 * HALF * patches), DVec3::Z);
+/// A heap of turned boxes that cross each other.
+pub fn boxes(count: u32) -> Scene {
+    let mut random = SplitMix64::new(SEED);
+    let mut scene = Scene::new(format!("boxes:{count}"), DVec3::Z);
+    for _ in 0..count {
+        let centre = random.point(-1.0, 1.0);
+        let angles = random.point(-3.0, 3.0);
+        let turn = DQuat::from_euler(EulerRot::XYZ, angles.x, angles.y, angles.z);
+        let half = random.point(0.05, 0.3);
+        for axis in 0..3 {
+            for side in [-1.0, 1.0] {
+                let corner = |[u, v]: [f64; 2]| {
+                    let mut corner = DVec3::splat(side);
+                    corner[(axis + 1) % 3] = side * u;
+                    corner[(axis + 2) % 3] = v;
+                    centre + turn * (corner * half)
+                };
+                scene.push([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner), 0);
+            }
+        }
+    }
+    scene
+}
+
+/// Strips along both families of lines of z = x y, on some patches of it side by side: many planes
+/// hold one line, and many lines meet in one point. `strips`: of each patch, a multiple of 4.
+pub fn rulings(strips: i32, patches: i32) -> Scene {
+    let half = strips / 4;
+    let name = match patches {
+        1 => format!("rulings:{strips}"),
+        _ => format!("rulings:{strips}, {patches} times"),
+    };
+    let mut scene = Scene::new(name, DVec3::Z);
     for patch in 0..patches {
         let place = [patch % 4, patch / 4 % 4, 8 * (patch / 16)].map(|k| f64::from(200 * k));
-        for i in -HALF..HALF {
-            let along_x = [[i, -HALF, -HALF * i], [i, HALF, HALF * i]];
+        for i in -half..half {
+            let along_x = [[i, -half, -half * i], [i, half, half * i]];
             let along_y = along_x.map(|[x, y, z]| [y, x, z]);
             let (flat, upright) = ((7 * i + patch).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
             for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {

@@ -10,7 +10,7 @@ use std::str::FromStr;
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
 /// Every heuristic is deterministic. Those that would try the planes of all polygons of a set try at
-/// most 256 of them, spread evenly over the set.
+/// most 96 of them, spread evenly over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Heuristic {

@@ -10,6 +10,11 @@ use crate::Error;
 /// The callback is called each time about this many more pieces have been examined, which takes a
 /// millisecond. Smaller: time spent on calls; larger: cancelling takes longer.
 const PULSE: usize = 1 << 16;
+/// How many pieces are looked at before cancellation is checked. Smaller: time for checking; larger:
+/// cancelling takes longer.
+pub(super) const AT_ONCE: usize = 4096;
+/// A search for free planes along an axis takes about as long as examining each piece so many times.
+pub(super) const SWEEP: usize = 10;
 
 /// What a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so
 /// that all pieces of a face add up to one face.

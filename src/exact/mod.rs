@@ -18,6 +18,7 @@
 //! | `half_space` | whether a fragment meets several half-spaces |
 
 pub(crate) mod along;
+mod barycentric;
 mod convex;
 mod edge;
 pub(crate) mod exact_kernel;

@@ -17,9 +17,6 @@
 
 use std::cmp::Ordering;
 
-use glam::DVec3;
-use smallvec::SmallVec;
-
 use super::Int;
 use super::edge::{Edge, Moved};
 use super::faces::Faces;
@@ -113,34 +110,6 @@ impl Faces {
         Some([corners[k as usize], corners[(k as usize + 1) % corners.len()]])
     }
 
-    /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
-    /// and its weight. The weights sum to 1.
-    pub(crate) fn barycentric(&self, face: u32, vertex: Symbol) -> SmallVec<[(u32, f64); 3]> {
-        let len = self.corners(face).len() as u32;
-        let edge = |k: u32| [k, (k + 1) % len];
-        match (vertex.kind(), self.weights(face, vertex)) {
-            (SymbolKind::Corner(k), _) => SmallVec::from_slice(&[(k, 1.0)]),
-            (SymbolKind::OnEdge(k, _), Weights::Edge(_, weights)) => shares(edge(k), weights),
-            (SymbolKind::OnEdge(k, _), _) => {
-                // The edge of a face that is planar only by definition: the exact weights are over
-                // the reference triangle, so take the rounded position's share of the edge.
-                let [a, b] = edge(k).map(|k| DVec3::from(self.corners(face)[k as usize]));
-                let arm = b - a;
-                let point = DVec3::from(self.position(face, vertex));
-                let t = ((point - a).dot(arm) / arm.length_squared()).clamp(0.0, 1.0);
-                let [a, b] = edge(k);
-                SmallVec::from_slice(&[(a, 1.0 - t), (b, t)])
-            }
-            (SymbolKind::Inside(..), weights) => {
-                let triangle = self.faces[face as usize].frame.triangle();
-                match weights {
-                    Weights::Inside(_, weights) => shares(triangle, weights),
-                    _ => SmallVec::new(),
-                }
-            }
-        }
-    }
-
     /// A vertex as a combination of corners of its face.
     pub(crate) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
         match vertex.kind() {
@@ -180,13 +149,4 @@ fn meeting(triangle: [[f64; 3]; 3], g: &Plane, h: &Plane) -> Weights {
         g[j].times::<3, 5>(&h[k]) - g[k].times::<3, 5>(&h[j])
     });
     Weights::Inside(triangle, weights)
-}
-
-/// Each corner's share of the sum of weights.
-fn shares<const K: usize, const N: usize>(
-    corners: [u32; K],
-    weights: [Int<N>; K],
-) -> SmallVec<[(u32, f64); 3]> {
-    let total = weights.iter().fold(Int::<N>::ZERO, |sum, &w| sum + w).to_f64();
-    corners.into_iter().zip(weights).map(|(k, weight)| (k, weight.to_f64() / total)).collect()
 }

@@ -4,8 +4,8 @@ mod again;
 mod append;
 mod builder;
 mod collect;
+mod corners;
 mod lists;
-mod planar;
 mod preparation;
 mod quad;
 mod thin;
@@ -97,7 +97,7 @@ impl Preparer {
         let (input, builder) = (&self.input, &mut self.builder);
         report.duplicates = self
             .outlines
-            .duplicates(|polygon| builder.corners(input.polygon(polygon), listener))?;
+            .duplicates(|polygon| builder.lattice_corners(input.polygon(polygon), listener))?;
         *faces = std::mem::take(&mut self.builder.faces);
         Ok(report.in_world(&lattice))
     }

@@ -4,6 +4,7 @@ mod anchors;
 mod indices;
 mod order;
 mod place;
+mod placer;
 mod planes;
 mod region;
 mod replace;
@@ -15,7 +16,7 @@ mod store;
 use std::fmt;
 
 pub use order::Overlaid;
-use place::Placer;
+use placer::Placer;
 pub use shape::{Marker, Segment, Shape};
 pub use shapes::Shapes;
 use skeleton::Skeleton;

@@ -2,18 +2,14 @@
 
 use std::ops::Range;
 
-use super::anchors::Anchors;
+use super::placer::{Pending, Placer, Work};
 use super::planes;
-use super::region::{Cell, Opened, Region, Whose};
+use super::region::{Opened, Region, Whose};
 use super::skeleton::{Place, Skeleton};
-use crate::build::cell::CellBuilder;
-use crate::build::knife::Knife;
 use crate::build::live::Live;
 use crate::build::progress::Watch;
 use crate::error::Error;
-use crate::exact::{
-    Exact, ExactSplitter, ExactStored, ExactVertex, Faces, Kernel, Line, Side, Vertex,
-};
+use crate::exact::{Exact, ExactSplitter, ExactStored, Faces, Kernel, Line, Side, Vertex};
 use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::tree::node_record::MOST_FRAGMENTS;
@@ -22,39 +18,6 @@ use crate::tree::parts::Parts;
 /// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
 /// time to look at boxes of what is scattered; larger: time to look at the pieces of a body one by one.
 const CROWD: usize = 256;
-
-/// A set of pieces that is still to be divided: a range of the stack of pieces.
-#[derive(Debug)]
-struct Pending {
-    pieces: Range<usize>,
-    /// The length of the arena that it needs.
-    arena: usize,
-    region: Region,
-    place: Place,
-}
-
-/// Places polygons, lines and points in a tree; its lists are kept to be used again.
-#[derive(Default)]
-pub(super) struct Placer {
-    cells: CellBuilder,
-    pub(super) cell: Cell,
-    anchors: Anchors,
-    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
-    /// polygons, then lines, then points.
-    pieces: Vec<Live>,
-    /// The vertices of cut pieces, in the order of the cuts.
-    pub(super) arena: Vec<ExactVertex>,
-    pending: Vec<Pending>,
-    front: Vec<Live>,
-    pub(super) own: Vec<Live>,
-    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
-    crowd: Option<[[f64; 3]; 2]>,
-    knife: Knife<ExactVertex>,
-    /// The face to begin with: those before it are the tree's.
-    first: u32,
-    /// The first face without area.
-    thin: u32,
-}
 
 impl Placer {
     /// Begins with the face of a number; the polygons' faces end before another.
@@ -81,16 +44,6 @@ impl Placer {
         work.skeleton.finish();
         Ok(())
     }
-}
-
-/// What one placing reads and writes.
-pub(super) struct Work<'a> {
-    tree: &'a BspTree,
-    pub(super) faces: &'a Faces,
-    pub(super) placer: &'a mut Placer,
-    pub(super) pieces: &'a mut Parts<ExactStored>,
-    pub(super) skeleton: &'a mut Skeleton,
-    pub(super) watch: &'a Watch<'a>,
 }
 
 impl Work<'_> {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::place::{Placer, Work};
+use super::placer::{Placer, Work};
 use super::skeleton::Side;
 use crate::error::Error;
 use crate::exact::{Exact, ExactStored, Kernel, Vertex};

@@ -7,29 +7,12 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
-use std::fmt;
-
 use super::order::layout::Schedule;
 use super::order::planes::Planes;
 use super::{BspTree, Fragment};
 use crate::exact::{Exact, Kernel};
 use fault::Fault;
-
-/// What is wrong with a tree, and at which node.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Invalid {
-    /// The number of the node, depth first.
-    pub node: usize,
-    what: Fault,
-}
-
-impl fmt::Display for Invalid {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "node {}: {}", self.node, self.what)
-    }
-}
-
-impl std::error::Error for Invalid {}
+pub use fault::Invalid;
 
 impl BspTree {
     /// Checks every invariant of the tree:

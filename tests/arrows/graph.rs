@@ -1,6 +1,7 @@
 //! The files of a crate, and which imports which.
 
 use crate::imports::{Imports, Named, imports};
+use crate::methods::Added;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
@@ -35,7 +36,37 @@ impl Graph {
         let modules = files.iter().enumerate().map(module).collect();
         let mut graph = Self { files, modules, imported: vec![] };
         graph.imported = (0..graph.files.len()).map(|file| graph.imports_of(file)).collect();
+        for (file, child) in graph.calls_of_added() {
+            graph.imported[file].insert(child);
+        }
         graph
+    }
+
+    /// Each file whose methods of a type call methods that another file adds to that type, with that
+    /// other file.
+    fn calls_of_added(&self) -> Vec<(usize, usize)> {
+        let mut found = Vec::new();
+        let types: Vec<_> = (0..self.files.len()).flat_map(|file| self.added_by(file)).collect();
+        for (child, home, added) in &types {
+            let same = types.iter().filter(|(_, other, to)| other == home && to.to == added.to);
+            for file in same.map(|(file, ..)| *file).chain([*home]) {
+                let calls = &self.files[file].imports.own_calls;
+                if file != *child && !calls.is_disjoint(&added.methods) {
+                    found.push((file, *child));
+                }
+            }
+        }
+        found
+    }
+
+    /// What a file adds to types of other files: itself, and for each the file of the type.
+    fn added_by(&self, child: usize) -> impl Iterator<Item = (usize, usize, &Added)> {
+        let file = &self.files[child];
+        file.imports.added.iter().filter_map(move |added| {
+            let named = Named { path: vec![added.to.clone()], within: vec![] };
+            let home = self.home(&self.absolute(file, &named)?, 0)?;
+            (home != child).then_some((child, home, added))
+        })
     }
 
     pub(crate) fn files(&self) -> impl Iterator<Item = (&Path, &str)> {
@@ -234,6 +265,10 @@ mod tests {
         let handed_on = circles("mod d; pub use d::X; fn f(x: X) {}", "use super::Item;");
         assert_eq!(handed_on, ["a.rs → a/d.rs → a.rs"]);
         assert_eq!(circles("mod d; fn f() { d::X }", "use super::super::b::Y;"), [""; 0]);
+        let adds = "use super::Item; impl Item { pub(super) fn f(&self) {} }";
+        assert_eq!(circles("mod d; struct Item;", adds), [""; 0]);
+        let calls = circles("mod d; struct Item; impl Item { fn g(&self) { self.f() } }", adds);
+        assert_eq!(calls, ["a.rs → a/d.rs → a.rs"]);
         let b = ("b.rs", "use crate::a::d::X;");
         let three = [LIB, ("a.rs", "use crate::b::Z;"), ("a/d.rs", "use super::Y;"), b];
         assert_eq!(graph(&three).circles(), ["a.rs → b.rs → a/d.rs → a.rs"]);

@@ -1,5 +1,8 @@
 //! What a file imports, as it writes it.
 
+use std::collections::BTreeSet;
+
+use crate::methods::{Added, added, own_calls};
 use crate::tokens::tokens;
 
 /// A path as it is written, and the module that it is written in, below the file's own.
@@ -27,12 +30,17 @@ pub(crate) struct Imports {
     pub(crate) paths: Vec<Named>,
     /// The modules that it declares in files of their own.
     pub(crate) modules: Vec<String>,
+    /// Methods that it adds to types of other files.
+    pub(crate) added: Vec<Added>,
+    /// Names of the methods that its types call of their own.
+    pub(crate) own_calls: BTreeSet<String>,
 }
 
 pub(crate) fn imports(text: &str) -> Imports {
     let tokens = tokens(text);
     let token = |index: usize| tokens.get(index).map_or("", String::as_str);
-    let mut imports = Imports::default();
+    let mut imports =
+        Imports { added: added(&tokens), own_calls: own_calls(&tokens), ..Imports::default() };
     // The modules with a body that are open, each with the depth of braces outside.
     let (mut open, mut depth): (Vec<(String, usize)>, usize) = (Vec::new(), 0);
     let (mut index, mut is_public) = (0, false);

@@ -3,12 +3,10 @@
 use super::state::Builder;
 use crate::Error;
 use crate::build::live::Live;
+use crate::build::progress::AT_ONCE;
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
 
-/// How many pieces are classified before cancellation is checked. Smaller: time for checking; larger:
-/// cancelling takes longer.
-const AT_ONCE: usize = 4096;
 /// Cutting a piece counts as the work of classifying this many.
 const CUT: usize = 64;
 

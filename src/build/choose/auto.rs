@@ -12,13 +12,8 @@ use super::sketch::LANES;
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
+use crate::build::progress::AT_ONCE;
 use crate::exact::{Kernel, PlaneId, Side};
-
-/// The plane of the largest of so many pieces is tried as that of all. Fewer: all of them may be small;
-/// more: time.
-const SEEN: usize = 16;
-/// How many pieces are sketched before cancellation is checked.
-const AT_ONCE: usize = 1 << 14;
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -38,7 +33,12 @@ impl Auto {
         is_peeled: bool,
     ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
-        if let Some(plane) = self.common_plane(set) {
+        if set.len() == 2
+            && let Some(plane) = plane_of_pair(set)
+        {
+            return Ok(Choice::Split(plane));
+        }
+        if let Some(plane) = self.common_plane(set, tuning) {
             return Ok(Choice::Split(plane));
         }
         if set.len() < tuning.small
@@ -77,7 +77,11 @@ impl Auto {
     }
 
     /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.
-    pub(super) fn common_plane<K: Kernel>(&mut self, set: &Set<'_, K>) -> Option<PlaneId> {
+    pub(super) fn common_plane<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        tuning: &Tuning,
+    ) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
         // The planes of small ones may miss the others by what rounding has left.
@@ -85,7 +89,7 @@ impl Auto {
             let Live { min, max, .. } = set.pieces[piece];
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
         };
-        let large = set.sample(SEEN).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let large = set.sample(tuning.first_sample).max_by(|a, b| size(a).total_cmp(&size(b)))?;
         // The last is likely to be far from the first.
         let pieces = || (0..set.len()).rev();
         if !pieces().all(|piece| sketch.may_be_on(set, large, piece)) {
@@ -177,6 +181,15 @@ impl Auto {
     }
 }
 
+/// The plane of one of two pieces, if it does not cut the other: no plane is better, and there is
+/// nothing to search for.
+fn plane_of_pair<K: Kernel>(set: &Set<'_, K>) -> Option<PlaneId> {
+    [0, 1].into_iter().find_map(|own| {
+        let plane = set.own_plane(own);
+        (set.classify(&set.splitter(plane), 1 - own) != Side::Spanning).then_some(plane)
+    })
+}
+
 /// The better of an own plane and a free one; any, if there are none.
 fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Candidate>) -> Choice {
     Choice::Split(match (own, free) {
@@ -191,7 +204,7 @@ fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Cand
 fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
     let shares = Shares::of(set.size());
-    let least_share = trusted_share(set.faces);
+    let least_share = trusted_share(set.faces, tuning);
     let is_trusted = |&piece: &usize| shares.get(&set.pieces[piece]) >= least_share;
     let mut planes = set.sample(tuning.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
     planes.find(|&plane| {
@@ -247,9 +260,29 @@ impl Middle {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{Fixture, grid};
-    use super::Auto;
+    use super::super::tests::{Fixture, grid, triangles};
+    use super::super::tuning::Tuning;
+    use super::{Auto, plane_of_pair};
+    use crate::exact::Side;
     use crate::random::SplitMix64;
+
+    #[test]
+    fn two_pieces_are_divided_by_a_plane_of_theirs_unless_both_are_cut() {
+        let mut random = SplitMix64::new(9);
+        let mut found = [0; 3];
+        for _ in 0..300 {
+            let fixture = Fixture::new(&triangles(&mut random, 2, 1.0), 0.0);
+            let set = fixture.set();
+            let is_whole = |own: usize| {
+                let splitter = set.splitter(set.own_plane(own));
+                set.classify(&splitter, 1 - own) != Side::Spanning
+            };
+            let expected = [0, 1].into_iter().find(|&own| is_whole(own));
+            assert_eq!(plane_of_pair(&set), expected.map(|own| set.own_plane(own)));
+            found[expected.unwrap_or(2)] += 1;
+        }
+        assert!(found.iter().all(|&count| count > 30), "{found:?}");
+    }
 
     #[test]
     fn a_common_plane_is_one_exactly_or_within_the_tolerance() {
@@ -259,7 +292,7 @@ mod tests {
             let mut random = SplitMix64::new(1);
             let polygons = grid(4, |_| height * random.point(-1.0, 1.0).x);
             let fixture = Fixture::new(&polygons, tolerance);
-            let plane = Auto::default().common_plane(&fixture.set());
+            let plane = Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT);
             assert_eq!(plane.is_some(), expected, "{height} within {tolerance}");
         }
     }

@@ -10,13 +10,9 @@ use super::set::Set;
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
-use crate::build::progress::Watch;
+use crate::build::progress::{SWEEP, Watch};
 use crate::exact::{Faces, Kernel, PlaneId};
 use crate::memory::{push, reserve};
-
-/// What a search along an axis counts as, in comparisons of each piece. Larger: cancelling is checked
-/// more often; smaller: cancelling takes longer.
-const PASSES: usize = 10;
 
 /// A free plane, before it has a name.
 #[derive(Clone, Copy, Debug)]
@@ -118,7 +114,7 @@ impl Sweep {
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, [low, high]) in axes(set) {
             if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven))
-                || watch.work(n * PASSES).is_err()
+                || watch.work(n * SWEEP).is_err()
             {
                 break;
             }

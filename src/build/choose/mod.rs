@@ -31,10 +31,6 @@ use scored::Scored;
 pub(super) use set::Set;
 pub use tuning::Tuning;
 
-/// The most own planes that heuristics try which would try all, spread evenly over the set. More: time
-/// that grows with the square of the set; fewer: planes that cut more.
-const MOST_CANDIDATES: usize = 256;
-
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]
 pub(super) struct Chooser {
@@ -52,6 +48,7 @@ impl Chooser {
         set: &Set<'_, K>,
         is_peeled: bool,
     ) -> Result<Choice, Error> {
+        let most = rules.tuning.own_planes;
         let lowest = || (0..set.len()).min_by_key(|&piece| set.pieces[piece].face).unwrap_or(0);
         Ok(Choice::Split(match rules.heuristic {
             Heuristic::First => set.own_plane(lowest()),
@@ -60,24 +57,20 @@ impl Chooser {
                 let random = mix(seed ^ mix(lowest << 32 | set.len() as u64));
                 set.own_plane((random % set.len() as u64) as usize)
             }
-            Heuristic::FewestSplits => {
-                self.scored.best(set, MOST_CANDIDATES, rules.watch, |counts, _| {
-                    (f64::from(counts.splits), f64::from(counts.imbalance()))
-                })?
-            }
-            Heuristic::Balanced => {
-                self.scored.best(set, MOST_CANDIDATES, rules.watch, |counts, _| {
-                    (f64::from(counts.imbalance()), f64::from(counts.splits))
-                })?
-            }
+            Heuristic::FewestSplits => self.scored.best(set, most, rules.watch, |counts, _| {
+                (f64::from(counts.splits), f64::from(counts.imbalance()))
+            })?,
+            Heuristic::Balanced => self.scored.best(set, most, rules.watch, |counts, _| {
+                (f64::from(counts.imbalance()), f64::from(counts.splits))
+            })?,
             Heuristic::Weighted { splits, balance, axial } => {
-                self.weighted(rules, set, MOST_CANDIDATES, [splits, balance, axial])?
+                self.weighted(rules, set, most, [splits, balance, axial])?
             }
             Heuristic::Sampled { candidates } => {
                 self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)?
             }
             Heuristic::FreePlanes => {
-                if let Some(plane) = self.auto.common_plane(set) {
+                if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
                     return Ok(Choice::Split(plane));
                 }
                 let free = self.sweep.best(set, rules.tuning, rules.watch)?;

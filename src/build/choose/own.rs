@@ -108,15 +108,11 @@ impl Shares {
 ///
 /// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have planes of
 /// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
-/// others that belong together. Less: of 400 pages with forty small cards in one plane, 3 lose their order
-/// at 1/16, and 10 at 1/50. More: each set of layers in `f32` is searched for its best plane.
-pub(super) fn trusted_share(faces: &Faces) -> f64 {
-    // Not where the tolerance is far above what rounding has left.
-    if faces.tolerance() > COARSE * LATTICE_LIMIT { 0.25 } else { 0.0 }
+/// others that belong together.
+pub(super) fn trusted_share(faces: &Faces, tuning: &Tuning) -> f64 {
+    let is_coarse = faces.tolerance() > tuning.coarse * LATTICE_LIMIT;
+    if is_coarse { tuning.trusted_share } else { 0.0 }
 }
-
-/// A tolerance above that of numbers in `f64`, and below that of `f32`, as a share of the extent.
-const COARSE: f64 = 1e-8;
 
 /// The best own plane of a small set, by exact counts of all its pieces.
 #[derive(Debug)]
@@ -154,7 +150,7 @@ impl Best {
         Self {
             terms,
             shares,
-            trusted_share: trusted_share(faces),
+            trusted_share: trusted_share(faces, tuning),
             cost: Cost::MOST,
             slot: 0,
             is_trusted: false,
@@ -208,11 +204,13 @@ pub(super) struct Contest {
     /// Places of those that had all pieces of the first sample on one side: the same in the field,
     /// as it began, and in the sketch.
     one_sided: Vec<usize>,
+    /// Large pieces, with their shares of the box.
+    largest: Vec<(f64, usize)>,
 }
 
 impl Contest {
-    /// Replaces the field by the first `count` pieces of the sample, and compares them with the first
-    /// sample.
+    /// Replaces the field by the first `count` pieces of the sample, and by the largest of what comes
+    /// next in it, and compares them with the first sample.
     pub(super) fn begin<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
@@ -224,7 +222,10 @@ impl Contest {
         let shares = Shares::of(set.size());
         let sketch = &sample.sketch;
         self.seen = 0;
-        let pieces = (0..count.min(sketch.len())).map(|place| sketch.number(place));
+        let sampled = count.min(sketch.len());
+        self.find_largest(set, sample, sampled, &shares, tuning);
+        let pieces = (0..sampled).map(|place| sketch.number(place));
+        let pieces = pieces.chain(self.largest.iter().map(|&(_, piece)| piece));
         self.field.clear();
         self.field.extend(pieces.map(|piece| Entrant {
             piece,
@@ -236,10 +237,35 @@ impl Contest {
         self.look(set, sample, tuning.first_sample, terms)?;
         let is_one_sided =
             |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
-        let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
+        let sampled = &self.field[..sampled];
+        let found = sampled.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
         self.one_sided.clear();
         self.one_sided.extend(found.map(|(place, _)| place));
         Ok(())
+    }
+
+    /// Finds the largest pieces of a large set among those that come first in its sample, behind so
+    /// many.
+    fn find_largest<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        sample: &Sample,
+        behind: usize,
+        shares: &Shares,
+        tuning: &Tuning,
+    ) {
+        self.largest.clear();
+        if set.len() < tuning.small || tuning.largest == 0 {
+            return;
+        }
+        for piece in sample.order().take(tuning.small).skip(behind) {
+            let share = shares.get(&set.pieces[piece]);
+            let before = self.largest.partition_point(|&(larger, _)| larger >= share);
+            if before < tuning.largest {
+                self.largest.truncate(tuning.largest - 1);
+                self.largest.insert(before, (share, piece));
+            }
+        }
     }
 
     /// The places in the sketch of the candidates that had all pieces of the first sample on one

@@ -69,8 +69,6 @@ pub(super) struct Peeler {
     /// Why the current piece cannot be taken: a piece in front of its plane and one behind, or twice
     /// one across.
     witnesses: [u32; 2],
-    /// Groups asked first, because they kept other pieces from being taken.
-    asked_first: [usize; ASKED_FIRST],
     /// Pieces that are not certainly on one side of the current plane.
     near: Vec<u32>,
     /// Boxes still to be compared.
@@ -82,10 +80,6 @@ pub(super) struct Peeler {
 /// The places of the two witnesses.
 const FRONT: usize = 0;
 const BACK: usize = 1;
-
-/// How many groups are asked first. More: time for those that know nothing; fewer: more walks down
-/// the tree of boxes.
-const ASKED_FIRST: usize = 4;
 
 /// The place of a witness that is not found yet.
 const NO_PIECE: u32 = u32::MAX;
@@ -107,7 +101,6 @@ impl Peeler {
         self.left.clear();
         reserve(&mut self.left, groups)?;
         self.left.extend((0..groups).map(|group| sketch.lanes(group)));
-        self.asked_first = std::array::from_fn(|i| i.min(groups - 1));
         let (peeled, left) = (Peeled::default(), sketch.len());
         let mut search = Search { lists: self, set, sketch, watch, peeled, left };
         search.pass(places)?;
@@ -164,15 +157,6 @@ impl<K: Kernel> Search<'_, '_, K> {
     fn look(&mut self, p: usize, plane: &SketchPlane) -> Result<(usize, bool), Error> {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
-        for i in 0..ASKED_FIRST {
-            work += LANES;
-            self.see(p, plane, self.lists.asked_first[i])?;
-            if self.is_held() {
-                self.lists.asked_first.swap(0, i);
-                return Ok((work, false));
-            }
-        }
-        // What is near is gathered below, where every group is looked at once.
         self.lists.near.clear();
         self.lists.stack.clear();
         self.lists.stack.push(Node { index: 0, groups: 0..self.sketch.groups() });
@@ -199,8 +183,6 @@ impl<K: Kernel> Search<'_, '_, K> {
                     work += LANES;
                     self.see(p, plane, group)?;
                     if self.is_held() {
-                        self.lists.asked_first.rotate_right(1);
-                        self.lists.asked_first[0] = group;
                         return Ok((work, false));
                     }
                 }

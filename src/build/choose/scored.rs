@@ -4,13 +4,9 @@ use super::cost::Counts;
 use super::set::Set;
 use super::sketch::{LANES, Sketch, SketchPlane};
 use crate::Error;
-use crate::build::progress::Watch;
+use crate::build::progress::{AT_ONCE, Watch};
 use crate::exact::{Kernel, PlaneId};
 use crate::memory::reserve;
-
-/// Pieces sketched at a time, to be compared with all candidates. Larger: memory; smaller: planes
-/// are fetched more often.
-const SKETCHED: usize = 512;
 
 /// Tries own planes; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -46,8 +42,8 @@ impl Scored {
             plane: sketch.plane(set, piece),
             counts: Counts::default(),
         }));
-        for start in (0..set.len()).step_by(SKETCHED) {
-            let part = start..set.len().min(start + SKETCHED);
+        for start in (0..set.len()).step_by(AT_ONCE) {
+            let part = start..set.len().min(start + AT_ONCE);
             if watch.work(part.len() * tried.len()).is_err() {
                 break;
             }

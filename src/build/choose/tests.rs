@@ -146,7 +146,7 @@ fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> Plan
 /// What one plane cuts comes late in the set, behind more pieces than are looked at in one go.
 #[test]
 fn own_planes_are_held_against_all_of_a_large_set() {
-    const HALF: u32 = 600;
+    const HALF: u32 = 5000;
     let top = f64::from(2 * HALF);
     let layer = |i: u32| {
         let z = f64::from(i);
@@ -162,12 +162,12 @@ fn own_planes_are_held_against_all_of_a_large_set() {
     let wall =
         |x: f64, y: f64| [DVec3::new(x, y, -1.0), DVec3::new(y, x, -1.0), DVec3::new(y, x, top)];
     let mut polygons: Vec<_> = (0..2 * HALF).map(layer).collect();
-    // In the plane x = 0, and in the plane y = 0.
+    // In the plane x = 0, and in the plane y = 0: both are among the candidates.
     polygons[0] = wall(0.0, 7.0).map(|corner| corner.with_x(0.0));
-    polygons[4] = wall(0.0, 7.0).map(|corner| corner.with_y(0.0));
+    polygons[104] = wall(0.0, 7.0).map(|corner| corner.with_y(0.0));
     polygons[0][1].y = 9.0;
-    polygons[4][1].x = 9.0;
-    assert_eq!(chosen(Heuristic::FewestSplits, &polygons), PlaneId::face(4));
+    polygons[104][1].x = 9.0;
+    assert_eq!(chosen(Heuristic::FewestSplits, &polygons), PlaneId::face(104));
 }
 
 #[test]

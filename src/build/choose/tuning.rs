@@ -1,6 +1,7 @@
 //! The numbers that choosing is tuned by.
 
-/// What decides how planes are chosen, in numbers. `benches/ABLATION.md` says what each is worth.
+/// What decides how planes are chosen, in numbers, but for the exponent in `cost.rs`.
+/// `benches/ABLATION.md` says what each is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
     /// Sets of at most so many pieces, 32 at most, are divided down to the leaves from a table of
@@ -23,10 +24,14 @@ pub struct Tuning {
     /// Larger: slightly fewer fragments, but more time and deeper trees; smaller: more fragments on
     /// scans, whose surfaces no free plane follows.
     pub small: usize,
-    /// Own planes tried in a small set. More: time; fewer: more fragments.
+    /// Own planes tried in a small set, and at most by the heuristics that score own planes alone.
+    /// More: time; fewer: more fragments.
     pub own_planes: usize,
     /// Own planes tried in a large set. More: time; fewer: more fragments.
     pub few_own_planes: usize,
+    /// How many of the largest pieces of a large set are candidates besides, of the first `small` of
+    /// its sample. More: time; fewer: large polygons of heaps are cut again and again.
+    pub largest: usize,
     /// A large set is searched for peelable pieces if at least this many of its tried own planes have
     /// the whole first sample on one side. More: large convex sets are cut; fewer: searches that find
     /// nothing.
@@ -34,8 +39,9 @@ pub struct Tuning {
     /// A plane that cuts nothing is taken at once if each side keeps at least 1/`uneven` of the
     /// pieces. Larger: unbalanced trees; smaller: a longer search for little gain.
     pub uneven: usize,
-    /// Pieces in the first sample that own planes are compared with. More: time; fewer: good planes
-    /// are dropped by chance.
+    /// Pieces in the first sample that own planes are compared with, and of which the largest tells
+    /// whether all lie on one plane. More: time; fewer: good planes are dropped by chance, and the
+    /// pieces tried for all may be too small to tell.
     pub first_sample: usize,
     /// Each round keeps 1/`rate` of the own planes and compares them with `rate` times as many
     /// pieces. Larger: the best are dropped by chance; smaller: time.
@@ -49,6 +55,16 @@ pub struct Tuning {
     /// itself, get at least 1/`least_share` of the pieces. Otherwise planes at the rim would take off
     /// one piece a search. Larger: long lists; smaller: good planes are rejected.
     pub least_share: usize,
+    /// The share of its set's box that a piece has to fill for its plane to be trusted at once, where
+    /// the tolerance is coarse. Corners in `f32` are rounded, so small polygons that were meant to lie
+    /// in one plane have planes of their own, which separate others that belong together. Less: of 400
+    /// pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50; more:
+    /// each set of layers in `f32` is searched for its best plane.
+    pub trusted_share: f64,
+    /// A tolerance is coarse if it is a larger share of the extent: above that of numbers in `f64`,
+    /// and below that of `f32`. Less: planes of layers in `f64` are searched for, which takes stacks
+    /// 1.4 times as long; more: small cards in `f32` lose their order.
+    pub coarse: f64,
     /// Mean number of pieces per bin of the free-plane search. More: more to sort; fewer: more bins to
     /// bound.
     pub per_bin: usize,
@@ -70,12 +86,15 @@ impl Tuning {
         small: 256,
         own_planes: 96,
         few_own_planes: 16,
+        largest: 2,
         one_sided_needed: 12,
         uneven: 4,
         first_sample: 16,
         rate: 4,
         reward: 0.35,
         least_share: 8,
+        trusted_share: 0.25,
+        coarse: 1e-8,
         per_bin: 2,
         most_bins: 1024,
         groups_per_box: 64,

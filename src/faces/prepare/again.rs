@@ -44,7 +44,7 @@ impl Preparer {
                 let same = alike[start..].iter().take_while(move |&&(other, _)| other == hash);
                 same.map(|&(_, face)| earlier.corners(face))
             },
-            |polygon| builder.corners(input.polygon(polygon), listener),
+            |polygon| builder.lattice_corners(input.polygon(polygon), listener),
         )
     }
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::collect::Collected;
+use super::corners::Corners;
 use super::preparation::Preparation;
 use super::quad::Quad;
 use super::tolerance::Ground;
@@ -41,14 +42,8 @@ enum Outcome {
 #[derive(Debug, Default)]
 pub(super) struct Builder {
     pub(super) faces: Faces,
-    /// The corners of the current polygon on the lattice, each with its number. Of equal corners in
-    /// a row one is kept.
-    pub(super) kept: Vec<([f64; 3], u32)>,
-    /// How many corners it was given with.
-    given: usize,
-    /// For each kept corner, how many corners the straight run of the outline that begins there
-    /// passes or ends at; at least 1. Empty if the polygon is not triangulated.
-    pub(super) runs: Vec<u32>,
+    /// The corners of the current polygon.
+    pub(super) corners: Corners,
 }
 
 impl Builder {
@@ -100,7 +95,7 @@ impl Builder {
                     continue;
                 }
             }
-            outlines.add(polygon, self.kept.iter().map(|&(corner, _)| corner));
+            outlines.add(polygon, self.corners.kept.iter().map(|&(corner, _)| corner));
         }
         Ok(report)
     }
@@ -112,26 +107,26 @@ impl Builder {
         listener: &dyn Listener,
     ) -> Result<Outcome, Error> {
         listener.work(points.len() / STEP_CORNERS)?;
-        self.keep_distinct(points)?;
-        let Some(widest) = self.widest_triangle() else {
+        self.corners.keep_distinct(points, &self.faces.lattice)?;
+        let Some(widest) = self.corners.widest_triangle() else {
             return Ok(Outcome::Dropped);
         };
-        if self.kept.len() == 3 {
+        if self.corners.kept.len() == 3 {
             self.push(polygon, 0..3, Frame::TRIANGLE)?;
             return Ok(Outcome::Whole { off: 0.0 });
         }
-        let plane = Plane::through([0, widest[0], widest[1]].map(|k| self.kept[k].0));
+        let plane = Plane::through([0, widest[0], widest[1]].map(|k| self.corners.kept[k].0));
         let axis = plane.main_axis();
-        let convex = self.is_convex(axis);
+        let convex = self.corners.is_convex(axis);
         let mut off = 0.0;
-        if convex && self.kept.len() <= Frame::MAX_CORNERS {
+        if convex && self.corners.kept.len() <= Frame::MAX_CORNERS {
             off = self.push_flat(polygon, widest, axis)?;
             if off <= self.faces.tolerance {
                 return Ok(Outcome::Whole { off });
             }
             self.faces.truncate(self.faces.len() - 1);
         } else if convex {
-            off = self.off_plane(&plane, [0, widest[0], widest[1]]);
+            off = self.corners.off_plane(&plane, [0, widest[0], widest[1]]);
         }
         let crosses_itself = self.triangulate(polygon, convex, &plane, listener)?;
         Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
@@ -148,8 +143,8 @@ impl Builder {
         [second, third]: [usize; 2],
         axis: usize,
     ) -> Result<f64, Error> {
-        reserve(&mut self.faces.moved, self.kept.len())?;
-        self.push(polygon, 0..self.kept.len(), Frame::new(second, third, None))?;
+        reserve(&mut self.faces.moved, self.corners.kept.len())?;
+        self.push(polygon, 0..self.corners.kept.len(), Frame::new(second, third, None))?;
         let off = self.faces.flatten_last(axis);
         if off > 0.0
             && let Some(face) = self.faces.faces.last_mut()
@@ -168,13 +163,13 @@ impl Builder {
         plane: &Plane,
         listener: &dyn Listener,
     ) -> Result<Option<bool>, Error> {
-        let corners = collect(self.kept.iter().map(|&(point, _)| point))?;
+        let corners = collect(self.corners.kept.iter().map(|&(point, _)| point))?;
         let found = if convex {
             triangulate::convex(&corners)?
         } else {
             triangulate::any(&corners, plane, &|steps| listener.work(steps))?
         };
-        self.find_runs()?;
+        self.corners.find_runs()?;
         let before = self.faces.len();
         for (index, triple) in found.triangles.iter().enumerate() {
             if index % TRIANGLES_AT_ONCE == 0 {
@@ -190,33 +185,14 @@ impl Builder {
     }
 
     /// The corners of a polygon on the lattice. Of equal corners in a row there is one.
-    pub(super) fn corners(
+    pub(super) fn lattice_corners(
         &mut self,
         points: &[DVec3],
         listener: &dyn Listener,
     ) -> Result<Vec<[f64; 3]>, Error> {
         listener.work(points.len())?;
-        self.keep_distinct(points)?;
-        collect(self.kept.iter().map(|&(corner, _)| corner))
-    }
-
-    pub(super) fn keep_distinct(&mut self, points: &[DVec3]) -> Result<(), Error> {
-        self.kept.clear();
-        self.runs.clear();
-        self.given = points.len();
-        reserve(&mut self.kept, points.len())?;
-        for (number, &point) in points.iter().enumerate() {
-            let point = self.faces.lattice.snap(point);
-            match self.kept.last_mut() {
-                // Of equal corners the last is kept: its edge is the one that leads on from here.
-                Some((last, kept)) if *last == point => *kept = number as u32,
-                _ => self.kept.push((point, number as u32)),
-            }
-        }
-        while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
-            self.kept.pop();
-        }
-        Ok(())
+        self.corners.keep_distinct(points, &self.faces.lattice)?;
+        collect(self.corners.kept.iter().map(|&(corner, _)| corner))
     }
 
     /// Adds a face made of some of the polygon's kept corners, in order around it.
@@ -233,10 +209,10 @@ impl Builder {
         }
         reserve(&mut faces.corners, kept.len())?;
         reserve(&mut faces.faces, 1)?;
-        faces.corners.extend(kept.clone().map(|k| self.kept[k].0));
+        faces.corners.extend(kept.clone().map(|k| self.corners.kept[k].0));
         faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
         // Most polygons become one face with the same corners, which needs no numbers.
-        if kept.len() < self.given {
+        if kept.len() < self.corners.given {
             self.number_last(kept)?;
         }
         Ok(())
@@ -250,7 +226,7 @@ impl Builder {
     ) -> Result<(), Error> {
         let Some(first) = kept.clone().next() else { return Ok(()) };
         let number = |(from, to): (usize, usize)| {
-            self.kept[from].1 | if self.is_outline(from, to) { 0 } else { INNER }
+            self.corners.kept[from].1 | if self.corners.is_outline(from, to) { 0 } else { INNER }
         };
         let ends = kept.clone().skip(1).chain([first]);
         let numbers = kept.clone().zip(ends).map(number);

@@ -17,8 +17,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::Invalid;
-use super::fault::{Culprit, Fault};
+use super::fault::{Culprit, Fault, Invalid};
 use crate::exact::{Exact, ExactVertex, Kernel, Line, PlaneId, Symbol, Vertex};
 use crate::tree::BspTree;
 use crate::tree::walk::Visit;

@@ -4,6 +4,22 @@ use std::fmt;
 
 use crate::exact::{PlaneId, Side};
 
+/// What is wrong with a tree, and at which node.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Invalid {
+    /// The number of the node, depth first.
+    pub node: usize,
+    pub(super) what: Fault,
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "node {}: {}", self.node, self.what)
+    }
+}
+
+impl std::error::Error for Invalid {}
+
 /// What is wrong at a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Fault {

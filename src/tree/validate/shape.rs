@@ -1,7 +1,6 @@
 //! Whether a tree's parts have sizes that agree, and names of things that exist.
 
-use super::Invalid;
-use super::fault::Fault;
+use super::fault::{Fault, Invalid};
 use crate::exact::{Exact, ExactStored, Kernel, Line, PlaneId, PlaneKind, SymbolKind};
 use crate::tree::BspTree;
 use crate::tree::walk::{Visit, Walk};

@@ -1,7 +1,6 @@
 //! Whether fragments lie where their places in the tree say.
 
-use super::Invalid;
-use super::fault::Fault;
+use super::fault::{Fault, Invalid};
 use crate::exact::{Exact, ExactSplitter, ExactVertex, Kernel, Piece, Side};
 use crate::tree::BspTree;
 use crate::tree::walk::Visit;

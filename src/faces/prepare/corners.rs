@@ -1,14 +1,49 @@
-//! Tests of the current polygon's outline: is it planar, is it convex, where does it run straight?
+//! The corners of a polygon: are they planar, are they convex, where does the outline run straight?
 //! All are decided exactly, on the lattice, except the comparison of distances with the tolerance.
 
 use glam::DVec3;
 
-use super::builder::Builder;
 use crate::Error;
-use crate::exact::{Plane, cross, have_area, is_convex};
+use crate::exact::{Lattice, Plane, cross, have_area, is_convex};
 use crate::memory::reserve;
 
-impl Builder {
+/// The corners of a polygon on the lattice.
+#[derive(Debug, Default)]
+pub(super) struct Corners {
+    /// The corners, each with its number. Of equal corners in a row one is kept.
+    pub(super) kept: Vec<([f64; 3], u32)>,
+    /// How many corners it was given with.
+    pub(super) given: usize,
+    /// For each kept corner, how many corners the straight run of the outline that begins there
+    /// passes or ends at; at least 1. Empty if the polygon is not triangulated.
+    runs: Vec<u32>,
+}
+
+impl Corners {
+    /// Replaces them by those of another polygon.
+    pub(super) fn keep_distinct(
+        &mut self,
+        points: &[DVec3],
+        lattice: &Lattice,
+    ) -> Result<(), Error> {
+        self.kept.clear();
+        self.runs.clear();
+        self.given = points.len();
+        reserve(&mut self.kept, points.len())?;
+        for (number, &point) in points.iter().enumerate() {
+            let point = lattice.snap(point);
+            match self.kept.last_mut() {
+                // Of equal corners the last is kept: its edge is the one that leads on from here.
+                Some((last, kept)) if *last == point => *kept = number as u32,
+                _ => self.kept.push((point, number as u32)),
+            }
+        }
+        while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
+            self.kept.pop();
+        }
+        Ok(())
+    }
+
     /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
     pub(super) fn widest_triangle(&self) -> Option<[usize; 2]> {
         let point = |k: usize| DVec3::from(self.kept[k].0);
