@@ -63,6 +63,8 @@ mod ray;
 mod save;
 #[cfg(feature = "scene")]
 pub mod scene;
+#[cfg(feature = "parallel")]
+mod threads;
 mod tree;
 #[cfg(feature = "raster")]
 mod verify;

@@ -6,7 +6,7 @@ pub(crate) fn map<T: Send, U: Send>(items: Vec<T>, function: impl Fn(T) -> U + S
     use rayon::prelude::*;
 
     // A single item needs no other thread, and waking one takes time.
-    if items.len() < 2 {
+    if items.len() < 2 || !crate::threads::are_running() {
         return items.into_iter().map(function).collect();
     }
     items.into_par_iter().map(&function).collect()

@@ -75,9 +75,10 @@ pub(crate) fn refuse_options(
     Err(Failure::about(scene.name(), problem))
 }
 
-/// A failure to build a scene's tree.
+/// A failure to build a scene's tree. It names the program's options, not those of the library.
 pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
-    Failure::about(scene.name(), error)
+    let problem = error.to_string().replace("`max_fragments`", "`--max-fragments`");
+    Failure::about(scene.name(), problem)
 }
 
 /// Notes which faces were dropped, triangulated, or given more than once.

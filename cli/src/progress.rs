@@ -49,15 +49,16 @@ impl Progress {
         let alarm = std::io::stderr().is_terminal().then(|| {
             let (sender, receiver) = mpsc::channel();
             let late = bar.clone();
-            let thread = thread::spawn(move || {
+            // Without a thread to show it, there is no progress to see.
+            let thread = thread::Builder::new().spawn(move || {
                 if receiver.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
                     late.set_draw_target(ProgressDrawTarget::stderr());
                     late.enable_steady_tick(Duration::from_millis(100));
                 }
             });
-            (sender, thread)
+            thread.ok().map(|thread| (sender, thread))
         });
-        Self { bar, alarm }
+        Self { bar, alarm: alarm.flatten() }
     }
 
     /// One step more is done.

@@ -156,7 +156,7 @@ impl Workshop {
         )?;
         let tuning = &Tuning::FRAMES;
         let shared = Shared::new(Exact, &faces, options, tuning, &watch)?;
-        let parts = divide_all(&shared.with_positions(), &faces, memory)?;
+        let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;
         *nodes = tree.refill(faces, preparation, parts, sizes)?;
         Ok(())
     }
@@ -212,19 +212,29 @@ fn watched_parts<K: Kernel>(
     watch: &Watch<'_>,
 ) -> Result<Parts<K::Stored>, Error> {
     let shared = Shared::new(kernel, faces, options, tuning, watch)?;
-    divide_all(&shared, faces, &mut Memory::default())
+    divide_all(&shared, faces, &mut Memory::default(), watch)
 }
+
+/// Faces that are made pieces of before a cancel is noticed. Larger: that takes longer; smaller: time
+/// for asking.
+const AT_ONCE: usize = 1 << 14;
 
 /// Divides the set of all faces, down to the leaves.
 fn divide_all<K: Kernel>(
     shared: &Shared<'_, K>,
     faces: &Faces,
     memory: &mut Memory<K>,
+    watch: &Watch<'_>,
 ) -> Result<Parts<K::Stored>, Error> {
     let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
     pieces.clear();
     arena.clear();
     reserve(&mut pieces, faces.len())?;
-    pieces.extend((0..faces.len() as u32).map(|face| Live::whole(faces, face)));
+    let count = faces.len() as u32;
+    for start in (0..count).step_by(AT_ONCE) {
+        watch.work(AT_ONCE)?;
+        let some = start..count.min(start + AT_ONCE as u32);
+        pieces.extend(some.map(|face| Live::whole(faces, face)));
+    }
     jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
 }

@@ -54,8 +54,22 @@ fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
 mod tests {
     use std::cmp::Ordering;
 
-    use super::turn_of;
+    use super::{is_convex, turn_of};
     use crate::random::SplitMix64;
+
+    #[test]
+    fn an_outline_with_two_corners_on_one_point_of_the_view_is_not_convex() {
+        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        for start in 0..4 {
+            let mut corners = square.to_vec();
+            corners.rotate_left(start);
+            let convex = |corners: &[[f64; 3]]| is_convex(corners.len(), |k| corners[k], 2);
+            assert!(convex(&corners));
+            let [x, y, _] = corners[3];
+            corners.push([x, y, 1.0]);
+            assert!(!convex(&corners), "{corners:?}");
+        }
+    }
 
     /// Steps that all but run on in one line, or back, by integers of 128 bits.
     #[test]

@@ -183,3 +183,43 @@ fn compare_exactly(
     }
     faces.compare(splitter.plane, &plane, face, vertex, threshold)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::exact::{Exact, Kernel};
+    use crate::random::SplitMix64;
+
+    /// Boxes of one lattice point, so near a plane that floats get its side wrong.
+    #[test]
+    fn a_box_is_on_a_side_only_if_it_is_so_exactly() {
+        let (mut random, mut wrong, mut told) = (SplitMix64::new(6), 0, 0);
+        for _ in 0..200 {
+            let triangle = [(); 3].map(|()| random.point(-1.0, 1.0));
+            let all = [DVec3::NEG_ONE, DVec3::ONE, DVec3::X];
+            let (faces, _) = Faces::new([triangle, all], Some(0.0)).unwrap();
+            let splitter = Exact.splitter(&faces, PlaneId::face(0));
+            let plane = faces.plane(PlaneId::face(0));
+            let (normal, main) = (plane.normal_f64(), plane.main_axis());
+            for step in 0..50 {
+                let mut at = (random.point(-0.9, 0.9) * LIMIT / 2.0).round();
+                let off = normal.dot(at - DVec3::from(faces.corner(0))) / normal[main];
+                at[main] = (at[main] - off).round() + f64::from(step % 5 - 2);
+                let point = at.to_array();
+                if at.abs().max_element() > LIMIT {
+                    continue;
+                }
+                let exact = plane.at(&point).sign();
+                let rounded = splitter.distance(point).total_cmp(&0.0);
+                wrong += usize::from(exact.is_ne() && rounded != exact);
+                let side = splitter.side_of_box([point; 2]);
+                told += usize::from(side.is_some());
+                assert!(side != Some(Side::Front) || exact.is_gt(), "{point:?}");
+                assert!(side != Some(Side::Back) || exact.is_lt(), "{point:?}");
+            }
+        }
+        assert!(wrong > 20, "{wrong} {told}");
+    }
+}

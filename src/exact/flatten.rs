@@ -57,3 +57,25 @@ impl Flattener {
         Off { distance: value.abs() / normal.length(), steps }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Flattener;
+
+    /// The plane 3z = x, moved along z.
+    #[test]
+    fn only_what_is_on_the_plane_is_off_by_nothing() {
+        let flattener = Flattener::new([[0.0; 3], [3.0, 0.0, 1.0], [0.0, 1.0, 0.0]], 2);
+        for (point, value, steps) in [
+            ([3.0, 5.0, 1.0], 0.0, 0.0),
+            ([2.0, 5.0, 1.0], 1.0, 0.0),
+            ([4.0, 5.0, 1.0], 1.0, 0.0),
+            ([1.0, 5.0, 1.0], 2.0, 1.0),
+            ([3.0, 5.0, -6.0], 21.0, -7.0),
+        ] {
+            let off = flattener.off(&point);
+            assert!((off.distance - value / 10f64.sqrt()).abs() < 1e-14, "{point:?} {off:?}");
+            assert_eq!((off.distance == 0.0, off.steps), (value == 0.0, steps), "{point:?}");
+        }
+    }
+}

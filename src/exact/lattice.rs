@@ -225,8 +225,28 @@ mod tests {
             for corner in corners {
                 let error = lattice.to_world(lattice.snap(corner)) - corner;
                 assert!(error.z == 0.0 && error.abs().max_element() <= size * 2f64.powi(-51));
+                let [snapped, rounded] = [lattice.snap(corner), lattice.to_lattice(corner)];
+                assert!(snapped.iter().zip(rounded).all(|(a, b)| (a - b).abs() <= 0.5));
             }
         }
+    }
+
+    /// Where a box's ends and the lattice's origin have more digits together than a number holds.
+    #[test]
+    fn boxes_are_rounded_outwards() {
+        let lattice = Lattice::new(DVec3::splat(2.0), DVec3::splat(4.0));
+        let fixed = |c: f64| (c * (1u64 << 20) as f64) as i128;
+        let mut rounded = 0;
+        for k in 0..1000 {
+            let at = f64::from(k) * 1048.6875 - 500_000.0;
+            let [low, high] = lattice.enclose([at; 3], [at; 3]);
+            // 3 · 2⁵⁰ steps from the world's origin.
+            let exact = fixed(at) + (3 << 70);
+            let [low, high] = [low, high].map(|end| fixed(lattice.length_to_lattice(end.x)));
+            assert!(low <= exact && exact <= high, "{at}");
+            rounded += usize::from(low < high);
+        }
+        assert!(rounded > 500, "{rounded}");
     }
 
     proptest! {

@@ -14,8 +14,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What every layer may import.
-const GROUND: [&str; 9] =
-    ["error", "frustum", "input", "memory", "parallel_map", "random", "ray", "save", "viewpoint"];
+const GROUND: [&str; 10] = [
+    "error",
+    "frustum",
+    "input",
+    "memory",
+    "parallel_map",
+    "random",
+    "ray",
+    "save",
+    "threads",
+    "viewpoint",
+];
 
 /// The layers that are built on the ground, each with those before it that it may import.
 const LAYERS: &[(&str, &[&str])] = &[

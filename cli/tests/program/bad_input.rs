@@ -90,6 +90,7 @@ fn over_budget_is_an_error_with_the_figure() {
     let folder = Folder::new("bad_budget");
     for command in ["order random --eye=1,2,3", "verify random", "stats random"] {
         let message = folder.run(&format!("{command} --max-fragments 600")).refused();
+        assert!(message.contains("(`--max-fragments`)"), "{message}");
         assert!(message.contains("random:500: ") && message.contains("600 fragments"), "{message}");
     }
     folder.run("stats random:5 --max-fragments 0").refused();
@@ -195,6 +196,24 @@ fn a_tree_that_memory_does_not_hold_ends_the_program_as_an_error_does() {
         assert!(message.contains("memory"), "{command}: {message}");
     }
     assert!(folder.files().is_empty(), "{:?}", folder.files());
+}
+
+/// Where no thread can be started, because its stack would not fit, the program does without, and is
+/// neither stopped nor left waiting.
+#[cfg(target_os = "linux")]
+#[test]
+fn where_threads_do_not_fit_into_memory_the_program_does_without_them() {
+    let folder = Folder::new("bad_memory_threads");
+    let mut good = 0;
+    for kilobytes in (10_000..30_000).step_by(500) {
+        let command = "stats city:3000";
+        let (status, message) = run_within(kilobytes, &folder, command);
+        // With less than some, not even the libraries of the system can be loaded.
+        let is_error = status == Some(2) && message.contains("memory") || status == Some(127);
+        assert!(status == Some(0) || is_error, "{kilobytes}: {status:?} {message}");
+        good += usize::from(status == Some(0));
+    }
+    assert!(good > 10, "{good}");
 }
 
 #[test]

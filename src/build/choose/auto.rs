@@ -296,4 +296,18 @@ mod tests {
             assert_eq!(plane.is_some(), expected, "{height} within {tolerance}");
         }
     }
+
+    /// So near that single precision does not tell, wherever among the others it stands.
+    #[test]
+    fn one_piece_beside_the_plane_of_all_others_is_noticed() {
+        let flat = grid(4, |_| 0.0);
+        for odd in 0..flat.len() {
+            let mut polygons = flat.clone();
+            polygons[odd] = polygons[odd].map(|corner| corner + 1e-9);
+            let fixture = Fixture::new(&polygons, 1e-12);
+            assert_eq!(Auto::default().common_plane(&fixture.set()), None, "{odd}");
+        }
+        let fixture = Fixture::new(&flat, 1e-12);
+        assert!(Auto::default().common_plane(&fixture.set()).is_some());
+    }
 }

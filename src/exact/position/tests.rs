@@ -57,6 +57,23 @@ fn roundings(position: [f64; 3], points: &[[f64; 3]], weights: &[BigInt]) -> f64
     off.fold(0.0, f64::max) / LATTICE_LIMIT * 2f64.powi(53)
 }
 
+#[test]
+fn a_bit_below_a_tie_decides_where_a_number_is_rounded_to() {
+    // 71 bits: the last bit of the `f64` is 2^18.
+    let (even, tie, up) = (1_i128 << 70, 1_i128 << 17, 1_i128 << 18);
+    for (high, low, expected) in [
+        (even + tie, 0, even),
+        (even + tie, 1, even + up),
+        (even + up + tie, 0, even + 2 * up),
+        (-even - tie, 0, -even),
+        // 1/2⁶² more than minus the tie.
+        (-even - tie, 1, -even),
+        (-even - tie - 1, u64::MAX >> 2, -even - up),
+    ] {
+        assert_eq!(nearest(high, low), expected as f64, "{high} {low}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, max_global_rejects: 200_000, ..ProptestConfig::default() })]
 

@@ -153,3 +153,94 @@ fn from_cut<V: Vertex>(outline: &[V], cut: Line) -> Option<Vec<V>> {
     let first = outline.iter().position(|vertex| vertex.line() == cut)?;
     Some([&outline[first..], &outline[..first]].concat())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A vertex whose place is said by hand: x is how far it is in front of the plane.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Named {
+        symbol: Symbol,
+        line: Line,
+        at: [f64; 3],
+    }
+
+    impl Vertex for Named {
+        fn position(&self) -> [f64; 3] {
+            self.at
+        }
+        fn symbol(&self) -> Symbol {
+            self.symbol
+        }
+        fn line(&self) -> Line {
+            self.line
+        }
+        fn with_line(self, line: Line) -> Self {
+            Self { line, ..self }
+        }
+    }
+
+    const PLANE: PlaneId = PlaneId::face(7);
+
+    /// The two parts of a square, in front of the plane and behind it.
+    fn parts() -> [Vec<Named>; 2] {
+        let corner =
+            |k, x, y| Named { symbol: Symbol::corner(k), line: Line::edge(k), at: [x, y, 0.0] };
+        let crossing = |k, line, y| Named {
+            symbol: Symbol::crossing(Line::edge(k), PLANE),
+            line,
+            at: [0.0, y, 0.0],
+        };
+        let front = [
+            crossing(0, Line::edge(0), 0.0),
+            corner(1, 1.0, 0.0),
+            corner(2, 1.0, 1.0),
+            crossing(2, Line::cut(PLANE, false), 1.0),
+        ];
+        let back = [
+            crossing(2, Line::edge(2), 1.0),
+            corner(3, -1.0, 1.0),
+            corner(0, -1.0, 0.0),
+            crossing(0, Line::cut(PLANE, true), 0.0),
+        ];
+        [front.to_vec(), back.to_vec()]
+    }
+
+    fn glued([front, back]: &[Vec<Named>; 2]) -> Option<Vec<Named>> {
+        let side = |vertex: &Named| vertex.at[0].total_cmp(&0.0);
+        glue(PLANE, [&front[..], &back[..]], side)
+    }
+
+    #[test]
+    fn parts_of_a_square_are_glued_to_its_corners() {
+        let whole = glued(&parts()).expect("two parts of one square");
+        let corners: Vec<Symbol> = [1, 2, 3, 0].map(Symbol::corner).into();
+        assert_eq!(whole.iter().map(Named::symbol).collect::<Vec<_>>(), corners);
+    }
+
+    /// A vertex more on the plane, on a line that goes on across it, would stand there twice.
+    #[test]
+    fn the_vertices_beside_a_cut_are_off_the_plane() {
+        for part in 0..2 {
+            for beside in 1..3 {
+                for wrong in [0.0, -parts()[part][beside].at[0]] {
+                    let mut parts = parts();
+                    parts[part][beside].at[0] = wrong;
+                    assert_eq!(glued(&parts), None, "part {part}, vertex {beside} at {wrong}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn both_parts_have_the_ends_of_a_cut_in_the_same_place() {
+        for part in 0..2 {
+            for end in [0, 3] {
+                let mut parts = parts();
+                parts[part][end].at[2] = 1.0;
+                assert_eq!(glued(&parts), None, "part {part}, vertex {end}");
+            }
+        }
+    }
+}

@@ -210,6 +210,26 @@ fn lists_of_any_length_are_followed_by_twigs_and_runs() {
     }
 }
 
+/// Nodes that are links but for a fragment more or less, and lists above and below them.
+#[test]
+fn nodes_that_are_hardly_links_are_ordered_as_well() {
+    let mut random = SplitMix64::new(5);
+    for (own, beside) in [(0, 1), (1, 1), (2, 0), (1, 2), (2, 1)] {
+        for is_front in [false, true] {
+            let next_to = |rest: Tree| {
+                let (rest, leaf) = (Below(Box::new(rest)), Leaf(beside));
+                let [front, back] = if is_front { [rest, leaf] } else { [leaf, rest] };
+                Tree::new(own, front, back)
+            };
+            for (above, nodes, below) in [(0, 12, 0), (0, 1, 12), (12, 1, 12), (9, 9, 9)] {
+                let rest = list(Tree::new(3, Leaf(2), Leaf(1)), below, is_front);
+                let rest = (0..nodes).fold(rest, |rest, _| next_to(rest));
+                Checker::new(&list(rest, above, is_front)).check_some(&mut random, 5);
+            }
+        }
+    }
+}
+
 #[test]
 fn lists_follow_lists_and_stand_on_both_sides_of_a_branch() {
     let mut random = SplitMix64::new(2);

@@ -1,9 +1,11 @@
 //! Orders laid out wrongly.
 
 use super::{trees, verdict};
+use crate::exact::{Exact, Kernel};
 use crate::tree::BspTree;
 
 const SCHEDULE: &str = "the layout for orders does not match the nodes";
+const POSITIONS: &str = "node 0: the positions are not those of the vertices";
 const ROUNDED: &str = "the rounded planes are not those of the nodes";
 
 /// Breaks every tree that has what an edit needs; gives how many.
@@ -95,4 +97,38 @@ fn rounded_planes_of_other_nodes_are_found() {
         enough.then_some(())
     });
     assert!(swapped >= 20 && missing >= 20, "{swapped} {missing}");
+}
+
+/// Keeps the positions of a tree's vertices, as a tree for one view does.
+fn keep_positions(tree: &mut BspTree) -> Option<()> {
+    let of = |fragment: crate::Fragment<'_>| {
+        let place = |stored| tree.faces.position(fragment.face(), Exact::symbol(stored));
+        fragment.stored().iter().map(place).collect::<Vec<_>>()
+    };
+    let positions: Vec<_> = tree.fragments().flat_map(of).collect();
+    tree.positions = positions;
+    (!tree.positions.is_empty()).then_some(())
+}
+
+#[test]
+fn positions_of_other_vertices_or_of_more_or_fewer_are_found() {
+    let mut kept = 0;
+    for (name, mut tree) in trees() {
+        kept += usize::from(keep_positions(&mut tree).is_some());
+        assert_eq!(verdict(&tree), "", "{name}");
+    }
+    let broken = [
+        assert_all(POSITIONS, |tree| keep_positions(tree).map(|()| tree.positions.push([0.0; 3]))),
+        assert_all(POSITIONS, |tree| {
+            keep_positions(tree)?;
+            tree.positions.pop();
+            // Without any, none are kept.
+            (!tree.positions.is_empty()).then_some(())
+        }),
+        assert_all(POSITIONS, |tree| {
+            keep_positions(tree)?;
+            tree.positions.last_mut().map(|position| position[2] += 1.0)
+        }),
+    ];
+    assert!(kept >= 15 && broken == [kept; 3], "{kept} {broken:?}");
 }
