@@ -305,9 +305,13 @@ mod tests {
             let mut polygons = flat.clone();
             polygons[odd] = polygons[odd].map(|corner| corner + 1e-9);
             let fixture = Fixture::new(&polygons, 1e-12);
-            assert_eq!(Auto::default().common_plane(&fixture.set()), None, "{odd}");
+            assert_eq!(
+                Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT),
+                None,
+                "{odd}"
+            );
         }
         let fixture = Fixture::new(&flat, 1e-12);
-        assert!(Auto::default().common_plane(&fixture.set()).is_some());
+        assert!(Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT).is_some());
     }
 }
