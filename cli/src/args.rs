@@ -203,8 +203,8 @@ pub(crate) struct RenderArgs {
 /// A PDF has one page, with a point for each pixel. A PNG has in each pixel the colours that show there,
 /// each by the exact area that it has of the pixel, and blended by their numbers as SVG viewers do.
 ///
-/// Drawings are opaque: where a polygon shows that is translucent, nothing is written, unless all are
-/// to be drawn as opaque.
+/// Where a polygon shows that is translucent, say how to draw it: as such, with all that is behind it, or
+/// as if it were opaque.
 #[derive(Args, Debug)]
 #[command(after_help = examples::DRAW)]
 pub(crate) struct DrawArgs {
@@ -241,8 +241,15 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
     pub(crate) colours: Colouring,
     /// Draw translucent polygons as if they were opaque
-    #[arg(long)]
+    #[arg(long, conflicts_with = "translucent")]
     pub(crate) opaque: bool,
+    /// Draw all polygons, nothing hidden, each with its opacity
+    ///
+    /// A polygon is one path, or, where it lies before and behind others in a circle, several. Paths do not
+    /// reach under their neighbours, as that would show through: viewers show seams between polygons of
+    /// one surface.
+    #[arg(long)]
+    pub(crate) translucent: bool,
     /// Leave out polygons that show less than PX x PX pixels of area in all, and lines shorter than PX
     /// [default: 0.01]
     ///

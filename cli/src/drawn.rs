@@ -23,6 +23,8 @@ pub(crate) struct Filled<'a> {
     /// The name of its material, if paths are to be named.
     pub(crate) material: &'a str,
     pub(crate) fill: [u8; 3],
+    /// From 0 to 1.
+    pub(crate) opacity: f32,
     pub(crate) outlines: Vec<Outline>,
 }
 
@@ -43,12 +45,14 @@ pub(crate) struct Style<'a> {
     pub(crate) camera: &'a Camera,
     pub(crate) colours: &'a Colours<'a>,
     pub(crate) ids: bool,
+    /// Whether nothing is hidden, and polygons have their opacities.
+    pub(crate) is_translucent: bool,
 }
 
-/// Paths as they are written: those of one colour together where nothing lies between them, and each
-/// extended under its later neighbours.
+/// Paths as they are written: those that look alike together where nothing lies between them, and opaque
+/// ones extended under their later neighbours.
 pub(crate) fn filled<'a>(paths: &[Path<'_>], style: &Style<'a>) -> Vec<Filled<'a>> {
-    let Style { scene, camera, colours, ids } = *style;
+    let Style { scene, camera, colours, ids, is_translucent } = *style;
     let material = |path: &Path<'_>| {
         if ids { scene.material(path.polygon()).name.as_str() } else { "" }
     };
@@ -56,15 +60,23 @@ pub(crate) fn filled<'a>(paths: &[Path<'_>], style: &Style<'a>) -> Vec<Filled<'a
         let polygon = path.polygon();
         shaded(colours.rgb(polygon), scene.polygon(polygon), camera)
     };
-    let looks: Vec<(&str, [u8; 3])> =
-        paths.iter().map(|path| (material(path), fill(path))).collect();
+    let opacity = |path: &Path<'_>| {
+        if is_translucent { colours.opacity(path.polygon()).clamp(0.0, 1.0) } else { 1.0 }
+    };
+    // Opacities from 0 to 1 are in the order of their bits.
+    let looks: Vec<(&str, [u8; 3], u32)> =
+        paths.iter().map(|path| (material(path), fill(path), opacity(path).to_bits())).collect();
     let order = by_fill(paths, &looks, camera.size());
     let paths: Vec<Path<'_>> = order.iter().map(|&number| paths[number]).collect();
-    let outlines = trapped(&paths, camera.size());
+    let outlines = match is_translucent {
+        true => paths.iter().map(|path| path.outlines().map(<[_]>::to_vec).collect()).collect(),
+        false => trapped(&paths, camera.size()),
+    };
     let all = paths.iter().zip(outlines).zip(&order);
     let filled = all.map(|((path, outlines), &number)| {
-        let (material, fill) = looks[number];
-        Filled { polygon: path.polygon(), material, fill, outlines }
+        let (material, fill, opacity) = looks[number];
+        let opacity = f32::from_bits(opacity);
+        Filled { polygon: path.polygon(), material, fill, opacity, outlines }
     });
     filled.collect()
 }

@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
-use pdf_writer::{Content, Filter, Finish, Pdf, Rect, Ref};
+use pdf_writer::writers::ExtGraphicsState;
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
 use crate::colours::BACKGROUND;
 use crate::drawn::{DASHES, Drawn, HIDDEN_WIDTH, WIDTH};
@@ -26,7 +27,15 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
     pdf.pages(pages).kids([page]).count(1);
     let mut only = pdf.page(page);
     only.parent(pages).media_box(Rect::new(0.0, 0.0, width, height)).contents(content);
-    only.resources();
+    let mut resources = only.resources();
+    let mut states = resources.ext_g_states();
+    for opacity in opacities(drawn) {
+        let mut state =
+            states.insert(Name(state_name(opacity).as_bytes())).start::<ExtGraphicsState<'_>>();
+        state.non_stroking_alpha(opacity);
+    }
+    states.finish();
+    resources.finish();
     only.finish();
     pdf.stream(content, &compressed).filter(Filter::FlateDecode);
     out.write_all(&pdf.finish())
@@ -42,8 +51,12 @@ fn painted(drawn: &Drawn<'_>) -> Vec<u8> {
     content.rect(0.0, 0.0, width, height).fill_nonzero();
     // Pages are measured upwards from below.
     content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
-    let mut last = BACKGROUND;
+    let (mut last, mut last_opacity) = (BACKGROUND, 1.0);
     for filled in &drawn.fills {
+        if filled.opacity != last_opacity {
+            content.set_parameters(Name(state_name(filled.opacity).as_bytes()));
+            last_opacity = filled.opacity;
+        }
         if filled.fill != last {
             fill_colour(&mut content, filled.fill);
             last = filled.fill;
@@ -66,6 +79,19 @@ fn painted(drawn: &Drawn<'_>) -> Vec<u8> {
         }
     }
     content.finish().into_vec()
+}
+
+/// The opacities of paths, each once; none if all are opaque.
+fn opacities(drawn: &Drawn<'_>) -> Vec<f32> {
+    let mut all: Vec<f32> = drawn.fills.iter().map(|filled| filled.opacity).collect();
+    all.sort_by(f32::total_cmp);
+    all.dedup();
+    if all == [1.0] { vec![] } else { all }
+}
+
+/// What the graphics state with an opacity is called.
+fn state_name(opacity: f32) -> String {
+    format!("A{:08x}", opacity.to_bits())
 }
 
 fn fill_colour(content: &mut Content, colour: [u8; 3]) {

@@ -23,7 +23,7 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
         if !material.is_empty() {
             writeln!(out, "<g data-material=\"{}\">", escaped(material))?;
         }
-        for same in run.chunk_by(|a, b| a.fill == b.fill) {
+        for same in run.chunk_by(|a, b| (a.fill, a.opacity) == (b.fill, b.opacity)) {
             write_same(out, same, units, drawn.ids)?;
         }
         if !material.is_empty() {
@@ -36,10 +36,15 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
     writeln!(out, "</g>\n</svg>")
 }
 
-/// Writes paths of one colour.
+/// Writes paths of one colour and opacity.
 fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], units: u32, ids: bool) -> io::Result<()> {
-    let fill =
-        paths.first().map_or(String::new(), |first| format!(" fill=\"{}\"", hex(first.fill)));
+    let mut fill = String::new();
+    if let Some(Filled { fill: colour, opacity, .. }) = paths.first() {
+        fill = format!(" fill=\"{}\"", hex(*colour));
+        if *opacity < 1.0 {
+            fill += &format!(" fill-opacity=\"{opacity}\"");
+        }
+    }
     // For one path a group is longer than it saves.
     let is_group = paths.len() > 1;
     if is_group {

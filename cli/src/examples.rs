@@ -56,6 +56,7 @@ Examples:
   binspace draw teapot -o teapot.svg
   binspace draw scene.obj -o scene.pdf --up z --size 1200x900
   binspace draw scene.obj -o smooth.png
+  binspace draw glass.obj -o glass.svg --translucent
   binspace draw part.obj -o part.svg --lines --hidden dashed
   binspace draw part.obj -o part.pdf --edges creases=20
   binspace draw mesh.obj -o plot.svg --lines --edges silhouettes

@@ -1,7 +1,9 @@
 //! `binspace draw`: a view as a vector picture with one path a polygon, and lines.
 
+use std::collections::HashSet;
 use std::ffi::OsStr;
 use std::io::{self, Write};
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -9,6 +11,7 @@ use binspace::drawing::{Drawing, Shown, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::scene::Scene;
 use binspace::view::Camera;
+use binspace::{BspTree, Error};
 use serde::Serialize;
 
 use super::Outcome;
@@ -46,33 +49,43 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         note_backs(&scene, &tree, &camera);
     }
     let rays = Rays::new(&camera, tree.faces()).map_err(|error| camera::about(&scene, &error))?;
-    let progress = Progress::spinner("drawing");
+    let rays = args.cull.cull.rays(rays);
     let start = Instant::now();
     let about = |error| job::about(&scene, &error);
-    let map = VisibilityMap::of(&tree, args.cull.cull.rays(rays)).map_err(about)?;
-    let shown: Vec<Shown> = map.polygons().collect();
     let colours = Colours::new(&scene, args.colours);
-    if !args.opaque {
-        refuse_translucent(&scene, &colours, &shown)?;
-    }
     let view = View { args, scene: &scene, camera: &camera, colours: &colours };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
-        visible: shown.len(),
         tree_seconds,
         ..Figures::default()
     };
-    if format == DrawFormat::Png {
-        let pixels = coverage::picture(&map, |polygon| view.colour(polygon));
+    // What shows; of a drawing in which nothing is hidden, only lines need it.
+    let needs_map = !args.translucent || edges != EdgeChoice::None;
+    let map = needs_map.then(|| view.map(&tree, rays.clone())).transpose().map_err(about)?;
+    let shown: Vec<Shown> = map.iter().flat_map(VisibilityMap::polygons).collect();
+    figures.visible = shown.len();
+    if !args.opaque && !args.translucent {
+        refuse_translucent(&scene, &colours, &shown)?;
+    }
+    if let (DrawFormat::Png, Some(map)) = (format, &map) {
+        let pixels = coverage::picture(map, |polygon| view.colour(polygon));
         figures.draw_seconds = start.elapsed().as_secs_f64();
         figures.bytes = written(output, |out| png_file::write(out, camera.size(), &pixels))?;
     } else {
-        let drawing = (!args.lines).then(|| map.drawing()).transpose().map_err(about)?;
-        let strokes = match edges {
-            EdgeChoice::None => vec![],
-            _ => view.strokes(&map, edges).map_err(about)?,
+        let drawing = match &map {
+            _ if args.lines => None,
+            _ if args.translucent => Some(view.translucent(&tree, rays).map_err(about)?),
+            map => map.as_ref().map(|map| view.opaque(map)).transpose().map_err(about)?,
         };
+        let strokes = match &map {
+            Some(map) if edges != EdgeChoice::None => view.strokes(map, edges).map_err(about)?,
+            _ => vec![],
+        };
+        if let Some(drawing) = drawing.as_ref().filter(|_| args.translucent) {
+            figures.visible =
+                drawing.paths().map(|path| path.polygon()).collect::<HashSet<_>>().len();
+        }
         figures.draw_seconds = start.elapsed().as_secs_f64();
         let drawn = view.drawn(drawing.as_ref(), &shown, strokes, &mut figures);
         figures.bytes = written(output, |out| match format {
@@ -80,7 +93,6 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
             _ => drawn_svg::write(out, &drawn),
         })?;
     }
-    drop(progress);
     if args.json {
         say(serde_json::to_string(&figures).map_err(|error| Failure::about(scene.name(), error))?)?;
     }
@@ -104,11 +116,22 @@ impl<'a> View<'a> {
         self.args.min_size.unwrap_or(MIN_SIZE)
     }
 
-    fn strokes(
-        &self,
-        map: &VisibilityMap<'_>,
-        edges: EdgeChoice,
-    ) -> Result<Vec<Strokes>, binspace::Error> {
+    fn map<'t>(&self, tree: &'t BspTree, rays: Rays) -> Result<VisibilityMap<'t>, Error> {
+        let bar = Progress::share("finding what shows");
+        VisibilityMap::of_with_progress(tree, rays, |progress| shown_by(&bar, progress))
+    }
+
+    fn opaque(&self, map: &VisibilityMap<'_>) -> Result<Drawing, Error> {
+        let bar = Progress::share("drawing");
+        map.drawing_with_progress(|progress| shown_by(&bar, progress))
+    }
+
+    fn translucent(&self, tree: &BspTree, rays: Rays) -> Result<Drawing, Error> {
+        let bar = Progress::share("drawing");
+        Drawing::translucent_with_progress(tree, rays, |progress| shown_by(&bar, progress))
+    }
+
+    fn strokes(&self, map: &VisibilityMap<'_>, edges: EdgeChoice) -> Result<Vec<Strokes>, Error> {
         let hidden = self.args.hidden.unwrap_or(Hidden::None);
         let mut runs = map.edges()?;
         if edges != EdgeChoice::Silhouettes {
@@ -127,7 +150,7 @@ impl<'a> View<'a> {
     ) -> Drawn<'a> {
         let &Self { args, scene, camera, colours } = self;
         let mut is_small = vec![false; scene.len()];
-        for shown in shown {
+        for shown in shown.iter().filter(|_| !args.translucent) {
             // Areas of specks are rounded, to below 0 as well.
             is_small[shown.polygon] = shown.area.max(0.0) < self.min_size() * self.min_size();
         }
@@ -138,9 +161,16 @@ impl<'a> View<'a> {
         let lines = strokes.iter().flat_map(|strokes| &strokes.lines);
         figures.lines = lines.clone().count();
         figures.runs = lines.map(|line| line.segments.len()).sum();
-        let style = Style { scene, camera, colours, ids: args.ids };
+        let is_translucent = args.translucent;
+        let style = Style { scene, camera, colours, ids: args.ids, is_translucent };
         Drawn { size: camera.size(), fills: filled(&paths, &style), strokes, ids: args.ids }
     }
+}
+
+/// Goes on, and shows how far it is.
+fn shown_by(bar: &Progress, progress: binspace::Progress) -> ControlFlow<()> {
+    bar.set(progress.done, progress.total);
+    ControlFlow::Continue(())
 }
 
 /// The figures of a drawing.
@@ -234,6 +264,13 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         "`--hidden dashed` is for lines: add --lines, or --edges for lines over the polygons"
     } else if format == DrawFormat::Png && has_lines {
         "a PNG has no lines: write .svg or .pdf, or leave out --lines and --edges"
+    } else if format == DrawFormat::Png && args.translucent {
+        "a PNG is made of what shows: write .svg or .pdf, or use `binspace render` for a picture of \
+         translucent polygons"
+    } else if args.translucent && args.lines {
+        "--lines draws no polygons, so that none is translucent: leave out one of the two"
+    } else if args.translucent && args.min_size.is_some() && !has_lines {
+        "with --translucent nothing is hidden, so --min-size leaves nothing out"
     } else if format != DrawFormat::Svg && args.ids {
         "--ids is for SVG: other formats have no place for names"
     } else if format == DrawFormat::Png && args.min_size.is_some() {
@@ -268,9 +305,9 @@ fn refuse_translucent(
     let Some(&Shown { polygon, .. }) = shown.iter().find(is_translucent) else { return Ok(()) };
     let line = scene.line(polygon).map_or(String::new(), |line| format!(" (line {line})"));
     let problem = format!(
-        "face {polygon}{line}, counted from 0, shows with opacity {}, but drawings are opaque: give \
-         `--opaque` to draw all faces as if they were, or use `binspace render` for an SVG of all \
-         fragments",
+        "face {polygon}{line}, counted from 0, shows with opacity {}: give `--translucent` to draw \
+         all faces with their opacities, nothing hidden, or `--opaque` to draw them as if they were \
+         opaque",
         colours.opacity(polygon) + 0.0,
     );
     Err(Failure::about(scene.name(), problem))

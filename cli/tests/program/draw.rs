@@ -276,7 +276,7 @@ fn a_drawing_is_refused_where_something_would_have_to_shine_through() {
         message.contains("face 1 (line 13), counted from 0, shows with opacity 0.25"),
         "{message}"
     );
-    assert!(message.contains("--opaque") && message.contains("binspace render"), "{message}");
+    assert!(message.contains("--opaque") && message.contains("--translucent"), "{message}");
     assert_eq!(folder.files(), ["m.mtl", "s.obj"]);
     // From behind, what is opaque hides it.
     view("0,0,1").good();

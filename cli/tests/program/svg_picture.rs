@@ -16,6 +16,8 @@ pub(crate) struct DrawnLines {
     pub(crate) classes: Vec<String>,
     /// `data-polygon` and `data-edge`.
     pub(crate) edge: Option<[usize; 2]>,
+    /// `data-polygon` and `data-crosses`.
+    pub(crate) crossing: Option<[usize; 2]>,
     pub(crate) data: String,
 }
 
@@ -100,7 +102,10 @@ fn drawn_lines(node: Node<'_, '_>) -> DrawnLines {
     let mut classes: Vec<String> =
         node.ancestors().filter_map(|node| node.attribute("class")).map(str::to_owned).collect();
     classes.reverse();
-    let edge = number(&node, "data-polygon").zip(number(&node, "data-edge"));
-    let data = node.attribute("d").unwrap().to_owned();
-    DrawnLines { classes, edge: edge.map(|(polygon, edge)| [polygon, edge]), data }
+    let pair = |name: &str| {
+        let pair = number(&node, "data-polygon").zip(number(&node, name));
+        pair.map(|(polygon, other)| [polygon, other])
+    };
+    let (edge, crossing) = (pair("data-edge"), pair("data-crosses"));
+    DrawnLines { classes, edge, crossing, data: node.attribute("d").unwrap().to_owned() }
 }
