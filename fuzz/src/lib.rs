@@ -39,3 +39,8 @@ pub fn faces(data: &[u8]) {
 pub fn query(data: &[u8]) {
     support::targets::query::run(data);
 }
+
+/// Draws views of small scenes, and compares with what the tree paints.
+pub fn drawing(data: &[u8]) {
+    support::targets::drawing::run(data);
+}

@@ -1,9 +1,9 @@
 //! Small scenes full of coincidences, from hard places.
 
-use super::fill::{Score, check};
 use super::support::hard::{self, HardScene};
 use super::support::tally::tally;
-use super::translucent::{Layers, check_layers};
+use crate::support::fill::{Score, check};
+use crate::support::layered::{Layers, check_layers};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};

@@ -1,6 +1,6 @@
 //! Where polygons go through one another, by hand and against rays.
 
-use super::fill::ray;
+use crate::support::fill::ray;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;

@@ -1,6 +1,6 @@
 //! What is just hidden, and what just shows.
 
-use super::fill::{Score, check};
+use crate::support::fill::{Score, check};
 use binspace::BspTree;
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;

@@ -1,7 +1,7 @@
 //! Visible and hidden runs of edges, by hand and against rays.
 
-use super::fill::ray;
 use super::support::dice::Dice;
+use crate::support::fill::ray;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::{SplitMix64, cuboid};

@@ -3,7 +3,6 @@
 
 mod coincidences;
 mod crossings;
-mod fill;
 mod hidden;
 mod lines;
 mod pen;

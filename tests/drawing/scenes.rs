@@ -1,6 +1,6 @@
 //! Scenes large enough for every part: tiles, threads, cycles.
 
-use super::fill::{Score, check, check_rays};
+use crate::support::fill::{Score, check, check_rays};
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;

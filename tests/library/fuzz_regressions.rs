@@ -47,6 +47,12 @@ fn query_regressions_pass() {
     replay("query", targets::query::run);
 }
 
+#[cfg(feature = "drawing")]
+#[test]
+fn drawing_regressions_pass() {
+    replay("drawing", targets::drawing::run);
+}
+
 #[cfg(feature = "obj")]
 #[test]
 fn obj_regressions_pass() {

@@ -5,10 +5,14 @@
 pub(crate) mod checks;
 pub(crate) mod decode;
 pub(crate) mod dice;
+#[cfg(feature = "drawing")]
+pub(crate) mod fill;
 pub(crate) mod hard;
 pub(crate) mod hits;
 pub(crate) mod homogeneous;
 pub(crate) mod judge;
+#[cfg(feature = "drawing")]
+pub(crate) mod layered;
 pub(crate) mod model;
 pub(crate) mod orders;
 pub(crate) mod quick_hits;

@@ -4,12 +4,16 @@
 pub(crate) mod decode;
 #[path = "../../../tests/support/dice.rs"]
 pub(crate) mod dice;
+#[path = "../../../tests/support/fill.rs"]
+pub(crate) mod fill;
 #[path = "../../../tests/support/hits.rs"]
 pub(crate) mod hits;
 #[path = "../../../tests/support/homogeneous.rs"]
 pub(crate) mod homogeneous;
 #[path = "../../../tests/support/judge.rs"]
 pub(crate) mod judge;
+#[path = "../../../tests/support/layered.rs"]
+pub(crate) mod layered;
 #[path = "../../../tests/support/model.rs"]
 pub(crate) mod model;
 #[path = "../../../tests/support/orders.rs"]

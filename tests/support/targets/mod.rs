@@ -1,6 +1,8 @@
 //! The bodies of the fuzz targets. Each panics if the library's result contradicts its oracle.
 
 mod cover;
+#[cfg(feature = "drawing")]
+pub(crate) mod drawing;
 pub(crate) mod faces;
 pub(crate) mod large;
 #[cfg(feature = "obj")]

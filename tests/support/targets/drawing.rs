@@ -1,0 +1,56 @@
+//! Views of small scenes as drawings, at several zooms, against what the tree paints.
+
+use super::super::decode;
+use super::super::fill::{self, check, check_rays};
+use super::super::layered::{self, check_layers};
+use arbitrary::{Result, Unstructured};
+use binspace::BspTree;
+use binspace::glam::DVec3;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+
+/// Builds a tree, and draws it from as many views as there are bytes for.
+pub(crate) fn run(data: &[u8]) {
+    // Bytes that run out change nothing.
+    let _ = draw(&mut Unstructured::new(data));
+}
+
+fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
+    let options = decode::options(bytes)?;
+    // Views come first: scenes take all bytes that are left.
+    let views = [view(bytes)?, view(bytes)?, view(bytes)?];
+    let polygons = decode::polygons(bytes, 10)?;
+    let Ok(tree) = options.build(&polygons) else { return Ok(()) };
+    for camera in views.into_iter().flatten() {
+        // Some cameras are too near to a scene, or too far from it, for its pixels to be told apart.
+        let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
+        if let Err(what) = compare(&tree, &camera, rays) {
+            panic!("{what}: {camera:?} {polygons:?}");
+        }
+    }
+    Ok(())
+}
+
+fn compare(tree: &BspTree, camera: &Camera, rays: Rays) -> std::result::Result<(), String> {
+    check(tree, camera, rays.clone(), &mut fill::Score::default())?;
+    check_rays(tree, camera, rays.clone(), &mut fill::Score::default())?;
+    check_layers(tree, camera, rays, &mut layered::Layers::default())
+}
+
+/// A camera at a place of half integers, so that it often looks along planes and from corners.
+fn view(bytes: &mut Unstructured<'_>) -> Result<Option<Camera>> {
+    let mut point = || -> Result<DVec3> {
+        let mut half = || Ok(f64::from(bytes.int_in_range(-8..=12i8)?) * 0.5);
+        Ok(DVec3::new(half()?, half()?, half()?))
+    };
+    let (place, target) = (point()?, point()?);
+    // 1, 8, 32 and 128 times.
+    let zoom = *bytes.choose(&[1.0, 0.125, 0.03125, 0.0078125])?;
+    let size = *bytes.choose(&[[24, 18], [31, 7], [1, 1]])?;
+    let up = *bytes.choose(&[DVec3::Z, DVec3::Y, DVec3::new(1.0, 2.0, 3.0)])?;
+    let camera = match bytes.ratio(1, 3)? {
+        true => Camera::parallel(target - place, up, place, 8.0 * zoom, size),
+        false => Camera::perspective_by_slope(place, target, up, 0.5 * zoom, size),
+    };
+    Ok(camera.ok())
+}
