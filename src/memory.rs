@@ -25,6 +25,16 @@ pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Error> {
     Ok(())
 }
 
+/// The length of a list, as the place where what follows begins.
+///
+/// # Errors
+///
+/// If there are more than `u32::MAX` before: so many take more memory than there is.
+#[cfg(feature = "drawing")]
+pub(crate) fn place(len: usize) -> Result<u32, Error> {
+    u32::try_from(len).map_err(|_| Error::out_of_memory())
+}
+
 /// A list of all items.
 ///
 /// # Errors

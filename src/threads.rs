@@ -9,12 +9,13 @@ use std::sync::OnceLock;
 /// limit on threads is lacking, rayon itself would panic.
 pub(crate) fn are_running() -> bool {
     static ARE_RUNNING: OnceLock<bool> = OnceLock::new();
-    // Where no target has threads, rayon makes do with the calling one.
+    // For targets without threads rayon uses the calling one.
     cfg!(target_family = "wasm")
         || rayon::current_thread_index().is_some()
         || *ARE_RUNNING.get_or_init(start)
 }
 
+/// If the program itself tried to start rayon's threads before, and failed, this cannot tell.
 fn start() -> bool {
     // An error without a cause means that they run already.
     let started = rayon::ThreadPoolBuilder::new().build_global();

@@ -196,7 +196,8 @@ pub(crate) struct RenderArgs {
 ///
 /// Each polygon is drawn whole, before those that show in front of it; the few that cannot be put in
 /// order, as each hides some of another, are cut to what shows of them. What is hidden is not in the
-/// file. Coordinates are rounded by the picture's size: to hundredths of a pixel from 480 pixels on.
+/// file. Coordinates are rounded by the picture's size: to fiftieths of a pixel from 480 pixels on, more
+/// finely in smaller pictures.
 /// `binspace render -o FILE.svg` writes all fragments of the tree instead, the hidden ones too, and
 /// translucent ones as such.
 ///

@@ -174,7 +174,7 @@ mod tests {
         // 0 below 2, 3 below 4.
         let looks = ["a", "b", "b", "a", "b"];
         assert_eq!(ordered(&looks, &[[0, 2], [3, 4]]), [0, 3, 4, 2, 1]);
-        assert_eq!(ordered(&looks, &[[0, 1], [1, 3]]), [2, 4, 0, 1, 3].map(|n| n));
+        assert_eq!(ordered(&looks, &[[0, 1], [1, 3]]), [2, 4, 0, 1, 3]);
         assert_eq!(ordered(&looks[..0], &[]), [0usize; 0]);
     }
 

@@ -64,7 +64,7 @@ impl EdgeChoice {
         match (self, kind) {
             (Self::None, _) => false,
             (Self::All, _) | (_, EdgeKind::Border | EdgeKind::Silhouette) => true,
-            // A hundred-millionth of a right angle is rounding.
+            // A hundred-millionth of a radian is rounding.
             (Self::Creases(least), EdgeKind::Crease(angle)) => angle > least - 1e-8,
             (Self::Silhouettes, _) => false,
             (Self::Creases(_), _) => true,

@@ -9,7 +9,7 @@ use super::job::Job;
 use super::jobs;
 use super::live::Live;
 use super::options::BuildOptions;
-use super::progress::{Progress, Watch, one_at_a_time};
+use super::progress::{AT_ONCE, Progress, Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::{Exact, Faces, Kernel};
 use crate::faces::{Listener, Preparation, Preparer};
@@ -215,10 +215,6 @@ fn watched_parts<K: Kernel>(
     divide_all(&shared, faces, &mut Memory::default(), watch)
 }
 
-/// Faces that are made pieces of before a cancel is noticed. Larger: that takes longer; smaller: time
-/// for asking.
-const AT_ONCE: usize = 1 << 14;
-
 /// Divides the set of all faces, down to the leaves.
 fn divide_all<K: Kernel>(
     shared: &Shared<'_, K>,
@@ -232,8 +228,8 @@ fn divide_all<K: Kernel>(
     reserve(&mut pieces, faces.len())?;
     let count = faces.len() as u32;
     for start in (0..count).step_by(AT_ONCE) {
-        watch.work(AT_ONCE)?;
         let some = start..count.min(start + AT_ONCE as u32);
+        watch.work(some.len())?;
         pieces.extend(some.map(|face| Live::whole(faces, face)));
     }
     jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)

@@ -18,8 +18,9 @@ impl BspTree {
     /// [overlays](crate::Overlay), [meshes](crate::Mesh) and [bounds](crate::Bounds) have to be made
     /// anew. It takes as long as a build; what moves belongs into an overlay. Duplicates among the new
     /// polygons, and of old ones, are kept and counted as always. (Of an old polygon that was triangulated,
-    /// a corner that no triangle has is not known, as on a straight run or where it crosses itself: then its
-    /// duplicate is not found.)
+    /// a corner that no triangle has is not known, as on a straight run or where it crosses itself, in space
+    /// or along the axis on which it was triangulated: its duplicates are not found then, and a polygon
+    /// without that corner counts as one.)
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};

@@ -5,15 +5,15 @@ use std::hash::BuildHasherDefault;
 
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::frame::is_same_line;
-use super::lines::{Half, Key, Mixer};
+use super::lines::{Half, Key, Mixer, STEPS};
 use super::map::VisibilityMap;
 use crate::Error;
 use crate::exact::PlaneId;
-use crate::memory::{push, reserve};
+use crate::memory::push;
 
 /// A side of a cell on the line of a cut.
 #[derive(Clone, Copy, Debug)]
-struct Border {
+struct CutSide {
     line: u32,
     face: u32,
     /// Whether the cell is where the line is negative.
@@ -23,8 +23,11 @@ struct Border {
     ends: [[f64; 2]; 2],
 }
 
-/// Two faces, by the line between cells of theirs.
-type Pairs = HashMap<(u32, [u32; 2]), bool, BuildHasherDefault<Mixer>>;
+/// Borders are not further off, in steps.
+const FURTHEST: f64 = (1u64 << 50) as f64;
+
+/// Whether two faces go through one another in a line: by the line and the faces.
+type Known = HashMap<(u32, [u32; 2]), bool, BuildHasherDefault<Mixer>>;
 
 impl VisibilityMap<'_> {
     /// Where polygons go through one another, as far as it shows: runs of [`EdgeKind::Crossing`], all
@@ -40,12 +43,13 @@ impl VisibilityMap<'_> {
     ///
     /// If there is not enough memory.
     pub fn crossings(&self) -> Result<Vec<EdgeRun>, Error> {
-        let mut borders = self.borders()?;
-        borders
+        let mut sides = self.cut_sides()?;
+        self.add_borders(&mut sides)?;
+        sides
             .sort_unstable_by(|a, b| a.line.cmp(&b.line).then(a.places[0].total_cmp(&b.places[0])));
         let mut runs = Vec::new();
-        let mut are_crossing = Pairs::default();
-        for line in borders.chunk_by(|a, b| a.line == b.line) {
+        let mut are_crossing = Known::default();
+        for line in sides.chunk_by(|a, b| a.line == b.line) {
             let first = runs.len();
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
@@ -63,9 +67,9 @@ impl VisibilityMap<'_> {
     }
 
     /// All sides of cells on lines of cuts.
-    fn borders(&self) -> Result<Vec<Border>, Error> {
+    fn cut_sides(&self) -> Result<Vec<CutSide>, Error> {
         let lines = &self.stock.lines;
-        let mut borders = Vec::new();
+        let mut found = Vec::new();
         for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
             let face = self.stock.seen[self.stock.seen_of(visible.item) as usize].face;
             let sides = &visible.cell.sides;
@@ -74,24 +78,76 @@ impl VisibilityMap<'_> {
                 if !matches!(lines.key(line), Key::Cut(..)) {
                     continue;
                 }
-                let [_, kx, ky] = lines.rounded(side.half).k;
                 let end = &sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
-                let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
-                let mut ends = [side.start.at, end.start.at];
-                if place(ends[0]) > place(ends[1]) {
-                    ends.swap(0, 1);
-                }
+                let ends = [side.start.at, end.start.at];
                 let is_negative = side.half.is_negative();
-                let places = ends.map(place);
-                reserve(&mut borders, 1)?;
-                borders.push(Border { line, face, is_negative, places, ends });
+                push(&mut found, self.cut_side(line, face, is_negative, ends))?;
             }
         }
-        Ok(borders)
+        Ok(found)
+    }
+
+    fn cut_side(
+        &self,
+        line: u32,
+        face: u32,
+        is_negative: bool,
+        mut ends: [[f64; 2]; 2],
+    ) -> CutSide {
+        let [_, kx, ky] = self.stock.lines.rounded(Half::of(line)).k;
+        let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
+        if place(ends[0]) > place(ends[1]) {
+            ends.swap(0, 1);
+        }
+        CutSide { line, face, is_negative, places: ends.map(place), ends }
+    }
+
+    /// Adds the sides on borders of tiles that are on one of the lines: what lies beyond such a border was
+    /// not cut by the line.
+    fn add_borders(&self, sides: &mut Vec<CutSide>) -> Result<(), Error> {
+        let lines = &self.stock.lines;
+        // The lines by the borders that they are on, and whether both are positive on the same side.
+        let mut on: HashMap<u64, Vec<(u32, bool)>, BuildHasherDefault<Mixer>> = HashMap::default();
+        let mut last = None;
+        sides.sort_unstable_by_key(|side| side.line);
+        for line in sides.iter().map(|side| side.line) {
+            if last.replace(line) == Some(line) {
+                continue;
+            }
+            let exact = lines.exact(Half::of(line));
+            let [x, y] = [1, 2].map(|i| exact[i].sign());
+            let (axis, sign) = if y.is_eq() { (0, x) } else { (1, y) };
+            let k = lines.rounded(Half::of(line)).k;
+            let steps = (-k[0] / k[axis + 1] * STEPS).round();
+            if (x.is_ne() && y.is_ne()) || steps.is_nan() || steps.abs() > FURTHEST {
+                continue;
+            }
+            let border = Half::beyond(axis, steps as i64);
+            if is_same_line(&exact, &lines.exact(border)) {
+                on.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                push(on.entry(border.line()).or_default(), (line, sign.is_gt()))?;
+            }
+        }
+        if on.is_empty() {
+            return Ok(());
+        }
+        for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
+            let face = self.stock.seen[self.stock.seen_of(visible.item) as usize].face;
+            let around = &visible.cell.sides;
+            for (i, side) in around.iter().enumerate().filter(|(_, s)| s.half.number().is_none()) {
+                let end = &around[if i + 1 == around.len() { 0 } else { i + 1 }];
+                for &(line, is_same) in on.get(&side.half.line()).into_iter().flatten() {
+                    let is_negative = side.half.is_negative() == is_same;
+                    let ends = [side.start.at, end.start.at];
+                    push(sides, self.cut_side(line, face, is_negative, ends))?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether two faces go through one another in the line between cells of theirs.
-    fn do_cross(&self, a: &Border, b: &Border, known: &mut Pairs) -> Result<bool, Error> {
+    fn do_cross(&self, a: &CutSide, b: &CutSide, known: &mut Known) -> Result<bool, Error> {
         let (lines, faces) = (&self.stock.lines, self.stock.lines.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
             return Ok(false);
@@ -107,11 +163,11 @@ impl VisibilityMap<'_> {
         }))
     }
 
-    /// What two borders have in common.
-    fn common(&self, borders: [&Border; 2]) -> EdgeRun {
-        let polygon = |border: &Border| self.stock.lines.frame.faces.polygon(border.face);
-        let [a, b] = borders.map(polygon);
-        let [first, second] = borders;
+    /// What two sides have in common.
+    fn common(&self, sides: [&CutSide; 2]) -> EdgeRun {
+        let polygon = |border: &CutSide| self.stock.lines.frame.faces.polygon(border.face);
+        let [a, b] = sides.map(polygon);
+        let [first, second] = sides;
         let start = if first.places[0] > second.places[0] { first } else { second }.ends[0];
         let end = if first.places[1] < second.places[1] { first } else { second }.ends[1];
         let kind = EdgeKind::Crossing(a.max(b));
@@ -122,18 +178,28 @@ impl VisibilityMap<'_> {
 /// Joins runs of the same polygons, from the `first` on, where one begins where another ends: they are on
 /// one line, in its direction.
 fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
-    let mut merged: Vec<EdgeRun> = Vec::new();
-    for run in runs.drain(first..) {
-        let is_same = |other: &EdgeRun| (other.polygon, other.kind) == (run.polygon, run.kind);
-        let before = merged.iter_mut().rev().find(|other| is_same(other));
-        match before {
-            Some(before) if distance([before.ends[1], run.ends[0]]) <= SHORTEST => {
-                before.ends[1] = run.ends[1];
-            }
-            _ => merged.push(run),
+    let other = |run: &EdgeRun| match run.kind {
+        EdgeKind::Crossing(other) => other,
+        _ => 0,
+    };
+    // Stable: runs of one pair stay in their order along the line.
+    runs[first..].sort_by_key(|run| (run.polygon, other(run)));
+    let mut kept = first;
+    for next in first..runs.len() {
+        let run = runs[next];
+        let goes_on = kept > first && {
+            let before = &runs[kept - 1];
+            (before.polygon, before.kind) == (run.polygon, run.kind)
+                && distance([before.ends[1], run.ends[0]]) <= SHORTEST
+        };
+        if goes_on {
+            runs[kept - 1].ends[1] = run.ends[1];
+        } else {
+            runs[kept] = run;
+            kept += 1;
         }
     }
-    runs.append(&mut merged);
+    runs.truncate(kept);
 }
 
 fn distance([a, b]: [[f64; 2]; 2]) -> f64 {

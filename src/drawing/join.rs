@@ -18,8 +18,8 @@ pub(super) struct Groups {
     after: Vec<Vec<u32>>,
     before: Vec<Vec<u32>>,
     /// In which search each group was met last.
-    met: Vec<u32>,
-    search: u32,
+    met: Vec<u64>,
+    search: u64,
 }
 
 /// Searches end after so many groups, and what they asked for is not joined. Larger: up to a sixth

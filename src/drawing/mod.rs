@@ -2,7 +2,8 @@
 //!
 //! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts. A
 //! [`VisibilityMap`] says which polygon shows where, exactly. From it a [`Drawing`] is made: one filled
-//! path for each polygon that shows, in an order to paint them in.
+//! path for each polygon that shows, in an order to paint them in. [`Drawing::translucent`] hides nothing
+//! and needs no map.
 //!
 //! | file | |
 //! |---|---|

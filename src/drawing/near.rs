@@ -41,7 +41,7 @@ impl Extent {
     }
 }
 
-/// A range of places, and whether its middle parts along y.
+/// A range of places, and the axis (0, 1 for x, y) along which its middle divides it.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     low: usize,

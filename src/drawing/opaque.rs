@@ -13,9 +13,9 @@ use super::tile::{CUT, Leaf, Tile, Visible};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
-use crate::memory::{push, reserve};
+use crate::memory::{collect, push, reserve};
 
-/// A view as filled outlines, in the order to paint them: one for each polygon that shows.
+/// A view as filled outlines, in the order to paint them.
 #[derive(Clone, Debug)]
 pub struct Drawing {
     size: [u32; 2],
@@ -75,7 +75,7 @@ impl VisibilityMap<'_> {
         let Ordered { order, is_cut_out } =
             order(shown.polygons.len(), &pairs, &shown.ranks, watch)?;
         let mut drawing = Drawing::empty(size);
-        let cells = shown.cells(stock, leaves, &is_cut_out);
+        let cells = shown.cells(stock, leaves, &is_cut_out)?;
         reserve(&mut drawing.paths, order.len())?;
         let mut edges = Vec::new();
         for node in order {
@@ -141,8 +141,8 @@ impl<'d> Path<'d> {
         self.record.polygon
     }
 
-    /// Whether only a part of the polygon is filled, as it is in a cycle with others: what shows of it,
-    /// or one of several parts if nothing is hidden.
+    /// Whether the path has only a part of its polygon: what shows of one that is in a cycle with others;
+    /// or, in a drawing where nothing is hidden, one of several parts.
     pub fn is_cut_out(&self) -> bool {
         self.record.is_cut_out
     }
@@ -177,25 +177,25 @@ impl Nodes {
         let faces = stock.lines.frame.faces;
         let polygon = |seen: u32| faces.polygon(stock.seen[seen as usize].face);
         let most = (0..stock.seen.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
-        let mut last = vec![None; most];
+        let mut last: Vec<Option<u32>> = collect((0..most).map(|_| None))?;
         for Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             let last = &mut last[stock.polygon(*item)];
             *last = (*last).max(Some(*item));
         }
         let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
-        let mut numbers = vec![u32::MAX; most];
+        let mut numbers: Vec<u32> = collect((0..most).map(|_| u32::MAX))?;
         for (polygon, last) in last.iter().enumerate() {
             let Some(last) = last else { continue };
             numbers[polygon] = shown.polygons.len() as u32;
-            shown.polygons.push(polygon);
-            shown.faces.push(vec![]);
-            shown.ranks.push(stock.items.len() as u32 - last);
+            push(&mut shown.polygons, polygon)?;
+            push(&mut shown.faces, vec![])?;
+            push(&mut shown.ranks, stock.items.len() as u32 - last)?;
         }
         for seen in 0..stock.seen.len() as u32 {
             let number = numbers[polygon(seen)];
-            shown.places.push(number);
+            push(&mut shown.places, number)?;
             if number != u32::MAX {
-                shown.faces[number as usize].push(seen);
+                push(&mut shown.faces[number as usize], seen)?;
             }
         }
         Ok(shown)
@@ -207,15 +207,15 @@ impl Nodes {
         stock: &Stock<'_>,
         leaves: &'l [Leaf],
         is_cut_out: &[bool],
-    ) -> Vec<Vec<&'l Cell>> {
-        let mut cells = vec![vec![]; self.polygons.len()];
+    ) -> Result<Vec<Vec<&'l Cell>>, Error> {
+        let mut cells: Vec<Vec<&Cell>> = collect(self.polygons.iter().map(|_| vec![]))?;
         for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             let place = self.places[stock.items[*item as usize].seen as usize] as usize;
             if is_cut_out[place] {
-                cells[place].push(cell);
+                push(&mut cells[place], cell)?;
             }
         }
-        cells
+        Ok(cells)
     }
 }
 

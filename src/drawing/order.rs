@@ -124,7 +124,7 @@ impl Graph<'_> {
                 for (_, node) in degrees {
                     self.is_cut_out[node as usize] = true;
                     self.component[node as usize] = NONE;
-                    cut_out.push(node);
+                    push(&mut cut_out, node)?;
                 }
                 let left: Vec<u32> =
                     nodes.into_iter().filter(|&node| !self.is_cut_out[node as usize]).collect();
@@ -199,14 +199,14 @@ impl Graph<'_> {
             if number[root as usize] != UNMET {
                 continue;
             }
-            path.push((root, self.starts[root as usize]));
+            push(&mut path, (root, self.starts[root as usize]))?;
             while let Some((node, at)) = path.last_mut() {
                 self.watch.work(VISITED)?;
                 let (v, place) = (*node as usize, *at);
                 if place == self.starts[v] {
                     (number[v], least[v]) = (next, next);
                     next += 1;
-                    stack.push(*node);
+                    push(&mut stack, *node)?;
                     is_on_stack[v] = true;
                 }
                 let rest = &self.pairs[place as usize..self.starts[v + 1] as usize];
@@ -221,7 +221,7 @@ impl Graph<'_> {
                     *at = place + skip as u32 + 1;
                     let above = rest[skip].above;
                     // A node is met when its first pair is looked at, so one without pairs as well.
-                    path.push((above, self.starts[above as usize]));
+                    push(&mut path, (above, self.starts[above as usize]))?;
                     continue;
                 }
                 path.pop();
@@ -236,7 +236,7 @@ impl Graph<'_> {
                         self.component[w as usize] = if nodes.len() > 1 { v as u32 } else { NONE };
                     }
                     if nodes.len() > 1 {
-                        found.push(nodes);
+                        push(&mut found, nodes)?;
                     }
                 }
             }
@@ -252,10 +252,11 @@ impl Graph<'_> {
         let alive = |pair: &&Pair| !self.is_cut_out[pair.below as usize];
         let mut waits: Vec<u32> = filled(nodes, 0)?;
         self.pairs.iter().filter(alive).for_each(|pair| waits[pair.above as usize] += 1);
-        let mut ready: BinaryHeap<Reverse<(u32, u32)>> = (0..nodes as u32)
-            .filter(|&node| waits[node as usize] == 0)
-            .map(|node| Reverse((rank[node as usize], node)))
-            .collect();
+        let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
+        // Each node is in it once at most.
+        ready.try_reserve_exact(nodes).map_err(|_| Error::out_of_memory())?;
+        let first = (0..nodes as u32).filter(|&node| waits[node as usize] == 0);
+        ready.extend(first.map(|node| Reverse((rank[node as usize], node))));
         let mut order = Vec::new();
         reserve(&mut order, nodes)?;
         while let Some(Reverse((_, node))) = ready.pop() {

@@ -4,7 +4,7 @@ use super::near::Ends;
 use crate::Error;
 use crate::memory::{push, reserve};
 
-/// Ends nearer than this, in pixels, are one. Smaller: corners that two projections rounded apart tear
+/// Ends are rounded to a grid of this step, in pixels, and are common if they fall on one place. Smaller: corners that two projections rounded apart tear
 /// lines; larger: lines of a very fine mesh lose their shape.
 const GRID: f64 = 1.0 / 1024.0;
 /// Of how many segments at a corner the straightest is taken. Larger: time at corners of many; smaller:
@@ -52,7 +52,8 @@ impl Polyline {
 ///
 /// Each segment is drawn once. Where an odd number of them meet, a line ends, and nowhere else: these are
 /// Euler's trails, found by Hierholzer's algorithm (1873). Where a line can go on in several ways, it
-/// takes the straightest of a few. Ends are common if they are equal up to a thousandth of a pixel.
+/// takes the straightest of a few. Ends are common if they are the same when rounded
+/// to a thousandth of a pixel; so two that are nearer than that may be kept apart.
 /// Segments with an infinite or NaN coordinate are left out.
 ///
 /// The next line is always the one with an end nearest to the pen, which begins at (0, 0). O(n log n) for
@@ -69,6 +70,10 @@ pub fn polylines(
         if ends.as_flattened().iter().all(|c| c.is_finite()) {
             push(&mut net.segments, Segment { number, ends, corners: [0; 2] })?;
         }
+    }
+    // Ends have numbers of 32 bits.
+    if net.segments.len() > (u32::MAX / 2) as usize {
+        return Err(Error::out_of_memory());
     }
     net.find_corners()?;
     let joined = net.trails()?;

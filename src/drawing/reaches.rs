@@ -6,12 +6,12 @@ use super::cell::are_apart;
 use super::lines::{Half, Lines};
 use super::tile::Across;
 use crate::Error;
-use crate::memory::{push, reserve};
+use crate::memory::{place, push, reserve};
 
 /// A piece, with those of its lines that may cross a part of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
-    /// Of an item, or of a face, by its place in the stock.
+    /// What the caller gave it: an item's number in `overlaps`, a face's place in the stock in `above`.
     pub(super) number: u32,
     halves: [u32; 2],
 }
@@ -37,11 +37,11 @@ impl Reaches {
         number: u32,
         halves: impl IntoIterator<Item = Half>,
     ) -> Result<(), Error> {
-        let start = self.halves.len() as u32;
+        let start = place(self.halves.len())?;
         for half in halves {
             push(&mut self.halves, half)?;
         }
-        push(&mut self.list, Reach { number, halves: [start, self.halves.len() as u32] })
+        push(&mut self.list, Reach { number, halves: [start, place(self.halves.len())?] })
     }
 
     pub(super) fn halves_of(&self, reach: &Reach) -> &[Half] {

@@ -7,7 +7,7 @@ use super::lines::{Half, Lines};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::PlaneId;
-use crate::memory::{push, reserve};
+use crate::memory::{place, push, reserve};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -69,7 +69,7 @@ impl<'t> Stock<'t> {
                 continue;
             }
             let seen = *number;
-            let start = stock.halves.len() as u32;
+            let start = place(stock.halves.len())?;
             for line in fragment.lines() {
                 let Some(plane) = line.as_cut() else { continue };
                 let sheet = &sheets[seen as usize];
@@ -77,7 +77,7 @@ impl<'t> Stock<'t> {
                 push(&mut stock.halves, half)?;
             }
             stock.seen[seen as usize].last = stock.items.len() as u32;
-            let cuts = [start, stock.halves.len() as u32];
+            let cuts = [start, place(stock.halves.len())?];
             push(&mut stock.items, Item { seen, cuts })?;
         }
         Ok(stock)
@@ -95,7 +95,7 @@ impl<'t> Stock<'t> {
             return Ok(UNSEEN);
         }
         let may_be_behind = rays.is_perspective() && faces.upright_axis(face).is_some();
-        let start = self.halves.len() as u32;
+        let start = place(self.halves.len())?;
         for k in 0..faces.corners(face).len() as u32 {
             let half = self.lines.edge(face, k, &sheet, front)?;
             push(&mut self.halves, half)?;
@@ -106,7 +106,7 @@ impl<'t> Stock<'t> {
             let half = self.lines.ahead(face, &sheet)?;
             push(&mut self.halves, half)?;
         }
-        let halves = start..self.halves.len() as u32;
+        let halves = start..place(self.halves.len())?;
         push(sheets, sheet)?;
         push(&mut self.seen, Seen { face, halves, last: 0, region })?;
         Ok(self.seen.len() as u32 - 1)

@@ -12,7 +12,7 @@ use super::lines::{Half, Lines, STEPS};
 use super::stock::Stock;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{push, reserve};
+use crate::memory::{place, push, reserve};
 use crate::parallel_map;
 
 /// A rectangle of the picture, between borders in steps.
@@ -323,7 +323,7 @@ impl<'a, 'b> Narrow<'a, 'b> {
                 middle += usize::from(is_rim);
             }
         }
-        let halves = [start, middle, list.halves.len()].map(|place| place as u32);
+        let halves = [place(start)?, place(middle)?, place(list.halves.len())?];
         reserve(&mut list.items, 1)?;
         list.items.push(Listed { item, halves });
         if start == list.halves.len() {

@@ -51,7 +51,8 @@ impl<'t> Location<'t> {
 
     /// The numbers of all fragments in whose planes the point lies, exactly, in ascending order: wherever
     /// in the tree they are, in leaves as well, and whether or not they contain the point. It does not
-    /// depend on how the tree was built. O(fragments), some nanoseconds each.
+    /// depend on how the tree was built. O(fragments): a test by floats for each, and an exact one for
+    /// those that are near the point.
     ///
     /// Those that contain the point are what a ray of no length [hits](BspTree::hits).
     ///

@@ -186,11 +186,12 @@ impl Bounds {
     ///
     /// Fragments are as the tree has them, as for [`BspTree::hits`]. Numbers of the planes are taken as they
     /// are given, up to digits below 2⁻¹¹⁵ of the normal's largest, and of the offset up to as many below
-    /// the scene's extent. All of the region's planes are used, but for those with a number that is infinite
-    /// or NaN, which keep everything.
+    /// the scene's extent. (Of scenes further than 2¹⁰⁰ extents from the origin, and of numbers at the ends
+    /// of what `f64` can hold, the offset is rounded.) All of the region's planes are used, but for
+    /// those with a number that is infinite or NaN, which keep everything.
     ///
-    /// Whole blocks of fragments are passed over, or taken, by their boxes: the time follows what the
-    /// region's sides go through, and a 16th of 16th and so on of what it does not contain.
+    /// Blocks of 16, 256, … fragments are taken or left out as a whole by their boxes, so the time goes
+    /// mostly with the fragments that are found or lie at the region's sides.
     ///
     /// # Panics
     ///

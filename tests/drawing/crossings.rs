@@ -38,6 +38,30 @@ fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
     }
 }
 
+/// A wall through a floor of tiles: a run for each tile, and one for two walls in a line with a gap
+/// between them.
+#[test]
+fn a_wall_crosses_every_tile_of_a_floor() {
+    let count = 2_000;
+    let mut polygons: Vec<[[f64; 3]; 4]> = (0..count)
+        .map(|i| {
+            let x = f64::from(i);
+            [[x, -1.0, 0.0], [x + 1.0, -1.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.0]]
+        })
+        .collect();
+    let end = f64::from(count) + 1.0;
+    polygons.push([[-1.0, 0.0, -1.0], [end, 0.0, -1.0], [end, 0.0, 1.0], [-1.0, 0.0, 1.0]]);
+    let tree = BspTree::build(&polygons).unwrap();
+    let centre = DVec3::new(0.5 * end, 0.0, 0.0);
+    let direction = DVec3::new(0.0, 1.0, -1.0);
+    let camera = Camera::parallel(direction, DVec3::Z, centre, 0.4 * end, [800, 200]).unwrap();
+    let runs = crossings(&tree, &camera);
+    // The picture shows four fifths of the floor's length.
+    let tiles: Vec<usize> = runs.iter().map(|run| run.polygon).collect();
+    assert!(runs.len() > 1_500 && tiles.is_sorted_by(|a, b| a < b), "{}", runs.len());
+    assert!(runs.iter().all(|run| run.kind == EdgeKind::Crossing(count as usize)));
+}
+
 /// A wall that stands on a floor touches it, and two walls meet at a corner: nothing is crossed.
 #[test]
 fn what_only_touches_does_not_cross() {

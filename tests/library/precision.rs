@@ -56,6 +56,29 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     }
 }
 
+/// The plane of a small card is rounded far more than that of the page on which it lies: wherever the card
+/// lies, and whichever comes first, the page's plane tells that they are one.
+#[test]
+fn a_page_and_a_small_card_keep_their_order() {
+    let mut random = SplitMix64::new(4);
+    for number in 0..400 {
+        let turn = turn(number);
+        let place = random.point(-0.95, 0.95);
+        let card = |[x, y]: [f64; 2], size: f64| {
+            let corners = [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]];
+            corners.map(|[u, v]| turn.transform_point3(vec3((x + u) as f32, (y + v) as f32, 0.0)))
+        };
+        let page = card([-1.0, -1.0], 2.0);
+        let small = card([place.x, place.y], 0.04 * (1.0 + random.point(0.0, 1.0).x) / 2.0);
+        let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
+        for both in [[page, small], [small, page]] {
+            let tree = BspTree::build(both).unwrap();
+            assert_eq!(order(&tree, normal), [0, 1], "turn {number}");
+            assert_eq!(order(&tree, -normal), [0, 1], "turn {number}");
+        }
+    }
+}
+
 /// Most cards are far smaller than the page, the first one too: the plane of any of these would cut others.
 #[test]
 fn a_page_of_cards_of_every_size_is_not_cut() {

@@ -33,12 +33,12 @@ impl Auto {
         is_peeled: bool,
     ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
+        if let Some(plane) = self.common_plane(set, tuning) {
+            return Ok(Choice::Split(plane));
+        }
         if set.len() == 2
             && let Some(plane) = plane_of_pair(set)
         {
-            return Ok(Choice::Split(plane));
-        }
-        if let Some(plane) = self.common_plane(set, tuning) {
             return Ok(Choice::Split(plane));
         }
         if set.len() < tuning.small

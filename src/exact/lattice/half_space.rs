@@ -7,7 +7,7 @@ use crate::exact::Int;
 use crate::exact::exact_ray::scaled;
 
 /// A half-space in integers: it has the lattice points p with normal·p ≥ offset. Components of the
-/// normal are below 2¹¹⁸ in magnitude, and the offset is at most 2¹⁸⁰.
+/// normal are at most 2¹¹⁷ in magnitude, and the offset is at most 2¹⁸⁰.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpaceNumbers {
     pub(crate) normal: [i128; 3],
@@ -32,13 +32,12 @@ impl Lattice {
         let up = if size > 0.0 { -exponent_of(size) } else { 0 };
         let unit = normal.to_array().map(|c| scaled(c, up));
         let normal = unit.map(|c| scaled(c, BITS).round() as i128);
-        // Exactly the offset less the far coordinates' part, in three numbers.
-        let (mut offset, mut rest) = (scaled(offset, up), [0.0; 3]);
+        // Exactly the offset less the far coordinates' part, as a sum of seven numbers.
+        let (mut offset, mut rest) = (scaled(offset, up), [0.0; 6]);
         for axis in (0..3).filter(|&axis| self.far[axis] != 0.0) {
             let part = unit[axis] * self.far[axis];
-            rest[axis] -= unit[axis].mul_add(self.far[axis], -part);
-            let (sum, lost) = super::two_sum(offset, -part);
-            (offset, rest[axis]) = (sum, rest[axis] + lost);
+            rest[2 * axis] = -unit[axis].mul_add(self.far[axis], -part);
+            (offset, rest[2 * axis + 1]) = super::two_sum(offset, -part);
         }
         let offset = scaled(offset, BITS + self.exponent());
         let steps = if offset.abs() < BEYOND {
