@@ -11,7 +11,15 @@ pub(super) struct Edge {
     pub(super) to: [f64; 2],
 }
 
-/// Points nearer than this, in pixels, are one.
+impl Edge {
+    /// Whether the next edge is on the same line, and does not turn back.
+    fn goes_on_as(&self, next: &Self) -> bool {
+        let along = |i: usize| (self.to[i] - self.from[i]) * (next.to[i] - next.from[i]);
+        self.line == next.line && along(0) + along(1) > 0.0
+    }
+}
+
+/// Points are rounded to a grid of this step, in pixels, and are one if they fall on one place.
 const GRID: f64 = 1.0 / (1u64 << 16) as f64;
 
 type Place = [i64; 2];
@@ -34,21 +42,21 @@ pub(super) fn outlines(edges: &[Edge]) -> Option<Vec<Vec<[f64; 2]>>> {
             continue;
         }
         let mut outline: Vec<[f64; 2]> = Vec::new();
-        let (mut current, mut last_line) = (first, None);
+        let (mut current, mut last): (usize, Option<&Edge>) = (first, None);
         loop {
             is_used[current] = true;
             let edge = &edges[current];
             // Edges of one line follow one another where others meet it.
-            if last_line != Some(edge.line) {
+            if !last.is_some_and(|last| last.goes_on_as(edge)) {
                 outline.push(edge.from);
             }
-            last_line = Some(edge.line);
+            last = Some(edge);
             if is_same(edge.to, edges[first].from) {
                 break;
             }
             current = next(&begin, &is_used, &edges, current)?;
         }
-        if outline.len() > 1 && last_line == Some(edges[first].line) {
+        if outline.len() > 1 && last.is_some_and(|last| last.goes_on_as(&edges[first])) {
             outline.remove(0);
         }
         if outline.len() > 2 {

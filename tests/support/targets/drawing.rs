@@ -1,10 +1,8 @@
 //! Views of small scenes as drawings, at several zooms, against what the tree paints.
 
 use super::super::decode;
-use super::super::fill::{self, check, check_rays};
-use super::super::layered::{self, check_layers};
+use super::super::fill::{Score, check};
 use arbitrary::{Result, Unstructured};
-use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
@@ -24,17 +22,11 @@ fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
     for camera in views.into_iter().flatten() {
         // Some cameras are too near to a scene, or too far from it, for its pixels to be told apart.
         let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
-        if let Err(what) = compare(&tree, &camera, rays) {
+        if let Err(what) = check(&tree, &camera, rays, &mut Score::default()) {
             panic!("{what}: {camera:?} {polygons:?}");
         }
     }
     Ok(())
-}
-
-fn compare(tree: &BspTree, camera: &Camera, rays: Rays) -> std::result::Result<(), String> {
-    check(tree, camera, rays.clone(), &mut fill::Score::default())?;
-    check_rays(tree, camera, rays.clone(), &mut fill::Score::default())?;
-    check_layers(tree, camera, rays, &mut layered::Layers::default())
 }
 
 /// A camera at a place of half integers, so that it often looks along planes and from corners.
