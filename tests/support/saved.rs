@@ -130,7 +130,9 @@ pub(crate) fn use_queries(tree: &BspTree) -> Verdict {
             let same = hits.iter().map(|hit| hit.polygon()).eq(boxed.iter().map(|h| h.polygon()));
             ensure(!is_valid || same && blocked[0] == blocked[1], || format!("{ray:?}"))?;
             for pair in hits.windows(2) {
-                ensure(pair[0].compare(&pair[1]).is_le(), || format!("order: {ray:?}"))?;
+                ensure(!is_valid || pair[0].compare(&pair[1]).is_le(), || {
+                    format!("order: {ray:?}")
+                })?;
             }
             for hit in hits.iter().chain(&boxed) {
                 let _ = (hit.point(), hit.parameter(), hit.facing(), hit.grid_points());
