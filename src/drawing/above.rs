@@ -3,19 +3,14 @@
 //! A polygon that is drawn whole has to come before each that shows where it would be painted too.
 //! What is hidden by a third needs no order.
 
-use std::collections::HashSet;
-use std::hash::BuildHasherDefault;
-
 use super::cell::are_apart;
-use super::lines::Mixer;
-use super::order::Pair;
+use super::halving::{CUT, NARROWED, found_in};
+use super::pairs::{Found, Pair, add, sorted};
 use super::reaches::Reaches;
 use super::stock::Stock;
-use super::tile::{CUT, Leaf, NARROWED, Visible};
+use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::reserve;
-use crate::parallel_map;
 
 /// Leaves with the faces that may reach into them.
 struct Entry<'l> {
@@ -23,14 +18,11 @@ struct Entry<'l> {
     reaches: Reaches,
 }
 
-/// Leaves are shared out to threads after so many halvings of their list.
-const SHARED: usize = 6;
-
 /// All pairs, sorted. `place` gives the place of each face's polygon in the list of those that show, or
 /// `u32::MAX`.
-pub(super) fn pairs(
+pub(super) fn pairs<'l>(
     stock: &Stock<'_>,
-    leaves: &[Leaf],
+    leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
@@ -39,69 +31,12 @@ pub(super) fn pairs(
     for seen in (0..stock.seen.len() as u32).filter(|&seen| place(seen) != u32::MAX) {
         all.push(seen, stock.outline(seen).iter().copied())?;
     }
-    let mut shares = vec![Entry { leaves, reaches: all }];
-    for _ in 0..SHARED {
-        let mut next = Vec::with_capacity(2 * shares.len());
-        for entry in shares {
-            match entry.halves(stock)? {
-                Some(parts) => next.extend(parts),
-                None => next.push(entry),
-            }
-        }
-        shares = next;
-    }
-    watch.expect(shares.len())?;
-    let parts = parallel_map::map(shares, |entry| {
-        let pairs = pairs_of(stock, entry, place, watch);
-        watch.finish(0);
-        pairs
-    });
-    let mut pairs = Vec::new();
-    for part in parts {
-        let mut part = part?;
-        reserve(&mut pairs, part.len())?;
-        pairs.append(&mut part);
-    }
-    watch.end()?;
-    pairs.sort_unstable();
-    pairs.dedup();
-    Ok(pairs)
-}
-
-fn pairs_of(
-    stock: &Stock<'_>,
-    entry: Entry<'_>,
-    place: &(dyn Fn(u32) -> u32 + Sync),
-    watch: &Watch<'_>,
-) -> Result<Vec<Pair>, Error> {
-    let mut found: HashSet<Pair, BuildHasherDefault<Mixer>> = HashSet::default();
-    let mut stack = vec![entry];
-    while let Some(entry) = stack.pop() {
+    let halves = |entry: &Entry<'l>| {
         watch.work(entry.reaches.list.len() * NARROWED)?;
-        if let Some([first, second]) = entry.halves(stock)? {
-            stack.push(second);
-            stack.push(first);
-            continue;
-        }
-        let Entry { leaves: [leaf], reaches } = &entry else { continue };
-        for Visible { item, cell } in &leaf.cells {
-            watch.work(reaches.list.len() * CUT)?;
-            let above = place(stock.items[*item as usize].seen);
-            let around = cell.region();
-            for reach in &reaches.list {
-                let pair = Pair { below: place(reach.number), above };
-                let is_apart = are_apart(&around, &stock.seen[reach.number as usize].region);
-                if is_apart || pair.below == above || found.contains(&pair) {
-                    continue;
-                }
-                if cell.meets(&stock.lines, reaches.halves_of(reach))? {
-                    found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                    found.insert(pair);
-                }
-            }
-        }
-    }
-    Ok(found.into_iter().collect())
+        entry.halves(stock)
+    };
+    let leaf = |entry: &Entry<'l>, found: &mut Found| entry.leaf(stock, place, found, watch);
+    sorted(found_in(Entry { leaves, reaches: all }, halves, leaf, watch)?)
 }
 
 impl<'l> Entry<'l> {
@@ -117,6 +52,33 @@ impl<'l> Entry<'l> {
             Ok(Self { leaves, reaches })
         };
         Ok(Some([part(first)?, part(second)?]))
+    }
+
+    /// Adds the pairs of a single leaf.
+    fn leaf(
+        &self,
+        stock: &Stock<'_>,
+        place: &(dyn Fn(u32) -> u32 + Sync),
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let Self { leaves, reaches } = self;
+        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+            watch.work(reaches.list.len() * CUT)?;
+            let above = place(stock.seen_of(*item));
+            let around = cell.region();
+            for reach in &reaches.list {
+                let pair = Pair { below: place(reach.number), above };
+                let is_apart = are_apart(&around, &stock.seen[reach.number as usize].region);
+                if is_apart || pair.below == above || found.contains(&pair) {
+                    continue;
+                }
+                if cell.meets(&stock.lines, reaches.halves_of(reach))? {
+                    add(found, pair)?;
+                }
+            }
+        }
+        Ok(())
     }
 }
 

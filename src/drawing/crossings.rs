@@ -7,6 +7,7 @@ use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::frame::is_same_line;
 use super::lines::{Half, Key, Mixer, STEPS};
 use super::map::VisibilityMap;
+use super::near::distance;
 use crate::Error;
 use crate::exact::PlaneId;
 use crate::memory::push;
@@ -61,7 +62,7 @@ impl VisibilityMap<'_> {
             }
             merge(&mut runs, first);
         }
-        runs.retain(|run| distance(run.ends) >= SHORTEST);
+        runs.retain(|run| distance(run.ends[0], run.ends[1]) >= SHORTEST);
         runs.sort_by_key(|run| run.polygon);
         Ok(runs)
     }
@@ -190,7 +191,7 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
         let goes_on = kept > first && {
             let before = &runs[kept - 1];
             (before.polygon, before.kind) == (run.polygon, run.kind)
-                && distance([before.ends[1], run.ends[0]]) <= SHORTEST
+                && distance(before.ends[1], run.ends[0]) <= SHORTEST
         };
         if goes_on {
             runs[kept - 1].ends[1] = run.ends[1];
@@ -200,8 +201,4 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
         }
     }
     runs.truncate(kept);
-}
-
-fn distance([a, b]: [[f64; 2]; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }

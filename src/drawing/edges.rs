@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::lines::Mixer;
 use super::map::VisibilityMap;
-use super::tile::Visible;
+use super::visible::Visible;
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::memory::reserve;

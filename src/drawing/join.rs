@@ -1,6 +1,7 @@
 //! Joining pieces of polygons while an order of them is left.
 
-use super::order::{Pair, VISITED};
+use super::halving::VISITED;
+use super::pairs::Pair;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, push};
@@ -150,5 +151,72 @@ impl Groups {
             list.dedup();
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+
+    /// Whether one node leads to another by at least one of some pairs.
+    fn leads(pairs: &[[u32; 2]], from: u32, to: u32) -> bool {
+        let (mut met, mut stack) = (vec![], vec![from]);
+        while let Some(node) = stack.pop() {
+            for &[_, next] in pairs.iter().filter(|pair| pair[0] == node) {
+                if !met.contains(&next) {
+                    met.push(next);
+                    stack.push(next);
+                }
+            }
+        }
+        met.contains(&to)
+    }
+
+    #[test]
+    fn groups_are_joined_unless_that_closes_a_circle() {
+        let mut random = SplitMix64::new(1);
+        let (mut joined, mut refused) = (0, 0);
+        for round in 0..300 {
+            let nodes = 2 + round % 14;
+            let mut below = |most: u64| (random.next() % most) as u32;
+            let mut pairs = vec![];
+            for above in 1..nodes as u32 {
+                pairs.extend((0..below(4)).map(|_| Pair { below: below(above.into()), above }));
+            }
+            let mut groups = Groups::new(nodes, &pairs).unwrap();
+            for _ in 0..3 * nodes {
+                let [a, b] = [below(nodes as u64), below(nodes as u64)];
+                let [one, other] = [groups.group(a), groups.group(b)];
+                let mut between: Vec<[u32; 2]> = pairs
+                    .iter()
+                    .map(|pair| [groups.group(pair.below), groups.group(pair.above)])
+                    .collect();
+                between.retain(|pair| pair[0] != pair[1]);
+                let closes = leads(&between, one, other) || leads(&between, other, one);
+                groups.join(a, b, &Watch::default()).unwrap();
+                assert_eq!(groups.group(a) == groups.group(b), one == other || !closes);
+                *if closes { &mut refused } else { &mut joined } += usize::from(one != other);
+                // Every pair is in order still.
+                for pair in &pairs {
+                    let [x, y] = [pair.below, pair.above].map(|node| groups.group(node) as usize);
+                    assert!(x == y || groups.place[x] < groups.place[y]);
+                }
+            }
+        }
+        assert!(joined > 500 && refused > 500, "{joined} {refused}");
+    }
+
+    /// The search goes through all that lies between: more than it may.
+    #[test]
+    fn searches_end_at_their_budget() {
+        for (between, expected) in [(BUDGET - 2, true), (BUDGET + 2, false)] {
+            // The first comes before all but the last.
+            let last = between as u32 + 1;
+            let pairs: Vec<Pair> = (1..last).map(|above| Pair { below: 0, above }).collect();
+            let mut groups = Groups::new(between + 2, &pairs).unwrap();
+            groups.join(0, last, &Watch::default()).unwrap();
+            assert_eq!(groups.group(0) == groups.group(last), expected, "{between}");
+        }
     }
 }

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::stock::Stock;
-use super::tile::{Leaf, Tile, Visible, visible};
+use super::tile::Tile;
+use super::visible::{Leaf, Visible, visible};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};

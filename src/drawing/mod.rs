@@ -11,8 +11,12 @@
 //! | `lines` | all lines of a picture, by what made them |
 //! | `cell` | convex cells, and how a line cuts them |
 //! | `stock` | the pieces that may show, by their lines |
-//! | `tile` | what is visible, tile by tile |
+//! | `tile` | tiles of the picture |
+//! | `halving` | the picture halved until its parts are simple, on all threads |
+//! | `narrow` | the pieces that may show in a tile |
+//! | `visible` | what is visible, tile by tile |
 //! | `map` | the visibility map |
+//! | `pairs` | pairs of what is drawn before what |
 //! | `above` | which polygon shows above which |
 //! | `order` | an order of them, and who is in cycles |
 //! | `outline` | outlines of areas in parts |
@@ -31,19 +35,23 @@ mod cell;
 mod crossings;
 mod edges;
 mod frame;
+mod halving;
 mod join;
 mod lines;
 mod map;
+mod narrow;
 mod near;
 mod opaque;
 mod order;
 mod outline;
 mod overlaps;
+mod pairs;
 mod pen;
 mod reaches;
 mod stock;
 mod tile;
 mod translucent;
+mod visible;
 
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};

@@ -112,7 +112,7 @@ impl Ends {
             }
             let number = self.numbers[middle];
             let point = self.points[number as usize];
-            let distance = (point[0] - from[0]).hypot(point[1] - from[1]);
+            let distance = distance(point, from);
             if self.is_left[middle] && best.is_none_or(|(found, _)| distance < found) {
                 best = Some((distance, number));
             }
@@ -145,19 +145,20 @@ impl Ends {
     }
 }
 
+/// The distance of two points.
+pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
     #[test]
     fn the_nearest_is_the_nearest_of_all() {
-        let mut state = 7u64;
-        let mut dice = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            state >> 33
-        };
+        let mut random = SplitMix64::new(7);
+        let mut dice = || random.next() >> 33;
         for n in [0, 1, 2, 3, 40, 500] {
             // Many of them in one place, or on one line.
             let points: Vec<[f64; 2]> =

@@ -4,12 +4,14 @@ use std::ops::{ControlFlow, Range};
 
 use super::above::pairs;
 use super::cell::Cell;
+use super::halving::CUT;
 use super::lines::Half;
 use super::map::VisibilityMap;
 use super::order::{Ordered, order};
 use super::outline::{Edge, outlines};
 use super::stock::Stock;
-use super::tile::{CUT, Leaf, Tile, Visible};
+use super::tile::Tile;
+use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
@@ -28,7 +30,7 @@ pub struct Drawing {
 #[derive(Clone, Debug)]
 pub(super) struct Record {
     polygon: usize,
-    is_cut_out: bool,
+    is_clipped: bool,
     outlines: Range<u32>,
 }
 
@@ -43,7 +45,7 @@ impl VisibilityMap<'_> {
     /// The view as filled outlines, one for each polygon that shows, all of them opaque.
     ///
     /// Polygons are drawn whole, each before those that show above it. A few that are in cycles with
-    /// others, none in most scenes, are cut out: only what shows of them is drawn.
+    /// others, none in most scenes, are clipped: only what shows of them is drawn.
     ///
     /// # Errors
     ///
@@ -72,17 +74,17 @@ impl VisibilityMap<'_> {
         let shown = Nodes::of(stock, leaves)?;
         let place = |seen: u32| shown.places[seen as usize];
         let pairs = pairs(stock, leaves, &place, watch)?;
-        let Ordered { order, is_cut_out } =
+        let Ordered { order, is_clipped } =
             order(shown.polygons.len(), &pairs, &shown.ranks, watch)?;
         let mut drawing = Drawing::empty(size);
-        let cells = shown.cells(stock, leaves, &is_cut_out)?;
+        let cells = shown.cells(stock, leaves, &is_clipped)?;
         reserve(&mut drawing.paths, order.len())?;
         let mut edges = Vec::new();
         for node in order {
             watch.work(CUT)?;
             let index = node as usize;
             edges.clear();
-            if is_cut_out[index] {
+            if is_clipped[index] {
                 for cell in &cells[index] {
                     add_sides(cell, &mut edges)?;
                 }
@@ -91,7 +93,7 @@ impl VisibilityMap<'_> {
                     add_edges(stock, stock.outline(seen), &mut edges)?;
                 }
             }
-            drawing.push(shown.polygons[index], is_cut_out[index], &edges)?;
+            drawing.push(shown.polygons[index], is_clipped[index], &edges)?;
         }
         Ok(drawing)
     }
@@ -107,7 +109,7 @@ impl Drawing {
     pub(super) fn push(
         &mut self,
         polygon: usize,
-        is_cut_out: bool,
+        is_clipped: bool,
         edges: &[Edge],
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
@@ -120,7 +122,7 @@ impl Drawing {
             self.corners.extend(outline);
         }
         let outlines = start..self.outlines.len() as u32;
-        self.paths.push(Record { polygon, is_cut_out, outlines });
+        self.paths.push(Record { polygon, is_clipped, outlines });
         Ok(())
     }
 
@@ -143,8 +145,8 @@ impl<'d> Path<'d> {
 
     /// Whether the path has only a part of its polygon: what shows of one that is in a cycle with others;
     /// or, in a drawing where nothing is hidden, one of several parts.
-    pub fn is_cut_out(&self) -> bool {
-        self.record.is_cut_out
+    pub fn is_clipped(&self) -> bool {
+        self.record.is_clipped
     }
 
     /// Its outlines, to be filled together by the nonzero rule, as far as the polygon is in the picture:
@@ -202,17 +204,17 @@ impl Nodes {
         Ok(shown)
     }
 
-    /// The cells of the polygons that are cut out.
+    /// The cells of the polygons that are clipped.
     fn cells<'l>(
         &self,
         stock: &Stock<'_>,
         leaves: &'l [Leaf],
-        is_cut_out: &[bool],
+        is_clipped: &[bool],
     ) -> Result<Vec<Vec<&'l Cell>>, Error> {
         let mut cells: Vec<Vec<&Cell>> = collect(self.polygons.iter().map(|_| vec![]))?;
         for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             let place = self.places[stock.items[*item as usize].seen as usize] as usize;
-            if is_cut_out[place] {
+            if is_clipped[place] {
                 push(&mut cells[place], cell)?;
             }
         }

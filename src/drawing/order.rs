@@ -3,31 +3,26 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::halving::VISITED;
+use super::pairs::Pair;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, push, reserve};
 
-/// "`below` has to be drawn before `above`", by their numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Pair {
-    pub(super) below: u32,
-    pub(super) above: u32,
-}
-
 /// An order of nodes.
 #[derive(Debug)]
 pub(super) struct Ordered {
-    /// All nodes; for each pair, `below` comes first unless it is cut out.
+    /// All nodes; for each pair, `below` comes first unless it is clipped.
     pub(super) order: Vec<u32>,
     /// Nodes that need not come before any other, as only what shows of them is drawn.
-    pub(super) is_cut_out: Vec<bool>,
+    pub(super) is_clipped: Vec<bool>,
 }
 
 /// Nodes and the pairs that begin at each.
 struct Graph<'p> {
     pairs: &'p [Pair],
     starts: Vec<u32>,
-    is_cut_out: Vec<bool>,
+    is_clipped: Vec<bool>,
     /// The strongly connected component of each node, among those that are searched.
     component: Vec<u32>,
     search: Search,
@@ -44,22 +39,22 @@ struct Search {
     is_on_stack: Vec<bool>,
     /// From which node it was reached last, in the search for a cycle.
     reached: Vec<u32>,
+    /// How many pairs begin and end at it.
+    counts: Vec<[u32; 2]>,
 }
 
 /// No component, and of nodes that are not searched, no number.
 const NONE: u32 = u32::MAX;
 /// The number of nodes that are searched, but were not met so far.
 const UNMET: u32 = u32::MAX - 1;
-/// To visit a node takes as long as a build takes to examine so many pieces.
-pub(super) const VISITED: usize = 4;
-/// Of a large component, one in so many nodes is cut out at once. Larger: components are searched
-/// again and again; smaller: more is cut out (and given back one by one).
+/// Of a large component, one in so many nodes is clipped at once. Larger: components are searched
+/// again and again; smaller: more is clipped (and given back one by one).
 const AT_ONCE: usize = 64;
 
 /// Orders nodes by sorted pairs; where these leave a choice, by `rank`.
 ///
 /// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides, and then
-/// those are given back that close no cycle, so that none is cut out in vain. (To cut out as few as
+/// those are given back that close no cycle, so that none is clipped in vain. (To clip as few as
 /// possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
 pub(super) fn order(
     nodes: usize,
@@ -70,7 +65,7 @@ pub(super) fn order(
     let mut graph = Graph::new(nodes, pairs, watch)?;
     graph.open_cycles()?;
     let order = graph.sorted(rank)?;
-    Ok(Ordered { order, is_cut_out: graph.is_cut_out })
+    Ok(Ordered { order, is_clipped: graph.is_clipped })
 }
 
 /// Whether each node is in a cycle, by sorted pairs; then the number of its strongly connected
@@ -96,11 +91,11 @@ impl<'p> Graph<'p> {
         for node in 0..nodes {
             starts[node + 1] += starts[node];
         }
-        let (is_cut_out, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
+        let (is_clipped, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
         let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
         let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
-        let search = Search { number, least, is_on_stack, reached };
-        Ok(Self { pairs, starts, is_cut_out, component, search, watch })
+        let search = Search { number, least, is_on_stack, reached, counts: filled(nodes, [0; 2])? };
+        Ok(Self { pairs, starts, is_clipped, component, search, watch })
     }
 }
 
@@ -110,54 +105,58 @@ impl Graph<'_> {
         self.pairs[start..end].iter().map(|pair| pair.above)
     }
 
-    /// Cuts out nodes until there is no cycle.
+    /// Clips nodes until there is no cycle.
     fn open_cycles(&mut self) -> Result<(), Error> {
-        let all: Vec<u32> = collect(0..self.is_cut_out.len() as u32)?;
+        let all: Vec<u32> = collect(0..self.is_clipped.len() as u32)?;
         let first = self.components(&all)?;
         for nodes in first {
-            let mut cut_out = Vec::new();
-            let mut open = vec![nodes.clone()];
-            while let Some(nodes) = open.pop() {
-                let mut degrees = self.degrees(&nodes);
+            let mut clipped = Vec::new();
+            let mut open = vec![collect(nodes.iter().copied())?];
+            while let Some(mut nodes) = open.pop() {
+                let mut degrees = self.degrees(&nodes)?;
                 degrees.sort_unstable_by_key(|&(product, node)| Reverse((product, Reverse(node))));
                 degrees.truncate((nodes.len() / AT_ONCE).max(1));
                 for (_, node) in degrees {
-                    self.is_cut_out[node as usize] = true;
+                    self.is_clipped[node as usize] = true;
                     self.component[node as usize] = NONE;
-                    push(&mut cut_out, node)?;
+                    push(&mut clipped, node)?;
                 }
-                let left: Vec<u32> =
-                    nodes.into_iter().filter(|&node| !self.is_cut_out[node as usize]).collect();
-                open.append(&mut self.components(&left)?);
+                nodes.retain(|&node| !self.is_clipped[node as usize]);
+                let mut left = self.components(&nodes)?;
+                reserve(&mut open, left.len())?;
+                open.append(&mut left);
             }
-            self.give_back(&nodes, cut_out)?;
+            self.give_back(&nodes, clipped)?;
         }
         Ok(())
     }
 
     /// The number of pairs within the component that end at a node, times that of those that begin.
-    fn degrees(&self, nodes: &[u32]) -> Vec<(u64, u32)> {
+    fn degrees(&mut self, nodes: &[u32]) -> Result<Vec<(u64, u32)>, Error> {
+        let mut counts = std::mem::take(&mut self.search.counts);
+        nodes.iter().for_each(|&node| counts[node as usize] = [0; 2]);
         let of = |node: u32| self.component[node as usize];
-        let mut count = std::collections::HashMap::<u32, [u64; 2]>::new();
         for &node in nodes {
             for above in self.above(node).filter(|&above| of(above) == of(node)) {
-                count.entry(node).or_default()[0] += 1;
-                count.entry(above).or_default()[1] += 1;
+                counts[node as usize][0] += 1;
+                counts[above as usize][1] += 1;
             }
         }
-        let product = |node: u32| count.get(&node).map_or(0, |[out, into]| out * into);
-        nodes.iter().map(|&node| (product(node), node)).collect()
+        let product = |node: u32| counts[node as usize].map(u64::from).into_iter().product();
+        let degrees = collect(nodes.iter().map(|&node| (product(node), node)));
+        self.search.counts = counts;
+        degrees
     }
 
-    /// Takes back those of the nodes cut out that close no cycle: all cycles are within `nodes`.
-    fn give_back(&mut self, nodes: &[u32], mut cut_out: Vec<u32>) -> Result<(), Error> {
+    /// Takes back those of the clipped nodes that close no cycle: all cycles are within `nodes`.
+    fn give_back(&mut self, nodes: &[u32], mut clipped: Vec<u32>) -> Result<(), Error> {
         for &node in nodes {
             self.component[node as usize] = nodes[0];
         }
-        cut_out.sort_by_key(|&node| self.above(node).count());
-        for node in cut_out {
+        clipped.sort_by_key(|&node| self.above(node).count());
+        for node in clipped {
             if !self.closes_cycle(node, nodes[0])? {
-                self.is_cut_out[node as usize] = false;
+                self.is_clipped[node as usize] = false;
             }
         }
         for &node in nodes {
@@ -175,7 +174,7 @@ impl Graph<'_> {
                 let index = above as usize;
                 is_closed |= above == start;
                 let is_new = reached[index] != start && self.component[index] == component;
-                if is_new && !self.is_cut_out[index] {
+                if is_new && !self.is_clipped[index] {
                     reached[index] = start;
                     push(&mut stack, above)?;
                 }
@@ -248,8 +247,8 @@ impl Graph<'_> {
     /// All nodes, those of lower rank first where there is a choice (A. B. Kahn, "Topological sorting of
     /// large networks", 1962).
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
-        let nodes = self.is_cut_out.len();
-        let alive = |pair: &&Pair| !self.is_cut_out[pair.below as usize];
+        let nodes = self.is_clipped.len();
+        let alive = |pair: &&Pair| !self.is_clipped[pair.below as usize];
         let mut waits: Vec<u32> = filled(nodes, 0)?;
         self.pairs.iter().filter(alive).for_each(|pair| waits[pair.above as usize] += 1);
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
@@ -261,7 +260,7 @@ impl Graph<'_> {
         reserve(&mut order, nodes)?;
         while let Some(Reverse((_, node))) = ready.pop() {
             order.push(node);
-            if self.is_cut_out[node as usize] {
+            if self.is_clipped[node as usize] {
                 continue;
             }
             for above in self.above(node) {

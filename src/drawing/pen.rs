@@ -1,6 +1,6 @@
 //! Lines for a pen: segments joined at their ends, and ordered for short ways between them.
 
-use super::near::Ends;
+use super::near::{Ends, distance};
 use crate::Error;
 use crate::memory::{push, reserve};
 
@@ -261,8 +261,4 @@ fn ordered(mut lines: Vec<Polyline>) -> Result<Vec<Polyline>, Error> {
         ordered.push(line);
     }
     Ok(ordered)
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }

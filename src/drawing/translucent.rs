@@ -2,12 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use super::halving::CUT;
 use super::join::Groups;
 use super::opaque::{Drawing, add_edges};
-use super::order::{Ordered, Pair, cycles, order};
+use super::order::{Ordered, cycles, order};
 use super::overlaps::overlaps;
+use super::pairs::Pair;
 use super::stock::Stock;
-use super::tile::{CUT, Tile};
+use super::tile::Tile;
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};

@@ -22,7 +22,7 @@ fn hard_scenes_are_drawn_as_rays_meet_them() {
         .map_err(TestCaseError::fail)
     });
     assert!(score.pictures > 400 && score.pixels > 500_000, "{score:?}");
-    assert!(score.paths > 1000 && score.cut_out > 10, "{score:?}");
+    assert!(score.paths > 1000 && score.clipped > 10, "{score:?}");
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn drawings_of_whole_scenes_are_what_rays_meet() {
     }
     assert!(score.pixels > 5_000_000 && score.pictures > 50, "{score:?}");
     assert!(score.unsure < score.pixels / 100, "{score:?}");
-    assert!(score.cut_out > 100 && score.rays > 2000, "{score:?}");
+    assert!(score.clipped > 100 && score.rays > 2000, "{score:?}");
 }
 
 /// Fewer and fewer pixels for each polygon: tiles are halved down to a few pixels and below.
@@ -59,19 +59,19 @@ fn many_small_triangles() {
         }
         check_scene(&scene, &mut score);
     }
-    assert!(score.pixels > 1_000_000 && score.cut_out > 500, "{score:?}");
+    assert!(score.pixels > 1_000_000 && score.clipped > 500, "{score:?}");
 }
 
 /// Of a height field and of a convex body, no polygon is in a cycle.
 #[test]
-fn nothing_is_cut_out_of_scans() {
+fn nothing_is_clipped_of_scans() {
     for builtin in [Builtin::Terrain, Builtin::Sphere] {
         let scene = builtin.build(Some(2000), 3);
         let tree = BspTree::build(scene.polygons()).unwrap();
         for camera in cameras(&scene, 4, SIZE) {
             let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
             let drawing = map.drawing().unwrap();
-            assert!(drawing.paths().all(|path| !path.is_cut_out()), "{builtin:?}");
+            assert!(drawing.paths().all(|path| !path.is_clipped()), "{builtin:?}");
         }
     }
 }

@@ -30,7 +30,7 @@ fn layers_of_whole_scenes_are_those_of_the_tree() {
     assert!(score.paths * 2 < score.polygons * 3, "{score:?}");
 }
 
-/// Polygons that cross have to be in parts; searches for an order end at their limit.
+/// Polygons that cross have to be in parts.
 #[test]
 fn layers_of_crossing_triangles() {
     let mut random = SplitMix64::new(1);

@@ -1,0 +1,54 @@
+//! Halving the picture until its parts are simple, on all threads.
+
+use crate::Error;
+use crate::build::progress::Watch;
+use crate::memory::push;
+use crate::parallel_map;
+
+/// The picture is halved so often before its parts are shared out to threads.
+const SHARED: usize = 6;
+/// To compare an item with a tile takes as long as a build takes to examine so many pieces.
+pub(super) const NARROWED: usize = 8;
+/// So does cutting a cell with an item.
+pub(super) const CUT: usize = 64;
+/// And visiting a node of a graph.
+pub(super) const VISITED: usize = 4;
+
+/// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one
+/// list for each of the parts that are shared out to threads. What is found, and in which order, does
+/// not depend on how many threads there are.
+pub(super) fn found_in<E: Send, F: Default + Send>(
+    all: E,
+    halves: impl Fn(&E) -> Result<Option<[E; 2]>, Error> + Sync,
+    leaf: impl Fn(&E, &mut F) -> Result<(), Error> + Sync,
+    watch: &Watch<'_>,
+) -> Result<Vec<F>, Error> {
+    let mut shares = vec![all];
+    for _ in 0..SHARED {
+        let mut next = Vec::with_capacity(2 * shares.len());
+        for entry in shares {
+            match halves(&entry)? {
+                Some(parts) => next.extend(parts),
+                None => next.push(entry),
+            }
+        }
+        shares = next;
+    }
+    watch.expect(shares.len())?;
+    let found = parallel_map::map(shares, |entry| {
+        let (mut found, mut stack) = (F::default(), vec![entry]);
+        while let Some(entry) = stack.pop() {
+            match halves(&entry)? {
+                Some([first, second]) => {
+                    push(&mut stack, second)?;
+                    push(&mut stack, first)?;
+                }
+                None => leaf(&entry, &mut found)?,
+            }
+        }
+        watch.finish(0);
+        Ok(found)
+    });
+    watch.end()?;
+    found.into_iter().collect()
+}

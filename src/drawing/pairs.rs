@@ -1,0 +1,37 @@
+//! Pairs of what has to be drawn before what.
+
+use std::collections::HashSet;
+use std::hash::BuildHasherDefault;
+
+use super::lines::Mixer;
+use crate::Error;
+use crate::memory::reserve;
+
+/// "`below` has to be drawn before `above`", by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub(super) below: u32,
+    pub(super) above: u32,
+}
+
+/// Pairs that were found so far, each once.
+pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
+
+/// Adds a pair.
+pub(super) fn add(found: &mut Found, pair: Pair) -> Result<(), Error> {
+    found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+    found.insert(pair);
+    Ok(())
+}
+
+/// All pairs of several sets, sorted, each once.
+pub(super) fn sorted(parts: Vec<Found>) -> Result<Vec<Pair>, Error> {
+    let mut pairs = Vec::new();
+    for part in parts {
+        reserve(&mut pairs, part.len())?;
+        pairs.extend(part);
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    Ok(pairs)
+}
