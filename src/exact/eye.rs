@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use super::exact_ray::scaled;
+use super::lattice::exponent_of;
 use super::{Lattice, Plane};
 use crate::viewpoint::Viewpoint;
 
@@ -25,6 +27,9 @@ const NEAR: f64 = (1u64 << 61) as f64;
 /// The largest shift. For eyes further away the planes' offsets no longer matter: only the
 /// direction does.
 const FAR: u32 = 360;
+
+/// The largest component of a direction is from two to this power to the next one.
+const DIRECTION_BITS: i32 = 52;
 
 impl Eye {
     /// A viewpoint on a scene's lattice.
@@ -62,9 +67,12 @@ impl Eye {
             direction
         };
         let size = largest(finite);
-        let unit = if size > 0.0 { finite.map(|c| c / size) } else { [0.0, 0.0, 1.0] };
-        let integer = unit.map(|c| (c * (1i64 << 52) as f64).round() as i64);
-        Self { integer, shift: None, float: unit }
+        let direction = if size > 0.0 { finite } else { [0.0, 0.0, 1.0] };
+        // By a power of two: a direction of short numbers stays along the planes that it is along.
+        let exponent = DIRECTION_BITS - exponent_of(largest(direction));
+        let integer = direction.map(|c| scaled(c, exponent).round() as i64);
+        let unit = (1i64 << DIRECTION_BITS) as f64;
+        Self { integer, shift: None, float: integer.map(|c| c as f64 / unit) }
     }
 
     /// The integer part: lattice units over 2^shift, or a direction.
@@ -147,10 +155,27 @@ mod tests {
     #[test]
     fn directions_are_rounded_to_the_nearest() {
         let unit = (1_i64 << 52) as f64;
-        // The largest component is 1, so these are the others in units of the last bit.
+        // The largest component is a power of two, so these are the others in units of the last bit.
         for (part, nearest) in [(0.25, 0), (0.75, 1), (-0.75, -1), (6.75, 7), (-6.25, -6)] {
             let eye = Eye::towards([1.0, part / unit, -part / unit]);
             assert_eq!(eye.integer(), [1 << 52, nearest, -nearest], "{part}");
+        }
+    }
+
+    /// Whatever power of two they are multiplied by.
+    #[test]
+    fn directions_of_short_numbers_are_kept() {
+        for short in [[3i32, 2, 1], [-7, 5, 0], [0, 0, 11], [1023, -1, 640]] {
+            for exponent in [0, 1, -3, 1000, -1060] {
+                let given = short.map(|c| super::scaled(f64::from(c), exponent));
+                let found = Eye::towards(given).integer();
+                for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                    let [a, b] = [found[i], found[j]].map(i128::from);
+                    let [c, d] = [short[i], short[j]].map(i128::from);
+                    assert_eq!(a * d, b * c, "{given:?}");
+                }
+                assert!((0..3).all(|i| found[i].signum() == i64::from(short[i]).signum()));
+            }
         }
     }
 }

@@ -19,7 +19,7 @@ use super::{Faces, Int};
 
 /// The points on the front of a plane, and on the plane.
 #[derive(Clone, Debug)]
-pub(crate) struct HalfSpace {
+pub(crate) struct ExactHalfSpace {
     exact: HalfSpaceNumbers,
     normal: [f64; 3],
     offset: f64,
@@ -38,9 +38,9 @@ enum Corner {
     Crossing(usize, usize),
 }
 
-impl HalfSpace {
+impl ExactHalfSpace {
     /// The points p of the world with `normal.dot(p) >= offset`. `None` if a number is infinite or NaN.
-    pub(crate) fn new((normal, offset): (DVec3, f64), lattice: &Lattice) -> Option<Self> {
+    pub(crate) fn new(normal: DVec3, offset: f64, lattice: &Lattice) -> Option<Self> {
         let exact = lattice.half_space(normal, offset)?;
         let normal = exact.normal.map(|c| c as f64);
         Some(Self { normal, offset: exact.offset.to_f64(), exact })
@@ -72,7 +72,7 @@ pub(crate) fn meets(
     faces: &Faces,
     face: u32,
     outline: impl Iterator<Item = (Symbol, LineValues)>,
-    half_spaces: &[&HalfSpace],
+    half_spaces: &[&ExactHalfSpace],
 ) -> bool {
     let triangle = faces.reference_triangle(face).map(|corner| faces.corner(corner));
     let mut lines = SmallVec::<[LineValues; 12]>::new();
@@ -125,7 +125,7 @@ fn clip(
 }
 
 /// The side of a half-space's plane on which a combination of lattice points is.
-fn side(half_space: &HalfSpace, weights: Weights) -> Ordering {
+fn side(half_space: &ExactHalfSpace, weights: Weights) -> Ordering {
     match weights {
         Weights::Corner(point) => half_space.at(&point).sign(),
         Weights::Edge([a, b], [wa, wb]) => {

@@ -136,6 +136,11 @@ pub(super) fn nearest(value: f64) -> f64 {
     if size < WHOLE { (size + WHOLE - WHOLE).copysign(value) } else { value }
 }
 
+/// A lattice point as integers.
+pub(crate) fn integers(point: [f64; 3]) -> [i64; 3] {
+    point.map(|c| c as i64)
+}
+
 /// The exponent `e` with `2^e <= value < 2^(e+1)`, for a positive finite value.
 pub(crate) fn exponent_of(value: f64) -> i32 {
     let bits = (value.to_bits() >> 52) as i32;

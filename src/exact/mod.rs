@@ -51,6 +51,7 @@ pub(crate) use label::MAX_LABELS;
 pub use label::{Line, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
+pub(crate) use lattice::integers;
 pub(crate) use normal::{RoundedNormal, have_area};
 #[cfg(feature = "drawing")]
 pub(crate) use plane::dot;

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use crate::Error;
+use crate::exact::integers;
 use crate::memory::{collect, reserve};
 
 /// The polygons seen, each with a hash of its corners that does not depend on their order.
@@ -52,7 +53,8 @@ impl Outlines {
     }
 
     /// Counts the polygons that have the same corners as an earlier one, in the same cyclic order
-    /// or its reverse. Exact, in O(n log n), and O(n) if there are none; `corners` must return the corners of a polygon again.
+    /// or its reverse. Exact, in O(n log n), and O(n) if there are none; `corners` must return the corners
+    /// of a polygon again.
     pub(super) fn duplicates(
         &mut self,
         corners: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
@@ -102,11 +104,6 @@ fn add(outlines: &mut HashSet<Vec<Corner>>, corners: Vec<[f64; 3]>) -> Result<bo
     let outline = canonical(collect(corners.into_iter().map(integers))?)?;
     outlines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
     Ok(outlines.insert(outline))
-}
-
-/// Lattice coordinates as integers.
-fn integers(corner: [f64; 3]) -> Corner {
-    corner.map(|c| c as i64)
 }
 
 fn mix(corner: [f64; 3]) -> u64 {

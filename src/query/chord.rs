@@ -7,9 +7,10 @@
 use std::cmp::Ordering;
 
 use crate::exact::exact_ray::{AtRay, ExactRay, Parameter};
+use crate::exact::integers;
 use crate::exact::{Faces, Line, Plane, PlaneId};
 use crate::tree::Fragment;
-use crate::tree::grid::{along, integers, plane_points};
+use crate::tree::grid::{along, plane_points};
 
 /// A point of a ray by what defines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

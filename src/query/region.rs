@@ -5,10 +5,10 @@ use std::iter::FusedIterator;
 use smallvec::SmallVec;
 
 use super::chord::upright;
-use crate::exact::half_space::{self, HalfSpace, LineValues};
-use crate::exact::{Faces, Line, POSITION_OFF, SymbolKind};
+use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
+use crate::exact::{Faces, Line, SymbolKind};
 use crate::frustum::{self, Frustum};
-use crate::tree::{Bounds, BspTree, Fragment};
+use crate::tree::{BLOCK, Bounds, BspTree, Fragment, rounding};
 
 /// The numbers of the fragments that have points in a region: [`Bounds::fragments_in`].
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub struct FragmentsIn<'t> {
 /// A plane of a region.
 #[derive(Clone, Debug)]
 struct Side {
-    exact: HalfSpace,
+    exact: ExactHalfSpace,
     /// A box that is behind this has no point in front of the plane or on it.
     outer: frustum::HalfSpace,
     /// A box that is behind this is in front of the plane.
@@ -38,17 +38,12 @@ enum Place {
     Unsure,
 }
 
-/// A stored corner that was moved is the lattice point nearest to its place.
-const MOVED: f64 = 0.5;
-/// What three roundings of a cut vertex lose, as a share of a coordinate.
-const SHARE: f64 = 2.0 * f64::EPSILON;
-
 impl<'t> FragmentsIn<'t> {
     fn new(tree: &'t BspTree, bounds: &'t Bounds, region: &Frustum) -> Self {
         let (lattice, reach) = (tree.faces.lattice(), bounds.reach());
         let side = |&(normal, offset): &(glam::DVec3, f64)| {
             let of = |plane| frustum::HalfSpace::new(plane, reach, 0.0);
-            let exact = HalfSpace::new((normal, offset), lattice)?;
+            let exact = ExactHalfSpace::new(normal, offset, lattice)?;
             Some(Side { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
         };
         let sides = region.planes().iter().filter_map(side).collect();
@@ -65,13 +60,29 @@ impl<'t> FragmentsIn<'t> {
         }
     }
 
+    /// Passes over the largest block of fragments that begins here, if it is outside, and says so; if it is
+    /// inside, notes that.
+    fn skip(&mut self, number: u32, end: u32) -> bool {
+        let (level, _) = self.bounds.block(&(number..end));
+        for level in (0..=level).rev() {
+            let len = (BLOCK as u32).pow(level as u32);
+            match self.place(&self.bounds.levels[level][(number / len) as usize]) {
+                Place::Inside => self.inside = number + len,
+                Place::Outside => self.next = number + len,
+                Place::Unsure => continue,
+            }
+            break;
+        }
+        self.next > number
+    }
+
     /// Whether a fragment has a point in the region: exact.
     fn meets(&self, number: u32) -> bool {
         let (fragment, faces) = (self.tree.fragment(number), &self.tree.faces);
         let bounds = &self.bounds.levels[0][number as usize];
         // Those that the whole fragment is in front of need not be looked at.
         let crossed = self.sides.iter().filter(|side| !side.inner.side(bounds).is_lt());
-        let crossed: SmallVec<[&HalfSpace; 6]> = crossed.map(|side| &side.exact).collect();
+        let crossed: SmallVec<[&ExactHalfSpace; 6]> = crossed.map(|side| &side.exact).collect();
         match guess(&fragment, faces, &crossed) {
             Some(meets) => meets,
             None => half_space::meets(faces, fragment.face(), outline(&fragment, faces), &crossed),
@@ -81,16 +92,12 @@ impl<'t> FragmentsIn<'t> {
 
 /// Whether a fragment has a point in all of some half-spaces, where the rounded positions of its vertices
 /// tell: one of them is inside of all, or all of them are outside of one.
-fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&HalfSpace]) -> Option<bool> {
+fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> Option<bool> {
     let mut is_out = SmallVec::<[bool; 6]>::from_elem(true, sides.len());
     let moved = faces.upright_axis(fragment.face());
     for (vertex, symbol) in fragment.lattice_vertices().zip(fragment.symbols()) {
         let is_cut = !matches!(symbol.kind(), SymbolKind::Corner(_));
-        let off = std::array::from_fn(|axis| {
-            let rounded =
-                if is_cut { vertex[axis].abs() * SHARE + 2.0 * POSITION_OFF } else { 0.0 };
-            if moved == Some(axis) { rounded + MOVED } else { rounded }
-        });
+        let off = rounding(vertex, is_cut, moved);
         let mut is_in = true;
         for (side, is_out) in sides.iter().zip(&mut is_out) {
             let [least, most] = side.range(&vertex, off);
@@ -128,25 +135,8 @@ impl Iterator for FragmentsIn<'_> {
         let end = self.bounds.levels[0].len() as u32;
         while self.next < end {
             let number = self.next;
-            if number >= self.inside {
-                let (level, len) = self.bounds.block(&(number..end));
-                let whole = (0..=level).rev().map(|level| (level, block_len(level)));
-                debug_assert_eq!(len, block_len(level));
-                let mut is_skipped = false;
-                for (level, len) in whole {
-                    match self.place(&self.bounds.levels[level][(number / len) as usize]) {
-                        Place::Inside => self.inside = number + len,
-                        Place::Outside => {
-                            self.next = number + len;
-                            is_skipped = true;
-                        }
-                        Place::Unsure => continue,
-                    }
-                    break;
-                }
-                if is_skipped {
-                    continue;
-                }
+            if number >= self.inside && self.skip(number, end) {
+                continue;
             }
             self.next = number + 1;
             if number < self.inside || self.meets(number) {
@@ -158,11 +148,6 @@ impl Iterator for FragmentsIn<'_> {
 }
 
 impl FusedIterator for FragmentsIn<'_> {}
-
-/// How many fragments a block of some level has.
-fn block_len(level: usize) -> u32 {
-    (crate::tree::BLOCK as u32).pow(level as u32)
-}
 
 impl Bounds {
     /// The numbers of the fragments that have a point in a region, in ascending order: what is in a box, or
@@ -186,8 +171,7 @@ impl Bounds {
     ///
     /// Fragments are as the tree has them, as for [`BspTree::hits`]. Numbers of the planes are taken as they
     /// are given, up to digits below 2⁻¹¹⁵ of the normal's largest, and of the offset up to as many below
-    /// the scene's extent. (Of scenes further than 2¹⁰⁰ extents from the origin, and of numbers at the ends
-    /// of what `f64` can hold, the offset is rounded.) All of the region's planes are used, but for
+    /// the scene's extent. All of the region's planes are used, but for
     /// those with a number that is infinite or NaN, which keep everything.
     ///
     /// Blocks of 16, 256, … fragments are taken or left out as a whole by their boxes, so the time goes

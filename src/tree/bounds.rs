@@ -129,24 +129,29 @@ impl BspTree {
 impl Fragment<'_> {
     fn bounds(&self) -> Flat {
         let faces = self.faces;
-        let mut margin = [0.0; 3];
-        if let Some(axis) = faces.upright_axis(self.face) {
-            margin[axis] = MOVED;
-        }
+        let moved = faces.upright_axis(self.face);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut stored = self.stored().iter();
         for vertex in self.lattice_vertices() {
             let symbol = stored.next().map(Exact::symbol);
             let is_cut = symbol.is_some_and(|s| !matches!(s.kind(), SymbolKind::Corner(_)));
+            let off = rounding(vertex, is_cut, moved);
             for axis in 0..3 {
-                let at = vertex[axis];
-                let rounded = if is_cut { at.abs() * SHARE + STEP } else { 0.0 };
-                low[axis] = low[axis].min(at - rounded - margin[axis]);
-                high[axis] = high[axis].max(at + rounded + margin[axis]);
+                low[axis] = low[axis].min(vertex[axis] - off[axis]);
+                high[axis] = high[axis].max(vertex[axis] + off[axis]);
             }
         }
         flat(faces.lattice().enclose(low, high))
     }
+}
+
+/// How far the rounded place of a vertex, in lattice units, may be from the exact one along each axis: by
+/// whether a cut made it, and along which axis its face's corners were moved, if they were.
+pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> [f64; 3] {
+    std::array::from_fn(|axis| {
+        let rounded = if is_cut { vertex[axis].abs() * SHARE + STEP } else { 0.0 };
+        if moved == Some(axis) { rounded + MOVED } else { rounded }
+    })
 }
 
 fn union(a: Flat, b: Flat) -> Flat {

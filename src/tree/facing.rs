@@ -40,8 +40,8 @@ impl Fragment<'_> {
 /// its terms.
 ///
 /// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of its
-/// two products; the eye, rounded, less a corner by 2u of both, and a direction by u, whatever its
-/// size; the products and sums add 3u.
+/// two products; the eye, rounded, less a corner by 2u of both (a direction is exact); the products and
+/// sums add 3u.
 /// Smaller: wrong signs pass. Larger: more faces are decided by integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
@@ -49,15 +49,13 @@ const ERROR: f64 = 5.0 * f64::EPSILON;
 pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
     let [p, q, r] = faces.reference_triangle(face).map(|corner| faces.corner(corner));
     let (at, w) = eye.homogeneous();
-    // Components of a direction are rounded as its largest is, which is 1.
-    let rounded = 1.0 - w;
     let (mut distance, mut size) = (0.0, 0.0);
     for i in 0..3 {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let a = (q[j] - p[j]) * (r[k] - p[k]);
         let b = (q[k] - p[k]) * (r[j] - p[j]);
         distance += (a - b) * (at[i] - w * p[i]);
-        size += (a.abs() + b.abs()) * (at[i].abs() + w * p[i].abs() + rounded);
+        size += (a.abs() + b.abs()) * (at[i].abs() + w * p[i].abs());
     }
     if distance.abs() > ERROR * size {
         return distance.total_cmp(&0.0);

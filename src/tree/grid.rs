@@ -1,9 +1,9 @@
-//! Exact names: the grid of a tree, and planes through its points.
+//! The exact numbers of a tree: its grid, and planes through grid points.
 
 use glam::DVec3;
 
 use super::{BspTree, Fragment, Node};
-use crate::exact::{Faces, PlaneId, PlaneKind};
+use crate::exact::{Faces, PlaneId, PlaneKind, integers};
 
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
 ///
@@ -52,7 +52,7 @@ impl Node<'_> {
 }
 
 impl Fragment<'_> {
-    /// The exact plane of its polygon, or of its triangle of it: three points of the tree's
+    /// The exact plane of its polygon, or, if that was triangulated, of one of its triangles: three points of the tree's
     /// [grid](BspTree::grid) on it, counter-clockwise seen from its front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         plane_points(self.faces, PlaneId::face(self.face))
@@ -70,11 +70,6 @@ pub(crate) fn plane_points(faces: &Faces, plane: PlaneId) -> [[i64; 3]; 3] {
             [point, along(point, (axis + 1) % 3), along(point, (axis + 2) % 3)]
         }
     }
-}
-
-/// A lattice point as integers.
-pub(crate) fn integers(point: [f64; 3]) -> [i64; 3] {
-    point.map(|c| c as i64)
 }
 
 /// The next point along an axis.

@@ -21,8 +21,8 @@ mod tests;
 mod validate;
 pub(crate) mod walk;
 
-pub(crate) use bounds::BLOCK;
 pub use bounds::Bounds;
+pub(crate) use bounds::{BLOCK, rounding};
 pub use bsp_tree::BspTree;
 pub use culling::{Culling, Sides};
 pub use fragment::{Fragment, Fragments};

@@ -48,6 +48,52 @@ fn clip(polygon: &[Point], planes: &[Plane]) -> Vec<Point> {
     part
 }
 
+/// Far out, offsets and coordinates cancel to the last digit; at the ends of `f64`, products are beyond
+/// its range.
+#[test]
+fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
+    let count = |polygon: [[f64; 3]; 3], normal: DVec3, offset: f64| {
+        let tree = BspTree::build([polygon]).unwrap();
+        let region = Frustum::new([(normal, offset)]);
+        tree.bounds().unwrap().fragments_in(&tree, &region).count()
+    };
+    // x + n·y ≥ n·y + c, where y is far out and the same for all, and n·y exact or rounded to what
+    // differs by far more than the scene's size.
+    for y in [1e10, 1e15, 1e30, 1.1e38, 1e40, 1e45, 1e60, 1e150, 1e300] {
+        let polygon = [[1.0, y, 1.0], [2.0, y, 1.0], [1.0, y, 2.0]];
+        for n in [1.0, 2.0, 3.0, 5.0, 7.0] {
+            let exact = rational::exact(n) * rational::exact(y) - rational::exact(n * y);
+            // The largest x is 2.
+            let is_met = |x: f64| exact.clone() + rational::exact(x) >= rational::exact(0.0);
+            for sign in [1.0, -1.0] {
+                let found = count(polygon, DVec3::new(sign, sign * n, 0.0), sign * n * y);
+                let expected = if sign > 0.0 {
+                    is_met(2.0)
+                } else {
+                    !is_met(1.0) || exact == rational::exact(-1.0)
+                };
+                assert_eq!(found, usize::from(expected), "{y} {n} {sign}");
+            }
+        }
+    }
+    for x in [1e308, 1.2e308, 1.7e308] {
+        let polygon = [[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 0.0, 1.0]];
+        for (normal, share, expected) in
+            [(0.75, 1.02, 0), (0.75, 1.0, 1), (0.75, 0.98, 1), (-0.75, -0.98, 0), (1e-9, 1e3, 0)]
+        {
+            let offset = f64::abs(normal) * x * share;
+            let found = count(polygon, DVec3::new(normal, 0.0, 0.0), offset);
+            assert_eq!(found, expected, "{x} {normal} {share}");
+        }
+    }
+    // The least numbers that there are.
+    let u = 5e-324;
+    let polygon = [[10.0 * u, 0.0, 0.0], [10.0 * u, 40.0 * u, 0.0], [10.0 * u, 0.0, 40.0 * u]];
+    for (steps, expected) in [(19.0, 1), (20.0, 1), (21.0, 0)] {
+        assert_eq!(count(polygon, DVec3::new(2.0, 0.0, 0.0), steps * u), expected, "{steps}");
+    }
+}
+
 /// A region of some kind that is hard for a scene.
 fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
     let normal = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));

@@ -115,7 +115,7 @@ pub(crate) struct Score {
     pub(crate) pixels: usize,
     pub(crate) unsure: usize,
     pub(crate) paths: usize,
-    pub(crate) cut_out: usize,
+    pub(crate) clipped: usize,
     pub(crate) rays: usize,
 }
 
@@ -168,7 +168,7 @@ pub(crate) fn check(
     }
     score.pictures += 1;
     score.paths += drawn.len();
-    score.cut_out += drawing.paths().filter(|path| path.is_cut_out()).count();
+    score.clipped += drawing.paths().filter(|path| path.is_clipped()).count();
     Ok(())
 }
 

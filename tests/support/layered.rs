@@ -58,7 +58,7 @@ pub(crate) fn check_layers(
     for path in drawing.paths() {
         let [all, parts] = paths.entry(path.polygon()).or_default();
         *all += 1;
-        *parts += usize::from(path.is_cut_out());
+        *parts += usize::from(path.is_clipped());
         let mut picture = Picture::new(drawing.size());
         picture.fill(path.polygon(), path.outlines());
         for (i, pixel) in picture.pixels.iter().enumerate() {

@@ -26,7 +26,7 @@ impl View {
         Self { viewpoint: Viewpoint::Eye(world), lattice }
     }
 
-    /// A direction, rounded to 2⁻⁵² of its largest component.
+    /// A direction, rounded to 2⁻⁵² of the largest power of two in its largest component.
     pub(crate) fn direction(direction: DVec3) -> Self {
         Self { viewpoint: Viewpoint::Direction(direction), lattice: whole_direction(direction) }
     }
@@ -60,10 +60,12 @@ impl View {
     }
 }
 
-/// A direction as integers, the largest 2⁵².
+/// A direction as integers, the largest from 2⁵² to 2⁵³: scaled by a power of two.
 fn whole_direction(direction: DVec3) -> DVec3 {
     let size = direction.abs().max_element();
-    (direction / size * (1u64 << 52) as f64).round()
+    // Bits without those of the fraction.
+    let power = f64::from_bits(size.to_bits() >> 52 << 52);
+    (direction / power * (1u64 << 52) as f64).round()
 }
 
 /// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond

@@ -32,23 +32,29 @@ impl Lattice {
         let up = if size > 0.0 { -exponent_of(size) } else { 0 };
         let unit = normal.to_array().map(|c| scaled(c, up));
         let normal = unit.map(|c| scaled(c, BITS).round() as i128);
-        // Exactly the offset less the far coordinates' part, as a sum of seven numbers.
-        let (mut offset, mut rest) = (scaled(offset, up), [0.0; 6]);
-        for axis in (0..3).filter(|&axis| self.far[axis] != 0.0) {
-            let part = unit[axis] * self.far[axis];
-            rest[2 * axis] = -unit[axis].mul_add(self.far[axis], -part);
-            (offset, rest[2 * axis + 1]) = super::two_sum(offset, -part);
+        // The offset less the far coordinates' part: in a unit in which none of them is beyond 1, so that
+        // no product is beyond the range of `f64`, and none that matters below it.
+        let exponent = |value: f64, up| (value != 0.0).then(|| exponent_of(value.abs()) + up);
+        let far = self.far.into_iter().map(|far| exponent(far, 0));
+        let most = far.chain([exponent(offset, up)]).flatten().max().unwrap_or(0) + 1;
+        let mut sum = Sum::default();
+        sum.add(scaled(offset, up - most));
+        for (unit, far) in unit.into_iter().zip(self.far) {
+            let far = scaled(far, -most);
+            let part = unit * far;
+            sum.add(-part);
+            sum.add(-unit.mul_add(far, -part));
         }
-        let offset = scaled(offset, BITS + self.exponent());
-        let steps = if offset.abs() < BEYOND {
-            let rest = rest.map(|c| scaled(c, BITS + self.exponent()));
+        let parts = sum.parts.map(|part| scaled(part, BITS + self.exponent() + most));
+        // The last that is not 0 is the largest, and nearly the sum.
+        let largest = parts.into_iter().rev().find(|&part| part != 0.0).unwrap_or(0.0);
+        let steps = if largest.abs() < BEYOND {
             let part = |axis: usize| {
                 Int::<2>::from(normal[axis]).times::<2, 5>(&Int::from(self.origin[axis] as i128))
             };
             let origin = part(0) + part(1) + part(2);
-            let sum = rest.into_iter().fold(rounded(offset), |sum, c| sum + rounded(c));
-            sum - origin
-        } else if offset > 0.0 {
+            parts.into_iter().fold(-origin, |sum, c| sum + Int::from_f64(c.round()))
+        } else if largest > 0.0 {
             Int::<2>::from(1_i128).shifted(FAR + 1)
         } else {
             -Int::<2>::from(1_i128).shifted::<5>(FAR + 1)
@@ -57,9 +63,30 @@ impl Lattice {
     }
 }
 
-/// The nearest integer, of a number below [`BEYOND`]; 0 for what is none.
-fn rounded(value: f64) -> Int<5> {
-    if value.abs() < BEYOND { Int::from_f64(value.round()) } else { Int::ZERO }
+/// An exact sum of up to seven numbers: parts that do not overlap, from the smallest to the largest, but
+/// for zeros (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+/// predicates", 1997, grow-expansion).
+struct Sum {
+    parts: [f64; 7],
+    /// How many have been added.
+    len: usize,
+}
+
+impl Default for Sum {
+    fn default() -> Self {
+        Self { parts: [0.0; 7], len: 0 }
+    }
+}
+
+impl Sum {
+    fn add(&mut self, value: f64) {
+        let mut value = value;
+        for part in &mut self.parts[..self.len] {
+            (value, *part) = super::two_sum(value, *part);
+        }
+        self.parts[self.len] = value;
+        self.len += 1;
+    }
 }
 
 /// An offset, cut to what all points of a scene are this side of.

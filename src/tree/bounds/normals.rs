@@ -85,7 +85,7 @@ impl<'t> Arms<'t> {
         let bound = |corner: [f64; 3], sign: f64| {
             std::array::from_fn(|axis| {
                 let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
-                // Both are rounded, and a direction as its largest component is, which is 1.
+                // Both are rounded. (A direction is exact.)
                 let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
                 eye - corner + sign * rounded
             })
