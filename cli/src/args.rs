@@ -270,7 +270,7 @@ pub(crate) struct DrawArgs {
     /// Print the figures of the drawing as one JSON object
     ///
     /// `polygons` of the scene, `fragments` of its tree, polygons `visible`, `paths` written and how many
-    /// of these are `cut_out`, `runs` of edges and the `lines` that these are joined to, `bytes` of the
+    /// of these are `clipped`, `runs` of edges and the `lines` that these are joined to, `bytes` of the
     /// file, and the time in seconds to build or read the tree and to draw.
     #[arg(long)]
     pub(crate) json: bool,

@@ -56,6 +56,21 @@ impl Output {
         }
     }
 
+    /// As [`write`](Self::write); says how many bytes were written.
+    pub(crate) fn write_counted(
+        self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<u64, Failure> {
+        let mut bytes = 0;
+        self.write(|out| {
+            let mut counted = Counted { out, bytes: 0 };
+            write(&mut counted)?;
+            bytes = counted.bytes;
+            Ok(())
+        })?;
+        Ok(bytes)
+    }
+
     /// Writes with `write`, and completes the output.
     pub(crate) fn write(
         self,
@@ -68,6 +83,24 @@ impl Output {
                 written.map_err(|error| Failure::of_output(&error))
             }
         }
+    }
+}
+
+/// Counts what is written.
+struct Counted<'a> {
+    out: &'a mut dyn Write,
+    bytes: u64,
+}
+
+impl Write for Counted<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
     }
 }
 

@@ -14,6 +14,7 @@ mod examples;
 mod failure;
 mod files;
 mod fill_order;
+mod format;
 mod framing;
 mod job;
 mod measure;

@@ -73,14 +73,16 @@ impl EdgeChoice {
 }
 
 /// What edges are called in a file, in the order to draw them.
-const CLASSES: [&str; 4] = ["crossing", "crease", "border", "silhouette"];
+const CLASSES: [&str; 5] = ["other", "crossing", "crease", "border", "silhouette"];
 
 fn class(kind: EdgeKind) -> &'static str {
     match kind {
         EdgeKind::Border => "border",
         EdgeKind::Silhouette => "silhouette",
         EdgeKind::Crease(_) => "crease",
-        _ => "crossing",
+        EdgeKind::Crossing(_) => "crossing",
+        // Kinds that the library may have one day.
+        _ => "other",
     }
 }
 
@@ -137,6 +139,9 @@ mod tests {
             (EdgeChoice::DEFAULT, [true, true, false, true]),
         ] {
             assert_eq!(kinds.map(|kind| choice.draws(kind)), expected, "{choice:?}");
+        }
+        for kind in kinds.into_iter().chain([EdgeKind::Crossing(1)]) {
+            assert!(CLASSES[1..].contains(&class(kind)), "{kind:?}");
         }
     }
 }

@@ -1,8 +1,7 @@
 //! `binspace draw`: a view as a vector picture with one path a polygon, and lines.
 
 use std::collections::HashSet;
-use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -22,6 +21,7 @@ use crate::cull::Cull;
 use crate::drawn::{Drawn, Style, filled};
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
+use crate::format::{about_output, format};
 use crate::progress::Progress;
 use crate::shading::shaded;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
@@ -34,13 +34,13 @@ const MIN_SIZE: f64 = 0.01;
 
 /// Runs the command.
 pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
-    let format = format(args)?;
+    let format = format(&args.output, args.format)?;
     let edges = edges(args);
-    check(args, format, edges).map_err(|problem| about_output(args, &problem))?;
+    check(args, format, edges).map_err(|problem| about_output(&args.output, &problem))?;
     let output = Output::open(Some(&args.output))?;
     if format != DrawFormat::Svg && output.is_terminal() {
         let problem = "a PDF or PNG is not for a terminal: pipe it, or name a file";
-        return Err(about_output(args, problem));
+        return Err(about_output(&args.output, problem));
     }
     let (scene, tree, tree_seconds) = job::timed_scene_and_tree(&args.scene, &args.build)?;
     note_z_up(&scene, &args.view.up);
@@ -50,8 +50,6 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     }
     let rays = Rays::new(&camera, tree.faces()).map_err(|error| camera::about(&scene, &error))?;
     let rays = args.cull.cull.rays(rays);
-    let start = Instant::now();
-    let about = |error| job::about(&scene, &error);
     let colours = Colours::new(&scene, args.colours);
     let view = View { args, scene: &scene, camera: &camera, colours: &colours };
     let mut figures = Figures {
@@ -60,7 +58,9 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         tree_seconds,
         ..Figures::default()
     };
-    // What shows; of a drawing in which nothing is hidden, only lines need it.
+    let start = Instant::now();
+    let about = |error| job::about(&scene, &error);
+    // A translucent drawing needs the map for its lines alone.
     let needs_map = !args.translucent || edges != EdgeChoice::None;
     let map = needs_map.then(|| view.map(&tree, rays.clone())).transpose().map_err(about)?;
     let shown: Vec<Shown> = map.iter().flat_map(VisibilityMap::polygons).collect();
@@ -71,24 +71,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
         let pixels = coverage::picture(map, |polygon| view.colour(polygon));
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        figures.bytes = written(output, |out| png_file::write(out, camera.size(), &pixels))?;
+        let write = |out: &mut dyn Write| png_file::write(out, camera.size(), &pixels);
+        figures.bytes = output.write_counted(write)?;
     } else {
-        let drawing = match &map {
-            _ if args.lines => None,
-            _ if args.translucent => Some(view.translucent(&tree, rays).map_err(about)?),
-            map => map.as_ref().map(|map| view.opaque(map)).transpose().map_err(about)?,
-        };
-        let strokes = match &map {
-            Some(map) if edges != EdgeChoice::None => view.strokes(map, edges).map_err(about)?,
-            _ => vec![],
-        };
-        if let Some(drawing) = drawing.as_ref().filter(|_| args.translucent) {
-            figures.visible =
-                drawing.paths().map(|path| path.polygon()).collect::<HashSet<_>>().len();
-        }
+        let drawing = view.drawing(&tree, rays, map.as_ref()).map_err(about)?;
+        let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
         figures.draw_seconds = start.elapsed().as_secs_f64();
         let drawn = view.drawn(drawing.as_ref(), &shown, strokes, &mut figures);
-        figures.bytes = written(output, |out| match format {
+        figures.bytes = output.write_counted(|out| match format {
             DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
             _ => drawn_svg::write(out, &drawn),
         })?;
@@ -121,23 +111,35 @@ impl<'a> View<'a> {
         VisibilityMap::of_with_progress(tree, rays, |progress| shown_by(&bar, progress))
     }
 
-    fn opaque(&self, map: &VisibilityMap<'_>) -> Result<Drawing, Error> {
+    /// The filled paths; `None` if there are to be lines alone.
+    fn drawing(
+        &self,
+        tree: &BspTree,
+        rays: Rays,
+        map: Option<&VisibilityMap<'_>>,
+    ) -> Result<Option<Drawing>, Error> {
         let bar = Progress::share("drawing");
-        map.drawing_with_progress(|progress| shown_by(&bar, progress))
+        let progress = |progress| shown_by(&bar, progress);
+        match map {
+            _ if self.args.lines => Ok(None),
+            _ if self.args.translucent => {
+                Drawing::translucent_with_progress(tree, rays, progress).map(Some)
+            }
+            map => map.map(|map| map.drawing_with_progress(progress)).transpose(),
+        }
     }
 
-    fn translucent(&self, tree: &BspTree, rays: Rays) -> Result<Drawing, Error> {
-        let bar = Progress::share("drawing");
-        Drawing::translucent_with_progress(tree, rays, |progress| shown_by(&bar, progress))
-    }
-
-    fn strokes(&self, map: &VisibilityMap<'_>, edges: EdgeChoice) -> Result<Vec<Strokes>, Error> {
-        let hidden = self.args.hidden.unwrap_or(Hidden::None);
+    fn strokes(
+        &self,
+        map: Option<&VisibilityMap<'_>>,
+        edges: EdgeChoice,
+    ) -> Result<Vec<Strokes>, Error> {
+        let Some(map) = map.filter(|_| edges != EdgeChoice::None) else { return Ok(vec![]) };
         let mut runs = map.edges()?;
         if edges != EdgeChoice::Silhouettes {
             runs.append(&mut map.crossings()?);
         }
-        strokes(&runs, edges, hidden, self.min_size())
+        strokes(&runs, edges, self.args.hidden.unwrap_or(Hidden::None), self.min_size())
     }
 
     /// The paths and lines that are written, counted.
@@ -157,7 +159,11 @@ impl<'a> View<'a> {
         let paths = drawing.into_iter().flat_map(Drawing::paths);
         let paths: Vec<_> = paths.filter(|path| !is_small[path.polygon()]).collect();
         figures.paths = paths.len();
-        figures.cut_out = paths.iter().filter(|path| path.is_cut_out()).count();
+        figures.clipped = paths.iter().filter(|path| path.is_clipped()).count();
+        if args.translucent {
+            let drawn = paths.iter().map(|path| path.polygon());
+            figures.visible = drawn.collect::<HashSet<usize>>().len();
+        }
         let lines = strokes.iter().flat_map(|strokes| &strokes.lines);
         figures.lines = lines.clone().count();
         figures.runs = lines.map(|line| line.segments.len()).sum();
@@ -180,7 +186,7 @@ struct Figures {
     fragments: usize,
     visible: usize,
     paths: usize,
-    cut_out: usize,
+    clipped: usize,
     /// Parts of edges that are drawn, and the lines that they are joined to.
     runs: usize,
     lines: usize,
@@ -191,65 +197,10 @@ struct Figures {
     draw_seconds: f64,
 }
 
-/// Writes a file, and says how long it is.
-fn written(
-    output: Output,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<u64, Failure> {
-    let mut bytes = 0;
-    output.write(|out| {
-        let mut counted = Counted { out, bytes: 0 };
-        write(&mut counted)?;
-        bytes = counted.bytes;
-        Ok(())
-    })?;
-    Ok(bytes)
-}
-
-/// Counts what is written.
-struct Counted<'a> {
-    out: &'a mut dyn Write,
-    bytes: u64,
-}
-
-impl Write for Counted<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.out.write(bytes)?;
-        self.bytes += written as u64;
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
-    }
-}
-
 /// Which edges are drawn: those of a line drawing that are seen best, unless the user says.
 fn edges(args: &DrawArgs) -> EdgeChoice {
     let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
     args.edges.unwrap_or(default)
-}
-
-/// The format that is asked for, or that a name means.
-fn format(args: &DrawArgs) -> Result<DrawFormat, Failure> {
-    let path: &Path = &args.output;
-    let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
-    let named = match extension.as_deref() {
-        Some("svg") => Some(DrawFormat::Svg),
-        Some("pdf") => Some(DrawFormat::Pdf),
-        Some("png") => Some(DrawFormat::Png),
-        _ if path == Path::new(STANDARD) => args.format.or(Some(DrawFormat::Svg)),
-        _ => None,
-    };
-    match (named, args.format) {
-        (Some(named), Some(asked)) if named != asked => {
-            Err(about_output(args, "its name and --format are of different formats"))
-        }
-        (_, Some(format)) | (Some(format), None) => Ok(format),
-        (None, None) => {
-            Err(about_output(args, "name a file that ends in .svg, .pdf or .png, or give --format"))
-        }
-    }
 }
 
 /// An error if options do not fit together.
@@ -284,13 +235,6 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         return Ok(());
     };
     Err(problem.to_owned())
-}
-
-fn about_output(args: &DrawArgs, problem: &str) -> Failure {
-    if args.output == Path::new(STANDARD) {
-        return Failure::about("standard output", problem);
-    }
-    Failure::about(args.output.display(), problem)
 }
 
 /// An error if something shows through a polygon that shows.

@@ -1,7 +1,5 @@
 //! `binspace render`: a picture of a scene.
 
-use std::path::Path;
-
 use binspace::Verification;
 use binspace::scene::Scene;
 
@@ -12,7 +10,8 @@ use crate::backs::note_backs;
 use crate::colours::Colours;
 use crate::cull::Cull;
 use crate::failure::Failure;
-use crate::files::{Output, STANDARD};
+use crate::files::Output;
+use crate::format::{about_output, format};
 use crate::pictures::{Drawing, Kind};
 use crate::progress::Progress;
 use crate::terminal::note;
@@ -22,12 +21,12 @@ use crate::{camera, job, png_file, svg};
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
-    let (format, kind) = (format(args)?, Kind::asked(&args.kind));
+    let (format, kind) = (format(&args.output, args.format)?, Kind::asked(&args.kind));
     check_kind(args, format, kind)?;
     let output = Output::open(Some(&args.output))?;
     if format == Format::Png && output.is_terminal() {
         let problem = "a PNG is not for a terminal: pipe it, or name a file";
-        return Err(about_output(args, problem));
+        return Err(about_output(&args.output, problem));
     }
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     note_z_up(&scene, &args.view.up);
@@ -67,14 +66,7 @@ fn check_kind(args: &RenderArgs, format: Format, kind: Kind) -> Result<(), Failu
     } else {
         return Ok(());
     };
-    Err(about_output(args, &problem))
-}
-
-fn about_output(args: &RenderArgs, problem: &str) -> Failure {
-    if args.output == Path::new(STANDARD) {
-        return Failure::about("standard output", problem);
-    }
-    Failure::about(args.output.display(), problem)
+    Err(about_output(&args.output, &problem))
 }
 
 /// Says how many pixels of a picture are wrong, and whether it differs.
@@ -92,27 +84,6 @@ fn judge(scene: &Scene, seen: &Verification) -> Outcome {
     ));
     unseen_faults(seen).iter().for_each(|fault| note(fault));
     if seen.is_right() { Outcome::Done } else { Outcome::Differs }
-}
-
-/// The format that is asked for, or that a name means.
-fn format(args: &RenderArgs) -> Result<Format, Failure> {
-    let path: &Path = &args.output;
-    let extension = path.extension().map(|ext| ext.to_string_lossy().to_lowercase());
-    let named = match extension.as_deref() {
-        Some("png") => Some(Format::Png),
-        Some("svg") => Some(Format::Svg),
-        _ if path == Path::new(STANDARD) => args.format.or(Some(Format::Png)),
-        _ => None,
-    };
-    match (named, args.format) {
-        (Some(named), Some(asked)) if named != asked => {
-            Err(about_output(args, "its name and --format are of different formats"))
-        }
-        (_, Some(format)) | (Some(format), None) => Ok(format),
-        (None, None) => {
-            Err(about_output(args, "name a file that ends in .png or .svg, or give --format"))
-        }
-    }
 }
 
 #[cfg(test)]

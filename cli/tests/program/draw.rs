@@ -121,7 +121,7 @@ pub(crate) fn figures(output: &str) -> Value {
 #[test]
 fn the_file_shows_what_the_exact_picture_shows() {
     let folder = Folder::new("draw_exact");
-    let (mut compared, mut covered, mut near, mut cut_out, mut paths) = (0, 0, 0, 0, 0);
+    let (mut compared, mut covered, mut near, mut clipped, mut paths) = (0, 0, 0, 0, 0);
     for view in views() {
         let command = format!(
             "draw {} -o a.svg --ids --json --colours polygon --min-size 0",
@@ -146,7 +146,7 @@ fn the_file_shows_what_the_exact_picture_shows() {
         }
         assert!(figures["tree_seconds"].as_f64().unwrap() > 0.0);
         assert!(figures["draw_seconds"].as_f64().unwrap() > 0.0);
-        cut_out += figures["cut_out"].as_u64().unwrap();
+        clipped += figures["clipped"].as_u64().unwrap();
         paths += shown.len();
         let picture = svg.picture();
         assert_eq!(picture.size, view.pixels);
@@ -165,9 +165,9 @@ fn the_file_shows_what_the_exact_picture_shows() {
             covered += usize::from(expected.is_some());
         }
     }
-    let counts = format!("{compared} {covered} {near} {cut_out} {paths}");
+    let counts = format!("{compared} {covered} {near} {clipped} {paths}");
     assert!(compared > 80_000 && covered > 30_000 && near < compared / 10, "{counts}");
-    assert!(cut_out > 10 && paths > 500, "{counts}");
+    assert!(clipped > 10 && paths > 500, "{counts}");
 }
 
 /// Along a direction brightness is the same all over a polygon, so the drawing has the colours of
@@ -322,8 +322,8 @@ fn what_cannot_be_drawn_is_said_at_once() {
     let folder = Folder::new("draw_bad");
     for (options, problem) in [
         ("", "--output"),
-        ("-o p.gif", "p.gif: name a file that ends in .svg, .pdf or .png"),
-        ("-o p", "p: name a file that ends in .svg, .pdf or .png, or give --format"),
+        ("-o p.gif", "p.gif: name a file that ends in one of .svg, .pdf, .png"),
+        ("-o p", "p: name a file that ends in one of .svg, .pdf, .png, or give --format"),
         ("-o p.svg --format pdf", "p.svg: its name and --format are of different formats"),
         ("-o p.svg --format gif", "--format"),
         ("-o p.svg --lines --edges none", "there is nothing to draw"),

@@ -33,6 +33,7 @@ fn sampled(view: &View, fills: &HashMap<usize, [u8; 3]>) -> Vec<[f64; 3]> {
 fn pixels_are_the_means_of_many_samples() {
     let folder = Folder::new("png_exact");
     let (mut edges, mut sum, mut worst) = (0, 0.0, 0.0f64);
+    let (mut inner, mut inner_sum) = (0, 0.0);
     for view in views() {
         let command = format!("draw {} --colours polygon", view.arguments());
         let output = folder.run(&format!("{command} -o a.png --json")).good();
@@ -47,19 +48,22 @@ fn pixels_are_the_means_of_many_samples() {
         for (found, expected) in picture.rgb.chunks_exact(3).zip(sampled(&view, &fills)) {
             let difference = |i: usize| (f64::from(found[i]) - expected[i]).abs();
             let error = (0..3).map(difference).fold(0.0, f64::max);
-            // Pixels of one colour alone are that colour, up to the rounding of what is smaller than a
-            // sample.
             if expected.iter().any(|c| c.fract() != 0.0) {
                 edges += 1;
                 sum += error;
             } else {
+                // All samples have one colour: what else there is lies between two rows of samples.
                 assert!(error < 255.0 / 16.0, "{command}: {found:?} {expected:?}");
+                inner += 1;
+                inner_sum += error;
             }
             worst = worst.max(error);
         }
     }
     let mean = sum / f64::from(edges);
     assert!(edges > 6_000 && mean < 1.0 && worst < 8.0, "{edges} {mean} {worst}");
+    let mean = inner_sum / f64::from(inner);
+    assert!(inner > 20_000 && mean < 0.01, "{inner} {mean}");
 }
 
 /// Where many parts of one colour meet, their areas add up to whole pixels.

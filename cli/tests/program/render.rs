@@ -144,8 +144,8 @@ fn svg_has_the_fragments_in_order() {
 fn what_cannot_be_written_is_said_at_once() {
     let folder = Folder::new("render_unwritable");
     for (options, problem) in [
-        ("-o p.gif", ".png or .svg"),
-        ("-o p", ".png or .svg"),
+        ("-o p.gif", ".png, .svg"),
+        ("-o p", ".png, .svg"),
         ("-o missing/p.png", "cannot be written"),
         ("-o p.svg --depth", "write a PNG"),
         ("-o p.svg --difference", "write a PNG"),
