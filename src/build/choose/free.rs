@@ -137,7 +137,8 @@ impl Sweep {
     ) -> Result<Option<Candidate>, Error> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
-        for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis)) {
+        for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis) && set.may_have_gap(axis))
+        {
             if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven)) {
                 break;
             }
