@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `lattice` | how corners are rounded to the grid |
 //! | `vertex` | on which side of a plane a vertex lies, in integers |
-//! | `position` | where a vertex is, rounded |
+//! | `rounded_vertex` | where a vertex is, rounded |
 //! | `normal` | how a face's plane lies, rounded |
 //! | `filter` | the same side by rounded distances, where they are certain |
 //! | `tolerance` | where a piece lies against a plane |
@@ -34,7 +34,7 @@ pub(crate) mod label;
 pub(crate) mod lattice;
 mod normal;
 mod plane;
-mod position;
+mod rounded_vertex;
 mod split;
 mod tolerance;
 pub(crate) mod vertex;
@@ -56,5 +56,5 @@ pub(crate) use normal::{RoundedNormal, have_area};
 #[cfg(feature = "drawing")]
 pub(crate) use plane::dot;
 pub(crate) use plane::{Plane, cross};
-pub(crate) use position::OFF as POSITION_OFF;
+pub(crate) use rounded_vertex::OFF as POSITION_OFF;
 pub use split::split;

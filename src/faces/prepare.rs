@@ -5,19 +5,19 @@ mod append;
 mod builder;
 mod collect;
 mod corners;
+mod default_tolerance;
 mod lists;
 mod preparation;
 mod quad;
 mod thin;
-mod tolerance;
 
 use glam::DVec3;
 
 use builder::Builder;
 use collect::Collected;
+use default_tolerance::Ground;
+pub use default_tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub use preparation::Preparation;
-use tolerance::Ground;
-pub use tolerance::{DEFAULT_TOLERANCE, Tolerance};
 
 use super::duplicates::Outlines;
 use super::listener::{Listener, Unheard};

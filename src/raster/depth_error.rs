@@ -1,6 +1,6 @@
 //! How far wrongly painted faces lie behind the ones that should show.
 
-use super::compare::{Comparison, Verdict};
+use super::compare_pictures::{Comparison, Verdict};
 use super::coverage::Coverage;
 use super::exact::{Plane, determinant};
 use super::image::Image;

@@ -14,7 +14,7 @@
 
 mod bounds;
 mod canvas;
-mod compare;
+mod compare_pictures;
 mod coverage;
 mod depth_error;
 mod digits;
@@ -34,8 +34,8 @@ pub(crate) mod tests;
 mod zbuffer;
 
 pub(crate) use canvas::Canvas;
-pub(crate) use compare::is_open;
-pub use compare::{Comparison, Verdict, compare};
+pub(crate) use compare_pictures::is_open;
+pub use compare_pictures::{Comparison, Verdict, compare};
 pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};
 pub(crate) use layers::Layers;

@@ -1,6 +1,6 @@
 //! Pictures to look at: RGB, 8 bits each, row by row from the top left.
 
-use super::compare::{Comparison, Verdict};
+use super::compare_pictures::{Comparison, Verdict};
 use super::image::{Image, NONE};
 use super::rays::Rays;
 use super::sheet::normal_of;

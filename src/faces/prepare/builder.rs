@@ -7,9 +7,9 @@ use smallvec::SmallVec;
 
 use super::collect::Collected;
 use super::corners::Corners;
+use super::default_tolerance::Ground;
 use super::preparation::Preparation;
 use super::quad::Quad;
-use super::tolerance::Ground;
 use crate::Error;
 use crate::exact::faces::{Face, Frame, INNER};
 use crate::exact::{Faces, MAX_LABELS, Plane, cross};
