@@ -3,10 +3,10 @@
 //! A polygon that is drawn whole has to come before each that shows where it would be painted too.
 //! What is hidden by a third needs no order.
 
-use super::cell::are_apart;
 use super::halving::{CUT, NARROWED, found_in};
 use super::pairs::{Found, Pair, add, sorted};
 use super::reaches::Reaches;
+use super::region::{Region, are_apart};
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
 use crate::Error;
@@ -29,7 +29,7 @@ pub(super) fn pairs<'l>(
     // Whole faces.
     let mut all = Reaches::default();
     for seen in (0..stock.seen.len() as u32).filter(|&seen| place(seen) != u32::MAX) {
-        all.push(seen, stock.outline(seen).iter().copied())?;
+        all.push(seen, stock.outline(seen))?;
     }
     let halves = |entry: &Entry<'l>| {
         watch.work(entry.reaches.list.len() * NARROWED)?;
@@ -83,7 +83,7 @@ impl<'l> Entry<'l> {
 }
 
 /// The box around leaves.
-fn region(leaves: &[Leaf]) -> [[f64; 2]; 2] {
+fn region(leaves: &[Leaf]) -> Region {
     let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     leaves.iter().fold(none, |[low, high], leaf| {
         let [from, to] = leaf.tile.sides();

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::lines::{Half, Lines};
+use super::region::Region;
 use crate::Error;
 use crate::memory::reserve;
 
@@ -78,8 +79,19 @@ impl Cell {
         halves: &[Half],
         mut outside: Option<&mut Vec<Self>>,
     ) -> Result<Option<Option<Self>>, Error> {
-        let mut part: Option<Self> = None;
+        // Most cells lie outside of one of the halves: that is found out before any is cut.
+        let mut near: SmallVec<[Half; 8]> = SmallVec::new();
         for &half in halves {
+            let signs = self.signs(lines, half);
+            if !signs.contains(&Ordering::Greater) {
+                return Ok(None);
+            }
+            if signs.iter().any(|sign| sign.is_le()) {
+                near.push(half);
+            }
+        }
+        let mut part: Option<Self> = None;
+        for half in near {
             let cell = part.as_ref().unwrap_or(self);
             let signs = cell.signs(lines, half);
             if !signs.contains(&Ordering::Less) {
@@ -103,7 +115,7 @@ impl Cell {
     }
 
     /// A box around it.
-    pub(super) fn region(&self) -> [[f64; 2]; 2] {
+    pub(super) fn region(&self) -> Region {
         let mut region = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for Corner { at, radius } in self.sides.iter().map(|side| side.start) {
             for axis in 0..2 {
@@ -171,11 +183,6 @@ impl Cell {
 fn side_on_line(signs: &[Ordering]) -> Option<usize> {
     let next = |i: usize| if i + 1 == signs.len() { 0 } else { i + 1 };
     (0..signs.len()).find(|&i| signs[i].is_eq() && signs[next(i)].is_eq())
-}
-
-/// Whether two boxes are apart.
-pub(super) fn are_apart([low, high]: &[[f64; 2]; 2], [from, to]: &[[f64; 2]; 2]) -> bool {
-    (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis])
 }
 
 impl Corner {

@@ -1,13 +1,11 @@
 //! Lines in which polygons go through one another.
 
-use std::collections::HashMap;
-use std::hash::BuildHasherDefault;
-
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::frame::is_same_line;
-use super::lines::{Half, Key, Mixer, STEPS};
+use super::lines::{Half, Key, STEPS};
 use super::map::VisibilityMap;
 use super::near::distance;
+use super::table::Table;
 use crate::Error;
 use crate::exact::PlaneId;
 use crate::memory::push;
@@ -28,7 +26,7 @@ struct CutSide {
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// Whether two faces go through one another in a line: by the line and the faces.
-type Known = HashMap<(u32, [u32; 2]), bool, BuildHasherDefault<Mixer>>;
+type Known = Table<(u32, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
     /// Where polygons go through one another, as far as it shows: runs of [`EdgeKind::Crossing`], all
@@ -108,7 +106,7 @@ impl VisibilityMap<'_> {
     fn add_borders(&self, sides: &mut Vec<CutSide>) -> Result<(), Error> {
         let lines = &self.stock.lines;
         // The lines by the borders that they are on, and whether both are positive on the same side.
-        let mut on: HashMap<u64, Vec<(u32, bool)>, BuildHasherDefault<Mixer>> = HashMap::default();
+        let mut on: Table<u64, Vec<(u32, bool)>> = Table::default();
         let mut last = None;
         sides.sort_unstable_by_key(|side| side.line);
         for line in sides.iter().map(|side| side.line) {

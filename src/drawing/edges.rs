@@ -1,14 +1,12 @@
 //! Edges of polygons as they show: visible runs and hidden ones.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
-use std::hash::BuildHasherDefault;
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::lines::Mixer;
 use super::map::VisibilityMap;
+use super::table::Table;
 use super::visible::Visible;
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
@@ -49,7 +47,6 @@ pub struct EdgeRun {
 /// Runs and gaps shorter than this, in pixels, are what rounding has left.
 pub(super) const SHORTEST: f64 = 1e-6;
 
-type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 /// The number of an edge, by a face and which of its edges it is.
 type Numbers = Table<(u32, u32), u32>;
 
@@ -112,29 +109,30 @@ impl VisibilityMap<'_> {
         starts: &[Option<Span>],
     ) -> Result<(), Error> {
         let stock = &self.stock;
-        // Which edge of a face a line is.
-        let mut edges: Table<(u32, u64), u32> = Table::default();
+        // Which edges of a face lie on a line.
+        let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
         for (number, seen) in (0..).zip(&stock.seen) {
             let corners = stock.lines.frame.faces.corners(seen.face).len();
             for (k, half) in (0..).zip(&stock.outline(number)[..corners]) {
                 if numbers.contains_key(&(seen.face, k)) {
                     edges.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                    edges.insert((number, half.line()), k);
+                    edges.entry((number, half.line())).or_default().push(k);
                 }
             }
         }
         for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
             let seen = stock.items[*item as usize].seen;
             for (i, side) in cell.sides.iter().enumerate() {
-                let Some(&k) = edges.get(&(seen, side.half.line())) else { continue };
                 let face = stock.seen[seen as usize].face;
-                let Some(&number) = numbers.get(&(face, k)) else { continue };
-                let Some(span) = &starts[number as usize] else { continue };
                 let end = cell.sides[if i + 1 == cell.sides.len() { 0 } else { i + 1 }].start;
-                let [a, b] = [side.start.at, end.at].map(|point| span.place(point));
-                let visible = &mut all[number as usize].visible;
-                reserve(visible, 1)?;
-                visible.push([a.min(b), a.max(b)]);
+                for &k in edges.get(&(seen, side.half.line())).into_iter().flatten() {
+                    let Some(&number) = numbers.get(&(face, k)) else { continue };
+                    let Some(span) = &starts[number as usize] else { continue };
+                    let [a, b] = [side.start.at, end.at].map(|point| span.place(point));
+                    let visible = &mut all[number as usize].visible;
+                    reserve(visible, 1)?;
+                    visible.push([a.min(b), a.max(b)]);
+                }
             }
         }
         Ok(())

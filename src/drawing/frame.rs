@@ -11,6 +11,7 @@
 
 use std::cmp::Ordering;
 
+use crate::exact::int::PRIME;
 use crate::exact::{Faces, Int, Plane, PlaneId, dot};
 use crate::raster::{Pencil, Rays};
 
@@ -119,6 +120,32 @@ pub(super) fn is_same_line(a: &Exact, b: &Exact) -> bool {
     [(0, 1), (1, 2), (2, 0)]
         .iter()
         .all(|&(i, j)| (a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i])).sign().is_eq())
+}
+
+/// Whether two numbers for one line have opposite signs.
+pub(super) fn is_opposite(a: &Exact, b: &Exact) -> bool {
+    (0..3).any(|i| a[i].sign().is_ne() && a[i].sign() != b[i].sign())
+}
+
+/// A line, in whatever direction, by its numbers modulo a prime, divided by one that is not 0: lines that
+/// differ have the same seldom.
+pub(super) fn line_modulo(exact: &Exact) -> [u32; 2] {
+    let [a, b, c] = [1, 2, 0].map(|i: usize| u64::from(exact[i].modulo_prime()));
+    let (divisor, [one, other]) = match (a, b) {
+        (0, 0) => (c, [0, 0]),
+        (0, _) => (b, [0, c]),
+        _ => (a, [b, c]),
+    };
+    // The inverse, as x to the power of p − 1 is 1 (P. de Fermat).
+    let (mut inverse, mut square, mut power) = (1, divisor, PRIME - 2);
+    while power > 0 {
+        if power & 1 == 1 {
+            inverse = inverse * square % PRIME;
+        }
+        square = square * square % PRIME;
+        power >>= 1;
+    }
+    [one, other].map(|number| (number * inverse % PRIME) as u32)
 }
 
 /// Where two lines meet, each coordinate rounded three times; NaN where they do not.

@@ -1,16 +1,19 @@
 //! The lines of a picture, each known by what made it.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 
-use super::frame::{Exact, Frame, Sheet, meeting, orientation};
+use super::frame::{
+    Exact, Frame, Sheet, is_opposite, is_same_line, line_modulo, meeting, orientation,
+};
+use super::table::{Table, insert};
 use crate::Error;
+use crate::exact::exact_ray::scaled;
+use crate::exact::lattice::exponent_of;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::memory::push;
-use crate::random::mix;
 
-/// What made a line. Equal keys are equal lines, up to their direction.
+/// What made a line. Equal keys are equal lines, up to their direction; those of other keys may be, too,
+/// but for edges: edges on one line have its first key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     /// The edge between two points, the lower number first.
@@ -93,7 +96,7 @@ impl Rounded {
         let k = exact.each_ref().map(|c| c.to_f64());
         let size = k[1].abs().max(k[2].abs());
         // A power of two: nothing is rounded. (A line without slope may have any scale.)
-        let scale = if size > 0.0 { f64::exp2(-size.log2().floor()) } else { 1.0 };
+        let scale = if size > 0.0 { scaled(1.0, -exponent_of(size)) } else { 1.0 };
         let [k0, kx, ky] = k.map(|c| c * scale);
         let sum = k0.abs() + kx.abs() * reach[0] + ky.abs() * reach[1];
         Self {
@@ -128,14 +131,15 @@ pub(super) struct Lines<'t> {
     rounded: Vec<Rounded>,
     /// Points that each line is known to go through; [`NOWHERE`] for none.
     through: Vec<[u32; 2]>,
-    numbers: Table<Key>,
+    /// The half of each key on which it is positive.
+    halves: Table<Key, Half>,
+    /// The lines of edges, by [`line_modulo`].
+    edges: Table<[u32; 2], u32>,
     /// Equal corners have equal numbers.
-    points: Table<[u64; 3]>,
+    points: Table<[u64; 3], u32>,
     /// A corner of each number.
     corners: Vec<u32>,
 }
-
-type Table<T> = HashMap<T, u32, BuildHasherDefault<Mixer>>;
 
 impl<'t> Lines<'t> {
     /// No lines yet.
@@ -147,20 +151,40 @@ impl<'t> Lines<'t> {
             keys: vec![],
             rounded: vec![],
             through: vec![],
-            numbers: Table::default(),
+            halves: Table::default(),
+            edges: Table::default(),
             points: Table::default(),
             corners: vec![],
         }
     }
 
-    /// The number of a line, which is added if it is new.
-    fn number(&mut self, key: Key) -> Result<u32, Error> {
-        if let Some(&number) = self.numbers.get(&key) {
-            return Ok(number);
+    /// The half of a line on which its key is positive. The line is added if it is new.
+    fn half(&mut self, key: Key) -> Result<Half, Error> {
+        if let Some(&half) = self.halves.get(&key) {
+            return Ok(half);
         }
         let exact = self.exact_of(key);
-        let through = if let Key::Edge(points) = key { points } else { [NOWHERE; 2] };
-        self.add(key, &exact, through)
+        let half = match key {
+            Key::Edge(points) => self.half_of_edge(key, &exact, points)?,
+            _ => Half::of(self.add(key, &exact, [NOWHERE; 2])?),
+        };
+        insert(&mut self.halves, key, half)?;
+        Ok(half)
+    }
+
+    /// The half of an edge that has no key yet. Edges on one line, as those of walls side by side, are one
+    /// line of the picture: else it would be found out again and again that they meet everywhere.
+    fn half_of_edge(&mut self, key: Key, exact: &Exact, points: [u32; 2]) -> Result<Half, Error> {
+        let modulo = line_modulo(exact);
+        if let Some(&line) = self.edges.get(&modulo) {
+            let other = self.exact_of(self.key(line));
+            if is_same_line(exact, &other) {
+                return Ok(Half::of(line).flipped(is_opposite(exact, &other)));
+            }
+        }
+        let line = self.add(key, exact, points)?;
+        insert(&mut self.edges, modulo, line)?;
+        Ok(Half::of(line))
     }
 
     fn add(&mut self, key: Key, exact: &Exact, through: [u32; 2]) -> Result<u32, Error> {
@@ -169,8 +193,6 @@ impl<'t> Lines<'t> {
         push(&mut self.keys, key)?;
         push(&mut self.rounded, Rounded::new(exact, self.reach))?;
         push(&mut self.through, through)?;
-        self.numbers.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        self.numbers.insert(key, number);
         Ok(number)
     }
 
@@ -190,11 +212,11 @@ impl<'t> Lines<'t> {
             // The upright plane faces outwards where the face's normal runs with the axis.
             let normal = faces.plane(PlaneId::face(face)).normal()[axis];
             let flip = sheet.side().is_gt() == (normal > 0);
-            return Ok(Half::of(self.number(Key::Upright(face, k))?).flipped(flip));
+            return Ok(self.half(Key::Upright(face, k))?.flipped(flip));
         }
         let [a, b] = [self.point(a)?, self.point(b)?];
         let key = Key::Edge([a.min(b), a.max(b)]);
-        Ok(Half::of(self.number(key)?).flipped(front == (a < b)))
+        Ok(self.half(key)?.flipped(front == (a < b)))
     }
 
     /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front.
@@ -210,16 +232,18 @@ impl<'t> Lines<'t> {
             PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
             _ => (Key::Cut(face, plane), false),
         };
-        let number = match self.numbers.get(&key) {
-            Some(&number) => number,
+        let half = match self.halves.get(&key) {
+            Some(&half) => half,
             None => {
                 let other = self.frame.sheet(plane);
                 let exact = if swapped { other.cut(sheet) } else { sheet.cut(&other) };
                 let through = self.on_cut(face, plane)?;
-                self.add(key, &exact, through)?
+                let half = Half::of(self.add(key, &exact, through)?);
+                insert(&mut self.halves, key, half)?;
+                half
             }
         };
-        Ok(Half::of(number).flipped(sheet.side().is_gt() == (behind != swapped)))
+        Ok(half.flipped(sheet.side().is_gt() == (behind != swapped)))
     }
 
     /// Corners of a face that are known to lie on a plane that cuts it: those of the other face, or with
@@ -250,7 +274,7 @@ impl<'t> Lines<'t> {
 
     /// The half of the picture in which rays meet a face's plane ahead of the eye.
     pub(super) fn ahead(&mut self, face: u32, sheet: &Sheet) -> Result<Half, Error> {
-        Ok(Half::of(self.number(Key::Horizon(face))?).flipped(sheet.side().is_gt()))
+        Ok(self.half(Key::Horizon(face))?.flipped(sheet.side().is_gt()))
     }
 
     fn point(&mut self, corner: u32) -> Result<u32, Error> {
@@ -260,8 +284,7 @@ impl<'t> Lines<'t> {
         }
         let number = self.corners.len() as u32;
         push(&mut self.corners, corner)?;
-        self.points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        self.points.insert(place, number);
+        insert(&mut self.points, place, number)?;
         Ok(number)
     }
 
@@ -349,43 +372,5 @@ impl<'t> Lines<'t> {
                 k.map(Int::from)
             }
         }
-    }
-}
-
-/// Mixes the numbers of a key.
-#[derive(Debug, Default)]
-pub(super) struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for chunk in bytes.chunks(8) {
-            let mut word = [0; 8];
-            word[..chunk.len()].copy_from_slice(chunk);
-            self.write_u64(u64::from_le_bytes(word));
-        }
-    }
-
-    fn write_u32(&mut self, number: u32) {
-        self.write_u64(u64::from(number));
-    }
-
-    fn write_usize(&mut self, number: usize) {
-        self.write_u64(number as u64);
-    }
-
-    fn write_i64(&mut self, number: i64) {
-        self.write_u64(number as u64);
-    }
-
-    fn write_isize(&mut self, number: isize) {
-        self.write_u64(number as u64);
-    }
-
-    fn write_u64(&mut self, number: u64) {
-        self.0 = mix(self.0 ^ number);
     }
 }

@@ -8,7 +8,9 @@
 //! | file | |
 //! |---|---|
 //! | `frame` | lines of the picture in integers |
+//! | `table` | tables by numbers, with a quick hash |
 //! | `lines` | all lines of a picture, by what made them |
+//! | `region` | boxes in the picture, and around what several lines bound |
 //! | `cell` | convex cells, and how a line cuts them |
 //! | `stock` | the pieces that may show, by their lines |
 //! | `tile` | tiles of the picture |
@@ -48,7 +50,9 @@ mod overlaps;
 mod pairs;
 mod pen;
 mod reaches;
+mod region;
 mod stock;
+mod table;
 mod tile;
 mod translucent;
 mod visible;

@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use super::cell::are_apart;
 use super::lines::Half;
-use super::stock::Stock;
+use super::region::{Region, are_apart, is_within};
+use super::stock::{Item, Stock};
 use super::tile::{Across, Tile};
 use crate::Error;
 use crate::memory::{place, push, reserve};
@@ -22,16 +22,18 @@ pub(super) struct List {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Listed {
     pub(super) item: u32,
-    /// Where the halves that bound the whole face begin, then those of its cuts, and where they end.
-    halves: [u32; 3],
+    /// Its face, by its place in [`Stock::seen`].
+    seen: u32,
+    /// Where its halves begin and end.
+    halves: [u32; 2],
 }
 
 impl List {
     /// What of all items may show in a tile; and which is the last that is not certainly hidden.
     pub(super) fn of_all(stock: &Stock<'_>, tile: Tile) -> Result<(Self, u32), Error> {
         let mut builder = Narrow::new(stock, tile, u32::MAX, &Self::default())?;
-        for (number, item) in (0..).zip(&stock.items) {
-            if !builder.add(number, stock.outline(item.seen), stock.cuts(number))? {
+        for number in 0..stock.items.len() as u32 {
+            if !builder.add(number, stock.halves(number))? {
                 break;
             }
         }
@@ -47,8 +49,7 @@ impl List {
     ) -> Result<(Self, u32), Error> {
         let mut builder = Narrow::new(stock, tile, limit, self)?;
         for listed in &self.items {
-            let [start, cuts, end] = listed.halves.map(|place| place as usize);
-            if !builder.add(listed.item, &self.halves[start..cuts], &self.halves[cuts..end])? {
+            if !builder.add(listed.item, self.halves_of(listed))? {
                 break;
             }
         }
@@ -57,7 +58,7 @@ impl List {
 
     /// The lines of an item that may cross the tile.
     pub(super) fn halves_of(&self, listed: &Listed) -> &[Half] {
-        let [start, _, end] = listed.halves;
+        let [start, end] = listed.halves;
         &self.halves[start as usize..end as usize]
     }
 }
@@ -65,7 +66,7 @@ impl List {
 /// Makes the list of a tile.
 struct Narrow<'a, 'b> {
     stock: &'a Stock<'b>,
-    sides: [[f64; 2]; 2],
+    sides: Region,
     list: List,
     limit: u32,
 }
@@ -79,19 +80,22 @@ impl<'a, 'b> Narrow<'a, 'b> {
         Ok(Self { stock, sides: tile.sides(), list, limit })
     }
 
-    /// Adds an item, with the lines of its face and its cuts that may cross the tile, unless it is
-    /// certain that the tile shows nothing of it; false if no item behind it can show.
-    fn add(&mut self, item: u32, rim: &[Half], cuts: &[Half]) -> Result<bool, Error> {
+    /// Adds an item, with those of its lines that may cross the tile, unless it is certain that the tile
+    /// shows nothing of it; false if no item behind it can show.
+    fn add(&mut self, item: u32, halves: &[Half]) -> Result<bool, Error> {
         if item > self.limit {
             return Ok(false);
         }
         let Self { stock, sides, list, .. } = self;
-        if are_apart(sides, &stock.seen[stock.seen_of(item) as usize].region) {
+        let Item { seen, ref region, .. } = stock.items[item as usize];
+        if are_apart(sides, region) {
             return Ok(true);
         }
         let start = list.halves.len();
-        let mut middle = start;
-        for (is_rim, halves) in [(true, rim), (false, cuts)] {
+        reserve(&mut list.halves, halves.len())?;
+        if is_within(region, sides) {
+            list.halves.extend_from_slice(halves);
+        } else {
             for &half in halves {
                 match stock.lines.across(half, sides) {
                     Across::Inside => continue,
@@ -99,14 +103,12 @@ impl<'a, 'b> Narrow<'a, 'b> {
                         list.halves.truncate(start);
                         return Ok(true);
                     }
-                    Across::Maybe => {}
+                    Across::Maybe => list.halves.push(half),
                 }
-                push(&mut list.halves, half)?;
-                middle += usize::from(is_rim);
             }
         }
-        let halves = [place(start)?, place(middle)?, place(list.halves.len())?];
-        push(&mut list.items, Listed { item, halves })?;
+        let halves = [place(start)?, place(list.halves.len())?];
+        push(&mut list.items, Listed { item, seen, halves })?;
         if start == list.halves.len() {
             // It covers the tile.
             self.limit = item;
@@ -121,22 +123,23 @@ impl<'a, 'b> Narrow<'a, 'b> {
 
     /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
     fn cover_by_faces(&mut self) {
-        let Self { stock, list, limit, .. } = self;
-        let seen = |listed: &Listed| stock.items[listed.item as usize].seen;
+        let Self { stock, sides, list, limit } = self;
         let mut end = *limit;
-        let mut tried: SmallVec<[u32; 8]> = SmallVec::new();
+        let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
         for (place, listed) in list.items.iter().enumerate() {
             if listed.item >= end || tried.len() == FACES {
                 break;
             }
-            let [start, cuts, _] = listed.halves;
-            let face = seen(listed);
+            let face = listed.seen;
             // If pieces of it are missing from the list, the others alone may not cover the tile.
-            if start < cuts || tried.contains(&face) || stock.seen[face as usize].last > *limit {
+            if tried.contains(&face)
+                || stock.seen[face as usize].last > *limit
+                || !stock.covers(face, sides)
+            {
                 continue;
             }
             tried.push(face);
-            let mut siblings = list.items[place..].iter().filter(|other| seen(other) == face);
+            let mut siblings = list.items[place..].iter().filter(|other| other.seen == face);
             end = siblings.next_back().map_or(end, |last| end.min(last.item));
         }
         *limit = end;

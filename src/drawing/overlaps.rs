@@ -29,9 +29,8 @@ pub(super) fn overlaps(
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let mut reaches = Reaches::default();
-    for (number, item) in (0..).zip(&stock.items) {
-        let halves = stock.outline(item.seen).iter().chain(stock.cuts(number));
-        reaches.push(number, halves.copied())?;
+    for item in 0..stock.items.len() as u32 {
+        reaches.push(item, stock.halves(item))?;
     }
     let all = Entry { tile: picture, reaches, in_vain: 0 };
     let halves = |entry: &Entry| {
@@ -63,7 +62,7 @@ impl Entry {
     }
 
     fn narrowed(&self, stock: &Stock<'_>, tile: Tile) -> Result<Self, Error> {
-        let around = |item: u32| stock.seen[stock.seen_of(item) as usize].region;
+        let around = |item: u32| stock.items[item as usize].region;
         let reaches = self.reaches.narrowed(&stock.lines, &tile.sides(), around)?;
         Ok(Self { tile, reaches, in_vain: 0 })
     }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 
-use super::lines::Mixer;
+use super::table::Mixer;
 use crate::Error;
 use crate::memory::reserve;
 

@@ -2,8 +2,8 @@
 
 use smallvec::SmallVec;
 
-use super::cell::are_apart;
 use super::lines::{Half, Lines};
+use super::region::{Region, are_apart, is_within};
 use super::tile::Across;
 use crate::Error;
 use crate::memory::{place, push, reserve};
@@ -32,15 +32,10 @@ pub(super) struct Reaches {
 
 impl Reaches {
     /// Adds a piece.
-    pub(super) fn push(
-        &mut self,
-        number: u32,
-        halves: impl IntoIterator<Item = Half>,
-    ) -> Result<(), Error> {
+    pub(super) fn push(&mut self, number: u32, halves: &[Half]) -> Result<(), Error> {
         let start = place(self.halves.len())?;
-        for half in halves {
-            push(&mut self.halves, half)?;
-        }
+        reserve(&mut self.halves, halves.len())?;
+        self.halves.extend_from_slice(halves);
         push(&mut self.list, Reach { number, halves: [start, place(self.halves.len())?] })
     }
 
@@ -53,12 +48,17 @@ impl Reaches {
     pub(super) fn narrowed(
         &self,
         lines: &Lines<'_>,
-        region: &[[f64; 2]; 2],
-        around: impl Fn(u32) -> [[f64; 2]; 2],
+        region: &Region,
+        around: impl Fn(u32) -> Region,
     ) -> Result<Self, Error> {
         let mut part = Self::default();
         'pieces: for reach in &self.list {
-            if are_apart(region, &around(reach.number)) {
+            let around = around(reach.number);
+            if are_apart(region, &around) {
+                continue;
+            }
+            if is_within(&around, region) {
+                part.push(reach.number, self.halves_of(reach))?;
                 continue;
             }
             let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
@@ -69,8 +69,7 @@ impl Reaches {
                     Across::Maybe => kept.push(half),
                 }
             }
-            reserve(&mut part.list, 1)?;
-            part.push(reach.number, kept)?;
+            part.push(reach.number, &kept)?;
         }
         Ok(part)
     }

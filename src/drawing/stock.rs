@@ -4,20 +4,24 @@ use std::ops::Range;
 
 use super::frame::{Frame, Sheet};
 use super::lines::{Half, Lines};
+use super::region::{Region, common, is_within};
+use super::tile::{Across, Tile};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::PlaneId;
 use crate::memory::{place, push, reserve};
 use crate::raster::Rays;
-use crate::tree::BspTree;
+use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may show.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
     /// Its face, by its place in [`Stock::seen`].
     pub(super) seen: u32,
-    /// Where its cuts begin and end in [`Stock::halves`].
-    cuts: [u32; 2],
+    /// Where the halves that bound it begin and end in [`Stock::halves`].
+    halves: [u32; 2],
+    /// A box around it in the picture.
+    pub(super) region: Region,
 }
 
 /// A face that the camera sees a side of.
@@ -29,7 +33,7 @@ pub(super) struct Seen {
     /// The last of its items.
     pub(super) last: u32,
     /// A box around it in the picture.
-    pub(super) region: [[f64; 2]; 2],
+    pub(super) region: Region,
 }
 
 /// All pieces that may show, front to back.
@@ -69,18 +73,50 @@ impl<'t> Stock<'t> {
                 continue;
             }
             let seen = *number;
-            let start = place(stock.halves.len())?;
-            for line in fragment.lines() {
-                let Some(plane) = line.as_cut() else { continue };
-                let sheet = &sheets[seen as usize];
-                let half = stock.lines.cut(face, plane, line.is_behind(), sheet)?;
-                push(&mut stock.halves, half)?;
+            if let Some(item) = stock.item(&fragment, seen, &sheets[seen as usize])? {
+                stock.seen[seen as usize].last = stock.items.len() as u32;
+                push(&mut stock.items, item)?;
             }
-            stock.seen[seen as usize].last = stock.items.len() as u32;
-            let cuts = [start, place(stock.halves.len())?];
-            push(&mut stock.items, Item { seen, cuts })?;
         }
         Ok(stock)
+    }
+
+    /// A fragment of a face, unless the picture shows nothing of it.
+    fn item(
+        &mut self,
+        fragment: &Fragment<'_>,
+        seen: u32,
+        sheet: &Sheet,
+    ) -> Result<Option<Item>, Error> {
+        let Seen { region, ref halves, .. } = self.seen[seen as usize];
+        if fragment.lines().all(|line| line.as_cut().is_none()) {
+            return Ok(Some(Item { seen, halves: [halves.start, halves.end], region }));
+        }
+        let (rim, start) = (halves.start as usize..halves.end as usize, self.halves.len());
+        reserve(&mut self.halves, rim.len())?;
+        self.halves.extend_from_within(rim.clone());
+        for line in fragment.lines() {
+            let Some(plane) = line.as_cut() else { continue };
+            let half = self.lines.cut(fragment.face(), plane, line.is_behind(), sheet)?;
+            push(&mut self.halves, half)?;
+        }
+        let picture = Tile::picture(self.lines.frame.rays.size()).sides();
+        let Some(region) = self.lines.around(&common(&region, &picture), &self.halves[start..])
+        else {
+            self.halves.truncate(start);
+            return Ok(None);
+        };
+        // Edges of the face that do not touch the fragment's box bound nothing of it.
+        let mut end = start;
+        for place in start..self.halves.len() {
+            let half = self.halves[place];
+            if place >= start + rim.len() || self.lines.across(half, &region) != Across::Inside {
+                self.halves[end] = half;
+                end += 1;
+            }
+        }
+        self.halves.truncate(end);
+        Ok(Some(Item { seen, halves: [place(start)?, place(end)?], region }))
     }
 
     /// The number of a face, which is added if the picture shows it.
@@ -118,9 +154,18 @@ impl<'t> Stock<'t> {
         &self.halves[start as usize..end as usize]
     }
 
-    /// The halves of the cuts of an item.
-    pub(super) fn cuts(&self, item: u32) -> &[Half] {
-        let [start, end] = self.items[item as usize].cuts;
+    /// Whether a face certainly covers a box.
+    pub(super) fn covers(&self, seen: u32, sides: &Region) -> bool {
+        is_within(sides, &self.seen[seen as usize].region)
+            && self
+                .outline(seen)
+                .iter()
+                .all(|&half| self.lines.across(half, sides) == Across::Inside)
+    }
+
+    /// The halves that bound an item.
+    pub(super) fn halves(&self, item: u32) -> &[Half] {
+        let [start, end] = self.items[item as usize].halves;
         &self.halves[start as usize..end as usize]
     }
 

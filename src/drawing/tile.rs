@@ -1,6 +1,7 @@
 //! Tiles of the picture: rectangles that are halved again and again.
 
 use super::lines::{Half, Lines, STEPS};
+use super::region::Region;
 
 /// A rectangle of the picture, between borders in steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +49,7 @@ impl Tile {
     }
 
     /// Its sides in pixels: exact.
-    pub(super) fn sides(&self) -> [[f64; 2]; 2] {
+    pub(super) fn sides(&self) -> Region {
         [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
     }
 }
@@ -66,7 +67,7 @@ pub(super) fn in_vain(before: u32, all: usize, parts: [usize; 2]) -> [u32; 2] {
 
 impl Lines<'_> {
     /// Where a box lies against a half.
-    pub(super) fn across(&self, half: Half, [low, high]: &[[f64; 2]; 2]) -> Across {
+    pub(super) fn across(&self, half: Half, [low, high]: &Region) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [w, h] = [0, 1].map(|axis: usize| 0.5 * (high[axis] - low[axis]));

@@ -81,8 +81,7 @@ impl Drawing {
                     continue;
                 }
                 for &item in same {
-                    let halves = [stock.outline(seen), stock.cuts(item)].concat();
-                    add_edges(&stock, &halves, &mut edges)?;
+                    add_edges(&stock, stock.halves(item), &mut edges)?;
                 }
             }
             if !edges.is_empty() {

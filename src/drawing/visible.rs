@@ -5,9 +5,10 @@
 //! subtracted from what is left open; else the tile is halved (J. E. Warnock, "A hidden surface
 //! algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
 
-use super::cell::{Cell, are_apart};
+use super::cell::Cell;
 use super::halving::{CUT, NARROWED, found_in};
 use super::narrow::List;
+use super::region::{Region, are_apart};
 use super::stock::Stock;
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
@@ -47,7 +48,7 @@ struct Entry {
 /// A part of a tile where nothing shows so far.
 struct Open {
     cell: Cell,
-    around: [[f64; 2]; 2],
+    around: Region,
 }
 
 impl Open {
@@ -121,7 +122,7 @@ impl Entry {
                 break;
             }
             watch.work(open.len() * CUT)?;
-            let region = &stock.seen[stock.seen_of(listed.item) as usize].region;
+            let region = &stock.items[listed.item as usize].region;
             let halves = list.halves_of(listed);
             let mut i = 0;
             while let Some(Open { cell, around }) = open.get(i) {

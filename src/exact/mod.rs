@@ -28,7 +28,7 @@ pub(crate) mod faces;
 mod filter;
 mod flatten;
 pub(crate) mod half_space;
-mod int;
+pub(crate) mod int;
 mod kernel;
 pub(crate) mod label;
 pub(crate) mod lattice;
