@@ -164,3 +164,32 @@ fn product(a: [i64; 3], b: [i64; 3]) -> [i128; 3] {
         i128::from(a[j]) * i128::from(b[k]) - i128::from(a[k]) * i128::from(b[j])
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Exact, is_opposite, line_modulo};
+    use crate::exact::Int;
+    use crate::random::SplitMix64;
+
+    #[test]
+    fn multiples_of_a_line_are_told_from_other_lines() {
+        let mut random = SplitMix64::new(3);
+        let mut number = |bits: u32| (random.next() >> (64 - bits)) as i128 - (1 << (bits - 1));
+        for round in 0..500 {
+            let mut k = [number(60), number(50), number(62)];
+            // Lines through the first pixel's centre, upright ones, and level ones.
+            (0..3).filter(|i| round >> i & 1 == 1 && round % 8 < 7).for_each(|i| k[i] = 0);
+            let times = |factor: i128| -> Exact { k.map(|c| Int::<4>::from(c * factor).resize()) };
+            let line = times(1);
+            for factor in [3, -1, -(1 << 40), (1 << 31) + 1] {
+                assert_eq!(line_modulo(&times(factor)), line_modulo(&line), "{k:?}");
+                assert_eq!(is_opposite(&times(factor), &line), factor < 0);
+            }
+            let mut other = k;
+            other[round % 3] += 1 + number(20).abs();
+            let other: Exact = other.map(|c| Int::<4>::from(c).resize());
+            let is_one = super::is_same_line(&other, &line);
+            assert_eq!(line_modulo(&other) == line_modulo(&line), is_one, "{k:?}");
+        }
+    }
+}

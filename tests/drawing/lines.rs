@@ -65,6 +65,47 @@ fn a_bar_hides_the_middle_of_an_edge() {
     assert_eq!(runs.iter().filter(|run| run.polygon == 1 && run.is_visible).count(), 4);
 }
 
+/// Edges that follow one another on one line, of one polygon and of two side by side: each shows where it is.
+#[test]
+fn edges_on_one_line_have_runs_of_their_own() {
+    let wall = [[-3.0, 0.0], [-2.0, 0.0], [0.0, 0.0], [0.0, 2.0], [-3.0, 2.0]];
+    let beside = [[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [1.0, 2.0], [0.0, 2.0]];
+    let post = [[-1.5, -1.0], [-0.5, -1.0], [-0.5, 3.0], [-1.5, 3.0]];
+    let at = |z: f64| move |[x, y]: [f64; 2]| [x, y, z];
+    let walls = [wall, beside].map(|wall| wall.map(at(0.0)).to_vec());
+    let tree = BspTree::build(walls.iter().cloned().chain([post.map(at(1.0)).to_vec()])).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    let runs = edges(&tree, &camera);
+    for (polygon, wall) in walls.iter().enumerate() {
+        for (k, [ax, ay, _]) in wall.iter().enumerate() {
+            let [bx, by, _] = wall[(k + 1) % wall.len()];
+            // What the post hides, in units of the scene.
+            let hides = |x: f64| -1.5 < x && x < -0.5 && polygon == 0 && ay == &by;
+            let mut expected = [0.0, 0.0];
+            for step in 0..1000 {
+                let share = (f64::from(step) + 0.5) / 1000.0;
+                let is_hidden = hides(ax + (bx - ax) * share);
+                expected[usize::from(is_hidden)] += (bx - ax).hypot(by - ay) / 1000.0;
+            }
+            let mut found = [0.0, 0.0];
+            for run in &runs {
+                let [a, b] = run.ends;
+                // The two walls have one edge in common: it is told of the first.
+                if (run.polygon, run.edge) == (polygon, Some(k as u32)) {
+                    found[usize::from(!run.is_visible)] += (b[0] - a[0]).hypot(b[1] - a[1]) / 10.0;
+                }
+            }
+            let is_common = polygon == 1 && (*ax, bx) == (0.0, 0.0);
+            if !is_common {
+                assert!(
+                    (0..2).all(|i| (found[i] - expected[i]).abs() < 0.01),
+                    "{polygon} {k}: {found:?} {expected:?}"
+                );
+            }
+        }
+    }
+}
+
 /// Edges that leave the picture, or run behind the eye, are there as far as they are in the picture.
 #[test]
 fn edges_end_with_the_picture() {
