@@ -24,7 +24,7 @@ use std::fmt::Write;
 const SIZE: [u32; 2] = [640, 420];
 /// Quads around the part.
 const QUADS: usize = 96;
-/// The angle from which on a crease is drawn.
+/// The angle from which on a crease is drawn, in radians.
 const CREASE: f64 = 0.3;
 
 type Ring = [DVec3; QUADS];

@@ -75,9 +75,8 @@ impl Band {
             let mut covered = 0.0;
             for column in left..right {
                 covered += std::mem::take(&mut self.change[row * (self.width + 2) + column]);
-                if let Some(sum) = self.sums[row * self.width..].get_mut(column)
-                    && column < self.width
-                {
+                if column < self.width {
+                    let sum = &mut self.sums[row * self.width + column];
                     (0..3).for_each(|i| sum[i] += covered * difference[i]);
                 }
             }

@@ -112,8 +112,8 @@ use crate::faces::Preparation;
 /// [`is_blocked`](Self::is_blocked) tells whether anything lies between two points, and
 /// [`locate`](Self::locate) in which leaf a point is, and in which polygons' planes.
 /// [`Bounds::fragments_in`](crate::Bounds::fragments_in) gives what is in a box or in front of planes. All of
-/// them decide exactly for the numbers that they are given: a ray through an edge or a corner never slips between two polygons that share it
-/// (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
+/// them decide exactly for the numbers that they are given: a ray through an edge or a corner never slips
+/// between two polygons that share it (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
 ///
 /// ```
 /// use binspace::{BspTree, Ray};

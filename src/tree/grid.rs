@@ -52,8 +52,8 @@ impl Node<'_> {
 }
 
 impl Fragment<'_> {
-    /// The exact plane of its polygon, or, if that was triangulated, of one of its triangles: three points of the tree's
-    /// [grid](BspTree::grid) on it, counter-clockwise seen from its front.
+    /// The exact plane of its polygon, or, if that was triangulated, of one of its triangles: three points of
+    /// the tree's [grid](BspTree::grid) on it, counter-clockwise seen from its front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         plane_points(self.faces, PlaneId::face(self.face))
     }

@@ -175,6 +175,7 @@ mod tests {
         // On the same side of the edge there is nothing to reach under.
         assert_eq!(strip(&[[1.0, 2.0], [5.0, 2.0], [3.0, -9.0]]), None);
     }
+
     #[test]
     fn a_triangle_stands_for_a_strip_that_it_nearly_covers() {
         let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
