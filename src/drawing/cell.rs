@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::lines::{Half, Lines};
+use super::half::Half;
+use super::lines::Lines;
 use super::region::Region;
 use crate::Error;
 use crate::memory::reserve;

@@ -2,7 +2,8 @@
 
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::frame::is_same_line;
-use super::lines::{Half, Key, STEPS};
+use super::half::{Half, STEPS};
+use super::lines::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
 use super::table::Table;

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use super::frame::{
     Exact, Frame, Sheet, is_opposite, is_same_line, line_modulo, meeting, orientation,
 };
+use super::half::{Half, STEP_BITS, STEPS};
 use super::table::{Table, insert};
 use crate::Error;
 use crate::exact::exact_ray::scaled;
@@ -18,66 +19,13 @@ use crate::memory::push;
 pub(super) enum Key {
     /// The edge between two points, the lower number first.
     Edge([u32; 2]),
-    /// A face's edge from its corner to the next, where some corner of the face was moved onto its
-    /// plane.
+    /// A face's edge from its corner to the next, one of which was moved onto the face's plane, or may have
+    /// been.
     Upright(u32, u32),
     /// The cut of a face by a plane: of two faces' planes, of the lower by the higher.
     Cut(u32, PlaneId),
     /// The rays along a face's plane.
     Horizon(u32),
-}
-
-/// Borders of tiles are at multiples of 1/`STEPS` of a pixel.
-pub(super) const STEPS: f64 = (1u64 << STEP_BITS) as f64;
-pub(super) const STEP_BITS: u32 = 24;
-
-/// A line, and which of its sides is meant.
-///
-/// The last bit is set for the side on which the line is negative. Above it is the number of the line;
-/// or, with the first bit set, what a border of a tile is: so these need no list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Half(u64);
-
-const BORDER: u64 = 1 << 63;
-/// Borders are this many steps from where their number is 0, so that all numbers are positive.
-const OFFSET: i64 = 1 << 60;
-
-impl Half {
-    /// The side of a line on which it is positive.
-    pub(super) const fn of(line: u32) -> Self {
-        Self((line as u64) << 1)
-    }
-
-    /// The points whose coordinate (axis 0, 1 for x, y) is at least so many [`STEPS`] of a pixel.
-    pub(super) const fn beyond(axis: usize, steps: i64) -> Self {
-        Self(BORDER | (((steps + OFFSET) as u64) << 1 | axis as u64) << 1)
-    }
-
-    /// The same for all halves of a line.
-    pub(super) const fn line(self) -> u64 {
-        self.0 >> 1
-    }
-
-    /// The number of the line; `None` for a border.
-    pub(super) const fn number(self) -> Option<u32> {
-        if self.0 & BORDER == 0 { Some((self.0 >> 1) as u32) } else { None }
-    }
-
-    /// The axis of a border, and where it is.
-    const fn border(self) -> (usize, i64) {
-        let number = (self.0 & !BORDER) >> 1;
-        ((number & 1) as usize, (number >> 1) as i64 - OFFSET)
-    }
-
-    /// Whether the side is meant on which the line is negative.
-    pub(super) const fn is_negative(self) -> bool {
-        self.0 & 1 == 1
-    }
-
-    /// The other side, if `flip`.
-    pub(super) const fn flipped(self, flip: bool) -> Self {
-        Self(self.0 ^ flip as u64)
-    }
 }
 
 /// A line in floats, scaled so that the longer part of its slope is near 1.
@@ -137,6 +85,8 @@ pub(super) struct Lines<'t> {
     edges: Table<[u32; 2], u32>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
+    /// The numbers of where corners were moved to.
+    moved: Table<u32, u32>,
     /// A corner of each number.
     corners: Vec<u32>,
 }
@@ -154,19 +104,21 @@ impl<'t> Lines<'t> {
             halves: Table::default(),
             edges: Table::default(),
             points: Table::default(),
+            moved: Table::default(),
             corners: vec![],
         }
     }
 
-    /// The half of a line on which its key is positive. The line is added if it is new.
-    fn half(&mut self, key: Key) -> Result<Half, Error> {
+    /// The half of a line on which its key is positive. The line is added if it is new; it goes through the
+    /// points.
+    fn half(&mut self, key: Key, points: [u32; 2]) -> Result<Half, Error> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);
         }
         let exact = self.exact_of(key);
         let half = match key {
-            Key::Edge(points) => self.half_of_edge(key, &exact, points)?,
-            _ => Half::of(self.add(key, &exact, [NOWHERE; 2])?),
+            Key::Edge(_) | Key::Upright(..) => self.half_of_edge(key, &exact, points)?,
+            _ => Half::of(self.add(key, &exact, points)?),
         };
         insert(&mut self.halves, key, half)?;
         Ok(half)
@@ -208,15 +160,24 @@ impl<'t> Lines<'t> {
         let range = faces.corner_range(face);
         let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
         let [a, b] = [k, next].map(|k| range.start as u32 + k);
-        if let Some(axis) = faces.upright_axis(face) {
+        let flattened = faces.upright_axis(face);
+        let certain = faces.reference_triangle(face);
+        if let Some(axis) = flattened
+            && !(certain.contains(&a) && certain.contains(&b))
+        {
             // The upright plane faces outwards where the face's normal runs with the axis.
             let normal = faces.plane(PlaneId::face(face)).normal()[axis];
             let flip = sheet.side().is_gt() == (normal > 0);
-            return Ok(self.half(Key::Upright(face, k))?.flipped(flip));
+            let mut points = [a, b];
+            for point in &mut points {
+                let is_certain = certain.contains(point);
+                *point = if is_certain { self.point(*point)? } else { self.moved(*point)? };
+            }
+            return Ok(self.half(Key::Upright(face, k), points)?.flipped(flip));
         }
         let [a, b] = [self.point(a)?, self.point(b)?];
-        let key = Key::Edge([a.min(b), a.max(b)]);
-        Ok(self.half(key)?.flipped(front == (a < b)))
+        let points = [a.min(b), a.max(b)];
+        Ok(self.half(Key::Edge(points), points)?.flipped(front == (a < b)))
     }
 
     /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front.
@@ -274,7 +235,7 @@ impl<'t> Lines<'t> {
 
     /// The half of the picture in which rays meet a face's plane ahead of the eye.
     pub(super) fn ahead(&mut self, face: u32, sheet: &Sheet) -> Result<Half, Error> {
-        Ok(self.half(Key::Horizon(face))?.flipped(sheet.side().is_gt()))
+        Ok(self.half(Key::Horizon(face), [NOWHERE; 2])?.flipped(sheet.side().is_gt()))
     }
 
     fn point(&mut self, corner: u32) -> Result<u32, Error> {
@@ -285,6 +246,18 @@ impl<'t> Lines<'t> {
         let number = self.corners.len() as u32;
         push(&mut self.corners, corner)?;
         insert(&mut self.points, place, number)?;
+        Ok(number)
+    }
+
+    /// The number of the point onto which a corner was moved that was off its face's plane. Edges of no
+    /// other face end there.
+    fn moved(&mut self, corner: u32) -> Result<u32, Error> {
+        if let Some(&number) = self.moved.get(&corner) {
+            return Ok(number);
+        }
+        let number = self.corners.len() as u32;
+        push(&mut self.corners, corner)?;
+        insert(&mut self.moved, corner, number)?;
         Ok(number)
     }
 

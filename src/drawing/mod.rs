@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `frame` | lines of the picture in integers |
 //! | `table` | tables by numbers, with a quick hash |
+//! | `half` | lines by their numbers, each with a side |
 //! | `lines` | all lines of a picture, by what made them |
 //! | `region` | boxes in the picture, and around what several lines bound |
 //! | `cell` | convex cells, and how a line cuts them |
@@ -37,6 +38,7 @@ mod cell;
 mod crossings;
 mod edges;
 mod frame;
+mod half;
 mod halving;
 mod join;
 mod lines;

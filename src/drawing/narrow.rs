@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::lines::Half;
+use super::half::Half;
 use super::region::{Region, are_apart, is_within};
 use super::stock::{Item, Stock};
 use super::tile::{Across, Tile};

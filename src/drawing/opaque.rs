@@ -4,8 +4,8 @@ use std::ops::{ControlFlow, Range};
 
 use super::above::pairs;
 use super::cell::Cell;
+use super::half::Half;
 use super::halving::CUT;
-use super::lines::Half;
 use super::map::VisibilityMap;
 use super::order::{Ordered, order};
 use super::outline::{Edge, outlines};

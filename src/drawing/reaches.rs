@@ -2,7 +2,8 @@
 
 use smallvec::SmallVec;
 
-use super::lines::{Half, Lines};
+use super::half::Half;
+use super::lines::Lines;
 use super::region::{Region, are_apart, is_within};
 use super::tile::Across;
 use crate::Error;

@@ -2,7 +2,8 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::lines::{Half, Lines};
+use super::half::Half;
+use super::lines::Lines;
 
 /// A box in the picture: its least and its largest coordinates, in pixels.
 pub(super) type Region = [[f64; 2]; 2];

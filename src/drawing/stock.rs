@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::frame::{Frame, Sheet};
-use super::lines::{Half, Lines};
+use super::half::Half;
+use super::lines::Lines;
 use super::region::{Region, common, is_within};
 use super::tile::{Across, Tile};
 use crate::Error;

@@ -1,6 +1,7 @@
 //! Tiles of the picture: rectangles that are halved again and again.
 
-use super::lines::{Half, Lines, STEPS};
+use super::half::{Half, STEPS};
+use super::lines::Lines;
 use super::region::Region;
 
 /// A rectangle of the picture, between borders in steps.
