@@ -3,10 +3,11 @@
 //! It sorts by a tree of its own (`bsp`) or by depths (`simple`). It has `f32`, and its SVG files have six
 //! digits of a coordinate. So its pixels are judged twice: all, but for those with an outline of its own
 //! within 4·10⁻⁵ of a pixel, and those alone around which all eight neighbours show the same. Its time is
-//! that of a page, from its beginning to the file; ours is that of the tree, the map and the paths.
+//! that of a page, from its beginning to the file; ours is that of the tree, the map and the paths. Both are
+//! times for which one thread ran.
 
 use super::fill::{Picture, Pixel};
-use super::{SIZE, camera, drawn, scene, threads};
+use super::{SIZE, camera, cpu_time, drawn, scene, threads};
 use binspace::glam::DVec3;
 use binspace::raster::{Rays, Verdict, compare, zbuffer};
 use binspace::scene::Scene;
@@ -18,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, id};
 use std::time::Duration;
 use std::{env, io};
-use support::{Table, best, check, time, triangulated};
+use support::{Table, check, time, triangulated};
 
 const SCENES: [(&str, DVec3); 9] = [
     ("triangles in cubes:1500", DVec3::Z),
@@ -65,38 +66,72 @@ pub(crate) fn run() {
         let Some(scene) = scene(name) else { continue };
         let scene = triangulated(&scene);
         let camera = camera(&scene, up);
-        let (taken, (tree, drawing)) = one_thread.install(|| {
-            best(|| {
-                let tree = BspTree::build(scene.polygons()).expect("within budget");
-                let drawing = drawn(&tree, &camera);
-                (tree, drawing)
-            })
-        });
-        check(&tree, &scene);
-        let truth = Truth::new(&tree, &camera);
-        let ours = truth.judge(&Picture::of(&drawing));
-        assert_eq!(ours.wrong, 0, "{name}");
+        let ours = one_thread.install(|| Ours::new(&scene, &camera));
         for sort in ["bsp", "simple"] {
-            let (their_time, theirs) =
-                driver.draw(&scene, &camera, sort).expect("a picture by gl2ps");
-            let judged = truth.judge(&picture(&theirs));
-            table.row(&[
-                name.to_owned(),
-                scene.len().to_string(),
-                drawing.paths().len().to_string(),
-                time(taken),
-                ours.wrong.to_string(),
-                sort.to_owned(),
-                theirs.len().to_string(),
-                format!("{:.1}", theirs.len() as f64 / drawing.paths().len() as f64),
-                time(their_time),
-                format!("{:.1}", their_time.as_secs_f64() / taken.as_secs_f64()),
-                judged.pixels.to_string(),
-                judged.wrong.to_string(),
-                judged.off_edges.to_string(),
-                judged.wrong_off_edges.to_string(),
-            ]);
+            let theirs = driver.draw(&scene, &camera, sort).expect("a picture by gl2ps");
+            let mut row = vec![name.to_owned(), scene.len().to_string()];
+            row.extend(ours.against(sort, &theirs));
+            table.row(&row);
         }
+    }
+}
+
+/// Our drawing, which is right.
+struct Ours {
+    time: Duration,
+    paths: usize,
+    truth: Truth,
+}
+
+impl Ours {
+    fn new(scene: &Scene, camera: &Camera) -> Self {
+        let (time, (tree, drawing)) = cpu_time(|| {
+            let tree = BspTree::build(scene.polygons()).expect("within budget");
+            let drawing = drawn(&tree, camera);
+            (tree, drawing)
+        });
+        check(&tree, scene);
+        let truth = Truth::new(&tree, camera);
+        assert_eq!(truth.judge(&Picture::of(&drawing)).wrong, 0, "{}", scene.name());
+        Self { time, paths: drawing.paths().len(), truth }
+    }
+
+    /// The figures of a row from `our paths` on.
+    fn against(&self, sort: &str, theirs: &Theirs) -> [String; 12] {
+        let judged = self.truth.judge(&theirs.picture());
+        let paths = theirs.filled.len();
+        [
+            self.paths.to_string(),
+            time(self.time),
+            "0".to_owned(),
+            sort.to_owned(),
+            paths.to_string(),
+            format!("{:.1}", paths as f64 / self.paths as f64),
+            time(theirs.time),
+            format!("{:.1}", theirs.time.as_secs_f64() / self.time.as_secs_f64()),
+            judged.pixels.to_string(),
+            judged.wrong.to_string(),
+            judged.off_edges.to_string(),
+            judged.wrong_off_edges.to_string(),
+        ]
+    }
+}
+
+/// A picture by gl2ps.
+struct Theirs {
+    /// The time of its page.
+    time: Duration,
+    /// What is filled, in the order in which it is painted.
+    filled: Vec<Filled>,
+}
+
+impl Theirs {
+    fn picture(&self) -> Picture {
+        let mut picture = Picture::new(SIZE);
+        for (number, corners) in &self.filled {
+            picture.fill(*number, std::iter::once(&corners[..]));
+        }
+        picture
     }
 }
 
@@ -132,13 +167,8 @@ impl Driver {
         self.folder.join("driver")
     }
 
-    /// What it draws, in the order in which it paints, and the shortest time of its page.
-    fn draw(
-        &self,
-        scene: &Scene,
-        camera: &Camera,
-        sort: &str,
-    ) -> io::Result<(Duration, Vec<Filled>)> {
+    /// What it draws, by one of its ways to sort.
+    fn draw(&self, scene: &Scene, camera: &Camera, sort: &str) -> io::Result<Theirs> {
         let [input, output] = ["triangles", "drawing.svg"].map(|name| self.folder.join(name));
         fs::write(&input, seen(scene, camera))?;
         let mut driver = Command::new(self.program());
@@ -146,10 +176,11 @@ impl Driver {
         let said = String::from_utf8_lossy(&answer.stdout);
         let fault = || io::Error::other(format!("{}: {said}", answer.status));
         let seconds = said.trim().parse().ok().filter(|_| answer.status.success());
-        let filled = fs::read_to_string(&output)?;
-        let filled = filled.lines().filter(|line| line.starts_with("<poly")).map(filled_of);
-        let filled: Option<Vec<Filled>> = filled.collect();
-        Ok((Duration::from_secs_f64(seconds.ok_or_else(fault)?), filled.ok_or_else(fault)?))
+        let time = Duration::from_secs_f64(seconds.ok_or_else(fault)?);
+        let file = fs::read_to_string(&output)?;
+        let polygons = file.lines().filter(|line| line.starts_with("<poly"));
+        let filled: Option<Vec<Filled>> = polygons.map(filled_of).collect();
+        Ok(Theirs { time, filled: filled.ok_or_else(fault)? })
     }
 }
 
@@ -192,14 +223,6 @@ fn filled_of(line: &str) -> Option<Filled> {
     };
     let corners: Option<Vec<_>> = points.split_whitespace().map(corner).collect();
     Some((usize::from_str_radix(number, 16).ok()?, corners?))
-}
-
-fn picture(filled: &[Filled]) -> Picture {
-    let mut picture = Picture::new(SIZE);
-    for (number, corners) in filled {
-        picture.fill(*number, std::iter::once(&corners[..]));
-    }
-    picture
 }
 
 /// What each pixel shows, where a depth buffer and the tree's order agree, which know nothing of each

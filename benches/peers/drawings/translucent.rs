@@ -1,7 +1,7 @@
 //! Drawings in which nothing is hidden: pieces a polygon.
 
 use super::fill::{Picture, Pixel};
-use super::{Goal, maybe_against};
+use super::{Goal, cpu_time, maybe_against};
 use binspace::BspTree;
 use binspace::drawing::Drawing;
 use binspace::internals::Line;
@@ -9,15 +9,13 @@ use binspace::paint_tree;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 use binspace::view::Camera;
 use std::collections::HashSet;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use support::{Table, time};
 
 /// The figures of a scene.
 pub(super) fn row(tree: &BspTree, camera: &Camera, goal: &Goal, building: Duration) -> Vec<String> {
     let rays = Rays::new(camera, tree.faces()).expect("a picture");
-    let begin = Instant::now();
-    let drawing = Drawing::translucent(tree, rays.clone()).expect("memory");
-    let taken = begin.elapsed();
+    let (taken, drawing) = cpu_time(|| Drawing::translucent(tree, rays.clone()).expect("memory"));
     let judged = check(tree, camera, &rays, &drawing, goal.scene);
     let polygons: HashSet<usize> = drawing.paths().map(|path| path.polygon()).collect();
     let ratio = drawing.paths().len() as f64 / polygons.len() as f64;
@@ -48,8 +46,8 @@ pub(super) fn print(rows: &[Vec<String>]) {
             "paths / polygon",
             "target",
             "met",
-            "all threads",
-            "÷ tree, one thread",
+            "time",
+            "÷ tree",
             "pixels judged",
             "wrong",
         ],
