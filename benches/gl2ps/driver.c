@@ -4,7 +4,8 @@
    driver bsp|simple FILE.svg < INPUT
 
    INPUT: the width and height in pixels; the six numbers of glFrustum; then the corners of triangles,
-   three coordinates each, as the camera sees them. The number of a triangle is its colour. */
+   three coordinates each, as the camera sees them. The number of a triangle is its colour:
+   the upper seven bits of each byte. */
 
 #include <GL/osmesa.h>
 #include <gl2ps.h>
@@ -36,12 +37,18 @@ static int read_triangle(Triangle *triangle) {
     return 1;
 }
 
+/* Seven bits of a number as a share of a colour, in the middle of two steps of its byte: where gl2ps cuts
+   triangles, it rounds colours anew. */
+static float share(size_t number, int from) {
+    return (float)(2 * ((number >> from) & 127) + 1) / 255.0f;
+}
+
 static void draw(const Triangle *triangles, size_t count) {
     size_t i;
     int corner;
     glBegin(GL_TRIANGLES);
     for (i = 0; i < count; i++) {
-        glColor3ub((GLubyte)(i >> 16), (GLubyte)(i >> 8), (GLubyte)i);
+        glColor3f(share(i, 14), share(i, 7), share(i, 0));
         for (corner = 0; corner < 3; corner++) glVertex3dv(triangles[i].corners[corner]);
     }
     glEnd();

@@ -180,6 +180,7 @@ impl Driver {
         let file = fs::read_to_string(&output)?;
         let polygons = file.lines().filter(|line| line.starts_with("<poly"));
         let filled: Option<Vec<Filled>> = polygons.map(filled_of).collect();
+        let filled = filled.filter(|all| all.iter().all(|&(number, _)| number < scene.len()));
         Ok(Theirs { time, filled: filled.ok_or_else(fault)? })
     }
 }
@@ -212,9 +213,11 @@ fn seen(scene: &Scene, camera: &Camera) -> String {
     text
 }
 
-/// A polygon of the file: its fill is the number of the triangle.
+/// A polygon of the file. Its fill is the number of the triangle, in the upper seven bits of each byte.
 fn filled_of(line: &str) -> Option<Filled> {
-    let number = line.split_once("fill=\"#")?.1.get(..6)?;
+    let fill = usize::from_str_radix(line.split_once("fill=\"#")?.1.get(..6)?, 16).ok()?;
+    let bits = |from: usize| (fill >> (from + 1)) & 127;
+    let number = (bits(16) << 14) | (bits(8) << 7) | bits(0);
     let points = line.split_once("points=\"")?.1.split('"').next()?;
     let corner = |point: &str| -> Option<[f64; 2]> {
         let (x, y) = point.split_once(',')?;
@@ -222,7 +225,7 @@ fn filled_of(line: &str) -> Option<Filled> {
         Some([x.parse::<f64>().ok()? - 0.5, y.parse::<f64>().ok()? - 0.5])
     };
     let corners: Option<Vec<_>> = points.split_whitespace().map(corner).collect();
-    Some((usize::from_str_radix(number, 16).ok()?, corners?))
+    Some((number, corners?))
 }
 
 /// What each pixel shows, where a depth buffer and the tree's order agree, which know nothing of each
