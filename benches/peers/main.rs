@@ -12,6 +12,7 @@
 mod build;
 mod clipping;
 mod culling;
+mod drawings;
 mod fragments;
 mod frames;
 mod growth;
@@ -42,6 +43,8 @@ const SECTIONS: &[Section] = &[
     ("frames", frames::run),
     ("clipping", clipping::run),
     ("culling", culling::run),
+    ("drawings", drawings::run),
+    ("gl2ps", drawings::gl2ps::run),
     ("exactness", kernels::run),
     ("rulings", rulings::run),
     ("saved", saved::run),

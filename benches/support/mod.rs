@@ -100,6 +100,28 @@ pub fn rulings(strips: i32, patches: i32) -> Scene {
     scene
 }
 
+/// Triangles anywhere in the unit cube, each with corners anywhere in a cube of side 0.3.
+pub fn triangles_in_cubes(count: u32) -> Scene {
+    let mut random = SplitMix64::new(SEED);
+    let mut scene = Scene::new(format!("triangles in cubes:{count}"), DVec3::Z);
+    for _ in 0..count {
+        let centre = random.point(0.0, 1.0);
+        scene.push([(); 3].map(|()| centre + random.point(-0.15, 0.15)), 0);
+    }
+    scene
+}
+
+/// A scene's polygons as fans of triangles. Fans of polygons that are not convex lie over themselves.
+pub fn triangulated(scene: &Scene) -> Scene {
+    let mut triangles = Scene::new(scene.name(), scene.up());
+    for corners in scene.polygons() {
+        for pair in corners[1..].windows(2) {
+            triangles.push([corners[0], pair[0], pair[1]], 0);
+        }
+    }
+    triangles
+}
+
 fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) -> Scene {
     let mut mapped = Scene::new(name, scene.up());
     for corners in scene.polygons() {

@@ -6,12 +6,11 @@ mod peers;
 mod truth;
 
 use binspace::glam::DVec3;
-use binspace::scene::Scene;
 use binspace::{Bounds, BspTree, Ray};
 use peers::{Bvh, Parry32, Parry64, Peer};
 use std::hint::black_box;
 use std::time::Instant;
-use support::{Table, Target, against, check, scene};
+use support::{Table, Target, against, check, scene, triangulated};
 use truth::Truth;
 
 const SCENES: [&str; 10] = [
@@ -68,16 +67,6 @@ impl Case {
     fn nearest(&self, [from, direction]: [DVec3; 2]) -> Option<f64> {
         Some(self.bounds.hits(&self.tree, Ray::new(from, direction)).next()?.parameter())
     }
-}
-
-fn triangulated(scene: &Scene) -> Scene {
-    let mut triangles = Scene::new(scene.name(), scene.up());
-    for corners in scene.polygons() {
-        for pair in corners[1..].windows(2) {
-            triangles.push([corners[0], pair[0], pair[1]], 0);
-        }
-    }
-    triangles
 }
 
 /// Points of a box from a seed: SplitMix64.

@@ -1,0 +1,284 @@
+//! `gl2ps`: triangles drawn by OpenGL as a vector picture, by a driver in C that is compiled here.
+//!
+//! It sorts by a tree of its own (`bsp`) or by depths (`simple`). It has `f32`, and its SVG files have six
+//! digits of a coordinate. So its pixels are judged twice: all, but for those with an outline of its own
+//! within 4·10⁻⁵ of a pixel, and those alone around which all eight neighbours show the same. Its time is
+//! that of a page, from its beginning to the file; ours is that of the tree, the map and the paths. Both are
+//! times for which one thread ran.
+
+use super::fill::{Picture, Pixel};
+use super::{SIZE, camera, cpu_time, drawn, scene, threads};
+use binspace::glam::DVec3;
+use binspace::raster::{Rays, Verdict, compare, zbuffer};
+use binspace::scene::Scene;
+use binspace::view::Camera;
+use binspace::{BspTree, Viewpoint, paint_tree};
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, id};
+use std::time::Duration;
+use std::{env, io};
+use support::{Table, check, time, triangulated};
+
+const SCENES: [(&str, DVec3); 9] = [
+    ("triangles in cubes:1500", DVec3::Z),
+    ("triangles in cubes:5000", DVec3::Z),
+    ("random:1500", DVec3::Z),
+    ("terrain:5000", DVec3::Z),
+    ("sphere:2000", DVec3::Z),
+    ("city:2000", DVec3::Z),
+    ("bunny_4k.obj", DVec3::Y),
+    ("suzanne_2k.obj", DVec3::Y),
+    ("spider_1k.obj", DVec3::Y),
+];
+
+pub(crate) fn run() {
+    let driver = match Driver::compile() {
+        Ok(driver) => driver,
+        Err(fault) => {
+            eprintln!("left out: gl2ps ({fault})");
+            println!("\nThe table against gl2ps is left out: {fault}.");
+            return;
+        }
+    };
+    let table = Table::new(
+        "Drawings of one view, one thread, against gl2ps with its best root and occlusion culling",
+        &[
+            "scene",
+            "triangles",
+            "our paths",
+            "tree and drawing",
+            "ours wrong",
+            "its sort",
+            "its paths",
+            "÷ ours",
+            "its time",
+            "÷ ours",
+            "pixels judged",
+            "its wrong",
+            "off edges",
+            "its wrong",
+        ],
+    );
+    let one_thread = threads(1);
+    for (name, up) in SCENES {
+        let Some(scene) = scene(name) else { continue };
+        let scene = triangulated(&scene);
+        let camera = camera(&scene, up);
+        let ours = one_thread.install(|| Ours::new(&scene, &camera));
+        for sort in ["bsp", "simple"] {
+            let theirs = driver.draw(&scene, &camera, sort).expect("a picture by gl2ps");
+            let mut row = vec![name.to_owned(), scene.len().to_string()];
+            row.extend(ours.against(sort, &theirs));
+            table.row(&row);
+        }
+    }
+}
+
+/// Our drawing, which is right.
+struct Ours {
+    time: Duration,
+    paths: usize,
+    truth: Truth,
+}
+
+impl Ours {
+    fn new(scene: &Scene, camera: &Camera) -> Self {
+        let (time, (tree, drawing)) = cpu_time(|| {
+            let tree = BspTree::build(scene.polygons()).expect("within budget");
+            let drawing = drawn(&tree, camera);
+            (tree, drawing)
+        });
+        check(&tree, scene);
+        let truth = Truth::new(&tree, camera);
+        assert_eq!(truth.judge(&Picture::of(&drawing)).wrong, 0, "{}", scene.name());
+        Self { time, paths: drawing.paths().len(), truth }
+    }
+
+    /// The figures of a row from `our paths` on.
+    fn against(&self, sort: &str, theirs: &Theirs) -> [String; 12] {
+        let judged = self.truth.judge(&theirs.picture());
+        let paths = theirs.filled.len();
+        [
+            self.paths.to_string(),
+            time(self.time),
+            "0".to_owned(),
+            sort.to_owned(),
+            paths.to_string(),
+            format!("{:.1}", paths as f64 / self.paths as f64),
+            time(theirs.time),
+            format!("{:.1}", theirs.time.as_secs_f64() / self.time.as_secs_f64()),
+            judged.pixels.to_string(),
+            judged.wrong.to_string(),
+            judged.off_edges.to_string(),
+            judged.wrong_off_edges.to_string(),
+        ]
+    }
+}
+
+/// A picture by gl2ps.
+struct Theirs {
+    /// The time of its page.
+    time: Duration,
+    /// What is filled, in the order in which it is painted.
+    filled: Vec<Filled>,
+}
+
+impl Theirs {
+    fn picture(&self) -> Picture {
+        let mut picture = Picture::new(SIZE);
+        for (number, corners) in &self.filled {
+            picture.fill(*number, std::iter::once(&corners[..]));
+        }
+        picture
+    }
+}
+
+/// A filled triangle: the number of what was drawn, and corners in pixels.
+type Filled = (usize, Vec<[f64; 2]>);
+
+/// The compiled driver, in a folder of its own.
+struct Driver {
+    folder: PathBuf,
+}
+
+impl Driver {
+    fn compile() -> Result<Self, String> {
+        let folder = env::temp_dir().join(format!("binspace-gl2ps-{}", id()));
+        fs::create_dir(&folder).map_err(|error| format!("no folder to compile in: {error}"))?;
+        let driver = Self { folder };
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("gl2ps/driver.c");
+        let answer = Command::new("cc")
+            .args(["-O2", "-o"])
+            .args([driver.program(), source])
+            .args(["-lgl2ps", "-lOSMesa"])
+            .output()
+            .map_err(|error| format!("no compiler: {error}"))?;
+        match answer.status.success() {
+            true => Ok(driver),
+            false => {
+                Err("its driver does not compile; it needs libgl2ps-dev and libosmesa6-dev".into())
+            }
+        }
+    }
+
+    fn program(&self) -> PathBuf {
+        self.folder.join("driver")
+    }
+
+    /// What it draws, by one of its ways to sort.
+    fn draw(&self, scene: &Scene, camera: &Camera, sort: &str) -> io::Result<Theirs> {
+        let [input, output] = ["triangles", "drawing.svg"].map(|name| self.folder.join(name));
+        fs::write(&input, seen(scene, camera))?;
+        let mut driver = Command::new(self.program());
+        let answer = driver.arg(sort).arg(&output).stdin(File::open(&input)?).output()?;
+        let said = String::from_utf8_lossy(&answer.stdout);
+        let fault = || io::Error::other(format!("{}: {said}", answer.status));
+        let seconds = said.trim().parse().ok().filter(|_| answer.status.success());
+        let time = Duration::from_secs_f64(seconds.ok_or_else(fault)?);
+        let file = fs::read_to_string(&output)?;
+        let polygons = file.lines().filter(|line| line.starts_with("<poly"));
+        let filled: Option<Vec<Filled>> = polygons.map(filled_of).collect();
+        let filled = filled.filter(|all| all.iter().all(|&(number, _)| number < scene.len()));
+        Ok(Theirs { time, filled: filled.ok_or_else(fault)? })
+    }
+}
+
+impl Drop for Driver {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// What the driver reads: the picture's size, the view volume, and triangles as the camera sees them.
+fn seen(scene: &Scene, camera: &Camera) -> String {
+    let Viewpoint::Eye(eye) = camera.viewpoint() else { panic!("a perspective camera") };
+    let corner = |p: &DVec3| {
+        let arm = p - eye;
+        [camera.right(), camera.up(), -camera.forward()].map(|axis| arm.dot(axis))
+    };
+    let corners: Vec<[f64; 3]> =
+        (0..scene.len()).flat_map(|index| scene.polygon(index)).map(corner).collect();
+    let depths = corners.iter().map(|p| -p[2]);
+    let (near, far) =
+        (0.9 * depths.clone().fold(f64::MAX, f64::min), 1.1 * depths.fold(0.0, f64::max));
+    assert!(near > 0.0, "{}: the eye is outside", scene.name());
+    let [width, height] = SIZE.map(|side| 0.5 * f64::from(side) * camera.pixel_size() * near);
+    let mut text = format!("{} {}\n{} {width} {} {height}", SIZE[0], SIZE[1], -width, -height);
+    let _ = writeln!(text, " {near} {far}");
+    for [x, y, z] in corners {
+        let _ = writeln!(text, "{x} {y} {z}");
+    }
+    text
+}
+
+/// A polygon of the file. Its fill is the number of the triangle, in the upper seven bits of each byte.
+fn filled_of(line: &str) -> Option<Filled> {
+    let fill = usize::from_str_radix(line.split_once("fill=\"#")?.1.get(..6)?, 16).ok()?;
+    let bits = |from: usize| (fill >> (from + 1)) & 127;
+    let number = (bits(16) << 14) | (bits(8) << 7) | bits(0);
+    let points = line.split_once("points=\"")?.1.split('"').next()?;
+    let corner = |point: &str| -> Option<[f64; 2]> {
+        let (x, y) = point.split_once(',')?;
+        // The centre of the first pixel is at 0, not at ½.
+        Some([x.parse::<f64>().ok()? - 0.5, y.parse::<f64>().ok()? - 0.5])
+    };
+    let corners: Option<Vec<_>> = points.split_whitespace().map(corner).collect();
+    Some((number, corners?))
+}
+
+/// What each pixel shows, where a depth buffer and the tree's order agree, which know nothing of each
+/// other.
+struct Truth {
+    pixels: Vec<Option<Pixel>>,
+}
+
+#[derive(Default)]
+struct Judged {
+    pixels: usize,
+    wrong: usize,
+    off_edges: usize,
+    wrong_off_edges: usize,
+}
+
+impl Truth {
+    fn new(tree: &BspTree, camera: &Camera) -> Self {
+        let rays = Rays::new(camera, tree.faces()).expect("a picture");
+        let painted = paint_tree(tree, camera.viewpoint(), &rays);
+        let nearest = zbuffer(&rays, tree.faces()).into_image();
+        let compared = compare(&rays, tree.faces(), &painted, &nearest);
+        assert_eq!(compared.wrong(), 0);
+        let pixel = |(&face, verdict): (&u32, &Verdict)| match verdict {
+            Verdict::Empty => Some(Pixel::Nothing),
+            Verdict::Right => Some(Pixel::Polygon(tree.faces().polygon(face))),
+            _ => None,
+        };
+        Self { pixels: nearest.faces().iter().zip(&compared.verdicts).map(pixel).collect() }
+    }
+
+    fn judge(&self, picture: &Picture) -> Judged {
+        let mut judged = Judged::default();
+        for (i, (&found, truth)) in picture.pixels.iter().zip(&self.pixels).enumerate() {
+            let Some(truth) = truth.filter(|_| found != Pixel::Unsure) else { continue };
+            let is_wrong = found != truth;
+            judged.pixels += 1;
+            judged.wrong += usize::from(is_wrong);
+            if self.is_off_edges(i) {
+                judged.off_edges += 1;
+                judged.wrong_off_edges += usize::from(is_wrong);
+            }
+        }
+        judged
+    }
+
+    /// Whether the neighbours of a pixel, as far as they are in the picture, show what it shows.
+    fn is_off_edges(&self, i: usize) -> bool {
+        let [width, height] = SIZE.map(|side| side as usize);
+        let [x, y] = [i % width, i / width];
+        let rows = y.saturating_sub(1)..(y + 2).min(height);
+        let columns = x.saturating_sub(1)..(x + 2).min(width);
+        rows.flat_map(|y| columns.clone().map(move |x| y * width + x))
+            .all(|k| self.pixels[k] == self.pixels[i])
+    }
+}

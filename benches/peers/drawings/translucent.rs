@@ -1,0 +1,100 @@
+//! Drawings in which nothing is hidden: pieces a polygon.
+
+use super::fill::{Picture, Pixel};
+use super::{Goal, cpu_time, maybe_against};
+use binspace::BspTree;
+use binspace::drawing::Drawing;
+use binspace::internals::Line;
+use binspace::paint_tree;
+use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::view::Camera;
+use std::collections::HashSet;
+use std::time::Duration;
+use support::{Table, time};
+
+/// The figures of a scene.
+pub(super) fn row(tree: &BspTree, camera: &Camera, goal: &Goal, building: Duration) -> Vec<String> {
+    let rays = Rays::new(camera, tree.faces()).expect("a picture");
+    let (taken, drawing) = cpu_time(|| Drawing::translucent(tree, rays.clone()).expect("memory"));
+    let judged = check(tree, camera, &rays, &drawing, goal.scene);
+    let polygons: HashSet<usize> = drawing.paths().map(|path| path.polygon()).collect();
+    let ratio = drawing.paths().len() as f64 / polygons.len() as f64;
+    let [_, target, met] = maybe_against(ratio, goal.pieces);
+    vec![
+        goal.scene.to_owned(),
+        polygons.len().to_string(),
+        tree.len().to_string(),
+        drawing.paths().len().to_string(),
+        format!("{ratio:.4}"),
+        target,
+        met,
+        time(taken),
+        format!("{:.2}", taken.as_secs_f64() / building.as_secs_f64()),
+        judged.to_string(),
+        "0".to_owned(),
+    ]
+}
+
+pub(super) fn print(rows: &[Vec<String>]) {
+    let table = Table::new(
+        "Drawings of one view in which nothing is hidden",
+        &[
+            "scene",
+            "polygons drawn",
+            "fragments",
+            "paths",
+            "paths / polygon",
+            "target",
+            "met",
+            "time",
+            "÷ tree",
+            "pixels judged",
+            "wrong",
+        ],
+    );
+    rows.iter().for_each(|row| table.row(row));
+}
+
+/// How many pixels were judged: the paths that cover it are as many as the fragments of the tree, and the
+/// last of them is what the tree paints last.
+fn check(tree: &BspTree, camera: &Camera, rays: &Rays, drawing: &Drawing, name: &str) -> usize {
+    let truth = paint_tree(tree, camera.viewpoint(), rays);
+    let layers = layers(tree, rays);
+    let found = Picture::of(drawing);
+    let mut judged = 0;
+    for (i, &face) in truth.faces().iter().enumerate() {
+        let expected = match face {
+            u32::MAX => Pixel::Nothing,
+            face => Pixel::Polygon(tree.faces().polygon(face)),
+        };
+        if found.pixels[i] == Pixel::Unsure {
+            continue;
+        }
+        judged += 1;
+        assert_eq!(found.pixels[i], expected, "{name}: pixel {i}");
+        assert_eq!(found.layers[i], layers[i], "{name}: pixel {i}");
+    }
+    assert!(judged * 10 > layers.len() * 9, "{name}: {judged}");
+    judged
+}
+
+/// How many fragments cover each pixel.
+fn layers(tree: &BspTree, rays: &Rays) -> Vec<u32> {
+    let [width, height] = rays.size().map(|side| side as usize);
+    let mut layers = vec![0; width * height];
+    for fragment in tree.fragments() {
+        let lines: Vec<Line> = fragment.lines().collect();
+        let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
+        let outline = match fragment.is_whole() {
+            true => Outline::Whole,
+            false => Outline::Lines { lines: &lines, vertices: &vertices },
+        };
+        let piece = Piece { face: fragment.face(), outline };
+        for_each_run(rays, tree.faces(), piece, |y, columns| {
+            let row = y as usize * width;
+            let columns = columns.start as usize..columns.end as usize;
+            layers[row..][columns].iter_mut().for_each(|count| *count += 1);
+        });
+    }
+    layers
+}
