@@ -12,7 +12,9 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
         let point = at(if k < n { k } else { k - n });
         [point[x], point[y]]
     };
-    let step = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
+    if n == 4 && turns_one_way(std::array::from_fn(point)) {
+        return true;
+    }
     let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
     let (mut here, mut next) = (point(0), point(1));
     let (mut rises, mut turn) = (0, Ordering::Equal);
@@ -36,6 +38,28 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
     rises == 1
 }
 
+#[inline]
+fn step(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    [to[0] - from[0], to[1] - from[1]]
+}
+
+/// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half
+/// a turn, and all four together are a whole number of turns.
+#[inline]
+fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
+    let steps: [_; 4] = std::array::from_fn(|k| step(points[k], points[(k + 1) % 4]));
+    // No branches: for most faces they could not be foretold.
+    let (mut left, mut right) = (true, true);
+    for k in 0..4 {
+        let (a, b) = (steps[k], steps[(k + 1) % 4]);
+        let (one, other) = (a[0] * b[1], a[1] * b[0]);
+        let (turn, bound) = (one - other, f64::EPSILON * (one.abs() + other.abs()));
+        left &= turn > bound;
+        right &= -turn > bound;
+    }
+    left | right
+}
+
 /// Which way an outline turns from one step to the next; `None` if it turns back.
 #[inline]
 fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
@@ -54,7 +78,7 @@ fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
 mod tests {
     use std::cmp::Ordering;
 
-    use super::{is_convex, turn_of};
+    use super::{is_convex, turn_of, turns_one_way};
     use crate::random::SplitMix64;
 
     #[test]
@@ -69,6 +93,33 @@ mod tests {
             corners.push([x, y, 1.0]);
             assert!(!convex(&corners), "{corners:?}");
         }
+    }
+
+    /// By integers: an outline of four corners is convex if all turns have the same sign.
+    #[test]
+    fn four_corners_that_certainly_turn_one_way_are_convex() {
+        let mut random = SplitMix64::new(5);
+        let mut told = [0; 2];
+        for _ in 0..20_000 {
+            let size = 2f64.powf(random.range(1.0, 50.0));
+            let points = [(); 4].map(|()| [0, 1].map(|_| random.range(-size, size).round()));
+            // The signs of the four areas by integers: all the same, or not.
+            let area = |[p, q, r]: [[f64; 2]; 3]| {
+                let of = |a: f64, b: f64| (b - a) as i128;
+                (of(p[0], q[0]) * of(p[1], r[1]) - of(p[1], q[1]) * of(p[0], r[0])).signum()
+            };
+            let turns = [0, 1, 2, 3].map(|k| area([0, 1, 2].map(|i| points[(k + i) % 4])));
+            let one_way = turns == [1; 4] || turns == [-1; 4];
+            let found = turns_one_way(points);
+            assert!(one_way || !found, "{points:?}");
+            told[usize::from(found)] += 1;
+            let corners = points.map(|[x, y]| [x, y, 0.0]);
+            // Without area, a turn that is not one way can still be convex.
+            if !turns.contains(&0) {
+                assert_eq!(is_convex(4, |k| corners[k], 2), one_way, "{points:?}");
+            }
+        }
+        assert!(told[0] > 2000 && told[1] > 2000, "{told:?}");
     }
 
     /// Steps that all but run on in one line, or back, by integers of 128 bits.

@@ -5,6 +5,8 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::Int;
+#[cfg(feature = "save")]
+use super::normal::RoundedNormal;
 
 /// The integer vector product (q − p) × (r − p) of three lattice points.
 pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
@@ -94,6 +96,18 @@ impl Plane {
         })
     }
 
+    /// Whether the signed distance of a lattice point times the length of the normal is at most `most`
+    /// in magnitude, which is below 2¹¹⁸: exact. `rounded` is the normal of the same three points.
+    #[cfg(feature = "save")]
+    #[inline]
+    pub(crate) fn is_within(&self, most: u128, rounded: &RoundedNormal, x: &[f64; 3]) -> bool {
+        // The products are below 2¹⁵⁸, and all of their roundings together below 2¹¹⁰. So this tells what
+        // 128 bits cannot hold; what is left, they do.
+        let terms = rounded.normal.iter().zip(x).zip(self.point);
+        let off: f64 = terms.map(|((n, x), through)| n * (x - through as f64)).sum();
+        off.abs() < (1u128 << 120) as f64 && self.last_bits_at(x).unsigned_abs() <= most
+    }
+
     /// The scalar product of the normal and a direction of components below 2⁶².
     #[inline]
     pub(crate) fn along(&self, direction: [i64; 3]) -> Int<3> {
@@ -157,6 +171,42 @@ mod tests {
                 assert!(error <= f64::EPSILON * (exact as f64).abs(), "{exact} {rounded}");
             }
         }
+    }
+
+    /// Corners at every distance from their plane, 128 bits and more of it, against `at`.
+    #[cfg(feature = "save")]
+    #[test]
+    fn within_is_exact() {
+        use crate::exact::{Int, RoundedNormal};
+
+        let mut random = crate::random::SplitMix64::new(9);
+        let mut told = [0; 2];
+        for round in 0..40_000 {
+            let size = 2f64.powf(random.range(2.0, 51.0));
+            let mut point = || [(); 3].map(|()| random.range(-size, size).round());
+            let (triangle, mut x) = ([point(), point(), point()], point());
+            let plane = Plane::through(triangle);
+            let axis = plane.main_axis();
+            let most = plane.normal()[axis].unsigned_abs() / 2;
+            if round % 4 > 0 {
+                // Near the plane, or a multiple of 2^k steps off it.
+                let normal = plane.normal_f64().to_array();
+                let off: f64 = (0..3).map(|i| normal[i] * (x[i] - triangle[0][i])).sum();
+                x[axis] = (x[axis] - off / normal[axis]).round() + f64::from(round % 4 - 2);
+                if x[axis].is_nan() || x[axis].abs() > 2.0 * size {
+                    continue;
+                }
+            }
+            let off = plane.at(&x);
+            let off = if off.is_negative() { -off } else { off };
+            for most in [most, 0] {
+                let exact = !(Int::<3>::from(most as i128) - off).is_negative();
+                let found = plane.is_within(most, &RoundedNormal::through(triangle), &x);
+                assert_eq!(found, exact, "{triangle:?} {x:?}");
+                told[usize::from(found)] += 1;
+            }
+        }
+        assert!(told[0] > 5000 && told[1] > 2000, "{told:?}");
     }
 
     #[test]

@@ -56,7 +56,7 @@ impl Cell {
     /// Replaces the tree, and gives all of it as a region.
     pub(super) fn fill(&mut self, parts: Parts<ExactStored>) -> Result<Region, Error> {
         make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
-        finish(&parts.nodes, &mut self.sizes, &mut self.nodes);
+        finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
         self.parts = parts;
         Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
     }

@@ -283,7 +283,7 @@ impl BspTree {
         sizes: &mut Vec<Sizes>,
     ) -> Result<Vec<RawNode>, Error> {
         make_room(parts.nodes.len(), sizes, &mut self.nodes)?;
-        finish(&parts.nodes, sizes, &mut self.nodes);
+        finish(parts.nodes.iter().copied(), sizes, &mut self.nodes);
         if let Err(error) = self.planes.fill(&faces, &self.nodes) {
             // The tree is empty after an error.
             self.nodes.clear();

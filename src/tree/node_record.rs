@@ -96,24 +96,26 @@ pub(crate) fn make_room(
 }
 
 /// Computes the sizes of all subtrees, and replaces a list of nodes.
-pub(crate) fn finish(raw: &[RawNode], sizes: &mut Vec<Sizes>, nodes: &mut Vec<NodeRecord>) {
-    // Children come after their parents, so their sizes are known if nodes are read from the last to
-    // the first.
+pub(crate) fn finish(
+    raw: impl DoubleEndedIterator<Item = RawNode> + ExactSizeIterator,
+    sizes: &mut Vec<Sizes>,
+    nodes: &mut Vec<NodeRecord>,
+) {
+    // Nodes are read from the last to the first, so children come before their parents: what waits for
+    // its parent is on a stack, the front above the back.
     sizes.clear();
-    sizes.resize(raw.len(), Sizes::default());
     nodes.clear();
     nodes.reserve_exact(raw.len());
-    for (i, node) in raw.iter().enumerate().rev() {
-        let size = |child, at: usize| match child {
+    for node in raw.rev() {
+        let mut size = |child| match child {
             RawChild::Leaf(fragments) => Sizes { fragments, nodes: 0 },
-            RawChild::Node => sizes[at],
+            RawChild::Node => sizes.pop().unwrap_or_default(),
         };
-        let front = size(node.front, i + 1);
-        let back = size(node.back, i + 1 + front.nodes as usize);
-        sizes[i] = Sizes {
+        let (front, back) = (size(node.front), size(node.back));
+        sizes.push(Sizes {
             fragments: node.own + front.fragments + back.fragments,
             nodes: 1 + front.nodes + back.nodes,
-        };
+        });
         let back_is_node = if node.back == RawChild::Node { BACK_IS_NODE } else { 0 };
         let own = node.own | back_is_node;
         let Sizes { fragments: front_len, nodes: front_nodes } = front;

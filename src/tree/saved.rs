@@ -9,14 +9,19 @@ use super::BspTree;
 use super::apart::raw_nodes;
 use super::node_record::MOST_FRAGMENTS;
 use super::order::layout::Schedule;
+use super::order::planes::Planes;
 use super::parts::{Parts, Record};
 use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, MAX_LABELS, Symbol};
 use crate::faces::Preparation;
+use crate::parallel_map;
 use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
 
 const KIND: Kind = Kind { name: *b"tree", version: 2 };
 /// Set in the flags of a tree for one view.
 const FOR_ONE_VIEW: u32 = 1;
+/// Trees with more fragments are checked by two threads. Smaller: waking one takes longer than what it
+/// does; larger: some wait for one thread while the other is idle.
+const WORTH_A_THREAD: usize = 4096;
 
 impl BspTree {
     /// Writes the tree, so that [`read`](Self::read) gives the same: the same fragments with the same
@@ -145,24 +150,32 @@ impl BspTree {
         if flags > FOR_ONE_VIEW {
             return Err(LoadError::of("flags", "are unknown"));
         }
-        faces.check()?;
+        // Faces and nodes need nothing of each other. Of two faults, the same is found first on any
+        // number of threads.
+        let (for_one_view, known) = (flags == FOR_ONE_VIEW, faces.known());
+        let mut laid_out = Ok(Default::default());
+        let lay_out = || {
+            let nodes = nodes::read(&nodes, &records, known)?;
+            let schedule = || Schedule::new(&nodes, records.len() as u32);
+            let schedule = (!for_one_view).then(schedule).transpose();
+            Ok((schedule.map_err(|_| LoadError::out_of_memory())?, nodes))
+        };
+        let is_worth_it = records.len() > WORTH_A_THREAD;
+        let checked = parallel_map::beside(is_worth_it, || laid_out = lay_out(), || faces.check());
+        checked?;
         check_preparation(&mut preparation, &dropped, &faces)?;
-        let nodes = nodes::check(&nodes, &records, faces.known())?;
+        let (schedule, nodes) = laid_out?;
         // Each cut makes one fragment more.
         if cuts > records.len() {
             return Err(LoadError::of("cuts", "are more than the fragments"));
         }
         let positions = Vec::new();
-        let mut parts = Parts { nodes, records, vertices, positions, cuts };
-        outlines::check(&faces, &mut parts, flags == FOR_ONE_VIEW)?;
-        let mut tree = Self::empty();
-        let out_of_memory = |_| LoadError::out_of_memory();
-        drop(tree.refill(faces, preparation, parts, &mut Vec::new()).map_err(out_of_memory)?);
-        if flags != FOR_ONE_VIEW {
-            let schedule = Schedule::new(&tree.nodes, tree.records.len() as u32);
-            tree.schedule = Some(schedule.map_err(out_of_memory)?);
-        }
-        Ok(tree)
+        let mut parts = Parts { nodes: Vec::new(), records, vertices, positions, cuts };
+        outlines::check(&faces, &mut parts, for_one_view)?;
+        let mut planes = Planes::default();
+        planes.fill(&faces, &nodes).map_err(|_| LoadError::out_of_memory())?;
+        let Parts { records, vertices, positions, .. } = parts;
+        Ok(Self { faces, preparation, nodes, planes, schedule, records, vertices, positions, cuts })
     }
 
     fn write_preparation(&self, file: &mut Writer<impl Write>) -> io::Result<()> {

@@ -75,6 +75,20 @@ fn both_neighbours_of_a_cut_are_looked_at() {
 }
 
 #[test]
+fn every_node_but_the_first_has_a_parent() {
+    let at_height = |z: f64| FLAT.map(|[x, y, _]| [x, y, z]);
+    let mut file = File::of(&[0.0, 1.0, 2.0].map(at_height));
+    // Two nodes: the second is in front of the first.
+    let shape = file.fragments - 8 - 2 * 8 + 4;
+    assert_eq!([file.get(shape), file.get(shape + 8)], [1 << 4 | 2 << 2, 1 << 4 | 1 << 2]);
+    assert_eq!(file.message(), "");
+    file.put(shape, 1 << 4 | 1 << 2);
+    assert!(file.message().contains("node 1 has no parent"), "{}", file.message());
+    file.put(shape, 1 << 4 | 2 << 2 | 2);
+    assert!(file.message().contains("are not those of its fragments"), "{}", file.message());
+}
+
+#[test]
 fn fragments_on_a_plane_must_be_in_input_order() {
     let mut other = FLAT;
     other.iter_mut().for_each(|corner| corner[0] += 5.0);

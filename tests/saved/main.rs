@@ -8,3 +8,4 @@ mod forged;
 mod refused;
 mod same;
 mod scenes;
+mod threads;

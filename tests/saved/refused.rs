@@ -35,6 +35,16 @@ fn corner(k: usize) -> usize {
     CORNERS + 24 * k
 }
 
+/// The axis of moves, 3 for none, and the second and third corner of the triangle.
+fn frame(axis: u32, second: u32, third: u32) -> u32 {
+    axis << 30 | second << 15 | third
+}
+
+/// A coordinate that is twice as far out as the grid is wide.
+fn put_far(file: &mut [u8], at: usize, sign: i64) {
+    file[at..at + 8].copy_from_slice(&(sign << 52).to_le_bytes());
+}
+
 /// The first vertex whose line to the next is a cut, or an edge.
 fn vertex(file: &[u8], is_cut: bool) -> usize {
     let mut places = (0..8).map(|vertex| VERTICES + 12 * vertex);
@@ -46,7 +56,7 @@ type Damage = fn(&mut Vec<u8>);
 
 #[test]
 fn what_is_wrong_in_one_thing_is_refused_for_that() {
-    let faults: [(&str, Damage); 13] = [
+    let faults: [(&str, Damage); 24] = [
         ("its tolerance is negative", |file| {
             file[TOLERANCE..TOLERANCE + 8].copy_from_slice(&(-1f64).to_le_bytes());
         }),
@@ -64,9 +74,30 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
             file.copy_within(corner(0)..corner(1), corner(2));
             file.copy_within(corner(0)..corner(1), corner(3));
         }),
+        ("corner 1 is outside the grid", |file| put_far(file, corner(1), 1)),
+        ("corner 7 is outside the grid", |file| put_far(file, corner(7) + 16, -1)),
+        // The corners of both faces together are as many.
+        ("face 0 has too few corners", |file| {
+            put(file, FACES + 4, 2);
+            put(file, FACES + 12 + 4, 6);
+        }),
+        ("face 1 names corners that it does not have", |file| {
+            put(file, FACES + 12 + 8, frame(3, 1, 4));
+        }),
+        ("names corners that it does not have", |file| put(file, FACES + 8, frame(3, 0, 2))),
+        ("names corners that it does not have", |file| put(file, FACES + 8, frame(3, 2, 2))),
+        ("is moved along another axis", |file| put(file, FACES + 8, frame(0, 1, 2))),
+        // Off by a step, and moved by half a step at most.
+        ("is not planar", |file| {
+            file[corner(3) + 16] ^= 1;
+            put(file, FACES + 8, frame(2, 1, 2));
+        }),
         ("are impossible", |file| put(file, COUNTS, 3)),
         ("are more than the fragments", |file| put(file, CUTS, 4)),
         ("has a plane that separates no fragments", |file| put(file, NODES + 4, 1)),
+        ("has a side of an unknown kind", |file| file[NODES + 4] |= 3),
+        ("has more fragments than there are", |file| put(file, NODES + 4, 9 << 4)),
+        ("are not those of its fragments", |file| put(file, NODES + 4, 2 << 4)),
         ("names a face or corner that does not exist", |file| put(file, NODES, 1 << 28 | 2)),
         ("is of a face that is there uncut", |file| put(file, FRAGMENTS, 1)),
         ("has a vertex on the wrong side of a cut", |file| {
@@ -88,6 +119,27 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
     assert!(BspTree::read(&file()[..]).is_ok());
     for (expected, spoil) in faults {
         let mut file = file();
+        spoil(&mut file);
+        seal(&mut file);
+        let message = BspTree::read(&file[..]).expect_err(expected).to_string();
+        assert!(message.contains(expected), "{message}, not {expected}");
+    }
+}
+
+#[test]
+fn triangles_are_checked() {
+    let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 1.0], [0.0, 4.0, 2.0]];
+    let file = bytes(&BspTree::build([triangle]).unwrap());
+    let corners = FACES + 12;
+    let damage: [(&str, Damage); 4] = [
+        ("corner 2 is outside the grid", |file| put_far(file, FACES + 12 + 48, -1)),
+        ("face 0 has no area", |file| file.copy_within(FACES + 12..FACES + 36, FACES + 36)),
+        ("face 0 is moved, but a triangle", |file| put(file, FACES + 8, frame(2, 1, 2))),
+        ("names corners that it does not have", |file| put(file, FACES + 8, frame(3, 1, 3))),
+    ];
+    assert_eq!(get(&file, corners + 72), 0, "no numbered faces");
+    for (expected, spoil) in damage {
+        let mut file = file.clone();
         spoil(&mut file);
         seal(&mut file);
         let message = BspTree::read(&file[..]).expect_err(expected).to_string();

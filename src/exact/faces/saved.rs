@@ -7,7 +7,7 @@ use super::{Face, Faces, Frame, INNER};
 use crate::exact::label::MAX_LABELS;
 use crate::exact::label::bits::Known;
 use crate::exact::lattice::LIMIT;
-use crate::exact::{Int, Lattice, Plane, is_convex};
+use crate::exact::{Lattice, Plane, RoundedNormal, have_area, is_convex};
 use crate::parallel_map;
 use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
 
@@ -94,62 +94,27 @@ impl Faces {
         if !(0.0..=LARGEST_TOLERANCE).contains(&self.tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
-        let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > LARGEST);
-        if let Some(corner) = self.corners.iter().position(is_outside) {
-            return Err(invalid("corner", corner, "is outside the grid"));
-        }
-        let is_late = |faces: &[Face]| faces[0].polygon > faces[1].polygon;
-        if let Some(face) = self.faces.windows(2).position(is_late) {
-            return Err(invalid("face", face, "comes before one of an earlier polygon"));
-        }
         let ranges = (0..self.faces.len()).step_by(PART);
         let ranges = ranges.map(|start| start..self.faces.len().min(start + PART)).collect();
-        let check = |mut range: Range<usize>| {
-            range.try_for_each(|face| {
-                self.check_face(face as u32).map_err(|fault| invalid("face", face, fault))
-            })
-        };
+        let check = |mut range: Range<usize>| range.try_for_each(|face| self.check_face(face));
         parallel_map::map(ranges, check).into_iter().collect::<Result<(), LoadError>>()?;
         self.check_numbers()?;
         self.check_moved()
     }
 
-    fn check_face(&self, face: u32) -> Result<(), &'static str> {
-        let corners = self.corners(face);
-        let frame = self.faces[face as usize].frame;
-        let [_, second, third] = frame.triangle().map(|k| k as usize);
-        if !(3..=Frame::MAX_CORNERS).contains(&corners.len()) {
-            return Err("has too few corners or too many");
+    fn check_face(&self, face: usize) -> Result<(), LoadError> {
+        let range = self.corner_range(face as u32);
+        let corners = &self.corners[range.clone()];
+        // Before all else: what follows is computed in integers that hold these.
+        let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > LARGEST);
+        if let Some(k) = corners.iter().position(is_outside) {
+            return Err(invalid("corner", range.start + k, "is outside the grid"));
         }
-        if second == 0 || third <= second || third >= corners.len() {
-            return Err("names corners that it does not have");
+        if face > 0 && self.faces[face].polygon < self.faces[face - 1].polygon {
+            return Err(invalid("face", face, "comes before one of an earlier polygon"));
         }
-        let plane = Plane::through([0, second, third].map(|k| corners[k]));
-        if plane.normal() == [0; 3] {
-            return Err("has no area");
-        }
-        if corners.len() == 3 {
-            return if frame == Frame::TRIANGLE { Ok(()) } else { Err("is moved, but a triangle") };
-        }
-        let axis = plane.main_axis();
-        if !is_convex(corners.len(), |k| corners[k], axis) {
-            return Err("is not convex");
-        }
-        // The nearest lattice points are off the plane by half a step along the axis at most.
-        let half = match frame.drop_axis() {
-            Some(moved) if moved != axis => {
-                return Err("is moved along another axis than its plane's");
-            }
-            Some(axis) => Int::<3>::from(plane.normal()[axis]),
-            None => Int::ZERO,
-        };
-        let half = if half.is_negative() { -half } else { half };
-        let is_off = |corner: &[f64; 3]| {
-            let off = plane.at(corner);
-            let off = if off.is_negative() { -off } else { off };
-            (half - off - off).is_negative()
-        };
-        if corners.iter().any(is_off) { Err("is not planar") } else { Ok(()) }
+        let frame = self.faces[face].frame;
+        check_outline(corners, frame).map_err(|fault| invalid("face", face, fault))
     }
 
     fn check_numbers(&self) -> Result<(), LoadError> {
@@ -189,4 +154,45 @@ impl Faces {
         }
         Ok(())
     }
+}
+
+/// Whether corners are what a face with this frame may have.
+fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str> {
+    let [_, second, third] = frame.triangle().map(|k| k as usize);
+    if !(3..=Frame::MAX_CORNERS).contains(&corners.len()) {
+        return Err("has too few corners or too many");
+    }
+    if second == 0 || third <= second || third >= corners.len() {
+        return Err("names corners that it does not have");
+    }
+    let triangle = [0, second, third].map(|k| corners[k]);
+    if corners.len() == 3 {
+        return match frame {
+            _ if !have_area(triangle) => Err("has no area"),
+            Frame::TRIANGLE => Ok(()),
+            _ => Err("is moved, but a triangle"),
+        };
+    }
+    let plane = Plane::through(triangle);
+    if plane.normal() == [0; 3] {
+        return Err("has no area");
+    }
+    let axis = plane.main_axis();
+    if !is_convex(corners.len(), |k| corners[k], axis) {
+        return Err("is not convex");
+    }
+    // The nearest lattice points are off the plane by half a step along the axis at most.
+    let most = match frame.drop_axis() {
+        Some(moved) if moved != axis => {
+            return Err("is moved along another axis than its plane's");
+        }
+        Some(axis) => plane.normal()[axis].unsigned_abs() / 2,
+        None => 0,
+    };
+    // The three that span the plane are on it.
+    let others = [1..second, second + 1..third, third + 1..corners.len()];
+    let mut others = others.into_iter().flat_map(|range| &corners[range]);
+    let rounded = RoundedNormal::through(triangle);
+    let is_off = |corner| !plane.is_within(most, &rounded, corner);
+    if others.any(is_off) { Err("is not planar") } else { Ok(()) }
 }

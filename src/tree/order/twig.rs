@@ -14,21 +14,26 @@ pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
 /// Everything but the signs that decides the places of a twig's fragments: for each node, how many
-/// fragments are on its plane, in front and behind, and which sides are nodes; for a leaf, how many
-/// fragments it has. Twigs of the same shape share a row of the table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(in crate::tree) struct TwigShape {
-    nodes: [ShapeNode; NODES],
-    len: u8,
-    fragments: u8,
-}
+/// fragments are on its plane and in front, how many nodes are in front, and whether the back is one;
+/// how many nodes there are, none for a leaf; and how many fragments. Twigs of the same shape share a
+/// row of the table.
+///
+/// Packed, as there is one to look up for each twig.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(in crate::tree) struct TwigShape(u32);
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// The bits of a node in a shape. Numbers up to [`FRAGMENTS`] take three, up to [`NODES`] two.
+const NODE_BITS: u32 = 3 + 3 + 2 + 1;
+/// The bits of the number of fragments, behind those of the nodes.
+const FRAGMENTS_AT: u32 = NODE_BITS * NODES as u32;
+/// The bits of the number of nodes, behind those.
+const LEN_AT: u32 = FRAGMENTS_AT + 3;
+
+/// A node of a shape.
 struct ShapeNode {
     own: u8,
-    /// How many fragments are in front, in a leaf or below nodes; likewise behind.
+    /// How many fragments are in front, in a leaf or below nodes.
     front: u8,
-    back: u8,
     /// How many nodes are in front; if none, the front is a leaf.
     front_nodes: u8,
     back_is_node: bool,
@@ -37,64 +42,66 @@ struct ShapeNode {
 impl TwigShape {
     /// The shape of a leaf.
     pub(in crate::tree) fn leaf(fragments: u32) -> Self {
-        Self { fragments: fragments as u8, ..Self::default() }
+        Self(fragments << FRAGMENTS_AT)
     }
 
     /// The shape of a whole subtree of at most [`NODES`] nodes and [`FRAGMENTS`] fragments.
     pub(in crate::tree) fn of(subtree: &[NodeRecord], fragments: u32) -> Self {
-        let mut shape =
-            Self { len: subtree.len() as u8, fragments: fragments as u8, ..Self::default() };
-        // How many fragments the subtree at each node has.
-        let mut totals = [fragments; NODES];
-        for (k, node) in subtree.iter().enumerate() {
-            let (own, front) = (node.own(), node.front_len);
-            let back = totals[k] - own - front;
-            let front_nodes = node.front_nodes as usize;
-            if front_nodes > 0 {
-                totals[k + 1] = front;
-            }
-            if node.back_is_node() {
-                totals[k + 1 + front_nodes] = back;
-            }
-            shape.nodes[k] = ShapeNode {
-                own: own as u8,
-                front: front as u8,
-                back: back as u8,
-                front_nodes: front_nodes as u8,
-                back_is_node: node.back_is_node(),
-            };
+        let bits = (subtree.len() as u32) << LEN_AT | fragments << FRAGMENTS_AT;
+        Self(subtree.iter().zip(0..).fold(bits, |bits, (node, k)| {
+            let sides = node.front_nodes << 1 | u32::from(node.back_is_node());
+            bits | (node.own() << 6 | node.front_len << 3 | sides) << (NODE_BITS * k)
+        }))
+    }
+
+    fn fragments(self) -> u8 {
+        (self.0 >> FRAGMENTS_AT & 7) as u8
+    }
+
+    fn len(self) -> usize {
+        (self.0 >> LEN_AT) as usize
+    }
+
+    fn node(self, k: usize) -> ShapeNode {
+        let bits = self.0 >> (NODE_BITS * k as u32);
+        ShapeNode {
+            own: (bits >> 6 & 7) as u8,
+            front: (bits >> 3 & 7) as u8,
+            front_nodes: (bits >> 1 & 3) as u8,
+            back_is_node: bits & 1 == 1,
         }
-        shape
     }
 
     /// Its row of the table.
-    pub(in crate::tree) fn permutations(&self) -> Permutations {
+    pub(in crate::tree) fn permutations(self) -> Permutations {
         std::array::from_fn(|signs| self.places(signs))
     }
 
-    fn places(&self, signs: usize) -> u8 {
+    fn places(self, signs: usize) -> u8 {
         let mut order = Places::default();
-        if self.len == 0 {
-            order.put(0, self.fragments);
+        if self.len() == 0 {
+            order.put(0, self.fragments());
         }
-        let mut begins = [0; NODES];
-        for (k, node) in self.nodes[..self.len as usize].iter().enumerate() {
-            let begin = begins[k];
+        // Where the fragments of the subtree at each node begin, and how many it has.
+        let (mut begins, mut totals) = ([0; NODES], [self.fragments(); NODES]);
+        for k in 0..self.len() {
+            let (node, begin) = (self.node(k), begins[k]);
+            let in_back = totals[k] - node.own - node.front;
             let is_in_front = signs >> k & 1 == 1;
-            let far = begin + if is_in_front { node.back } else { node.front };
+            let far = begin + if is_in_front { in_back } else { node.front };
             let near = far + node.own;
             let (front, back) = if is_in_front { (near, begin) } else { (begin, near) };
             order.put(far, node.own);
             let front_nodes = node.front_nodes as usize;
             if front_nodes > 0 {
-                begins[k + 1] = front;
+                (begins[k + 1], totals[k + 1]) = (front, node.front);
             } else {
                 order.put(front, node.front);
             }
             if node.back_is_node {
-                begins[k + 1 + front_nodes] = back;
+                (begins[k + 1 + front_nodes], totals[k + 1 + front_nodes]) = (back, in_back);
             } else {
-                order.put(back, node.back);
+                order.put(back, in_back);
             }
         }
         order.packed()

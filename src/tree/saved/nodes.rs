@@ -3,6 +3,7 @@
 use crate::exact::PlaneId;
 use crate::exact::label::bits::Known;
 use crate::save::{LoadError, invalid};
+use crate::tree::node_record::{NodeRecord, finish, make_room};
 use crate::tree::parts::{RawChild, RawNode, Record};
 
 const EMPTY: u32 = 0;
@@ -20,37 +21,43 @@ pub(super) fn shape(node: &RawNode) -> u32 {
     node.own << 4 | side(node.front) << 2 | side(node.back)
 }
 
-fn child(bits: u32) -> Option<RawChild> {
-    match bits {
-        EMPTY => Some(RawChild::Leaf(0)),
-        FRAGMENT => Some(RawChild::Leaf(1)),
-        NODE => Some(RawChild::Node),
-        _ => None,
-    }
+/// A node from the bits of a file; a side of an unknown kind is taken for empty.
+fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
+    let side = |bits| match bits {
+        FRAGMENT => RawChild::Leaf(1),
+        NODE => RawChild::Node,
+        _ => RawChild::Leaf(0),
+    };
+    let plane = PlaneId::from_bits(plane);
+    RawNode { plane, own: shape >> 4, front: side(shape >> 2 & 3), back: side(shape & 3) }
 }
 
 /// The nodes of a tree, if they are one tree, which has exactly these fragments, each plane parts
 /// something, and fragments on a plane are in input order.
-pub(super) fn check(
+pub(super) fn read(
     bits: &[[u32; 2]],
     records: &[Record],
     known: Known,
-) -> Result<Vec<RawNode>, LoadError> {
-    let mut nodes = Vec::new();
-    nodes.try_reserve_exact(bits.len()).map_err(|_| LoadError::out_of_memory())?;
+) -> Result<Vec<NodeRecord>, LoadError> {
+    check(bits, records, known)?;
+    let (mut sizes, mut nodes) = (Vec::new(), Vec::new());
+    make_room(bits.len(), &mut sizes, &mut nodes).map_err(|_| LoadError::out_of_memory())?;
+    finish(bits.iter().map(raw), &mut sizes, &mut nodes);
+    Ok(nodes)
+}
+
+fn check(bits: &[[u32; 2]], records: &[Record], known: Known) -> Result<(), LoadError> {
     // How many nodes are to come, and the first fragment of those.
     let (mut to_come, mut next) = (usize::from(!bits.is_empty()), 0_usize);
-    for (index, &[plane, shape]) in bits.iter().enumerate() {
+    for (index, bits) in bits.iter().enumerate() {
         let fault = |fault| invalid("node", index, fault);
-        let plane = PlaneId::from_bits(plane);
+        let RawNode { plane, own, front, back } = raw(bits);
         if !plane.is_known(known) {
             return Err(fault("names a face or corner that does not exist"));
         }
-        let (front, back) = (child(shape >> 2 & 3), child(shape & 3));
-        let (Some(front), Some(back)) = (front, back) else {
+        if bits[1] >> 2 & 3 > NODE || bits[1] & 3 > NODE {
             return Err(fault("has a side of an unknown kind"));
-        };
-        let own = shape >> 4;
+        }
         if own == 0 && [front, back].contains(&RawChild::Leaf(0)) {
             return Err(fault("has a plane that separates no fragments"));
         }
@@ -65,12 +72,11 @@ pub(super) fn check(
         }
         let leaves = [front, back].into_iter().filter(|&side| side == RawChild::Leaf(1)).count();
         next += own as usize + leaves;
-        nodes.push(RawNode { plane, own, front, back });
     }
     // A tree of one fragment has no node.
     let fragments = if bits.is_empty() { records.len().min(1) } else { next };
     if to_come > 0 || fragments != records.len() {
         return Err(LoadError::of("nodes", "are not those of its fragments"));
     }
-    Ok(nodes)
+    Ok(())
 }

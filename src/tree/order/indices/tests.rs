@@ -54,7 +54,7 @@ impl Tree {
         let mut nodes = Vec::new();
         self.lay(&mut nodes);
         let mut finished = Vec::new();
-        finish(&nodes, &mut Vec::new(), &mut finished);
+        finish(nodes.iter().copied(), &mut Vec::new(), &mut finished);
         finished
     }
 

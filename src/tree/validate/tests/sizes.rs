@@ -15,7 +15,7 @@ fn with_own(node: &NodeRecord, own: u32, back_is_node: bool) -> NodeRecord {
     let raw = RawNode { plane: node.plane, own, front: RawChild::Leaf(0), back };
     let last = RawNode { back: RawChild::Leaf(0), ..raw };
     let mut nodes = Vec::new();
-    finish(&[raw, last], &mut Vec::new(), &mut nodes);
+    finish([raw, last].into_iter(), &mut Vec::new(), &mut nodes);
     with_front(&nodes[0], node.front_len, node.front_nodes)
 }
 
