@@ -1,7 +1,5 @@
 //! A convex region of space, such as what a camera sees.
 
-use std::cmp::Ordering;
-
 use glam::{DMat4, DVec3, DVec4};
 use smallvec::SmallVec;
 
@@ -82,63 +80,18 @@ impl Frustum {
     ///
     /// Rounding makes it say yes too often, never no: the box counts as larger by some 10⁻¹⁵ of its
     /// distance from the origin. It also says yes where a box is outside, but not of any one plane.
-    pub fn meets(&self, bounds: [DVec3; 2]) -> bool {
-        let reach = bounds[0].abs().max(bounds[1].abs());
-        let bounds = flat(bounds);
-        !self.planes.iter().any(|&plane| HalfSpace::new(plane, reach, 0.0).side(&bounds).is_lt())
+    pub fn meets(&self, [low, high]: [DVec3; 2]) -> bool {
+        let reach = low.abs().max(high.abs());
+        !self.planes.iter().any(|&(normal, offset)| {
+            let size = normal.abs().dot(reach) + offset.abs();
+            let furthest = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
+            normal.dot(furthest) < offset - (size * ROUNDINGS + f64::MIN_POSITIVE)
+        })
     }
-}
-
-/// A box: its least coordinates, then its largest.
-pub(crate) type Flat = [f64; 6];
-
-pub(crate) fn flat([low, high]: [DVec3; 2]) -> Flat {
-    [low.x, low.y, low.z, high.x, high.y, high.z]
-}
-
-/// The front of a plane, prepared to be compared with many boxes.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct HalfSpace {
-    normal: [f64; 3],
-    /// Less than the offset, by more than the rounding of all that it is compared with.
-    offset: f64,
-    /// For each axis, whether the box's upper side is the further one along the normal.
-    is_up: [bool; 3],
 }
 
 /// Roundings in a scalar product of three terms, its comparison, and the bound itself.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
-
-impl HalfSpace {
-    /// For boxes whose coordinates are at most `reach` in magnitude, and count as larger by `slack`
-    /// on all sides.
-    pub(crate) fn new((normal, offset): (DVec3, f64), reach: DVec3, slack: f64) -> Self {
-        let size = normal.abs().dot(reach) + offset.abs();
-        let margin = size * ROUNDINGS + normal.abs().element_sum() * slack + f64::MIN_POSITIVE;
-        let normal = normal.to_array();
-        // The same margin for all boxes: so a box inside another never is on the front of a plane
-        // that the larger one is behind.
-        Self { normal, offset: offset - margin, is_up: normal.map(|c| c > 0.0) }
-    }
-
-    /// Where a box is: `Less` is behind, `Greater` in front, `Equal` neither or not certain.
-    #[inline]
-    pub(crate) fn side(&self, bounds: &Flat) -> Ordering {
-        let (corners, _) = bounds.as_chunks::<3>();
-        let along = |is_far: bool| {
-            let at = |axis: usize| corners[usize::from(self.is_up[axis] == is_far)][axis];
-            let [a, b, c] = self.normal;
-            a * at(0) + b * at(1) + c * at(2)
-        };
-        if along(true) < self.offset {
-            Ordering::Less
-        } else if along(false) >= self.offset {
-            Ordering::Greater
-        } else {
-            Ordering::Equal
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests {

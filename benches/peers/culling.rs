@@ -153,7 +153,7 @@ fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> (usize, [Duratio
         take(1, &mut || tree.culled_back_to_front_into(viewpoint, &culling, &mut seen));
         take(2, &mut || tree.culled_back_to_front_into(viewpoint, &fronts, &mut shown));
     }
-    check(tree, &frustum, &order, &seen);
+    check(tree, bounds, &frustum, &order, &seen);
     let is_front = |&fragment: &u32| tree.fragment(fragment).facing(viewpoint).is_gt();
     assert!(seen.iter().copied().filter(is_front).eq(shown));
     (seen.len(), shortest)
@@ -161,7 +161,9 @@ fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> (usize, [Duratio
 
 /// The list is the whole order without the fragments whose vertices are all outside of one plane.
 /// What is so near to a plane that rounding decides may be in the list.
-fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
+fn check(tree: &BspTree, bounds: &Bounds, frustum: &Frustum, order: &[u32], seen: &[u32]) {
+    let [low, high] = bounds.all().expect("a level");
+    let margin = 1e-6 * (high - low).max_element();
     let mut seen = seen.iter().peekable();
     for &fragment in order {
         // The polygons are flat along axes, so their boxes are outside if they are.
@@ -176,7 +178,7 @@ fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
         let furthest = furthest.fold(f64::INFINITY, f64::min);
         let is_seen = seen.next_if(|&&other| other == fragment).is_some();
         assert!(
-            is_seen == (furthest >= 0.0) || is_seen && furthest > -1e-8,
+            is_seen == (furthest >= 0.0) || is_seen && furthest > -margin,
             "{fragment}: {furthest:e}"
         );
     }

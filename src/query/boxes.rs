@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::probe::Probe;
-use crate::frustum::Flat;
-use crate::tree::Bounds;
+use crate::exact::LATTICE_LIMIT;
+use crate::tree::{BLOCK, Bounds, Flat};
 
-/// A ray and a tree's boxes, in the polygons' unit.
+/// A ray and a tree's boxes, in the unit of these.
 #[derive(Clone, Debug)]
 pub(super) struct Boxes<'t> {
     bounds: &'t Bounds,
@@ -23,24 +23,24 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON;
 /// One over the smallest coordinate of a direction that counts.
 const STEEP: f64 = 1e250;
 
-/// Scenes and directions of other sizes are looked at without boxes, whose floats would overflow or
-/// lose digits there.
+/// Origins and directions of other sizes, beside that of the scene, are looked at without boxes, whose floats
+/// would overflow or lose digits there.
 const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
     /// `None` if boxes cannot be trusted with a ray.
     pub(super) fn new(probe: &Probe, bounds: &'t Bounds) -> Option<Self> {
-        let (origin, direction) = probe.in_world();
-        let largest = bounds.reach().max(origin.abs()).max_element();
-        if ![largest, direction.abs().max_element()].iter().all(|size| SIZES.contains(size)) {
+        let unit = 1.0 / LATTICE_LIMIT;
+        let [reach, speed] = [probe.reach * unit, probe.speed * unit];
+        if ![reach, speed].iter().all(|size| SIZES.contains(size)) {
             return None;
         }
-        let slack = ROUNDED * largest;
+        let slack = ROUNDED * reach;
         Some(Self {
             bounds,
-            origins: origin.to_array().map(|c| [c + slack, c - slack]),
-            inverses: direction.to_array().map(|c| {
-                let inverse = 1.0 / c;
+            origins: probe.origin.map(|c| [c * unit + slack, c * unit - slack]),
+            inverses: probe.direction.map(|c| {
+                let inverse = 1.0 / (c * unit);
                 if inverse.abs() < STEEP { inverse } else { STEEP.copysign(c) }
             }),
         })
@@ -52,9 +52,10 @@ impl<'t> Boxes<'t> {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
             let [low, high] = self.origins[axis];
-            let a = (bounds[axis] - low) * self.inverses[axis];
-            let b = (bounds[axis + 3] - high) * self.inverses[axis];
-            let (first, last) = if a < b { (a, b) } else { (b, a) };
+            let a = (f64::from(bounds[axis]) - low) * self.inverses[axis];
+            let b = (f64::from(bounds[axis + 3]) - high) * self.inverses[axis];
+            let first = if a < b { a } else { b };
+            let last = if a > b { a } else { b };
             enter = if first > enter { first } else { enter };
             leave = if last < leave { last } else { leave };
         }
@@ -74,15 +75,14 @@ impl<'t> Boxes<'t> {
         while run.start < run.end {
             let (mut level, mut len) = self.bounds.block(run);
             let is_met = loop {
-                let [enter, leave] =
-                    self.within(&self.bounds.levels[level][(run.start / len) as usize]);
+                let [enter, leave] = self.within(&self.bounds.get(level, run.start / len));
                 if !(enter <= leave && enter <= to && leave >= from) {
                     break false;
                 }
                 if level == 0 {
                     break true;
                 }
-                (level, len) = (level - 1, len / crate::tree::BLOCK as u32);
+                (level, len) = (level - 1, len / BLOCK as u32);
             };
             let first = run.start;
             run.start += len;

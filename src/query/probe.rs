@@ -1,7 +1,5 @@
 //! A ray, prepared to be held against a tree.
 
-use glam::DVec3;
-
 use crate::exact::exact_ray::{ExactRay, Parameter, scaled};
 use crate::exact::lattice::exponent_of;
 use crate::exact::{LATTICE_LIMIT, Lattice};
@@ -83,12 +81,6 @@ impl Probe {
     /// Whether the beginning is off by no more than one rounding and a thousandth of one.
     pub(super) fn is_near(&self) -> bool {
         self.reach < FAR
-    }
-
-    /// The origin and the direction in the polygons' unit, the latter rounded once.
-    pub(super) fn in_world(&self) -> (DVec3, DVec3) {
-        let (Ray::Segment { from, .. } | Ray::Endless { from, .. }) = self.ray;
-        (from, self.direction.map(|c| self.lattice.length_to_world(c)).into())
     }
 
     /// The ray in integers. Never `None`, as there is a probe.

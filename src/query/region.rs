@@ -7,8 +7,8 @@ use smallvec::SmallVec;
 use super::chord::upright;
 use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
 use crate::exact::{Faces, Line, SymbolKind};
-use crate::frustum::{self, Frustum};
-use crate::tree::{BLOCK, Bounds, BspTree, Fragment, rounding};
+use crate::frustum::Frustum;
+use crate::tree::{BLOCK, Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
 
 /// The numbers of the fragments that have points in a region: [`Bounds::fragments_in`].
 #[derive(Clone, Debug)]
@@ -26,9 +26,9 @@ pub struct FragmentsIn<'t> {
 struct Side {
     exact: ExactHalfSpace,
     /// A box that is behind this has no point in front of the plane or on it.
-    outer: frustum::HalfSpace,
+    outer: HalfSpace,
     /// A box that is behind this is in front of the plane.
-    inner: frustum::HalfSpace,
+    inner: HalfSpace,
 }
 
 /// Where a box is.
@@ -40,9 +40,9 @@ enum Place {
 
 impl<'t> FragmentsIn<'t> {
     fn new(tree: &'t BspTree, bounds: &'t Bounds, region: &Frustum) -> Self {
-        let (lattice, reach) = (tree.faces.lattice(), bounds.reach());
+        let lattice = tree.faces.lattice();
         let side = |&(normal, offset): &(glam::DVec3, f64)| {
-            let of = |plane| frustum::HalfSpace::new(plane, reach, 0.0);
+            let of = |plane| HalfSpace::new(plane, lattice);
             let exact = ExactHalfSpace::new(normal, offset, lattice)?;
             Some(Side { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
         };
@@ -50,10 +50,10 @@ impl<'t> FragmentsIn<'t> {
         Self { tree, bounds, sides, next: 0, inside: 0 }
     }
 
-    fn place(&self, bounds: &frustum::Flat) -> Place {
-        if self.sides.iter().any(|side| side.outer.side(bounds).is_lt()) {
+    fn place(&self, bounds: &Flat) -> Place {
+        if self.sides.iter().any(|side| side.outer.is_behind(bounds)) {
             Place::Outside
-        } else if self.sides.iter().all(|side| side.inner.side(bounds).is_lt()) {
+        } else if self.sides.iter().all(|side| side.inner.is_behind(bounds)) {
             Place::Inside
         } else {
             Place::Unsure
@@ -66,7 +66,7 @@ impl<'t> FragmentsIn<'t> {
         let (level, _) = self.bounds.block(&(number..end));
         for level in (0..=level).rev() {
             let len = (BLOCK as u32).pow(level as u32);
-            match self.place(&self.bounds.levels[level][(number / len) as usize]) {
+            match self.place(&self.bounds.get(level, number / len)) {
                 Place::Inside => self.inside = number + len,
                 Place::Outside => self.next = number + len,
                 Place::Unsure => continue,
@@ -79,9 +79,9 @@ impl<'t> FragmentsIn<'t> {
     /// Whether a fragment has a point in the region: exact.
     fn meets(&self, number: u32) -> bool {
         let (fragment, faces) = (self.tree.fragment(number), &self.tree.faces);
-        let bounds = &self.bounds.levels[0][number as usize];
+        let bounds = &self.bounds.get(0, number);
         // Those that the whole fragment is in front of need not be looked at.
-        let crossed = self.sides.iter().filter(|side| !side.inner.side(bounds).is_lt());
+        let crossed = self.sides.iter().filter(|side| !side.inner.is_behind(bounds));
         let crossed: SmallVec<[&ExactHalfSpace; 6]> = crossed.map(|side| &side.exact).collect();
         match guess(&fragment, faces, &crossed) {
             Some(meets) => meets,
@@ -132,7 +132,7 @@ impl Iterator for FragmentsIn<'_> {
     type Item = u32;
 
     fn next(&mut self) -> Option<u32> {
-        let end = self.bounds.levels[0].len() as u32;
+        let end = self.tree.len() as u32;
         while self.next < end {
             let number = self.next;
             if number >= self.inside && self.skip(number, end) {

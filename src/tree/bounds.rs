@@ -1,5 +1,7 @@
 //! Bounding boxes of a tree's subtrees and fragments.
 
+pub(crate) mod boxes;
+pub(crate) mod half_space;
 pub(super) mod normals;
 
 use std::cmp::Ordering;
@@ -7,52 +9,43 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::order::planes::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
 use crate::Error;
-use crate::exact::{Exact, Eye, Kernel, SymbolKind};
-use crate::frustum::{Flat, flat};
+use crate::exact::{Exact, Eye, Kernel, Lattice, PlaneId, SymbolKind};
 use crate::memory::{collect, reserve};
 use crate::parallel_map;
 use crate::viewpoint::Viewpoint;
+use boxes::{BLOCK, Block, Flat, NOTHING, in_lattice, outwards, union};
 use normals::{Arms, Normals};
 
 /// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common:
 /// [`BspTree::bounds`].
 ///
 /// A tree has none of its own: make them once if you need them, and keep them beside the tree. They
-/// take about 130 bytes a fragment. Once the tree is built anew or [extended](BspTree::extend) they are
+/// take about 90 bytes a fragment. Once the tree is built anew or [extended](BspTree::extend) they are
 /// stale: make them anew too.
 ///
 /// Boxes are `[low, high]` in the polygons' unit, rounded outwards: each contains the exact vertices
-/// of its fragments, and those that [`Fragment::vertices`] gives. It is larger than needed by at most
-/// 2⁻⁵¹ of the scene's extent and three steps of `f64` on each side.
+/// of its fragments, and those that [`Fragment::vertices`] gives. They are stored in `f32`, from the
+/// scene's middle, so one is larger than needed by at most 2⁻²³ of the scene's extent, and three steps of
+/// `f64`, on each side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bounds {
+    lattice: Lattice,
+    fragments: u32,
     /// Of each node's subtree.
     pub(crate) nodes: Vec<Flat>,
-    pub(super) normals: Vec<Normals>,
+    normals: Vec<Normals>,
     /// Of each fragment; then of each [`BLOCK`] fragments with consecutive numbers, of each
-    /// [`BLOCK`] of these, and so on.
-    pub(crate) levels: Vec<Vec<Flat>>,
-    all: Flat,
+    /// [`BLOCK`] of these, and so on, up to a single block.
+    pub(crate) levels: Vec<Vec<Block>>,
+    /// Of each fragment.
+    pub(super) planes: Planes,
 }
 
-/// How many boxes are summed up in one, for planes with many fragments. Smaller: more memory; larger:
-/// more boxes are looked at where few are met.
-pub(crate) const BLOCK: usize = 16;
-
-/// How many fragments one thread takes at a time.
-const PART: usize = 4096;
-
-/// The box of nothing.
-const NOTHING: Flat = [
-    f64::INFINITY,
-    f64::INFINITY,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::NEG_INFINITY,
-    f64::NEG_INFINITY,
-];
+/// How many fragments one thread takes at a time: whole blocks.
+const PART: usize = 256 * BLOCK;
 
 /// A cut vertex is within three roundings of its exact position, each at most this share of a
 /// coordinate, and `STEP` lattice units, which is more than `POSITION_OFF`.
@@ -68,7 +61,7 @@ impl BspTree {
     ///
     /// If there is not enough memory.
     pub fn bounds(&self) -> Result<Bounds, Error> {
-        let fragments = self.fragment_bounds()?;
+        let blocks = self.fragment_bounds()?;
         let mut nodes = Vec::new();
         reserve(&mut nodes, self.nodes.len())?;
         nodes.resize(self.nodes.len(), NOTHING);
@@ -77,7 +70,10 @@ impl BspTree {
         normals.resize(self.nodes.len(), Normals::NONE);
         let mut faces = Vec::new();
         reserve(&mut faces, self.faces.len())?;
-        faces.extend((0..self.faces.len() as u32).map(|face| Normals::of(&self.faces, face)));
+        faces.extend(
+            (0..self.faces.len() as u32).map(|face| rounded(&self.faces, PlaneId::face(face))),
+        );
+        let planes = Planes::of(self.records.iter().map(|record| faces[record.face as usize]))?;
         // Children come after their parents, so they are summed up before them from the last on.
         for node in self.nodes().rev() {
             let index = node.index();
@@ -89,40 +85,45 @@ impl BspTree {
                         normals[index] = normals[index].union(normals[child.index()]);
                     }
                     Child::Leaf(run) => {
-                        let run = run.start as usize..run.end as usize;
-                        for (bounds, record) in
-                            fragments[run.clone()].iter().zip(&self.records[run])
-                        {
-                            nodes[index] = union(nodes[index], *bounds);
-                            normals[index] = normals[index].union(faces[record.face as usize]);
+                        for fragment in run.start as usize..run.end as usize {
+                            let bounds = blocks[fragment / BLOCK].get(fragment % BLOCK);
+                            let normal = faces[self.records[fragment].face as usize].truncate();
+                            nodes[index] = union(nodes[index], bounds);
+                            normals[index] = normals[index].union(Normals::of(normal));
                         }
                     }
                 }
             }
         }
-        let all = fragments.iter().copied().fold(NOTHING, union);
-        let mut levels = vec![fragments];
-        while let Some(last) = levels.last().filter(|last| last.len() > BLOCK) {
+        let (mut levels, mut len) = (vec![blocks], self.len());
+        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
             let mut next = Vec::new();
             reserve(&mut next, last.len().div_ceil(BLOCK))?;
-            next.extend(last.chunks(BLOCK).map(|block| block.iter().copied().fold(NOTHING, union)));
+            next.extend((0..last.len()).step_by(BLOCK).map(|first| {
+                let blocks = last.iter().zip((0..len).step_by(BLOCK)).skip(first);
+                Block::new(blocks.map(|(block, first)| block.all(len - first)))
+            }));
+            len = last.len();
             levels.push(next);
         }
-        Ok(Bounds { nodes, normals, levels, all })
+        let (lattice, fragments) = (*self.faces.lattice(), self.len() as u32);
+        Ok(Bounds { lattice, fragments, nodes, normals, levels, planes })
     }
 
-    fn fragment_bounds(&self) -> Result<Vec<Flat>, Error> {
-        let mut boxes = Vec::new();
-        reserve(&mut boxes, self.len())?;
+    fn fragment_bounds(&self) -> Result<Vec<Block>, Error> {
+        let mut blocks = Vec::new();
+        reserve(&mut blocks, self.len().div_ceil(BLOCK))?;
         let starts = (0..self.len()).step_by(PART);
         let parts = parallel_map::map(starts.collect(), |start| {
-            let numbers = start as u32..(start + PART).min(self.len()) as u32;
-            collect(numbers.map(|number| self.fragment(number).bounds()))
+            let end = (start + PART).min(self.len());
+            let boxes =
+                |first: usize| (first..end).map(|number| self.fragment(number as u32).bounds());
+            collect((start..end).step_by(BLOCK).map(|first| Block::new(boxes(first))))
         });
         for part in parts {
-            boxes.extend(part?);
+            blocks.extend(part?);
         }
-        Ok(boxes)
+        Ok(blocks)
     }
 }
 
@@ -141,7 +142,7 @@ impl Fragment<'_> {
                 high[axis] = high[axis].max(vertex[axis] + off[axis]);
             }
         }
-        flat(faces.lattice().enclose(low, high))
+        outwards(low, high)
     }
 }
 
@@ -154,20 +155,11 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
     })
 }
 
-fn union(a: Flat, b: Flat) -> Flat {
-    std::array::from_fn(|i| if i < 3 { a[i].min(b[i]) } else { a[i].max(b[i]) })
-}
-
-fn unflat(flat: &Flat) -> [DVec3; 2] {
-    let [a, b, c, d, e, f] = *flat;
-    [DVec3::new(a, b, c), DVec3::new(d, e, f)]
-}
-
 impl Bounds {
     /// Panics if these are not the bounds of a tree, as far as its size tells: a stale box would leave out
     /// what is to be seen or hit.
     pub(crate) fn expect(&self, tree: &BspTree) {
-        let found = [self.nodes.len(), self.fragments().len()];
+        let found = [self.nodes.len(), self.fragments as usize];
         let wanted = [tree.nodes.len(), tree.records.len()];
         assert!(
             found == wanted,
@@ -182,7 +174,7 @@ impl Bounds {
     ///
     /// If the node is of another tree, and has a number that this one has not.
     pub fn of(&self, node: Node<'_>) -> [DVec3; 2] {
-        unflat(&self.nodes[node.index()])
+        self.in_world(&self.nodes[node.index()])
     }
 
     /// The box of a fragment, by its number. O(1).
@@ -191,12 +183,20 @@ impl Bounds {
     ///
     /// If there is no such fragment.
     pub fn of_fragment(&self, fragment: u32) -> [DVec3; 2] {
-        unflat(&self.fragments()[fragment as usize])
+        assert!(fragment < self.fragments, "there is no fragment {fragment}");
+        self.in_world(&self.get(0, fragment))
     }
 
     /// The box of all fragments; `None` if there are none.
     pub fn all(&self) -> Option<[DVec3; 2]> {
-        (!self.fragments().is_empty()).then(|| unflat(&self.all))
+        let top = self.levels.len() - 1;
+        let block = self.levels[top].first()?;
+        Some(self.in_world(&block.all(self.len_of(top))))
+    }
+
+    fn in_world(&self, bounds: &Flat) -> [DVec3; 2] {
+        let [low, high] = in_lattice(bounds);
+        self.lattice.enclose(low, high)
     }
 
     /// Which side all fragments of a subtree show to a viewpoint, if their normals and their box
@@ -208,21 +208,23 @@ impl Bounds {
     /// If the node is of another tree, and has a number that this one has not.
     pub fn facing(&self, node: Node<'_>, viewpoint: Viewpoint) -> Option<Ordering> {
         let lattice = node.tree.faces.lattice();
-        self.seen(node.index(), &Arms::new(&Eye::new(viewpoint, lattice), lattice))
+        self.seen(node.index(), &Arms::new(&Eye::new(viewpoint, lattice)))
     }
 
-    pub(super) fn seen(&self, node: usize, arms: &Arms<'_>) -> Option<Ordering> {
-        self.normals[node].facing(arms, unflat(&self.nodes[node]))
+    pub(super) fn seen(&self, node: usize, arms: &Arms) -> Option<Ordering> {
+        self.normals[node].facing(arms, &self.nodes[node])
     }
 
-    pub(super) fn fragments(&self) -> &[Flat] {
-        &self.levels[0]
+    /// The box of one of the blocks of a level, or of a fragment at level 0.
+    #[inline]
+    pub(crate) fn get(&self, level: usize, number: u32) -> Flat {
+        self.levels[level][number as usize / BLOCK].get(number as usize % BLOCK)
     }
 
-    /// The largest magnitudes of coordinates.
-    pub(crate) fn reach(&self) -> DVec3 {
-        let [low, high] = unflat(&self.all);
-        if self.fragments().is_empty() { DVec3::ZERO } else { low.abs().max(high.abs()) }
+    /// How many boxes a level has.
+    #[inline]
+    pub(super) fn len_of(&self, level: usize) -> usize {
+        (self.fragments as usize).div_ceil(BLOCK.pow(level as u32))
     }
 
     /// The largest aligned block that begins with a run of fragments and is within it: its level,
@@ -244,5 +246,6 @@ impl Bounds {
             + size_of_val(&*self.nodes)
             + size_of_val(&*self.normals)
             + self.levels.iter().map(|level| size_of_val(&**level)).sum::<usize>()
+            + self.planes.bytes()
     }
 }

@@ -1,19 +1,21 @@
 //! Orders without what cannot be seen: outside of a region, or from the wrong side.
 
+mod marks;
+
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use smallvec::SmallVec;
-
 use super::BspTree;
+use super::bounds::Bounds;
+use super::bounds::boxes::BLOCK;
 use super::bounds::normals::Arms;
-use super::bounds::{BLOCK, Bounds};
-use super::facing::facing;
 use super::node_record::Ranges;
+use super::order::indices::write_from_nodes;
 use super::order::sides::View;
-use crate::exact::Eye;
-use crate::frustum::{Flat, Frustum, HalfSpace};
+use crate::exact::{Eye, PlaneId};
+use crate::frustum::Frustum;
 use crate::viewpoint::Viewpoint;
+use marks::Marks;
 
 /// What is left out of an order: [`BspTree::culled_back_to_front_into`].
 ///
@@ -64,7 +66,7 @@ impl<'b> Culling<'b> {
     /// ([`Bounds::of_fragment`]) lie behind one of its planes. At most 32 planes are used. For speed it goes
     /// by boxes: [`Bounds::fragments_in`] is exact.
     ///
-    /// Boxes count as larger by one step of the scene's grid and some 10⁻¹⁵ of the largest coordinate:
+    /// Boxes count as larger by some 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate:
     /// more than the rounding of the test, and of an eye in the apex of the region.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
@@ -85,7 +87,7 @@ impl BspTree {
     ///
     /// Subtrees outside of the region, and those of which only the wrong side is seen, are left out
     /// as a whole. So the time follows what is left and what surrounds it, not the size of the tree.
-    /// Takes O(depth) memory.
+    /// Takes O(depth) memory, and a bit for each fragment and each block of 16.
     ///
     /// [`Triangles::write_order`](crate::Triangles::write_order) turns the list into indices of
     /// triangles.
@@ -122,30 +124,24 @@ impl BspTree {
     }
 }
 
-/// What is still to be decided of a subtree or a run of fragments.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Doubts {
-    /// A bit for each plane of the region that it may cross.
-    planes: u32,
-    /// Whether it may show either side.
-    sides: bool,
-}
+/// Subtrees of no more fragments are put in order as a whole, before what is left out is taken off. Smaller:
+/// more stops of the walk, each with branches that no processor can predict; larger: more is put in order in
+/// vain. At most a block.
+const FEW: usize = BLOCK;
 
-/// A subtree, or fragments alone, and what is still to be decided of them.
-#[derive(Clone, Copy, Debug)]
+/// Subtrees of no more fragments are put in order in one go if all are marked. Smaller: more stops of the
+/// walk; larger: more marks are read again at each level of the tree.
+const LONG: usize = 64 * BLOCK;
+
+/// A subtree, or fragments alone.
+#[derive(Clone, Debug)]
 struct Part {
-    /// [`LEAF`] for fragments alone.
-    node: u32,
-    first: u32,
-    end: u32,
-    doubts: Doubts,
+    /// None for fragments alone.
+    nodes: Range<u32>,
+    fragments: Range<u32>,
+    /// Whether they may show either side.
+    is_mixed: bool,
 }
-
-const LEAF: u32 = u32::MAX;
-
-/// The boxes of subtrees of no more fragments are not looked at, only those of the fragments. Smaller:
-/// more boxes are looked at of what is in view; larger: of what is not.
-const FEW: u32 = 2;
 
 /// A tree, a viewpoint, and what is left out.
 struct Cull<'t> {
@@ -153,8 +149,8 @@ struct Cull<'t> {
     bounds: &'t Bounds,
     view: View,
     eye: Eye,
-    arms: Arms<'t>,
-    planes: SmallVec<[HalfSpace; 6]>,
+    arms: Arms,
+    marks: Marks,
     /// Which side is drawn.
     side: Option<Ordering>,
 }
@@ -164,15 +160,13 @@ impl<'t> Cull<'t> {
         let (bounds, lattice) = (culling.bounds, tree.faces.lattice());
         bounds.expect(tree);
         let eye = Eye::new(viewpoint, lattice);
-        let (reach, step) = (bounds.reach(), lattice.length_to_world(1.0));
-        let planes = culling.frustum.planes().iter().take(32);
         Self {
             tree,
             bounds,
             view: View::new(tree, viewpoint),
             eye,
-            arms: Arms::new(&eye, lattice),
-            planes: planes.map(|&plane| HalfSpace::new(plane, reach, step)).collect(),
+            arms: Arms::new(&eye),
+            marks: Marks::new(bounds, &culling.frustum, lattice),
             side: match culling.sides {
                 Sides::Both => None,
                 Sides::Front => Some(Ordering::Greater),
@@ -182,130 +176,107 @@ impl<'t> Cull<'t> {
     }
 
     fn write(&self, order: &mut Vec<u32>) {
-        let planes = u32::MAX.checked_shr(32 - self.planes.len() as u32).unwrap_or(0);
-        let doubts = Doubts { planes, sides: self.side.is_some() };
-        let node = if self.tree.nodes.is_empty() { LEAF } else { 0 };
-        let mut pending = vec![Part { node, first: 0, end: self.tree.len() as u32, doubts }];
+        let nodes = 0..self.tree.nodes.len() as u32;
+        let fragments = 0..self.tree.len() as u32;
+        let mut pending = vec![Part { nodes, fragments, is_mixed: self.side.is_some() }];
         while let Some(part) = pending.pop() {
             self.descend(part, &mut pending, order);
         }
     }
 
-    /// Writes the furthest run of a part, and puts the rest on the stack.
-    fn descend(&self, part: Part, pending: &mut Vec<Part>, order: &mut Vec<u32>) {
-        let Part { mut node, first, end, mut doubts } = part;
-        let mut all = first..end;
-        while node != LEAF {
-            let index = node as usize;
-            if all.end - all.start > FEW {
-                let Some(left) = self.left_in(index, doubts) else { return };
-                doubts = left;
+    /// Writes the furthest fragments of a part, and puts the rest on the stack.
+    fn descend(&self, mut part: Part, pending: &mut Vec<Part>, order: &mut Vec<u32>) {
+        while self.marks.any(&part.fragments) {
+            if part.nodes.is_empty() {
+                return self.write_run(&part, order);
             }
-            let record = &self.tree.nodes[index];
-            let Ranges { own, front, back } = record.ranges(all);
-            let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
-            let front = (child(record.front_node(index)), front);
-            let back = (child(record.back_node(index)), back);
-            let is_in_front = self.view.is_in_front(self.tree, index);
+            let len = part.fragments.len();
+            if len <= LONG && !part.is_mixed && self.marks.all(&part.fragments) {
+                return write_from_nodes(self.tree, &self.view, part.nodes, part.fragments, order);
+            }
+            if len <= FEW {
+                return self.write_few(part, order);
+            }
+            let node = part.nodes.start as usize;
+            if let Some(side) = self.side.filter(|_| part.is_mixed) {
+                let seen = self.bounds.seen(node, &self.arms);
+                if seen.is_some_and(|seen| seen != side) {
+                    return;
+                }
+                part.is_mixed = seen.is_none();
+            }
+            let record = &self.tree.nodes[node];
+            let Ranges { own, front, back } = record.ranges(part.fragments);
+            let middle = part.nodes.start + 1 + record.front_nodes;
+            let of = |nodes, fragments| Part { nodes, fragments, is_mixed: part.is_mixed };
+            let front = of(part.nodes.start + 1..middle, front);
+            let back = of(middle..part.nodes.end, back);
+            let is_in_front = self.view.is_in_front(self.tree, node);
             let (far, near) = if is_in_front { (back, front) } else { (front, back) };
             // Back to front: the far side, what is on the plane, the near side.
-            for (node, run) in [near, (LEAF, own)] {
-                if !run.is_empty() {
-                    pending.push(Part { node, first: run.start, end: run.end, doubts });
+            for part in [near, of(0..0, own)] {
+                if !part.fragments.is_empty() {
+                    pending.push(part);
                 }
             }
-            (node, all) = far;
+            part = far;
         }
-        self.write_run(all, doubts, order);
     }
 
-    /// What is left to be decided of a subtree; `None` if all of it is left out.
-    #[inline]
-    fn left_in(&self, node: usize, doubts: Doubts) -> Option<Doubts> {
-        let planes = self.crossed(&self.bounds.nodes[node], doubts.planes)?;
-        let sides = match self.side {
-            Some(side) if doubts.sides => match self.bounds.seen(node, &self.arms) {
-                Some(seen) if seen != side => return None,
-                seen => seen.is_none(),
-            },
-            _ => false,
-        };
-        Some(Doubts { planes, sides })
+    /// Writes those of a small subtree that are not left out.
+    fn write_few(&self, part: Part, order: &mut Vec<u32>) {
+        let mut shown = self.marks.of_few(&part.fragments);
+        if part.is_mixed {
+            shown = self.show_side(part.fragments.clone(), shown);
+        }
+        if shown == 0 {
+            return;
+        }
+        let (first, begin) = (part.fragments.start, order.len());
+        write_from_nodes(self.tree, &self.view, part.nodes, part.fragments, order);
+        // Without a branch on what is shown.
+        let mut end = begin;
+        for k in begin..order.len() {
+            let fragment = order[k];
+            order[end] = fragment;
+            end += (shown >> (fragment - first) & 1) as usize;
+        }
+        order.truncate(end);
     }
 
-    /// Which of some planes a box may cross; `None` if it is behind one of them.
-    #[inline]
-    fn crossed(&self, bounds: &Flat, planes: u32) -> Option<u32> {
-        let (mut left, mut crossed) = (planes, planes);
+    /// Writes those of some fragments alone that are not left out.
+    fn write_run(&self, part: &Part, order: &mut Vec<u32>) {
+        for (first, mut shown) in self.marks.words(&part.fragments) {
+            if part.is_mixed {
+                let end = part.fragments.end.min(first + BLOCK as u32);
+                shown = self.show_side(first..end, shown);
+            }
+            if shown == marks::ALL {
+                order
+                    .extend_from_slice(&std::array::from_fn::<u32, BLOCK, _>(|k| first + k as u32));
+                continue;
+            }
+            while shown != 0 {
+                order.push(first + shown.trailing_zeros());
+                shown &= shown - 1;
+            }
+        }
+    }
+
+    /// Of up to 16 fragments from some number on, those that have a bit and show the side that is drawn.
+    fn show_side(&self, run: Range<u32>, fragments: u32) -> u32 {
+        let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
+        let Some(side) = self.side else { return fragments };
+        let mut shown = fragments & if side.is_gt() { fronts } else { backs };
+        let mut left = fragments & !(fronts | backs);
         while left != 0 {
             let bit = left.trailing_zeros();
             // Clears the lowest bit that is set.
             left &= left - 1;
-            match self.planes[bit as usize].side(bounds) {
-                Ordering::Less => return None,
-                Ordering::Equal => {}
-                Ordering::Greater => crossed &= !(1 << bit),
-            }
+            let face = self.tree.records[(run.start + bit) as usize].face;
+            let facing = self.tree.faces.plane(PlaneId::face(face)).facing(&self.eye);
+            shown |= u32::from(facing == side) << bit;
         }
-        Some(crossed)
-    }
-
-    /// Writes those of a run that are not left out: blocks of them at once, where it is long.
-    #[inline]
-    fn write_run(&self, run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
-        if doubts.planes == 0 {
-            return self.write_shown(run, doubts, order);
-        }
-        if run.end - run.start >= BLOCK as u32 {
-            return self.write_blocks(run, doubts, order);
-        }
-        for fragment in run {
-            let bounds = &self.bounds.fragments()[fragment as usize];
-            if self.crossed(bounds, doubts.planes).is_some() {
-                self.write_one(fragment, doubts, order);
-            }
-        }
-    }
-
-    fn write_blocks(&self, mut run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
-        while !run.is_empty() {
-            let (mut level, mut len) = self.bounds.block(&run);
-            loop {
-                let bounds = &self.bounds.levels[level][(run.start / len) as usize];
-                let next = run.start + len;
-                match self.crossed(bounds, doubts.planes) {
-                    None => {}
-                    Some(planes) if planes == 0 || level == 0 => {
-                        self.write_shown(run.start..next, doubts, order);
-                    }
-                    Some(_) => {
-                        (level, len) = (level - 1, len / BLOCK as u32);
-                        continue;
-                    }
-                }
-                run.start = next;
-                break;
-            }
-        }
-    }
-
-    /// Writes those of a run that show the side that is drawn.
-    #[inline]
-    fn write_shown(&self, run: Range<u32>, doubts: Doubts, order: &mut Vec<u32>) {
-        for fragment in run {
-            self.write_one(fragment, doubts, order);
-        }
-    }
-
-    /// Writes a fragment, if it shows the side that is drawn.
-    #[inline]
-    fn write_one(&self, fragment: u32, doubts: Doubts, order: &mut Vec<u32>) {
-        if let Some(side) = self.side.filter(|_| doubts.sides) {
-            let face = self.tree.records[fragment as usize].face;
-            if facing(&self.tree.faces, face, &self.eye) != side {
-                return;
-            }
-        }
-        order.push(fragment);
+        shown
     }
 }

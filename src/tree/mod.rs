@@ -22,7 +22,9 @@ mod validate;
 pub(crate) mod walk;
 
 pub use bounds::Bounds;
-pub(crate) use bounds::{BLOCK, rounding};
+pub(crate) use bounds::boxes::{BLOCK, Flat};
+pub(crate) use bounds::half_space::HalfSpace;
+pub(crate) use bounds::rounding;
 pub use bsp_tree::BspTree;
 pub use culling::{Culling, Sides};
 pub use fragment::{Fragment, Fragments};

@@ -49,7 +49,7 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
                     [(low[axis], &least[axis], 1.0), (high[axis], &most[axis], -1.0)]
                 {
                     let beyond = (inner - rational::exact(outer)).to_f64().unwrap() * sign;
-                    let slack = extent * 2f64.powi(-51) + 3.0 * outer.abs() * f64::EPSILON;
+                    let slack = extent * 2f64.powi(-23) + 3.0 * outer.abs() * f64::EPSILON;
                     assert!((0.0..=slack).contains(&beyond), "{what}: {beyond:e} of {slack:e}");
                     exact += usize::from(beyond == 0.0);
                 }

@@ -2,9 +2,10 @@
 
 use std::cmp::Ordering;
 
-use glam::DVec3;
+use glam::Vec3;
 
-use crate::exact::{Eye, Faces, Lattice, PlaneId};
+use super::boxes::{Flat, in_lattice};
+use crate::exact::Eye;
 
 /// The least and the largest coordinates of unit normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +21,9 @@ const ROUNDED: f32 = 2.0 * f32::EPSILON;
 impl Normals {
     pub(super) const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    pub(super) fn of(faces: &Faces, face: u32) -> Self {
-        let normal = faces.plane(PlaneId::face(face)).normal_f64().normalize();
-        let normal = normal.as_vec3().to_array();
+    /// Of one, whose unit normal is given rounded.
+    pub(super) fn of(normal: Vec3) -> Self {
+        let normal = normal.to_array();
         Self { low: normal.map(|c| c - ROUNDED), high: normal.map(|c| c + ROUNDED) }
     }
 
@@ -41,7 +42,7 @@ impl Normals {
     ///
     /// A polygon's plane is at n·(e − p) from the eye e, with n its normal and p any point of it. The
     /// bounds of n and p bound each product, and so the sum.
-    pub(super) fn facing(&self, arms: &Arms<'_>, bounds: [DVec3; 2]) -> Option<Ordering> {
+    pub(super) fn facing(&self, arms: &Arms, bounds: &Flat) -> Option<Ordering> {
         let [least, most] = arms.to(bounds);
         let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
         for axis in 0..3 {
@@ -65,27 +66,26 @@ impl Normals {
 
 /// The eye relative to points of boxes.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::tree) struct Arms<'t> {
-    lattice: &'t Lattice,
+pub(in crate::tree) struct Arms {
     eye: [f64; 3],
     /// 1, or 0 for an eye at infinity.
     w: f64,
 }
 
-impl<'t> Arms<'t> {
-    pub(in crate::tree) fn new(eye: &Eye, lattice: &'t Lattice) -> Self {
+impl Arms {
+    pub(in crate::tree) fn new(eye: &Eye) -> Self {
         let (eye, w) = eye.homogeneous();
-        Self { lattice, eye, w }
+        Self { eye, w }
     }
 
     /// The least and largest coordinates of the eye less a point of a box, in lattice units, or of
     /// the direction towards the eye.
-    fn to(&self, [low, high]: [DVec3; 2]) -> [[f64; 3]; 2] {
-        let [low, high] = [low, high].map(|corner| self.lattice.to_lattice(corner));
+    fn to(&self, bounds: &Flat) -> [[f64; 3]; 2] {
+        let [low, high] = in_lattice(bounds);
         let bound = |corner: [f64; 3], sign: f64| {
             std::array::from_fn(|axis| {
                 let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
-                // Both are rounded. (A direction is exact.)
+                // The eye and the difference are rounded. (A direction is exact.)
                 let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
                 eye - corner + sign * rounded
             })

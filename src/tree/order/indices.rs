@@ -4,6 +4,7 @@
 mod tests;
 
 use std::hint::select_unpredictable;
+use std::ops::Range;
 
 use super::layout::{Branch, List, NEXT, ROOT, Run, Schedule};
 use super::sides::View;
@@ -26,7 +27,9 @@ impl BspTree {
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         let view = View::new(self, viewpoint);
         let Some(schedule) = &self.schedule else {
-            return write_from_nodes(self, &view, order);
+            order.clear();
+            let (nodes, fragments) = (self.nodes.len() as u32, self.len() as u32);
+            return write_from_nodes(self, &view, 0..nodes, 0..fragments, order);
         };
         write_order(schedule, self.records.len(), self.planes.words(), order, |signs| {
             view.write_signs(self, signs);
@@ -41,33 +44,40 @@ impl BspTree {
     }
 }
 
-/// Writes an order from the nodes themselves, for a tree without a schedule.
-fn write_from_nodes(tree: &BspTree, view: &View, order: &mut Vec<u32>) {
-    let fragments = tree.records.len();
-    order.resize(fragments + 2 * tree.nodes.len(), 0);
+/// Adds the order of a subtree, or of all, from the nodes themselves.
+pub(in crate::tree) fn write_from_nodes(
+    tree: &BspTree,
+    view: &View,
+    nodes: Range<u32>,
+    fragments: Range<u32>,
+    order: &mut Vec<u32>,
+) {
+    let (begin, len) = (order.len(), fragments.len());
+    order.resize(begin + len + 2 * nodes.len(), 0);
     // Where the subtree at each node begins in the order, and how many fragments it has.
-    let (numbers, subtrees) = order.split_at_mut(fragments);
-    if tree.nodes.is_empty() {
-        numbers.iter_mut().zip(0..).for_each(|(place, number)| *place = number);
-    } else {
-        subtrees[..2].copy_from_slice(&[0, fragments as u32]);
+    let (numbers, subtrees) = order[begin..].split_at_mut(len);
+    match subtrees.first_chunk_mut() {
+        Some(root) => *root = [0, len as u32],
+        None => {
+            numbers.iter_mut().zip(fragments.clone()).for_each(|(place, number)| *place = number)
+        }
     }
     // Fragments are numbered in the order in which nodes are met here.
-    let mut next = 0;
+    let mut next = fragments.start;
     let mut write = |begin: u32, len: u32| {
         let places = &mut numbers[begin as usize..][..len as usize];
         places.iter_mut().zip(next..).for_each(|(place, number)| *place = number);
         next += len;
     };
-    for (i, node) in tree.nodes.iter().enumerate() {
+    for (i, index) in (nodes.start as usize..nodes.end as usize).enumerate() {
+        let node = &tree.nodes[index];
         let [begin, all] = [subtrees[2 * i], subtrees[2 * i + 1]];
         let (own, front) = (node.own(), node.front_len);
         let back = all - own - front;
-        let (to_own, to_front, to_back) = if view.is_in_front(tree, i) {
-            (begin + back, begin + back + own, begin)
-        } else {
-            (begin + front, begin, begin + front + own)
-        };
+        let is_in_front = view.is_in_front(tree, index);
+        let to_own = begin + select_unpredictable(is_in_front, back, front);
+        let to_front = begin + select_unpredictable(is_in_front, back + own, 0);
+        let to_back = begin + select_unpredictable(is_in_front, 0, front + own);
         write(to_own, own);
         let sides = [(node.front_node(i), to_front, front), (node.back_node(i), to_back, back)];
         for (child, begin, len) in sides {
@@ -77,7 +87,7 @@ fn write_from_nodes(tree: &BspTree, view: &View, order: &mut Vec<u32>) {
             }
         }
     }
-    order.truncate(fragments);
+    order.truncate(begin + len);
 }
 
 /// Writes an order in three passes over the tree's memory: on which side of each node the eye is,

@@ -1,7 +1,7 @@
 //! Orders of a tree's fragments for a viewpoint.
 
 mod fragments;
-mod indices;
+pub(super) mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
 mod same;

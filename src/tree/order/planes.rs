@@ -62,6 +62,24 @@ impl Planes {
         Ok(())
     }
 
+    /// Planes that are given rounded, in their order.
+    pub(in crate::tree) fn of(planes: impl ExactSizeIterator<Item = Vec4>) -> Result<Self, Error> {
+        let mut groups: Vec<[Vec4; 4]> = Vec::new();
+        reserve(&mut groups, planes.len().div_ceil(GROUP))?;
+        for (i, plane) in planes.enumerate() {
+            if i % GROUP == 0 {
+                groups.push([Vec4::ZERO; 4]);
+            }
+            if let Some(group) = groups.last_mut() {
+                group
+                    .iter_mut()
+                    .zip(plane.to_array())
+                    .for_each(|(part, value)| part[i % GROUP] = value);
+            }
+        }
+        Ok(Self(groups))
+    }
+
     /// How many words the signs of all planes take, and one more to read past the end.
     pub(in crate::tree) fn words(&self) -> usize {
         self.0.len().div_ceil(WORD / GROUP) + 1

@@ -4,10 +4,11 @@
 mod tests;
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use glam::{DVec4, Vec4};
 
-use super::planes::{GROUP, WORD};
+use super::planes::{GROUP, Planes, WORD};
 use crate::exact::{Exact, Eye, Faces, Kernel, LATTICE_LIMIT, PlaneId};
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
@@ -60,7 +61,9 @@ impl View {
 
     /// Whether the eye is in front of a node's plane: by floats where the bound allows, else exactly.
     pub(in crate::tree) fn is_in_front(&self, tree: &BspTree, node: usize) -> bool {
-        let distance = self.distances(&tree.planes.0[node / GROUP])[node % GROUP];
+        let [x, y, z, offset] = tree.planes.get(node).to_array();
+        let p = self.point;
+        let distance = x * p.x + y * p.y + z * p.z - offset * p.w;
         if distance.abs() > self.bound { distance > 0.0 } else { self.decide(tree, node) }
     }
 
@@ -74,6 +77,20 @@ impl View {
             return distance > 0.0;
         }
         Exact.eye_side(faces, plane, &self.eye) == Ordering::Greater
+    }
+
+    /// Of up to 16 planes from some number on: a bit for each that the eye is in front of, and for each that
+    /// it is behind, where floats tell.
+    #[inline]
+    pub(in crate::tree) fn sure_sides(&self, planes: &Planes, run: Range<u32>) -> [u32; 2] {
+        let groups = run.start as usize / GROUP..(run.end as usize).div_ceil(GROUP);
+        let (mut front, mut behind) = (0, 0);
+        for (g, group) in planes.0[groups].iter().enumerate() {
+            let (distances, bound) = (self.distances(group), Vec4::splat(self.bound));
+            front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
+            behind |= distances.cmplt(-bound).bitmask() << (GROUP * g);
+        }
+        [front, behind].map(|bits| bits >> (run.start as usize % GROUP))
     }
 
     /// As [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.
