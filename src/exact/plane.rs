@@ -5,8 +5,6 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::Int;
-#[cfg(feature = "save")]
-use super::normal::RoundedNormal;
 
 /// The integer vector product (q − p) × (r − p) of three lattice points.
 pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
@@ -97,13 +95,13 @@ impl Plane {
     }
 
     /// Whether the signed distance of a lattice point times the length of the normal is at most `most`
-    /// in magnitude, which is below 2¹¹⁸: exact. `rounded` is the normal of the same three points.
+    /// in magnitude, which is below 2¹¹⁸: exact. `rounded` is the normal in `f64`.
     #[cfg(feature = "save")]
     #[inline]
-    pub(crate) fn is_within(&self, most: u128, rounded: &RoundedNormal, x: &[f64; 3]) -> bool {
+    pub(crate) fn is_within(&self, most: u128, rounded: &[f64; 3], x: &[f64; 3]) -> bool {
         // The products are below 2¹⁵⁸, and all of their roundings together below 2¹¹⁰. So this tells what
         // 128 bits cannot hold; what is left, they do.
-        let terms = rounded.normal.iter().zip(x).zip(self.point);
+        let terms = rounded.iter().zip(x).zip(self.point);
         let off: f64 = terms.map(|((n, x), through)| n * (x - through as f64)).sum();
         off.abs() < (1u128 << 120) as f64 && self.last_bits_at(x).unsigned_abs() <= most
     }
@@ -201,7 +199,7 @@ mod tests {
             let off = if off.is_negative() { -off } else { off };
             for most in [most, 0] {
                 let exact = !(Int::<3>::from(most as i128) - off).is_negative();
-                let found = plane.is_within(most, &RoundedNormal::through(triangle), &x);
+                let found = plane.is_within(most, &RoundedNormal::through(triangle).normal, &x);
                 assert_eq!(found, exact, "{triangle:?} {x:?}");
                 told[usize::from(found)] += 1;
             }

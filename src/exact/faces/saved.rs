@@ -193,6 +193,6 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
     let others = [1..second, second + 1..third, third + 1..corners.len()];
     let mut others = others.into_iter().flat_map(|range| &corners[range]);
     let rounded = RoundedNormal::through(triangle);
-    let is_off = |corner| !plane.is_within(most, &rounded, corner);
+    let is_off = |corner| !plane.is_within(most, &rounded.normal, corner);
     if others.any(is_off) { Err("is not planar") } else { Ok(()) }
 }
