@@ -7,7 +7,7 @@ use super::skeleton::{Branch, Group};
 use crate::error::Error;
 use crate::memory::reserve;
 use crate::tree::BspTree;
-use crate::tree::order::sides::View;
+use crate::tree::order::eye_sides::View;
 use crate::viewpoint::Viewpoint;
 
 /// How many places of an order are in a word of marks.

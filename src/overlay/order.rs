@@ -9,7 +9,7 @@ use super::Overlay;
 use super::shape::Shape;
 use super::skeleton::{Branch, Group, Part, Side};
 use crate::error::Error;
-use crate::tree::order::sides::View;
+use crate::tree::order::eye_sides::View;
 use crate::tree::{BspTree, Ordered};
 use crate::viewpoint::Viewpoint;
 

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
-use super::sides::View;
+use super::eye_sides::View;
 use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
 

@@ -1,11 +1,11 @@
 //! Orders of a tree's fragments for a viewpoint.
 
+pub(crate) mod eye_sides;
 mod fragments;
 pub(super) mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
 mod same;
-pub(crate) mod sides;
 mod twig;
 mod walk;
 

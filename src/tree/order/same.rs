@@ -1,6 +1,6 @@
 //! Whether two viewpoints have the same order.
 
-use super::sides::View;
+use super::eye_sides::View;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::sides::View;
+use super::eye_sides::View;
 use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
 
