@@ -82,7 +82,7 @@ impl<'a, K: Kernel> Set<'a, K> {
         let below = |bin| 1u64.checked_shl(bin).map_or(u64::MAX, |bit| bit - 1);
         let covered = self.pieces.iter().fold(0, |covered, piece| {
             let begin = piece.min[axis] + tolerance;
-            let first = if begin < start { 0 } else { bin(begin) + 1 };
+            let first = if begin < start { 0 } else { bin(begin).saturating_add(1) };
             covered | below(bin(piece.max[axis])) & !below(first)
         });
         covered != u64::MAX
