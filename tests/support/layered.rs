@@ -3,11 +3,10 @@
 
 use std::collections::HashMap;
 
-use super::fill::{Picture, Pixel};
+use super::fill::{Picture, Pixel, for_each_pixel};
 use binspace::BspTree;
 use binspace::drawing::Drawing;
-use binspace::internals::Line;
-use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::raster::Rays;
 use binspace::view::Camera;
 
 /// What was compared.
@@ -27,18 +26,7 @@ fn truth(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Vec<usize>> {
     let mut pixels = vec![vec![]; width * height];
     for fragment in tree.back_to_front(camera.viewpoint()) {
         let polygon = fragment.polygon();
-        let lines: Vec<Line> = fragment.lines().collect();
-        let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-        let outline = match fragment.is_whole() {
-            true => Outline::Whole,
-            false => Outline::Lines { lines: &lines, vertices: &vertices },
-        };
-        let piece = Piece { face: fragment.face(), outline };
-        for_each_run(rays, tree.faces(), piece, |y, columns| {
-            for x in columns {
-                pixels[y as usize * width + x as usize].push(polygon);
-            }
-        });
+        for_each_pixel(tree, &fragment, rays, |pixel| pixels[pixel].push(polygon));
     }
     pixels
 }

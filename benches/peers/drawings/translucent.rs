@@ -1,12 +1,11 @@
 //! Drawings in which nothing is hidden: pieces a polygon.
 
-use super::fill::{Picture, Pixel};
+use super::fill::{Picture, Pixel, for_each_pixel};
 use super::{Goal, cpu_time, maybe_against};
 use binspace::BspTree;
 use binspace::drawing::Drawing;
-use binspace::internals::Line;
 use binspace::paint_tree;
-use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::raster::Rays;
 use binspace::view::Camera;
 use std::collections::HashSet;
 use std::time::Duration;
@@ -83,18 +82,7 @@ fn layers(tree: &BspTree, rays: &Rays) -> Vec<u32> {
     let [width, height] = rays.size().map(|side| side as usize);
     let mut layers = vec![0; width * height];
     for fragment in tree.fragments() {
-        let lines: Vec<Line> = fragment.lines().collect();
-        let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-        let outline = match fragment.is_whole() {
-            true => Outline::Whole,
-            false => Outline::Lines { lines: &lines, vertices: &vertices },
-        };
-        let piece = Piece { face: fragment.face(), outline };
-        for_each_run(rays, tree.faces(), piece, |y, columns| {
-            let row = y as usize * width;
-            let columns = columns.start as usize..columns.end as usize;
-            layers[row..][columns].iter_mut().for_each(|count| *count += 1);
-        });
+        for_each_pixel(tree, &fragment, rays, |pixel| layers[pixel] += 1);
     }
     layers
 }

@@ -431,3 +431,26 @@ fn the_background_does_not_show_in_seams() {
     assert!(pixels > 10_000, "{pixels}");
     assert!(f64::from(sum) < 0.2 * f64::from(pixels), "{sum} in {pixels} pixels, {worst}");
 }
+
+/// What the README says of drawings.
+#[test]
+fn figures_of_the_readme_are_so() {
+    let folder = Folder::new("draw_readme");
+    for (arguments, expected) in [
+        ("random:500 -o a.svg", [("fragments", 3413), ("paths", 282), ("lines", 0)]),
+        ("city:2000 -o a.svg", [("fragments", 2001), ("paths", 649), ("lines", 0)]),
+        ("teapot --lines -o a.svg", [("paths", 0), ("runs", 425), ("lines", 68)]),
+    ] {
+        let output = folder.run(&format!("draw {arguments} --json")).good();
+        for (name, value) in expected {
+            assert_eq!(figures(&output)[name], value, "{arguments}: {name}");
+        }
+    }
+    for (scene, share) in [("random:500", 7), ("city:2000", 4)] {
+        folder.run(&format!("draw {scene} -o a.svg")).good();
+        folder.run(&format!("render {scene} -o b.svg")).good();
+        let [drawing, list] =
+            ["a.svg", "b.svg"].map(|file| std::fs::metadata(folder.path(file)).unwrap().len());
+        assert!(drawing * share < list, "{scene}: {drawing} of {list} bytes");
+    }
+}

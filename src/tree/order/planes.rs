@@ -15,11 +15,22 @@ pub(super) const WORD: usize = 32;
 /// How many groups one thread makes at a time.
 const PART: usize = 1024;
 
-/// The rounded planes of a tree's nodes, in the order of the nodes and by fours: the three
+/// The rounded planes of a tree's nodes, or of its fragments, in their order and by fours: the three
 /// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
 /// units. The last group is filled up with zeros.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Planes(pub(super) Vec<[Vec4; 4]>);
+
+/// Up to [`GROUP`] planes, by the component.
+fn group(planes: impl Iterator<Item = Vec4>) -> [Vec4; 4] {
+    let mut group = [Vec4::ZERO; 4];
+    for (i, plane) in planes.enumerate() {
+        for (part, value) in group.iter_mut().zip(plane.to_array()) {
+            part[i] = value;
+        }
+    }
+    group
+}
 
 impl Planes {
     /// The rounded plane of a node, as [`rounded`] has it.
@@ -38,15 +49,8 @@ impl Planes {
         faces: &Faces,
         nodes: &[NodeRecord],
     ) -> Result<(), Error> {
-        let group = |nodes: &[NodeRecord]| {
-            let mut group = [Vec4::ZERO; 4];
-            for (i, node) in nodes.iter().enumerate() {
-                for (part, value) in group.iter_mut().zip(rounded(faces, node.plane).to_array()) {
-                    part[i] = value;
-                }
-            }
-            group
-        };
+        let group =
+            |nodes: &[NodeRecord]| group(nodes.iter().map(|node| rounded(faces, node.plane)));
         self.0.clear();
         reserve(&mut self.0, nodes.len().div_ceil(GROUP))?;
         if nodes.len() <= PART * GROUP {
@@ -63,21 +67,11 @@ impl Planes {
     }
 
     /// Planes that are given rounded, in their order.
-    pub(in crate::tree) fn of(planes: impl ExactSizeIterator<Item = Vec4>) -> Result<Self, Error> {
-        let mut groups: Vec<[Vec4; 4]> = Vec::new();
-        reserve(&mut groups, planes.len().div_ceil(GROUP))?;
-        for (i, plane) in planes.enumerate() {
-            if i % GROUP == 0 {
-                groups.push([Vec4::ZERO; 4]);
-            }
-            if let Some(group) = groups.last_mut() {
-                group
-                    .iter_mut()
-                    .zip(plane.to_array())
-                    .for_each(|(part, value)| part[i % GROUP] = value);
-            }
-        }
-        Ok(Self(groups))
+    pub(in crate::tree) fn of(
+        mut planes: impl ExactSizeIterator<Item = Vec4>,
+    ) -> Result<Self, Error> {
+        let groups = 0..planes.len().div_ceil(GROUP);
+        Ok(Self(collect(groups.map(|_| group(planes.by_ref().take(GROUP))))?))
     }
 
     /// How many words the signs of all planes take, and one more to read past the end.
