@@ -193,8 +193,9 @@ impl Corner {
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);
         let (p, q) = (ax * by, ay * bx);
         let turn = p - q;
-        // The coefficients are off by a rounding each, the products by another, and the difference.
-        let least = turn.abs() - 8.0 * f64::EPSILON * (p.abs() + q.abs());
+        // The products and the difference are off by a rounding each, and what the slopes are off by.
+        let off = lines.slope_error(&a) * b.slope + lines.slope_error(&b) * a.slope;
+        let least = turn.abs() - 4.0 * f64::EPSILON * (p.abs() + q.abs()) - 2.0 * off;
         if least.is_nan() || least <= 0.0 {
             return Self::exact(lines, [first, second]);
         }

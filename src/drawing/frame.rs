@@ -11,7 +11,6 @@
 
 use std::cmp::Ordering;
 
-use crate::exact::int::PRIME;
 use crate::exact::{Faces, Int, Plane, PlaneId, dot};
 use crate::raster::{Pencil, Rays};
 
@@ -127,27 +126,6 @@ pub(super) fn is_opposite(a: &Exact, b: &Exact) -> bool {
     (0..3).any(|i| a[i].sign().is_ne() && a[i].sign() != b[i].sign())
 }
 
-/// A line, in whatever direction, by its numbers modulo a prime, divided by one that is not 0: lines that
-/// differ have the same seldom.
-pub(super) fn line_modulo(exact: &Exact) -> [u32; 2] {
-    let [a, b, c] = [1, 2, 0].map(|i: usize| u64::from(exact[i].modulo_prime()));
-    let (divisor, [one, other]) = match (a, b) {
-        (0, 0) => (c, [0, 0]),
-        (0, _) => (b, [0, c]),
-        _ => (a, [b, c]),
-    };
-    // The inverse, as x to the power of p − 1 is 1 (P. de Fermat).
-    let (mut inverse, mut square, mut power) = (1, divisor, PRIME - 2);
-    while power > 0 {
-        if power & 1 == 1 {
-            inverse = inverse * square % PRIME;
-        }
-        square = square * square % PRIME;
-        power >>= 1;
-    }
-    [one, other].map(|number| (number * inverse % PRIME) as u32)
-}
-
 /// Where two lines meet, each coordinate rounded three times; NaN where they do not.
 pub(super) fn meeting([a, b]: [&Exact; 2]) -> [f64; 2] {
     let minor = |i: usize, j: usize| {
@@ -163,33 +141,4 @@ fn product(a: [i64; 3], b: [i64; 3]) -> [i128; 3] {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         i128::from(a[j]) * i128::from(b[k]) - i128::from(a[k]) * i128::from(b[j])
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Exact, is_opposite, line_modulo};
-    use crate::exact::Int;
-    use crate::random::SplitMix64;
-
-    #[test]
-    fn multiples_of_a_line_are_told_from_other_lines() {
-        let mut random = SplitMix64::new(3);
-        let mut number = |bits: u32| (random.next() >> (64 - bits)) as i128 - (1 << (bits - 1));
-        for round in 0..500 {
-            let mut k = [number(60), number(50), number(62)];
-            // Lines through the first pixel's centre, upright ones, and level ones.
-            (0..3).filter(|i| round >> i & 1 == 1 && round % 8 < 7).for_each(|i| k[i] = 0);
-            let times = |factor: i128| -> Exact { k.map(|c| Int::<4>::from(c * factor).resize()) };
-            let line = times(1);
-            for factor in [3, -1, -(1 << 40), (1 << 31) + 1] {
-                assert_eq!(line_modulo(&times(factor)), line_modulo(&line), "{k:?}");
-                assert_eq!(is_opposite(&times(factor), &line), factor < 0);
-            }
-            let mut other = k;
-            other[round % 3] += 1 + number(20).abs();
-            let other: Exact = other.map(|c| Int::<4>::from(c).resize());
-            let is_one = super::is_same_line(&other, &line);
-            assert_eq!(line_modulo(&other) == line_modulo(&line), is_one, "{k:?}");
-        }
-    }
 }

@@ -26,10 +26,10 @@ pub(super) fn found_in<E: Send, F: Default + Send>(
     let mut shares = vec![all];
     for _ in 0..SHARED {
         let mut next = Vec::with_capacity(2 * shares.len());
-        for entry in shares {
-            match halves(&entry)? {
-                Some(parts) => next.extend(parts),
-                None => next.push(entry),
+        for parts in parallel_map::map(shares, |entry| Ok((halves(&entry)?, entry))) {
+            match parts? {
+                (Some(parts), _) => next.extend(parts),
+                (None, entry) => next.push(entry),
             }
         }
         shares = next;

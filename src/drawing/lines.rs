@@ -2,9 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::frame::{
-    Exact, Frame, Sheet, is_opposite, is_same_line, line_modulo, meeting, orientation,
-};
+use super::frame::{Exact, Frame, is_opposite, is_same_line, meeting, orientation};
 use super::half::{Half, STEP_BITS, STEPS};
 use super::table::{Table, insert};
 use crate::Error;
@@ -12,6 +10,7 @@ use crate::exact::exact_ray::scaled;
 use crate::exact::lattice::exponent_of;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::memory::push;
+use crate::raster::{Sheet, edge};
 
 /// What made a line. Equal keys are equal lines, up to their direction; those of other keys may be, too,
 /// but for edges: edges on one line have its first key.
@@ -32,7 +31,8 @@ pub(super) enum Key {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounded {
     pub(super) k: [f64; 3],
-    /// The largest error of its values anywhere in the picture, computed as `k[0] + x·k[1] + y·k[2]`.
+    /// The largest error of its values anywhere in the picture, computed as `k[0] + x·k[1] + y·k[2]`; and
+    /// of its slope, times the picture's size.
     pub(super) error: f64,
     /// At least the length of its slope.
     pub(super) slope: f64,
@@ -42,16 +42,20 @@ impl Rounded {
     /// From exact coefficients, for a picture of this size.
     fn new(exact: &Exact, reach: [f64; 2]) -> Self {
         let k = exact.each_ref().map(|c| c.to_f64());
+        let sum = k[0].abs() + k[1].abs() * reach[0] + k[2].abs() * reach[1];
+        Self::scaled(k, 8.0 * UNIT * sum)
+    }
+
+    fn scaled(k: [f64; 3], error: f64) -> Self {
         let size = k[1].abs().max(k[2].abs());
         // A power of two: nothing is rounded. (A line without slope may have any scale.)
         let scale = if size > 0.0 { scaled(1.0, -exponent_of(size)) } else { 1.0 };
-        let [k0, kx, ky] = k.map(|c| c * scale);
-        let sum = k0.abs() + kx.abs() * reach[0] + ky.abs() * reach[1];
-        Self {
-            k: [k0, kx, ky],
-            error: 8.0 * UNIT * sum,
-            slope: 1.01 * kx.abs().max(ky.abs()) * 1.42,
-        }
+        Self { k: k.map(|c| c * scale), error: error * scale, slope: 1.01 * 1.42 * size * scale }
+    }
+
+    /// Whether it is off by so little that the line is not needed in integers to look at it.
+    fn is_fine(&self) -> bool {
+        self.error < FINE
     }
 
     /// The value at a point, rounded.
@@ -61,8 +65,21 @@ impl Rounded {
     }
 }
 
+/// Lines that are further off in floats, in pixels, are computed from integers.
+const FINE: f64 = 1.0 / (1u64 << 32) as f64;
+
 /// The number of no point.
 const NOWHERE: u32 = u32::MAX;
+/// Edges are looked up by where they are in such steps, in pixels and of the cosine, among so many of one
+/// place at most; one that is missed is a line of its own. (A few lie so near to one another in most
+/// pictures, but all in one that shows a scene from very far.)
+const STEP: f64 = 1.0 / (1u64 << 20) as f64;
+const SAME: i64 = 8;
+
+fn step_of(number: f64) -> i64 {
+    (number / STEP).floor() as i64
+}
+
 /// Faces of more corners are not searched for one that a line goes through.
 const FEW: usize = 8;
 
@@ -81,8 +98,8 @@ pub(super) struct Lines<'t> {
     through: Vec<[u32; 2]>,
     /// The half of each key on which it is positive.
     halves: Table<Key, Half>,
-    /// The lines of edges, by [`line_modulo`].
-    edges: Table<[u32; 2], u32>,
+    /// The lines of edges, by where they are.
+    edges: Table<[i64; 4], u32>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
     /// The numbers of where corners were moved to.
@@ -115,10 +132,10 @@ impl<'t> Lines<'t> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);
         }
-        let exact = self.exact_of(key);
+        let rounded = self.rounded_of(key);
         let half = match key {
-            Key::Edge(_) | Key::Upright(..) => self.half_of_edge(key, &exact, points)?,
-            _ => Half::of(self.add(key, &exact, points)?),
+            Key::Edge(_) | Key::Upright(..) => self.half_of_edge(key, rounded, points)?,
+            _ => Half::of(self.add(key, rounded, points)?),
         };
         insert(&mut self.halves, key, half)?;
         Ok(half)
@@ -126,36 +143,59 @@ impl<'t> Lines<'t> {
 
     /// The half of an edge that has no key yet. Edges on one line, as those of walls side by side, are one
     /// line of the picture: else it would be found out again and again that they meet everywhere.
-    fn half_of_edge(&mut self, key: Key, exact: &Exact, points: [u32; 2]) -> Result<Half, Error> {
-        let modulo = line_modulo(exact);
-        if let Some(&line) = self.edges.get(&modulo) {
-            let other = self.exact_of(self.key(line));
-            if is_same_line(exact, &other) {
-                return Ok(Half::of(line).flipped(is_opposite(exact, &other)));
+    fn half_of_edge(
+        &mut self,
+        key: Key,
+        rounded: Rounded,
+        points: [u32; 2],
+    ) -> Result<Half, Error> {
+        let ([x, y], angle) = self.foot(&rounded);
+        let near = |number: f64| {
+            let [low, high] = [-STEP / 256.0, STEP / 256.0].map(|off| step_of(number + off));
+            std::iter::once(low).chain((high != low).then_some(high))
+        };
+        for place in near(x).flat_map(|x| near(y).map(move |y| [x, y])) {
+            for angle in near(angle) {
+                for number in 0..SAME {
+                    let found = self.edges.get(&[place[0], place[1], angle, number]);
+                    let Some(&line) = found else { break };
+                    let [exact, other] = [key, self.key(line)].map(|key| self.exact_of(key));
+                    if is_same_line(&exact, &other) {
+                        return Ok(Half::of(line).flipped(is_opposite(&exact, &other)));
+                    }
+                }
             }
         }
-        let line = self.add(key, exact, points)?;
-        insert(&mut self.edges, modulo, line)?;
+        let line = self.add(key, rounded, points)?;
+        let place = [x, y, angle].map(step_of);
+        let places = (0..SAME).map(|number| [place[0], place[1], place[2], number]);
+        if let Some(free) = places.into_iter().find(|place| !self.edges.contains_key(place)) {
+            insert(&mut self.edges, free, line)?;
+        }
         Ok(Half::of(line))
     }
 
-    fn add(&mut self, key: Key, exact: &Exact, through: [u32; 2]) -> Result<u32, Error> {
+    /// The point of a line that is next to the middle of the picture, and the cosine of twice its angle: the
+    /// same for both directions. Of a line that the picture shows, they are off by far less than [`STEP`].
+    fn foot(&self, line: &Rounded) -> ([f64; 2], f64) {
+        let [_, kx, ky] = line.k;
+        let middle = self.reach.map(|size| 0.5 * size);
+        let square = kx * kx + ky * ky;
+        let off = line.at(middle) / square;
+        ([middle[0] - off * kx, middle[1] - off * ky], (kx * kx - ky * ky) / square)
+    }
+
+    fn add(&mut self, key: Key, rounded: Rounded, through: [u32; 2]) -> Result<u32, Error> {
         // A number takes less memory than its line.
         let number = u32::try_from(self.keys.len()).map_err(|_| Error::out_of_memory())?;
         push(&mut self.keys, key)?;
-        push(&mut self.rounded, Rounded::new(exact, self.reach))?;
+        push(&mut self.rounded, rounded)?;
         push(&mut self.through, through)?;
         Ok(number)
     }
 
-    /// The half of a face's edge `k` on which the face lies, by whether its front is seen.
-    pub(super) fn edge(
-        &mut self,
-        face: u32,
-        k: u32,
-        sheet: &Sheet,
-        front: bool,
-    ) -> Result<Half, Error> {
+    /// The half of a face's edge `k` on which the face lies, by whether its κ is positive.
+    pub(super) fn edge(&mut self, face: u32, k: u32, is_positive: bool) -> Result<Half, Error> {
         let faces = self.frame.faces;
         let range = faces.corner_range(face);
         let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
@@ -167,7 +207,7 @@ impl<'t> Lines<'t> {
         {
             // The upright plane faces outwards where the face's normal runs with the axis.
             let normal = faces.plane(PlaneId::face(face)).normal()[axis];
-            let flip = sheet.side().is_gt() == (normal > 0);
+            let flip = is_positive == (normal > 0);
             let mut points = [a, b];
             for point in &mut points {
                 let is_certain = certain.contains(point);
@@ -177,16 +217,18 @@ impl<'t> Lines<'t> {
         }
         let [a, b] = [self.point(a)?, self.point(b)?];
         let points = [a.min(b), a.max(b)];
-        Ok(self.half(Key::Edge(points), points)?.flipped(front == (a < b)))
+        let is_front = is_positive == self.frame.rays.is_perspective();
+        Ok(self.half(Key::Edge(points), points)?.flipped(is_front == (a < b)))
     }
 
-    /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front.
+    /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front; by
+    /// whether the face's κ is positive.
     pub(super) fn cut(
         &mut self,
         face: u32,
         plane: PlaneId,
         behind: bool,
-        sheet: &Sheet,
+        is_positive: bool,
     ) -> Result<Half, Error> {
         let own = PlaneId::face(face);
         let (key, swapped) = match plane.kind() {
@@ -196,15 +238,11 @@ impl<'t> Lines<'t> {
         let half = match self.halves.get(&key) {
             Some(&half) => half,
             None => {
-                let other = self.frame.sheet(plane);
-                let exact = if swapped { other.cut(sheet) } else { sheet.cut(&other) };
                 let through = self.on_cut(face, plane)?;
-                let half = Half::of(self.add(key, &exact, through)?);
-                insert(&mut self.halves, key, half)?;
-                half
+                self.half(key, through)?
             }
         };
-        Ok(half.flipped(sheet.side().is_gt() == (behind != swapped)))
+        Ok(half.flipped(is_positive == (behind != swapped)))
     }
 
     /// Corners of a face that are known to lie on a plane that cuts it: those of the other face, or with
@@ -234,8 +272,8 @@ impl<'t> Lines<'t> {
     }
 
     /// The half of the picture in which rays meet a face's plane ahead of the eye.
-    pub(super) fn ahead(&mut self, face: u32, sheet: &Sheet) -> Result<Half, Error> {
-        Ok(self.half(Key::Horizon(face), [NOWHERE; 2])?.flipped(sheet.side().is_gt()))
+    pub(super) fn ahead(&mut self, face: u32, is_positive: bool) -> Result<Half, Error> {
+        Ok(self.half(Key::Horizon(face), [NOWHERE; 2])?.flipped(is_positive))
     }
 
     fn point(&mut self, corner: u32) -> Result<u32, Error> {
@@ -280,6 +318,11 @@ impl<'t> Lines<'t> {
         }
     }
 
+    /// How much the parts of a line's slope may be off.
+    pub(super) fn slope_error(&self, line: &Rounded) -> f64 {
+        line.error / self.reach[0].min(self.reach[1])
+    }
+
     /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
     pub(super) fn shows(&self, at: [f64; 2]) -> bool {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
@@ -315,23 +358,50 @@ impl<'t> Lines<'t> {
         a.iter().any(|point| *point != NOWHERE && b.contains(point) && c.contains(point))
     }
 
-    /// A line in integers.
-    fn exact_of(&self, key: Key) -> Exact {
-        let (frame, faces) = (&self.frame, self.frame.faces);
-        match key {
-            Key::Edge(points) => {
-                frame.edge(points.map(|point| faces.corner(self.corners[point as usize])))
-            }
+    /// A line in floats.
+    fn rounded_of(&self, key: Key) -> Rounded {
+        let Frame { rays, faces } = &self.frame;
+        let sheet = |plane| Sheet::new(rays, faces, plane);
+        let (k, error) = match key {
+            Key::Edge(points) => edge(rays, self.ends(points)),
             Key::Upright(face, k) => {
-                let corners = faces.corners(face);
-                let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
-                let axis = faces.upright_axis(face).unwrap_or_default();
-                let upright = frame.upright([corners[k as usize], corners[next]], axis);
-                frame.sheet(PlaneId::face(face)).cut(&upright)
+                let ([a, b], axis) = self.upright(face, k);
+                sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))
+            }
+            Key::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
+            Key::Horizon(face) => sheet(PlaneId::face(face)).horizon(),
+        };
+        // The picture may end half a pixel beyond the pixels that the error is for, and its lists reach a
+        // pixel further.
+        let rounded = Rounded::scaled(k, 4.0 * error);
+        if rounded.is_fine() { rounded } else { Rounded::new(&self.exact_of(key), self.reach) }
+    }
+
+    /// The same in integers.
+    fn exact_of(&self, key: Key) -> Exact {
+        let frame = &self.frame;
+        match key {
+            Key::Edge(points) => frame.edge(self.ends(points)),
+            Key::Upright(face, k) => {
+                let (ends, axis) = self.upright(face, k);
+                frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
             }
             Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
             Key::Horizon(face) => frame.sheet(PlaneId::face(face)).horizon(),
         }
+    }
+
+    /// The ends of an edge.
+    fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
+        points.map(|point| self.frame.faces.corner(self.corners[point as usize]))
+    }
+
+    /// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
+    fn upright(&self, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
+        let corners = self.frame.faces.corners(face);
+        let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
+        let axis = self.frame.faces.upright_axis(face).unwrap_or_default();
+        ([corners[k as usize], corners[next]], axis)
     }
 
     /// The line of a half, in integers.

@@ -15,7 +15,11 @@ use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
-use crate::memory::{collect, push, reserve};
+use crate::memory::{collect, place, push, reserve};
+use crate::parallel_map;
+
+/// So many paths are made by one thread.
+const SHARE: usize = 256;
 
 /// A view as filled outlines, in the order to paint them.
 #[derive(Clone, Debug)]
@@ -76,24 +80,29 @@ impl VisibilityMap<'_> {
         let pairs = pairs(stock, leaves, &place, watch)?;
         let Ordered { order, is_clipped } =
             order(shown.polygons.len(), &pairs, &shown.ranks, watch)?;
-        let mut drawing = Drawing::empty(size);
         let cells = shown.cells(stock, leaves, &is_clipped)?;
-        reserve(&mut drawing.paths, order.len())?;
-        let mut edges = Vec::new();
-        for node in order {
-            watch.work(CUT)?;
-            let index = node as usize;
-            edges.clear();
-            if is_clipped[index] {
-                for cell in &cells[index] {
-                    add_sides(cell, &mut edges)?;
+        let part = |nodes: &[u32]| {
+            let (mut part, mut edges) = (Drawing::empty(size), Vec::new());
+            for &node in nodes {
+                watch.work(CUT)?;
+                let index = node as usize;
+                edges.clear();
+                if is_clipped[index] {
+                    for cell in &cells[index] {
+                        add_sides(cell, &mut edges)?;
+                    }
+                } else {
+                    for &seen in &shown.faces[index] {
+                        add_edges(stock, stock.outline(seen), &mut edges)?;
+                    }
                 }
-            } else {
-                for &seen in &shown.faces[index] {
-                    add_edges(stock, stock.outline(seen), &mut edges)?;
-                }
+                part.push(shown.polygons[index], is_clipped[index], &edges)?;
             }
-            drawing.push(shown.polygons[index], is_clipped[index], &edges)?;
+            Ok(part)
+        };
+        let mut drawing = Drawing::empty(size);
+        for part in parallel_map::map(order.chunks(SHARE).collect(), part) {
+            drawing.append(part?)?;
         }
         Ok(drawing)
     }
@@ -122,7 +131,21 @@ impl Drawing {
             self.corners.extend(outline);
         }
         let outlines = start..self.outlines.len() as u32;
-        self.paths.push(Record { polygon, is_clipped, outlines });
+        push(&mut self.paths, Record { polygon, is_clipped, outlines })
+    }
+
+    /// Adds the paths of another after its own.
+    fn append(&mut self, mut other: Self) -> Result<(), Error> {
+        let [outlines, corners] = [place(self.outlines.len())?, place(self.corners.len())?];
+        reserve(&mut self.paths, other.paths.len())?;
+        reserve(&mut self.outlines, other.outlines.len())?;
+        reserve(&mut self.corners, other.corners.len())?;
+        self.paths.extend(other.paths.into_iter().map(|record| {
+            let Range { start, end } = record.outlines;
+            Record { outlines: start + outlines..end + outlines, ..record }
+        }));
+        self.outlines.extend(other.outlines.iter().map(|start| start + corners));
+        self.corners.append(&mut other.corners);
         Ok(())
     }
 

@@ -38,7 +38,8 @@ impl Lines<'_> {
         for &half in halves {
             let line = self.rounded(half);
             let [k0, kx, ky] = line.k;
-            let margin = ROUNDING * (k0.abs() + kx.abs() * reach[0] + ky.abs() * reach[1]);
+            let rounding = ROUNDING * (k0.abs() + kx.abs() * reach[0] + ky.abs() * reach[1]);
+            let margin = rounding + line.error;
             let sign = if half.is_negative() { -1.0 } else { 1.0 };
             let value = |at: &[f64; 2]| sign * line.at(*at) + margin;
             if corners.iter().all(|corner| value(corner) >= 0.0) {

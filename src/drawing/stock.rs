@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::frame::{Frame, Sheet};
+use super::frame::Frame;
 use super::half::Half;
 use super::lines::Lines;
 use super::region::{Region, common, is_within};
@@ -11,7 +11,7 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::PlaneId;
 use crate::memory::{place, push, reserve};
-use crate::raster::Rays;
+use crate::raster::{Rays, Sheet};
 use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may show.
@@ -29,6 +29,8 @@ pub(super) struct Item {
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     pub(super) face: u32,
+    /// Whether the κ of its plane is positive.
+    is_positive: bool,
     /// Its edges in [`Stock::halves`], one after another, and what else bounds it.
     halves: Range<u32>,
     /// The last of its items.
@@ -62,19 +64,18 @@ impl<'t> Stock<'t> {
         let mut numbers: Vec<u32> = Vec::new();
         reserve(&mut numbers, faces.len())?;
         numbers.resize(faces.len(), UNKNOWN);
-        let mut sheets: Vec<Sheet> = Vec::new();
         for fragment in tree.front_to_back(viewpoint) {
             watch.work(LINES)?;
             let face = fragment.face();
             let number = &mut numbers[face as usize];
             if *number == UNKNOWN {
-                *number = stock.see(face, &mut sheets)?;
+                *number = stock.see(face)?;
             }
             if *number == UNSEEN {
                 continue;
             }
             let seen = *number;
-            if let Some(item) = stock.item(&fragment, seen, &sheets[seen as usize])? {
+            if let Some(item) = stock.item(&fragment, seen)? {
                 stock.seen[seen as usize].last = stock.items.len() as u32;
                 push(&mut stock.items, item)?;
             }
@@ -83,13 +84,8 @@ impl<'t> Stock<'t> {
     }
 
     /// A fragment of a face, unless the picture shows nothing of it.
-    fn item(
-        &mut self,
-        fragment: &Fragment<'_>,
-        seen: u32,
-        sheet: &Sheet,
-    ) -> Result<Option<Item>, Error> {
-        let Seen { region, ref halves, .. } = self.seen[seen as usize];
+    fn item(&mut self, fragment: &Fragment<'_>, seen: u32) -> Result<Option<Item>, Error> {
+        let Seen { region, is_positive, ref halves, .. } = self.seen[seen as usize];
         if fragment.lines().all(|line| line.as_cut().is_none()) {
             return Ok(Some(Item { seen, halves: [halves.start, halves.end], region }));
         }
@@ -98,7 +94,7 @@ impl<'t> Stock<'t> {
         self.halves.extend_from_within(rim.clone());
         for line in fragment.lines() {
             let Some(plane) = line.as_cut() else { continue };
-            let half = self.lines.cut(fragment.face(), plane, line.is_behind(), sheet)?;
+            let half = self.lines.cut(fragment.face(), plane, line.is_behind(), is_positive)?;
             push(&mut self.halves, half)?;
         }
         let picture = Tile::picture(self.lines.frame.rays.size()).sides();
@@ -121,31 +117,31 @@ impl<'t> Stock<'t> {
     }
 
     /// The number of a face, which is added if the picture shows it.
-    fn see(&mut self, face: u32, sheets: &mut Vec<Sheet>) -> Result<u32, Error> {
+    fn see(&mut self, face: u32) -> Result<u32, Error> {
         let Frame { rays, faces } = &self.lines.frame;
         let faces = *faces;
         let Some(region) = rays.region(faces.corners(face)) else { return Ok(UNSEEN) };
-        let sheet = self.lines.frame.sheet(PlaneId::face(face));
-        let side = sheet.side();
-        let front = side.is_gt() == rays.is_perspective();
-        if side.is_eq() || rays.is_front_only() && !front {
+        let plane = PlaneId::face(face);
+        let certain = Sheet::new(rays, faces, plane).certain_side();
+        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
+        let is_positive = side.is_gt();
+        if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
             return Ok(UNSEEN);
         }
         let may_be_behind = rays.is_perspective() && faces.upright_axis(face).is_some();
         let start = place(self.halves.len())?;
         for k in 0..faces.corners(face).len() as u32 {
-            let half = self.lines.edge(face, k, &sheet, front)?;
+            let half = self.lines.edge(face, k, is_positive)?;
             push(&mut self.halves, half)?;
         }
         // Edges in a plane bound a cone, all of it ahead of the eye; others may bound its image
         // behind the eye as well.
         if may_be_behind {
-            let half = self.lines.ahead(face, &sheet)?;
+            let half = self.lines.ahead(face, is_positive)?;
             push(&mut self.halves, half)?;
         }
         let halves = start..place(self.halves.len())?;
-        push(sheets, sheet)?;
-        push(&mut self.seen, Seen { face, halves, last: 0, region })?;
+        push(&mut self.seen, Seen { face, is_positive, halves, last: 0, region })?;
         Ok(self.seen.len() as u32 - 1)
     }
 

@@ -12,10 +12,6 @@ use std::cmp::Ordering;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Int<const N: usize>([u64; N]);
 
-/// The modulus of [`Int::modulo_prime`].
-#[cfg(feature = "drawing")]
-pub(crate) const PRIME: u64 = (1 << 31) - 1;
-
 impl<const N: usize> Int<N> {
     /// Zero.
     pub(crate) const ZERO: Self = Self([0; N]);
@@ -79,15 +75,6 @@ impl<const N: usize> Int<N> {
         }
         let product = Int(limbs);
         if self.is_negative() == other.is_negative() { product } else { -product }
-    }
-
-    /// The value modulo the prime 2³¹ − 1.
-    #[cfg(feature = "drawing")]
-    pub(crate) fn modulo_prime(&self) -> u32 {
-        let magnitude = self.magnitude();
-        // Two to the power of 64 is 4.
-        let rest = magnitude.iter().rev().fold(0, |rest, &limb| (rest * 4 + limb % PRIME) % PRIME);
-        (if self.is_negative() && rest > 0 { PRIME - rest } else { rest }) as u32
     }
 
     /// The value times two to the power of `shift`, in `R` limbs; `R` must suffice.

@@ -44,13 +44,13 @@ impl Seen<'_> {
     /// A line of the face, prepared for evaluation.
     pub(super) fn boundary(&self, source: Source) -> Boundary {
         let (mut k, bound) = match source {
-            Source::Edge(ends) => self.edge(ends),
-            Source::Upright([a, b], axis) => self.cut(&Sheet::upright(self.rays, a, b, axis)),
+            Source::Edge(ends) => edge(self.rays, ends),
+            Source::Upright([a, b], axis) => self.sheet.cut(&Sheet::upright(self.rays, a, b, axis)),
             Source::Cut(line) => match line.as_cut() {
-                Some(plane) => self.cut(&Sheet::new(self.rays, self.faces, plane)),
+                Some(plane) => self.sheet.cut(&Sheet::new(self.rays, self.faces, plane)),
                 None => ([0.0; 3], f64::INFINITY),
             },
-            Source::Ahead => (self.sheet.phi, 24.0 * ROUNDING * self.sheet.phi_size),
+            Source::Ahead => self.sheet.horizon(),
         };
         if self.is_flipped(source) {
             k = k.map(|c| -c);
@@ -72,45 +72,6 @@ impl Seen<'_> {
             Source::Cut(line) => self.positive == line.is_behind(),
             Source::Ahead => self.positive,
         }
-    }
-
-    /// κ_f φ_h − κ_h φ_f. Each product is off by 21 roundings of the sizes' product at most: 8 for
-    /// κ, 7 for a coefficient of φ, 2 for the product and the difference, 4 for the evaluation.
-    fn cut(&self, h: &Sheet) -> ([f64; 3], f64) {
-        let f = &self.sheet;
-        let k = std::array::from_fn(|i| f.kappa * h.phi[i] - h.kappa * f.phi[i]);
-        let size = f.kappa_size * h.phi_size + h.kappa_size * f.phi_size;
-        (k, 40.0 * ROUNDING * size)
-    }
-
-    /// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b −
-    /// a)), or (point − a) · ((a − b) × direction). The factor's components are off by 4.4
-    /// roundings of the sum of their two products, their scalar products by 3 more, the evaluation
-    /// by 4.
-    fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
-        let rays = self.rays;
-        let origin = rays.origin_from(a);
-        let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
-        let (u, w, first) = match rays.pencil {
-            // (a − eye) × arm = arm × (eye − a)
-            Pencil::From { .. } => (arm, origin, float(rays.base).to_array()),
-            // (a − b) × direction = direction × arm
-            Pencil::Along { direction } => (float(direction).to_array(), arm, origin),
-        };
-        let (right, down) = (float(rays.right).to_array(), float(rays.down).to_array());
-        let [width, height] = rays.size.map(f64::from);
-        let (mut k, mut size) = ([0.0; 3], 0.0);
-        for i in 0..3 {
-            let (j, l) = ((i + 1) % 3, (i + 2) % 3);
-            let (p, q) = (u[j] * w[l], u[l] * w[j]);
-            let c = p - q;
-            k[0] += c * first[i];
-            k[1] += c * right[i];
-            k[2] += c * down[i];
-            let reach = first[i].abs() + width * right[i].abs() + height * down[i].abs();
-            size += (p.abs() + q.abs()) * reach;
-        }
-        (k, 24.0 * ROUNDING * size)
     }
 
     /// On which side of a line the ray of a pixel passes: inside is `Greater`; exactly on the line
@@ -142,4 +103,33 @@ impl Seen<'_> {
         };
         if self.is_flipped(source) { sign.reverse() } else { sign }
     }
+}
+
+/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b −
+/// a)), or (point − a) · ((a − b) × direction). The factor's components are off by 4.4
+/// roundings of the sum of their two products, their scalar products by 3 more, the evaluation
+/// by 4.
+pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
+    let origin = rays.origin_from(a);
+    let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+    let (u, w, first) = match rays.pencil {
+        // (a − eye) × arm = arm × (eye − a)
+        Pencil::From { .. } => (arm, origin, float(rays.base).to_array()),
+        // (a − b) × direction = direction × arm
+        Pencil::Along { direction } => (float(direction).to_array(), arm, origin),
+    };
+    let (right, down) = (float(rays.right).to_array(), float(rays.down).to_array());
+    let [width, height] = rays.size.map(f64::from);
+    let (mut k, mut size) = ([0.0; 3], 0.0);
+    for i in 0..3 {
+        let (j, l) = ((i + 1) % 3, (i + 2) % 3);
+        let (p, q) = (u[j] * w[l], u[l] * w[j]);
+        let c = p - q;
+        k[0] += c * first[i];
+        k[1] += c * right[i];
+        k[2] += c * down[i];
+        let reach = first[i].abs() + width * right[i].abs() + height * down[i].abs();
+        size += (p.abs() + q.abs()) * reach;
+    }
+    (k, 24.0 * ROUNDING * size)
 }

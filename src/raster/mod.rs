@@ -39,12 +39,16 @@ pub use compare_pictures::{Comparison, Verdict, compare};
 pub use depth_error::{DepthError, depth_error};
 pub use image::{Image, NONE};
 pub(crate) use layers::Layers;
+#[cfg(feature = "drawing")]
+pub(crate) use line::edge;
 pub(crate) use mask::Mask;
 pub(crate) use painter::covers;
 pub use picture::{brightness, colour_of, depth_map, difference, picture};
 #[cfg(feature = "drawing")]
 pub(crate) use rays::Pencil;
 pub use rays::Rays;
+#[cfg(feature = "drawing")]
+pub(crate) use sheet::Sheet;
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};
 

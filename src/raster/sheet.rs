@@ -22,7 +22,7 @@ pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// roundings of `kappa_size` = Σ π|eye − p|. A value of φ, its evaluation included, is off by at
 /// most 12 roundings of `phi_size`, which is the same sum over the largest terms that occur in φ.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sheet {
+pub(crate) struct Sheet {
     pub(super) kappa: f64,
     pub(super) phi: [f64; 3],
     pub(super) kappa_size: f64,
@@ -31,7 +31,7 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// A plane of the scene.
-    pub(super) fn new(rays: &Rays, faces: &Faces, plane: PlaneId) -> Self {
+    pub(crate) fn new(rays: &Rays, faces: &Faces, plane: PlaneId) -> Self {
         match plane.kind() {
             PlaneKind::Face(face) => {
                 let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
@@ -48,7 +48,7 @@ impl Sheet {
 
     /// The plane through two lattice points and along an axis, as
     /// [`Plane::upright`](super::exact::Plane::upright) has it.
-    pub(super) fn upright(rays: &Rays, a: [f64; 3], b: [f64; 3], axis: usize) -> Self {
+    pub(crate) fn upright(rays: &Rays, a: [f64; 3], b: [f64; 3], axis: usize) -> Self {
         let (mut normal, (j, k)) = ([0.0; 3], ((axis + 1) % 3, (axis + 2) % 3));
         normal[j] = b[k] - a[k];
         normal[k] = a[j] - b[j];
@@ -79,8 +79,24 @@ impl Sheet {
         }
     }
 
+    /// The line in which rays meet this plane, f, and another, h: κ_f φ_h − κ_h φ_f, and a bound on the error
+    /// of its values.
+    ///
+    /// Each product is off by 21 roundings of the sizes' product at most: 8 for κ, 7 for a coefficient of
+    /// φ, 2 for the product and the difference, 4 for the evaluation.
+    pub(crate) fn cut(&self, h: &Self) -> ([f64; 3], f64) {
+        let k = std::array::from_fn(|i| self.kappa * h.phi[i] - h.kappa * self.phi[i]);
+        let size = self.kappa_size * h.phi_size + h.kappa_size * self.phi_size;
+        (k, 40.0 * ROUNDING * size)
+    }
+
+    /// The line of rays along the plane, φ, and a bound on the error of its values.
+    pub(crate) fn horizon(&self) -> ([f64; 3], f64) {
+        (self.phi, 24.0 * ROUNDING * self.phi_size)
+    }
+
     /// The sign of κ, if the rounded one is certain.
-    pub(super) fn certain_side(&self) -> Option<Ordering> {
+    pub(crate) fn certain_side(&self) -> Option<Ordering> {
         let bound = 9.0 * ROUNDING * self.kappa_size;
         if self.kappa > bound {
             Some(Ordering::Greater)

@@ -33,14 +33,6 @@ proptest! {
     }
 
     #[test]
-    #[cfg(feature = "drawing")]
-    fn leaves_the_rest_of_a_division(a in int3()) {
-        let prime = BigInt::from(super::PRIME);
-        let expected = ((big(&a) % &prime) + &prime) % &prime;
-        prop_assert_eq!(BigInt::from(a.modulo_prime()), expected);
-    }
-
-    #[test]
     fn rounds_to_the_nearest_float(a in int3()) {
         // An independent rounding: through the decimal digits.
         let expected: f64 = big(&a).to_string().parse().unwrap();
