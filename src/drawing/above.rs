@@ -4,13 +4,16 @@
 //! What is hidden by a third needs no order.
 
 use super::halving::{CUT, NARROWED, found_in};
+use super::lines::Lines;
 use super::pairs::{Found, Pair, add, sorted};
-use super::reaches::Reaches;
+use super::reaches::{Reach, Reaches};
 use super::region::{Region, are_apart};
+use super::rims::Rims;
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
+use crate::memory::{push, reserve};
 
 /// Leaves with the faces that may reach into them.
 struct Entry<'l> {
@@ -22,33 +25,34 @@ struct Entry<'l> {
 /// `u32::MAX`.
 pub(super) fn pairs<'l>(
     stock: &Stock<'_>,
+    rims: &Rims<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     // Whole faces.
     let mut all = Reaches::default();
-    for seen in (0..stock.seen.len() as u32).filter(|&seen| place(seen) != u32::MAX) {
-        all.push(seen, stock.outline(seen))?;
+    for face in (0..stock.views.len() as u32).filter(|&face| place(face) != u32::MAX) {
+        all.push(face, rims.known_outline(face))?;
     }
-    let halves = |entry: &Entry<'l>| {
+    let halves = |entry: &Entry<'l>, _: &mut Found| {
         watch.work(entry.reaches.list.len() * NARROWED)?;
-        entry.halves(stock)
+        entry.halves(stock, &rims.lines)
     };
-    let leaf = |entry: &Entry<'l>, found: &mut Found| entry.leaf(stock, place, found, watch);
-    sorted(found_in(Entry { leaves, reaches: all }, halves, leaf, watch)?)
+    let leaf = |entry: &Entry<'l>, found: &mut Found| entry.leaf(stock, rims, place, found, watch);
+    sorted(found_in(Entry { leaves, reaches: all }, Found::default, halves, leaf, watch)?)
 }
 
 impl<'l> Entry<'l> {
     /// The first and the second half of the leaves; `None` of a single one.
-    fn halves(&self, stock: &Stock<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(&self, stock: &Stock<'_>, lines: &Lines<'_>) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
             return Ok(None);
         }
         let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
-            let around = |seen: u32| stock.seen[seen as usize].region;
-            let reaches = self.reaches.narrowed(&stock.lines, &region(leaves), around)?;
+            let around = |face: u32| stock.views[face as usize].region;
+            let reaches = self.reaches.narrowed(lines, &region(leaves), around)?;
             Ok(Self { leaves, reaches })
         };
         Ok(Some([part(first)?, part(second)?]))
@@ -58,28 +62,48 @@ impl<'l> Entry<'l> {
     fn leaf(
         &self,
         stock: &Stock<'_>,
+        rims: &Rims<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let Self { leaves, reaches } = self;
-        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
-            watch.work(reaches.list.len() * CUT)?;
-            let above = place(stock.seen_of(*item));
+        // Nothing shows above a face of which all shows that is in the tile.
+        let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
+        let mut whole: Vec<u32> = Vec::new();
+        for visible in cells().filter(|visible| is_whole(stock, rims, visible)) {
+            push(&mut whole, stock.face(visible.item))?;
+        }
+        whole.sort_unstable();
+        let mut below: Vec<Reach> = Vec::new();
+        reserve(&mut below, reaches.list.len())?;
+        let is_below = |reach: &&Reach| whole.binary_search(&reach.number).is_err();
+        below.extend(reaches.list.iter().filter(is_below));
+        for Visible { item, cell } in cells() {
+            watch.work(below.len() * CUT)?;
+            let above = place(stock.face(*item));
             let around = cell.region();
-            for reach in &reaches.list {
+            for reach in &below {
                 let pair = Pair { below: place(reach.number), above };
-                let is_apart = are_apart(&around, &stock.seen[reach.number as usize].region);
+                let is_apart = are_apart(&around, &stock.views[reach.number as usize].region);
                 if is_apart || pair.below == above || found.contains(&pair) {
                     continue;
                 }
-                if cell.meets(&stock.lines, reaches.halves_of(reach))? {
+                if cell.meets(&rims.lines, reaches.halves_of(reach))? {
                     add(found, pair)?;
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
+fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> bool {
+    let outline = rims.known_outline(stock.face(visible.item));
+    visible.cell.sides.iter().all(|side| {
+        side.half.number().is_none() || outline.iter().any(|own| own.line() == side.half.line())
+    })
 }
 
 /// The box around leaves.

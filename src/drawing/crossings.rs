@@ -68,10 +68,10 @@ impl VisibilityMap<'_> {
 
     /// All sides of cells on lines of cuts.
     fn cut_sides(&self) -> Result<Vec<CutSide>, Error> {
-        let lines = &self.stock.lines;
+        let lines = &self.rims.lines;
         let mut found = Vec::new();
         for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = self.stock.seen[self.stock.seen_of(visible.item) as usize].face;
+            let face = self.stock.face(visible.item);
             let sides = &visible.cell.sides;
             for (i, side) in sides.iter().enumerate() {
                 let Some(line) = side.half.number() else { continue };
@@ -94,7 +94,7 @@ impl VisibilityMap<'_> {
         is_negative: bool,
         mut ends: [[f64; 2]; 2],
     ) -> CutSide {
-        let [_, kx, ky] = self.stock.lines.rounded(Half::of(line)).k;
+        let [_, kx, ky] = self.rims.lines.rounded(Half::of(line)).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
         if place(ends[0]) > place(ends[1]) {
             ends.swap(0, 1);
@@ -105,7 +105,7 @@ impl VisibilityMap<'_> {
     /// Adds the sides on borders of tiles that are on one of the lines: what lies beyond such a border was
     /// not cut by the line.
     fn add_borders(&self, sides: &mut Vec<CutSide>) -> Result<(), Error> {
-        let lines = &self.stock.lines;
+        let lines = &self.rims.lines;
         // The lines by the borders that they are on, and whether both are positive on the same side.
         let mut on: Table<u64, Vec<(u32, bool)>> = Table::default();
         let mut last = None;
@@ -132,7 +132,7 @@ impl VisibilityMap<'_> {
             return Ok(());
         }
         for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = self.stock.seen[self.stock.seen_of(visible.item) as usize].face;
+            let face = self.stock.face(visible.item);
             let around = &visible.cell.sides;
             for (i, side) in around.iter().enumerate().filter(|(_, s)| s.half.number().is_none()) {
                 let end = &around[if i + 1 == around.len() { 0 } else { i + 1 }];
@@ -148,7 +148,7 @@ impl VisibilityMap<'_> {
 
     /// Whether two faces go through one another in the line between cells of theirs.
     fn do_cross(&self, a: &CutSide, b: &CutSide, known: &mut Known) -> Result<bool, Error> {
-        let (lines, faces) = (&self.stock.lines, self.stock.lines.frame.faces);
+        let (lines, faces) = (&self.rims.lines, self.stock.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
             return Ok(false);
         }
@@ -165,7 +165,7 @@ impl VisibilityMap<'_> {
 
     /// What two sides have in common.
     fn common(&self, sides: [&CutSide; 2]) -> EdgeRun {
-        let polygon = |border: &CutSide| self.stock.lines.frame.faces.polygon(border.face);
+        let polygon = |border: &CutSide| self.stock.frame.faces.polygon(border.face);
         let [a, b] = sides.map(polygon);
         let [first, second] = sides;
         let start = if first.places[0] > second.places[0] { first } else { second }.ends[0];

@@ -76,7 +76,7 @@ impl VisibilityMap<'_> {
     ///
     /// If there is not enough memory.
     pub fn edges(&self) -> Result<Vec<EdgeRun>, Error> {
-        let faces = self.stock.lines.frame.faces;
+        let faces = self.stock.frame.faces;
         let (mut all, numbers) = shared(faces)?;
         let starts = self.starts(&all);
         self.collect(&mut all, &numbers, &starts)?;
@@ -92,7 +92,7 @@ impl VisibilityMap<'_> {
 
     /// Where each edge begins in the picture, its direction, and its length; `None` if it is not in it.
     fn starts(&self, all: &[Shared]) -> Vec<Option<Span>> {
-        let frame = &self.stock.lines.frame;
+        let frame = &self.stock.frame;
         let span = |edge: &Shared| {
             let &(face, k) = edge.faces.first()?;
             let ends = ends_of(frame.faces, face, k).map(|corner| frame.rays.project(corner));
@@ -111,21 +111,22 @@ impl VisibilityMap<'_> {
         let stock = &self.stock;
         // Which edges of a face lie on a line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
-        for (number, seen) in (0..).zip(&stock.seen) {
-            let corners = stock.lines.frame.faces.corners(seen.face).len();
-            for (k, half) in (0..).zip(&stock.outline(number)[..corners]) {
-                if numbers.contains_key(&(seen.face, k)) {
+        let faces = stock.frame.faces;
+        for face in 0..faces.len() as u32 {
+            // Faces of polygons that do not show have no lines.
+            let corners = 0..faces.corners(face).len() as u32;
+            for (k, half) in corners.zip(self.rims.known_outline(face)) {
+                if numbers.contains_key(&(face, k)) {
                     edges.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                    edges.entry((number, half.line())).or_default().push(k);
+                    edges.entry((face, half.line())).or_default().push(k);
                 }
             }
         }
         for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let seen = stock.items[*item as usize].seen;
+            let face = stock.face(*item);
             for (i, side) in cell.sides.iter().enumerate() {
-                let face = stock.seen[seen as usize].face;
                 let end = cell.sides[if i + 1 == cell.sides.len() { 0 } else { i + 1 }].start;
-                for &k in edges.get(&(seen, side.half.line())).into_iter().flatten() {
+                for &k in edges.get(&(face, side.half.line())).into_iter().flatten() {
                     let Some(&number) = numbers.get(&(face, k)) else { continue };
                     let Some(span) = &starts[number as usize] else { continue };
                     let [a, b] = [side.start.at, end.at].map(|point| span.place(point));
@@ -241,7 +242,7 @@ struct Views<'m> {
 
 impl Views<'_> {
     fn side(&mut self, face: u32) -> Ordering {
-        let frame = &self.map.stock.lines.frame;
+        let frame = &self.map.stock.frame;
         *self.sides.entry(face).or_insert_with(|| {
             let side = frame.sheet(PlaneId::face(face)).side();
             if frame.rays.is_perspective() { side } else { side.reverse() }
@@ -255,13 +256,13 @@ impl Views<'_> {
         span: &Span,
         runs: &mut Vec<EdgeRun>,
     ) -> Result<(), Error> {
-        let fronts_only = self.map.stock.lines.frame.rays.is_front_only();
+        let fronts_only = self.map.stock.frame.rays.is_front_only();
         let sides: SmallVec<[Ordering; 2]> =
             edge.faces.iter().map(|&(face, _)| self.side(face)).collect();
         let shows = |side: &Ordering| side.is_gt() || side.is_lt() && !fronts_only;
         let fronts = sides.iter().position(|side| side.is_gt());
         let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return Ok(()) };
-        let faces = self.map.stock.lines.frame.faces;
+        let faces = self.map.stock.frame.faces;
         let (face, k) = edge.faces[owner];
         let kind = kind(faces, edge, &sides);
         let polygon = faces.polygon(face);

@@ -11,22 +11,25 @@ const SHARED: usize = 6;
 pub(super) const NARROWED: usize = 8;
 /// So does cutting a cell with an item.
 pub(super) const CUT: usize = 64;
+/// And making the lines of a piece.
+pub(super) const LINES: usize = 64;
 /// And visiting a node of a graph.
 pub(super) const VISITED: usize = 4;
 
 /// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one
-/// list for each of the parts that are shared out to threads. What is found, and in which order, does
+/// `new` thing for each of the parts that are shared out to threads. What is found, and in which order, does
 /// not depend on how many threads there are.
-pub(super) fn found_in<E: Send, F: Default + Send>(
+pub(super) fn found_in<E: Send, F: Send>(
     all: E,
-    halves: impl Fn(&E) -> Result<Option<[E; 2]>, Error> + Sync,
+    new: impl Fn() -> F + Sync,
+    halves: impl Fn(&E, &mut F) -> Result<Option<[E; 2]>, Error> + Sync,
     leaf: impl Fn(&E, &mut F) -> Result<(), Error> + Sync,
     watch: &Watch<'_>,
 ) -> Result<Vec<F>, Error> {
     let mut shares = vec![all];
     for _ in 0..SHARED {
         let mut next = Vec::with_capacity(2 * shares.len());
-        for parts in parallel_map::map(shares, |entry| Ok((halves(&entry)?, entry))) {
+        for parts in parallel_map::map(shares, |entry| Ok((halves(&entry, &mut new())?, entry))) {
             match parts? {
                 (Some(parts), _) => next.extend(parts),
                 (None, entry) => next.push(entry),
@@ -36,9 +39,9 @@ pub(super) fn found_in<E: Send, F: Default + Send>(
     }
     watch.expect(shares.len())?;
     let found = parallel_map::map(shares, |entry| {
-        let (mut found, mut stack) = (F::default(), vec![entry]);
+        let (mut found, mut stack) = (new(), vec![entry]);
         while let Some(entry) = stack.pop() {
-            match halves(&entry)? {
+            match halves(&entry, &mut found)? {
                 Some([first, second]) => {
                     push(&mut stack, second)?;
                     push(&mut stack, first)?;

@@ -86,6 +86,9 @@ const FEW: usize = 8;
 /// The relative error of one rounding.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
+/// The halves on which another list's lines are positive, by their numbers there.
+pub(super) type Adopted = Table<u32, Half>;
+
 /// All lines that a picture was asked for.
 #[derive(Debug)]
 pub(super) struct Lines<'t> {
@@ -215,10 +218,15 @@ impl<'t> Lines<'t> {
             }
             return Ok(self.half(Key::Upright(face, k), points)?.flipped(flip));
         }
-        let [a, b] = [self.point(a)?, self.point(b)?];
-        let points = [a.min(b), a.max(b)];
+        let points = [self.point(a)?, self.point(b)?];
         let is_front = is_positive == self.frame.rays.is_perspective();
-        Ok(self.half(Key::Edge(points), points)?.flipped(is_front == (a < b)))
+        Ok(self.edge_between(points)?.flipped(is_front))
+    }
+
+    /// The half on which the edge from one point to another is positive.
+    fn edge_between(&mut self, [a, b]: [u32; 2]) -> Result<Half, Error> {
+        let points = [a.min(b), a.max(b)];
+        Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
     }
 
     /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front; by
@@ -297,6 +305,33 @@ impl<'t> Lines<'t> {
         push(&mut self.corners, corner)?;
         insert(&mut self.moved, corner, number)?;
         Ok(number)
+    }
+
+    /// The half that another list's half is in this one, to which its line is added if it is new.
+    pub(super) fn adopted(
+        &mut self,
+        other: &Self,
+        half: Half,
+        adopted: &mut Adopted,
+    ) -> Result<Half, Error> {
+        let Some(line) = half.number() else { return Ok(half) };
+        if let Some(&own) = adopted.get(&line) {
+            return Ok(own.flipped(half.is_negative()));
+        }
+        let mut points = other.through[line as usize];
+        for point in points.iter_mut().filter(|point| **point != NOWHERE) {
+            let corner = other.corners[*point as usize];
+            *point = match other.moved.get(&corner) == Some(point) {
+                true => self.moved(corner)?,
+                false => self.point(corner)?,
+            };
+        }
+        let own = match other.key(line) {
+            Key::Edge(_) => self.edge_between(points)?,
+            key => self.half(key, points)?,
+        };
+        insert(adopted, line, own)?;
+        Ok(own.flipped(half.is_negative()))
     }
 
     /// What made a line.

@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use super::cell::Cell;
+use super::halving::LINES;
+use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
 use super::visible::{Leaf, Visible, visible};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
+use crate::memory::collect;
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -29,6 +32,8 @@ use crate::tree::BspTree;
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) stock: Stock<'t>,
+    /// Of the faces of polygons that show.
+    pub(super) rims: Rims<'t>,
     pub(super) leaves: Vec<Leaf>,
 }
 
@@ -81,13 +86,24 @@ impl<'t> VisibilityMap<'t> {
     fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
         let size = rays.size();
         let stock = Stock::new(tree, rays, watch)?;
-        let leaves = visible(&stock, Tile::picture(size), watch)?;
-        Ok(Self { stock, leaves })
+        let (leaves, mut rims) = visible(&stock, Tile::picture(size), watch)?;
+        let faces = tree.faces();
+        let mut shows: Vec<bool> = collect((0..stock.polygons_end()).map(|_| false))?;
+        for Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+            shows[stock.polygon(*item)] = true;
+        }
+        for face in 0..faces.len() as u32 {
+            if stock.sees(face) && shows[faces.polygon(face)] {
+                watch.work(LINES)?;
+                rims.outline(&stock, face)?;
+            }
+        }
+        Ok(Self { stock, rims, leaves })
     }
 
     /// The picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
-        self.stock.lines.frame.rays.size()
+        self.stock.frame.rays.size()
     }
 
     /// All cells, in no particular order.

@@ -11,9 +11,10 @@
 //! | `table` | tables by numbers, with a quick hash |
 //! | `half` | lines by their numbers, each with a side |
 //! | `lines` | all lines of a picture, by what made them |
-//! | `region` | boxes in the picture, and around what several lines bound |
+//! | `region` | boxes in the picture |
 //! | `cell` | convex cells, and how a line cuts them |
-//! | `stock` | the pieces that may show, by their lines |
+//! | `stock` | the pieces that may show |
+//! | `rims` | the lines that bound them, made when they are asked for |
 //! | `tile` | tiles of the picture |
 //! | `halving` | the picture halved until its parts are simple, on all threads |
 //! | `narrow` | the pieces that may show in a tile |
@@ -53,6 +54,7 @@ mod pairs;
 mod pen;
 mod reaches;
 mod region;
+mod rims;
 mod stock;
 mod table;
 mod tile;

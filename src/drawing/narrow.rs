@@ -2,148 +2,127 @@
 
 use smallvec::SmallVec;
 
-use super::half::Half;
-use super::region::{Region, are_apart, is_within};
+use super::region::{Region, are_apart, reaches_across};
+use super::rims::Rims;
 use super::stock::{Item, Stock};
 use super::tile::{Across, Tile};
 use crate::Error;
-use crate::memory::{place, push, reserve};
+use crate::memory::{push, reserve};
 
 /// Of so many faces at most, the front ones, it is asked whether all their pieces cover a tile.
 const FACES: usize = 8;
 
-/// Items, front to back, each with those of its lines that may cross a tile.
-#[derive(Debug, Default)]
+/// Items that may show in a tile, front to back.
+#[derive(Debug)]
 pub(super) struct List {
-    pub(super) items: Vec<Listed>,
-    halves: Vec<Half>,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Listed {
-    pub(super) item: u32,
-    /// Its face, by its place in [`Stock::seen`].
-    seen: u32,
-    /// Where its halves begin and end.
-    halves: [u32; 2],
+    pub(super) items: Vec<u32>,
+    /// Items behind this one are missing from the list: they are hidden.
+    limit: u32,
 }
 
 impl List {
-    /// What of all items may show in a tile; and which is the last that is not certainly hidden.
-    pub(super) fn of_all(stock: &Stock<'_>, tile: Tile) -> Result<(Self, u32), Error> {
-        let mut builder = Narrow::new(stock, tile, u32::MAX, &Self::default())?;
-        for number in 0..stock.items.len() as u32 {
-            if !builder.add(number, stock.halves(number))? {
-                break;
-            }
-        }
-        Ok(builder.finish())
-    }
-
-    /// The same of what is in the list, for a part of the tile; items behind `limit` are hidden.
-    pub(super) fn narrowed(
-        &self,
-        stock: &Stock<'_>,
+    /// What of all items may show in a tile.
+    pub(super) fn of_all<'t>(
+        stock: &Stock<'t>,
+        rims: &mut Rims<'t>,
         tile: Tile,
-        limit: u32,
-    ) -> Result<(Self, u32), Error> {
-        let mut builder = Narrow::new(stock, tile, limit, self)?;
-        for listed in &self.items {
-            if !builder.add(listed.item, self.halves_of(listed))? {
+    ) -> Result<Self, Error> {
+        let mut narrow = Narrow::new(stock, rims, tile, u32::MAX, stock.items.len())?;
+        for item in 0..stock.items.len() as u32 {
+            if !narrow.add(item)? {
                 break;
             }
         }
-        Ok(builder.finish())
+        narrow.finish()
     }
 
-    /// The lines of an item that may cross the tile.
-    pub(super) fn halves_of(&self, listed: &Listed) -> &[Half] {
-        let [start, end] = listed.halves;
-        &self.halves[start as usize..end as usize]
+    /// What of the list may show in a part of the tile.
+    pub(super) fn narrowed<'t>(
+        &self,
+        stock: &Stock<'t>,
+        rims: &mut Rims<'t>,
+        tile: Tile,
+    ) -> Result<Self, Error> {
+        let mut narrow = Narrow::new(stock, rims, tile, self.limit, self.items.len())?;
+        for &item in &self.items {
+            if !narrow.add(item)? {
+                break;
+            }
+        }
+        narrow.finish()
     }
 }
 
 /// Makes the list of a tile.
-struct Narrow<'a, 'b> {
-    stock: &'a Stock<'b>,
+struct Narrow<'a, 't> {
+    stock: &'a Stock<'t>,
+    rims: &'a mut Rims<'t>,
     sides: Region,
     list: List,
-    limit: u32,
 }
 
-impl<'a, 'b> Narrow<'a, 'b> {
-    /// The list will be a part of another.
-    fn new(stock: &'a Stock<'b>, tile: Tile, limit: u32, whole: &List) -> Result<Self, Error> {
-        let mut list = List::default();
-        reserve(&mut list.items, whole.items.len())?;
-        reserve(&mut list.halves, whole.halves.len())?;
-        Ok(Self { stock, sides: tile.sides(), list, limit })
+impl<'a, 't> Narrow<'a, 't> {
+    /// The list will be of so many items at most, none behind `limit`.
+    fn new(
+        stock: &'a Stock<'t>,
+        rims: &'a mut Rims<'t>,
+        tile: Tile,
+        limit: u32,
+        most: usize,
+    ) -> Result<Self, Error> {
+        let mut items = Vec::new();
+        reserve(&mut items, most)?;
+        Ok(Self { stock, rims, sides: tile.sides(), list: List { items, limit } })
     }
 
-    /// Adds an item, with those of its lines that may cross the tile, unless it is certain that the tile
-    /// shows nothing of it; false if no item behind it can show.
-    fn add(&mut self, item: u32, halves: &[Half]) -> Result<bool, Error> {
-        if item > self.limit {
+    /// Adds an item unless it is certain that the tile shows nothing of it; false if no item behind it can
+    /// show.
+    fn add(&mut self, item: u32) -> Result<bool, Error> {
+        let Self { stock, rims, sides, list } = self;
+        if item > list.limit {
             return Ok(false);
         }
-        let Self { stock, sides, list, .. } = self;
-        let Item { seen, ref region, .. } = stock.items[item as usize];
+        let Item { ref region, .. } = stock.items[item as usize];
         if are_apart(sides, region) {
             return Ok(true);
         }
-        let start = list.halves.len();
-        reserve(&mut list.halves, halves.len())?;
-        if is_within(region, sides) {
-            list.halves.extend_from_slice(halves);
-        } else {
-            for &half in halves {
-                match stock.lines.across(half, sides) {
-                    Across::Inside => continue,
-                    Across::Outside => {
-                        list.halves.truncate(start);
-                        return Ok(true);
-                    }
-                    Across::Maybe => list.halves.push(half),
-                }
+        // Lines are made and looked at only where they may tell more than boxes.
+        if reaches_across(region, sides) {
+            match rims.across_item(stock, item, sides)? {
+                Across::Inside => list.limit = item,
+                Across::Outside => return Ok(true),
+                Across::Maybe => {}
             }
         }
-        let halves = [place(start)?, place(list.halves.len())?];
-        push(&mut list.items, Listed { item, seen, halves })?;
-        if start == list.halves.len() {
-            // It covers the tile.
-            self.limit = item;
-        }
-        Ok(item < self.limit)
-    }
-
-    fn finish(mut self) -> (List, u32) {
-        self.cover_by_faces();
-        (self.list, self.limit)
+        push(&mut list.items, item)?;
+        Ok(item < list.limit)
     }
 
     /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
-    fn cover_by_faces(&mut self) {
-        let Self { stock, sides, list, limit } = self;
-        let mut end = *limit;
+    fn finish(self) -> Result<List, Error> {
+        let Self { stock, rims, sides, mut list } = self;
+        let mut end = list.limit;
         let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
-        for (place, listed) in list.items.iter().enumerate() {
-            if listed.item >= end || tried.len() == FACES {
+        for (place, &item) in list.items.iter().enumerate() {
+            if item >= end || tried.len() == FACES {
                 break;
             }
-            let face = listed.seen;
+            let face = stock.face(item);
             // If pieces of it are missing from the list, the others alone may not cover the tile.
             if tried.contains(&face)
-                || stock.seen[face as usize].last > *limit
-                || !stock.covers(face, sides)
+                || stock.views[face as usize].last > list.limit
+                || !rims.covers(stock, face, &sides)?
             {
                 continue;
             }
             tried.push(face);
-            let mut siblings = list.items[place..].iter().filter(|other| other.seen == face);
-            end = siblings.next_back().map_or(end, |last| end.min(last.item));
+            let mut siblings =
+                list.items[place..].iter().filter(|&&other| stock.face(other) == face);
+            end = siblings.next_back().map_or(end, |&last| end.min(last));
         }
-        *limit = end;
-        let len = list.items.partition_point(|listed| listed.item <= end);
+        list.limit = end;
+        let len = list.items.partition_point(|&item| item <= end);
         list.items.truncate(len);
+        Ok(list)
     }
 }

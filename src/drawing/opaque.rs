@@ -6,6 +6,7 @@ use super::above::pairs;
 use super::cell::Cell;
 use super::half::Half;
 use super::halving::CUT;
+use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::order::{Ordered, order};
 use super::outline::{Edge, outlines};
@@ -73,11 +74,11 @@ impl VisibilityMap<'_> {
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
-        let Self { stock, leaves } = self;
+        let Self { stock, rims, leaves } = self;
         let size = self.size();
         let shown = Nodes::of(stock, leaves)?;
-        let place = |seen: u32| shown.places[seen as usize];
-        let pairs = pairs(stock, leaves, &place, watch)?;
+        let place = |face: u32| shown.places[face as usize];
+        let pairs = pairs(stock, rims, leaves, &place, watch)?;
         let Ordered { order, is_clipped } =
             order(shown.polygons.len(), &pairs, &shown.ranks, watch)?;
         let cells = shown.cells(stock, leaves, &is_clipped)?;
@@ -92,8 +93,8 @@ impl VisibilityMap<'_> {
                         add_sides(cell, &mut edges)?;
                     }
                 } else {
-                    for &seen in &shown.faces[index] {
-                        add_edges(stock, stock.outline(seen), &mut edges)?;
+                    for &face in &shown.faces[index] {
+                        add_edges(&rims.lines, rims.known_outline(face), &mut edges)?;
                     }
                 }
                 part.push(shown.polygons[index], is_clipped[index], &edges)?;
@@ -122,9 +123,11 @@ impl Drawing {
         edges: &[Edge],
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        // Parts of a folded polygon lie on one another, and specks are smaller than outlines can be:
-        // there each part is an outline of its own.
-        let all = outlines(edges).unwrap_or_else(|| apart(edges));
+        // A single part is its outline. Those of a folded polygon lie on one another, and specks are
+        // smaller than outlines can be: there each is one of its own.
+        let is_one = edges.windows(2).all(|pair| pair[0].to == pair[1].from);
+        let joined = if is_one { None } else { outlines(edges) };
+        let all = joined.unwrap_or_else(|| apart(edges));
         for outline in all {
             push(&mut self.outlines, self.corners.len() as u32)?;
             reserve(&mut self.corners, outline.len())?;
@@ -200,9 +203,8 @@ struct Nodes {
 
 impl Nodes {
     fn of(stock: &Stock<'_>, leaves: &[Leaf]) -> Result<Self, Error> {
-        let faces = stock.lines.frame.faces;
-        let polygon = |seen: u32| faces.polygon(stock.seen[seen as usize].face);
-        let most = (0..stock.seen.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
+        let faces = stock.frame.faces;
+        let most = stock.polygons_end();
         let mut last: Vec<Option<u32>> = collect((0..most).map(|_| None))?;
         for Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             let last = &mut last[stock.polygon(*item)];
@@ -217,11 +219,14 @@ impl Nodes {
             push(&mut shown.faces, vec![])?;
             push(&mut shown.ranks, stock.items.len() as u32 - last)?;
         }
-        for seen in 0..stock.seen.len() as u32 {
-            let number = numbers[polygon(seen)];
+        for face in 0..faces.len() as u32 {
+            let number = match stock.sees(face) {
+                true => numbers[faces.polygon(face)],
+                false => u32::MAX,
+            };
             push(&mut shown.places, number)?;
             if number != u32::MAX {
-                push(&mut shown.faces[number as usize], seen)?;
+                push(&mut shown.faces[number as usize], face)?;
             }
         }
         Ok(shown)
@@ -236,7 +241,7 @@ impl Nodes {
     ) -> Result<Vec<Vec<&'l Cell>>, Error> {
         let mut cells: Vec<Vec<&Cell>> = collect(self.polygons.iter().map(|_| vec![]))?;
         for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let place = self.places[stock.items[*item as usize].seen as usize] as usize;
+            let place = self.places[stock.face(*item) as usize] as usize;
             if is_clipped[place] {
                 push(&mut cells[place], cell)?;
             }
@@ -263,13 +268,13 @@ fn add_sides(cell: &Cell, edges: &mut Vec<Edge>) -> Result<(), Error> {
 
 /// Adds the edges of a convex piece, as far as it is in the picture.
 pub(super) fn add_edges(
-    stock: &Stock<'_>,
+    lines: &Lines<'_>,
     halves: &[Half],
     edges: &mut Vec<Edge>,
 ) -> Result<(), Error> {
-    let Tile { low, high } = Tile::picture(stock.lines.frame.rays.size());
-    let picture = Cell::rectangle(&stock.lines, low, high);
-    if let Some(cell) = picture.within(&stock.lines, halves, None)? {
+    let Tile { low, high } = Tile::picture(lines.frame.rays.size());
+    let picture = Cell::rectangle(lines, low, high);
+    if let Some(cell) = picture.within(lines, halves, None)? {
         add_sides(&cell, edges)?;
     }
     Ok(())

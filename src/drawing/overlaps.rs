@@ -2,8 +2,10 @@
 
 use super::cell::Cell;
 use super::halving::{CUT, NARROWED, found_in};
+use super::lines::Lines;
 use super::pairs::{Found, Pair, add, sorted};
 use super::reaches::Reaches;
+use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
@@ -21,24 +23,27 @@ struct Entry {
 /// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
 /// pairs are compared; smaller: more tiles.
 const FEW: usize = 8;
+
 /// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
 /// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
 pub(super) fn overlaps(
     stock: &Stock<'_>,
+    rims: &Rims<'_>,
     picture: Tile,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let mut reaches = Reaches::default();
     for item in 0..stock.items.len() as u32 {
-        reaches.push(item, stock.halves(item))?;
+        reaches.push(item, rims.known_item(stock, item))?;
     }
     let all = Entry { tile: picture, reaches, in_vain: 0 };
-    let halves = |entry: &Entry| {
+    let halves = |entry: &Entry, _: &mut Found| {
         watch.work(entry.reaches.list.len() * NARROWED)?;
-        entry.halves(stock)
+        entry.halves(stock, &rims.lines)
     };
-    let leaf = |entry: &Entry, found: &mut Found| entry.leaf(stock, found, watch);
-    sorted(found_in(all.narrowed(stock, picture)?, halves, leaf, watch)?)
+    let leaf = |entry: &Entry, found: &mut Found| entry.leaf(stock, &rims.lines, found, watch);
+    let all = all.narrowed(stock, &rims.lines, picture)?;
+    sorted(found_in(all, Found::default, halves, leaf, watch)?)
 }
 
 impl Entry {
@@ -49,27 +54,32 @@ impl Entry {
     }
 
     /// Both halves of the tile; `None` of a leaf.
-    fn halves(&self, stock: &Stock<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(&self, stock: &Stock<'_>, lines: &Lines<'_>) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let [first, second] = self.tile.halves();
-        let mut parts = [self.narrowed(stock, first)?, self.narrowed(stock, second)?];
+        let mut parts = [self.narrowed(stock, lines, first)?, self.narrowed(stock, lines, second)?];
         let open = |entry: &Self| entry.reaches.list.iter().filter(|reach| !reach.covers()).count();
         let counts = [open(&parts[0]), open(&parts[1])];
         [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, open(self), counts);
         Ok(Some(parts))
     }
 
-    fn narrowed(&self, stock: &Stock<'_>, tile: Tile) -> Result<Self, Error> {
+    fn narrowed(&self, stock: &Stock<'_>, lines: &Lines<'_>, tile: Tile) -> Result<Self, Error> {
         let around = |item: u32| stock.items[item as usize].region;
-        let reaches = self.reaches.narrowed(&stock.lines, &tile.sides(), around)?;
+        let reaches = self.reaches.narrowed(lines, &tile.sides(), around)?;
         Ok(Self { tile, reaches, in_vain: 0 })
     }
 
     /// Adds the pairs of the tile.
-    fn leaf(&self, stock: &Stock<'_>, found: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
-        let lines = &stock.lines;
+    fn leaf(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
         let mut add = |below: u32, above: u32| add(found, Pair { below, above });
         // The last item that covers the tile, and those behind it so far, with what they cover.
         let mut cover: Option<u32> = None;
@@ -93,7 +103,7 @@ impl Entry {
             if let Some(cover) = cover {
                 add(item, cover)?;
             }
-            let face = |item: u32| stock.seen_of(item);
+            let face = |item: u32| stock.face(item);
             for (above, other) in &behind {
                 if face(*above) != face(item) && other.meets(lines, halves)? {
                     add(item, *above)?;

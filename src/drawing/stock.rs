@@ -1,179 +1,155 @@
-//! What a picture is made of: pieces of faces, front to back, by the lines that bound them.
+//! What a picture is made of: pieces of faces, front to back.
 
-use std::ops::Range;
+use smallvec::SmallVec;
 
 use super::frame::Frame;
-use super::half::Half;
-use super::lines::Lines;
-use super::region::{Region, common, is_within};
-use super::tile::{Across, Tile};
+use super::region::{NOWHERE, Region, common, is_empty};
+use super::tile::Tile;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::PlaneId;
-use crate::memory::{place, push, reserve};
+use crate::memory::reserve;
+use crate::parallel_map;
 use crate::raster::{Rays, Sheet};
 use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may show.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
-    /// Its face, by its place in [`Stock::seen`].
-    pub(super) seen: u32,
-    /// Where the halves that bound it begin and end in [`Stock::halves`].
-    halves: [u32; 2],
-    /// A box around it in the picture.
+    pub(super) face: u32,
+    /// The tree's number of it.
+    pub(super) fragment: u32,
+    /// A box around what of it is in the picture.
     pub(super) region: Region,
 }
 
-/// A face that the camera sees a side of.
-#[derive(Clone, Debug)]
-pub(super) struct Seen {
-    pub(super) face: u32,
-    /// Whether the κ of its plane is positive.
-    is_positive: bool,
-    /// Its edges in [`Stock::halves`], one after another, and what else bounds it.
-    halves: Range<u32>,
-    /// The last of its items.
-    pub(super) last: u32,
-    /// A box around it in the picture.
+/// How the camera sees a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    /// A box around what of it is in the picture; an empty one if the picture shows nothing of it.
     pub(super) region: Region,
+    /// Whether the κ of its plane is positive.
+    pub(super) is_positive: bool,
+    /// The last of its items, if it has some.
+    pub(super) last: u32,
 }
 
 /// All pieces that may show, front to back.
 #[derive(Debug)]
 pub(super) struct Stock<'t> {
-    pub(super) lines: Lines<'t>,
+    tree: &'t BspTree,
+    pub(super) frame: Frame<'t>,
     pub(super) items: Vec<Item>,
-    pub(super) seen: Vec<Seen>,
-    halves: Vec<Half>,
+    /// Of all faces, by their numbers.
+    pub(super) views: Vec<View>,
 }
 
-/// To make the lines of a fragment takes as long as a build takes to examine so many pieces.
-const LINES: usize = 64;
-/// Faces that show nothing.
-const UNSEEN: u32 = u32::MAX;
-/// Faces that were not met so far.
-const UNKNOWN: u32 = u32::MAX - 1;
+/// So many faces, or pieces, are looked at by one thread.
+const SHARE: usize = 1024;
+/// To look at a piece takes as long as a build takes to examine so many.
+const LOOKED: usize = 16;
 
 impl<'t> Stock<'t> {
     /// The pieces of a tree that rays may meet.
     pub(super) fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
-        let (faces, viewpoint) = (tree.faces(), rays.viewpoint());
-        let lines = Lines::new(Frame { rays, faces });
-        let mut stock = Self { lines, items: vec![], seen: vec![], halves: vec![] };
-        let mut numbers: Vec<u32> = Vec::new();
-        reserve(&mut numbers, faces.len())?;
-        numbers.resize(faces.len(), UNKNOWN);
-        for fragment in tree.front_to_back(viewpoint) {
-            watch.work(LINES)?;
-            let face = fragment.face();
-            let number = &mut numbers[face as usize];
-            if *number == UNKNOWN {
-                *number = stock.see(face)?;
-            }
-            if *number == UNSEEN {
-                continue;
-            }
-            let seen = *number;
-            if let Some(item) = stock.item(&fragment, seen)? {
-                stock.seen[seen as usize].last = stock.items.len() as u32;
-                push(&mut stock.items, item)?;
-            }
+        let faces = tree.faces();
+        let frame = Frame { rays, faces };
+        let mut order = Vec::new();
+        reserve(&mut order, tree.len())?;
+        tree.front_to_back_into(frame.rays.viewpoint(), &mut order);
+        let mut stock = Self { tree, frame, items: vec![], views: vec![] };
+        let all = 0..faces.len() as u32;
+        let view = |face: u32| Some(stock.view(face));
+        stock.views = shared(&all.collect::<Vec<_>>(), view, watch)?;
+        let item = |index: u32| stock.item(&tree.fragment(index));
+        stock.items = shared(&order, item, watch)?;
+        for (number, item) in (0..).zip(&stock.items) {
+            stock.views[item.face as usize].last = number;
         }
         Ok(stock)
     }
 
-    /// A fragment of a face, unless the picture shows nothing of it.
-    fn item(&mut self, fragment: &Fragment<'_>, seen: u32) -> Result<Option<Item>, Error> {
-        let Seen { region, is_positive, ref halves, .. } = self.seen[seen as usize];
-        if fragment.lines().all(|line| line.as_cut().is_none()) {
-            return Ok(Some(Item { seen, halves: [halves.start, halves.end], region }));
+    /// A fragment, unless the picture shows nothing of it.
+    fn item(&self, fragment: &Fragment<'_>) -> Option<Item> {
+        let face = fragment.face();
+        let View { region, .. } = self.views[face as usize];
+        if is_empty(&region) {
+            return None;
         }
-        let (rim, start) = (halves.start as usize..halves.end as usize, self.halves.len());
-        reserve(&mut self.halves, rim.len())?;
-        self.halves.extend_from_within(rim.clone());
-        for line in fragment.lines() {
-            let Some(plane) = line.as_cut() else { continue };
-            let half = self.lines.cut(fragment.face(), plane, line.is_behind(), is_positive)?;
-            push(&mut self.halves, half)?;
+        let item = |region| Item { face, fragment: fragment.index(), region };
+        if fragment.is_whole() {
+            return Some(item(region));
         }
-        let picture = Tile::picture(self.lines.frame.rays.size()).sides();
-        let Some(region) = self.lines.around(&common(&region, &picture), &self.halves[start..])
-        else {
-            self.halves.truncate(start);
-            return Ok(None);
-        };
-        // Edges of the face that do not touch the fragment's box bound nothing of it.
-        let mut end = start;
-        for place in start..self.halves.len() {
-            let half = self.halves[place];
-            if place >= start + rim.len() || self.lines.across(half, &region) != Across::Inside {
-                self.halves[end] = half;
-                end += 1;
-            }
-        }
-        self.halves.truncate(end);
-        Ok(Some(Item { seen, halves: [place(start)?, place(end)?], region }))
+        let vertices: SmallVec<[[f64; 3]; 8]> = fragment.lattice_vertices().collect();
+        self.region(&vertices).map(item)
     }
 
-    /// The number of a face, which is added if the picture shows it.
-    fn see(&mut self, face: u32) -> Result<u32, Error> {
-        let Frame { rays, faces } = &self.lines.frame;
-        let faces = *faces;
-        let Some(region) = rays.region(faces.corners(face)) else { return Ok(UNSEEN) };
+    /// A box around the part of a convex hull that is in the picture; `None` if there is none.
+    fn region(&self, points: &[[f64; 3]]) -> Option<Region> {
+        let picture = Tile::picture(self.frame.rays.size()).sides();
+        let region = common(&self.frame.rays.region(points)?, &picture);
+        (!is_empty(&region)).then_some(region)
+    }
+
+    fn view(&self, face: u32) -> View {
+        let Frame { rays, faces } = &self.frame;
+        let unseen = View { region: NOWHERE, is_positive: false, last: 0 };
+        let Some(region) = self.region(faces.corners(face)) else { return unseen };
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
-        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
+        let side = certain.unwrap_or_else(|| self.frame.sheet(plane).side());
         let is_positive = side.is_gt();
         if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
-            return Ok(UNSEEN);
+            return unseen;
         }
-        let may_be_behind = rays.is_perspective() && faces.upright_axis(face).is_some();
-        let start = place(self.halves.len())?;
-        for k in 0..faces.corners(face).len() as u32 {
-            let half = self.lines.edge(face, k, is_positive)?;
-            push(&mut self.halves, half)?;
-        }
-        // Edges in a plane bound a cone, all of it ahead of the eye; others may bound its image
-        // behind the eye as well.
-        if may_be_behind {
-            let half = self.lines.ahead(face, is_positive)?;
-            push(&mut self.halves, half)?;
-        }
-        let halves = start..place(self.halves.len())?;
-        push(&mut self.seen, Seen { face, is_positive, halves, last: 0, region })?;
-        Ok(self.seen.len() as u32 - 1)
+        View { region, is_positive, last: 0 }
     }
 
-    /// The halves that bound a whole face.
-    pub(super) fn outline(&self, seen: u32) -> &[Half] {
-        let Range { start, end } = self.seen[seen as usize].halves;
-        &self.halves[start as usize..end as usize]
+    /// Whether the picture may show some of a face.
+    pub(super) fn sees(&self, face: u32) -> bool {
+        !is_empty(&self.views[face as usize].region)
     }
 
-    /// Whether a face certainly covers a box.
-    pub(super) fn covers(&self, seen: u32, sides: &Region) -> bool {
-        is_within(sides, &self.seen[seen as usize].region)
-            && self
-                .outline(seen)
-                .iter()
-                .all(|&half| self.lines.across(half, sides) == Across::Inside)
+    /// A number above those of all polygons that the picture may show.
+    pub(super) fn polygons_end(&self) -> usize {
+        let seen = (0..self.views.len() as u32).filter(|&face| self.sees(face));
+        seen.map(|face| self.frame.faces.polygon(face) + 1).max().unwrap_or(0)
     }
 
-    /// The halves that bound an item.
-    pub(super) fn halves(&self, item: u32) -> &[Half] {
-        let [start, end] = self.items[item as usize].halves;
-        &self.halves[start as usize..end as usize]
+    /// The tree's fragment that an item is.
+    pub(super) fn fragment(&self, item: u32) -> Fragment<'t> {
+        self.tree.fragment(self.items[item as usize].fragment)
     }
 
-    /// The place of an item's face in [`Stock::seen`].
-    pub(super) fn seen_of(&self, item: u32) -> u32 {
-        self.items[item as usize].seen
+    /// The face of an item.
+    pub(super) fn face(&self, item: u32) -> u32 {
+        self.items[item as usize].face
     }
 
     /// The polygon of an item.
     pub(super) fn polygon(&self, item: u32) -> usize {
-        let seen = self.items[item as usize].seen;
-        self.lines.frame.faces.polygon(self.seen[seen as usize].face)
+        self.frame.faces.polygon(self.face(item))
     }
+}
+
+/// What a function gives for numbers, in their order, by all threads.
+fn shared<T: Send>(
+    numbers: &[u32],
+    function: impl Fn(u32) -> Option<T> + Sync,
+    watch: &Watch<'_>,
+) -> Result<Vec<T>, Error> {
+    let part = |numbers: &[u32]| {
+        watch.work(numbers.len() * LOOKED)?;
+        let mut part = Vec::new();
+        reserve(&mut part, numbers.len())?;
+        part.extend(numbers.iter().filter_map(|&number| function(number)));
+        Ok(part)
+    };
+    let mut all = Vec::new();
+    for part in parallel_map::map(numbers.chunks(SHARE).collect(), part) {
+        let mut part: Vec<T> = part?;
+        reserve(&mut all, part.len())?;
+        all.append(&mut part);
+    }
+    Ok(all)
 }

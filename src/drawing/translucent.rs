@@ -2,12 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::halving::CUT;
+use super::halving::{CUT, LINES};
 use super::join::Groups;
 use super::opaque::{Drawing, add_edges};
 use super::order::{Ordered, cycles, order};
 use super::overlaps::overlaps;
 use super::pairs::Pair;
+use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
 use crate::Error;
@@ -58,11 +59,16 @@ impl Drawing {
     fn with_all(tree: &BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
         let size = rays.size();
         let stock = Stock::new(tree, rays, watch)?;
-        let overlaps = overlaps(&stock, Tile::picture(size), watch)?;
+        let mut rims = Rims::new(&stock);
+        for item in 0..stock.items.len() as u32 {
+            watch.work(LINES)?;
+            rims.item(&stock, item)?;
+        }
+        let overlaps = overlaps(&stock, &rims, Tile::picture(size), watch)?;
         let parts = Parts::new(&stock, &overlaps, watch)?;
         let Ordered { order, .. } = parts.order(&stock, &overlaps, watch)?;
-        let mut pieces: Vec<u32> = collect(stock.seen.iter().map(|_| 0))?;
-        stock.items.iter().for_each(|item| pieces[item.seen as usize] += 1);
+        let mut pieces: Vec<u32> = collect(stock.views.iter().map(|_| 0))?;
+        stock.items.iter().for_each(|item| pieces[item.face as usize] += 1);
         let count = (0..stock.items.len() as u32).map(|item| stock.polygon(item) + 1).max();
         let mut of_polygon: Vec<u32> = collect((0..count.unwrap_or(0)).map(|_| 0))?;
         (0..stock.items.len() as u32).for_each(|item| of_polygon[stock.polygon(item)] += 1);
@@ -73,15 +79,15 @@ impl Drawing {
             watch.work(CUT)?;
             let items = &parts.items[part as usize];
             edges.clear();
-            for same in items.chunk_by(|&a, &b| stock.seen_of(a) == stock.seen_of(b)) {
-                let seen = stock.seen_of(same[0]);
+            for same in items.chunk_by(|&a, &b| stock.face(a) == stock.face(b)) {
+                let face = stock.face(same[0]);
                 // The outline of a face is its own where none of its pieces is missing.
-                if same.len() as u32 == pieces[seen as usize] {
-                    add_edges(&stock, stock.outline(seen), &mut edges)?;
+                if same.len() as u32 == pieces[face as usize] {
+                    add_edges(&rims.lines, rims.known_outline(face), &mut edges)?;
                     continue;
                 }
                 for &item in same {
-                    add_edges(&stock, stock.halves(item), &mut edges)?;
+                    add_edges(&rims.lines, rims.known_item(&stock, item), &mut edges)?;
                 }
             }
             if !edges.is_empty() {
@@ -143,7 +149,7 @@ impl Parts {
             push(&mut items[part as usize], item)?;
         }
         for items in &mut items {
-            items.sort_by_key(|&item| stock.seen_of(item));
+            items.sort_by_key(|&item| stock.face(item));
         }
         Ok(Self { of_item, items })
     }
@@ -171,13 +177,13 @@ fn units(stock: &Stock<'_>, overlaps: &[Pair]) -> Result<Vec<u32>, Error> {
         is_folded[polygon(pair.below)] = true;
     }
     let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) =
-        (collect((0..count).map(|_| None))?, collect(stock.seen.iter().map(|_| None))?);
+        (collect((0..count).map(|_| None))?, collect(stock.views.iter().map(|_| None))?);
     let (mut units, mut next) = (Vec::new(), 0);
     reserve(&mut units, stock.items.len())?;
     for item in 0..stock.items.len() as u32 {
         let polygon = polygon(item);
         let unit = match is_folded[polygon] {
-            true => &mut of_face[stock.seen_of(item) as usize],
+            true => &mut of_face[stock.face(item) as usize],
             false => &mut of_polygon[polygon],
         };
         let number = *unit.get_or_insert(next);

@@ -5,10 +5,12 @@
 //! subtracted from what is left open; else the tile is halved (J. E. Warnock, "A hidden surface
 //! algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
 
-use super::cell::Cell;
+use super::cell::{Cell, Side};
 use super::halving::{CUT, NARROWED, found_in};
+use super::lines::Adopted;
 use super::narrow::List;
 use super::region::{Region, are_apart};
+use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
@@ -39,10 +41,14 @@ const SHORT: usize = 64;
 struct Entry {
     tile: Tile,
     list: List,
-    /// Items behind this one are missing from the list: they are hidden.
-    limit: u32,
     /// How often it was halved in vain: both parts had nearly all items.
     in_vain: u32,
+}
+
+/// What a thread finds in its part of the picture, with the lines that it needed.
+struct Found<'t> {
+    rims: Rims<'t>,
+    leaves: Vec<Leaf>,
 }
 
 /// A part of a tile where nothing shows so far.
@@ -57,51 +63,60 @@ impl Open {
     }
 }
 
-/// What is visible of all items, in the order of the tiles.
-pub(super) fn visible(
-    stock: &Stock<'_>,
+/// What is visible of all items, in the order of the tiles, by lines that are made for it.
+pub(super) fn visible<'t>(
+    stock: &Stock<'t>,
     picture: Tile,
     watch: &Watch<'_>,
-) -> Result<Vec<Leaf>, Error> {
-    let halves = |entry: &Entry| {
+) -> Result<(Vec<Leaf>, Rims<'t>), Error> {
+    let new = || Found { rims: Rims::new(stock), leaves: vec![] };
+    let halves = |entry: &Entry, found: &mut Found<'t>| {
         watch.work(entry.list.items.len() * NARROWED)?;
-        entry.halves(stock)
+        entry.halves(stock, &mut found.rims)
     };
-    let leaf = |entry: &Entry, leaves: &mut Vec<Leaf>| match entry.list.items.is_empty() {
-        true => Ok(()),
-        false => push(leaves, entry.leaf(stock, watch)?),
+    let leaf = |entry: &Entry, found: &mut Found<'t>| {
+        if entry.list.items.is_empty() {
+            return Ok(());
+        }
+        let leaf = entry.leaf(stock, &mut found.rims, watch)?;
+        push(&mut found.leaves, leaf)
     };
-    let mut all = Vec::new();
-    for mut part in found_in(Entry::of_picture(stock, picture)?, halves, leaf, watch)? {
-        reserve(&mut all, part.len())?;
-        all.append(&mut part);
+    let mut rims = Rims::new(stock);
+    let list = List::of_all(stock, &mut rims, picture)?;
+    let all = Entry { tile: picture, list, in_vain: 0 };
+    let mut leaves = Vec::new();
+    for mut found in found_in(all, new, halves, leaf, watch)? {
+        let mut adopted = Adopted::default();
+        for Visible { cell, .. } in found.leaves.iter_mut().flat_map(|leaf| &mut leaf.cells) {
+            for Side { half, .. } in &mut cell.sides {
+                *half = rims.lines.adopted(&found.rims.lines, *half, &mut adopted)?;
+            }
+        }
+        reserve(&mut leaves, found.leaves.len())?;
+        leaves.append(&mut found.leaves);
     }
-    Ok(all)
+    Ok((leaves, rims))
 }
 
 impl Entry {
-    /// The whole picture with all items.
-    fn of_picture(stock: &Stock<'_>, tile: Tile) -> Result<Self, Error> {
-        let (list, limit) = List::of_all(stock, tile)?;
-        Ok(Self { tile, list, limit, in_vain: 0 })
-    }
-
     /// Both halves of the tile, each with what may show in it; `None` of a leaf.
-    fn halves(&self, stock: &Stock<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves<'t>(
+        &self,
+        stock: &Stock<'t>,
+        rims: &mut Rims<'t>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
-        let [first, second] = self.tile.halves();
-        let mut parts = [self.narrowed(stock, first)?, self.narrowed(stock, second)?];
-        let [all, first, second] = [self, &parts[0], &parts[1]].map(|entry| entry.list.items.len());
-        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, all, [first, second]);
-        Ok(Some(parts))
-    }
-
-    /// What of the list may show in a part of the tile.
-    fn narrowed(&self, stock: &Stock<'_>, tile: Tile) -> Result<Self, Error> {
-        let (list, limit) = self.list.narrowed(stock, tile, self.limit)?;
-        Ok(Self { tile, list, limit, in_vain: 0 })
+        let tiles = self.tile.halves();
+        let first = self.list.narrowed(stock, rims, tiles[0])?;
+        let second = self.list.narrowed(stock, rims, tiles[1])?;
+        let counts = [&first, &second].map(|list| list.items.len());
+        let in_vain = in_vain(self.in_vain, self.list.items.len(), counts);
+        Ok(Some([
+            Self { tile: tiles[0], list: first, in_vain: in_vain[0] },
+            Self { tile: tiles[1], list: second, in_vain: in_vain[1] },
+        ]))
     }
 
     /// Whether the tile need not be halved.
@@ -111,29 +126,38 @@ impl Entry {
     }
 
     /// Takes what each piece shows from what is left open of the tile.
-    fn leaf(&self, stock: &Stock<'_>, watch: &Watch<'_>) -> Result<Leaf, Error> {
+    fn leaf<'t>(
+        &self,
+        stock: &Stock<'t>,
+        rims: &mut Rims<'t>,
+        watch: &Watch<'_>,
+    ) -> Result<Leaf, Error> {
         let Self { tile, list, .. } = self;
-        let lines = &stock.lines;
-        let mut open = vec![Open::new(Cell::rectangle(lines, tile.low, tile.high))];
+        let sides = tile.sides();
+        let mut open = vec![Open::new(Cell::rectangle(&rims.lines, tile.low, tile.high))];
         let (mut left, mut outside) = (Vec::new(), Vec::new());
         let mut cells = Vec::new();
-        for listed in &list.items {
+        for &item in &list.items {
             if open.is_empty() {
                 break;
             }
             watch.work(open.len() * CUT)?;
-            let region = &stock.items[listed.item as usize].region;
-            let halves = list.halves_of(listed);
+            let region = &stock.items[item as usize].region;
+            // Where nothing of the piece is, there is no need for its lines.
+            if open.iter().all(|open| are_apart(&open.around, region)) {
+                continue;
+            }
+            let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
+            let lines = &rims.lines;
             let mut i = 0;
             while let Some(Open { cell, around }) = open.get(i) {
-                // Where nothing of the piece is, there is no need to cut the cell.
                 let shown = match are_apart(around, region) {
                     true => None,
-                    false => cell.within(lines, halves, Some(&mut outside))?,
+                    false => cell.within(lines, &halves, Some(&mut outside))?,
                 };
                 match shown {
                     Some(cell) => {
-                        push(&mut cells, Visible { item: listed.item, cell })?;
+                        push(&mut cells, Visible { item, cell })?;
                         open.swap_remove(i);
                         reserve(&mut left, outside.len())?;
                         left.append(&mut outside);

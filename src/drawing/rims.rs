@@ -1,0 +1,169 @@
+//! The lines that bound pieces, made when they are asked for.
+
+use smallvec::SmallVec;
+
+use super::half::Half;
+use super::lines::Lines;
+use super::region::{Region, is_within};
+use super::stock::{Item, Stock, View};
+use super::table::{Table, insert};
+use super::tile::Across;
+use crate::Error;
+use crate::memory::{place, push};
+
+/// The halves that bound faces and items, of those that someone asked for.
+///
+/// Most of what is hidden is never asked for. Parts of a picture that several threads look at have rims
+/// each, with numbers of their own for lines.
+#[derive(Debug)]
+pub(super) struct Rims<'t> {
+    pub(super) lines: Lines<'t>,
+    halves: Vec<Half>,
+    of_faces: Table<u32, [u32; 2]>,
+    of_items: Table<u32, [u32; 2]>,
+}
+
+impl<'t> Rims<'t> {
+    /// None so far.
+    pub(super) fn new(stock: &Stock<'t>) -> Self {
+        let lines = Lines::new(stock.frame.clone());
+        Self { lines, halves: vec![], of_faces: Table::default(), of_items: Table::default() }
+    }
+
+    /// The halves that bound a whole face: its edges, one after another, and what else bounds it.
+    pub(super) fn outline(&mut self, stock: &Stock<'_>, face: u32) -> Result<&[Half], Error> {
+        let ends = self.outline_place(stock, face)?;
+        Ok(self.at(ends))
+    }
+
+    /// The same, if it was asked for before; else none.
+    pub(super) fn known_outline(&self, face: u32) -> &[Half] {
+        self.of_faces.get(&face).map_or(&[], |&ends| self.at(ends))
+    }
+
+    /// The halves that bound an item.
+    pub(super) fn item(&mut self, stock: &Stock<'_>, item: u32) -> Result<&[Half], Error> {
+        let ends = self.item_place(stock, item)?;
+        Ok(self.at(ends))
+    }
+
+    /// The same, if it was asked for before; else none.
+    pub(super) fn known_item(&self, stock: &Stock<'_>, item: u32) -> &[Half] {
+        match self.of_items.get(&item) {
+            Some(&ends) => self.at(ends),
+            None => self.known_outline(stock.face(item)),
+        }
+    }
+
+    /// Where a box lies against an item: inside, the item covers it.
+    pub(super) fn across_item(
+        &mut self,
+        stock: &Stock<'_>,
+        item: u32,
+        sides: &Region,
+    ) -> Result<Across, Error> {
+        let ends = self.item_place(stock, item)?;
+        Ok(self.across(ends, sides))
+    }
+
+    /// The halves of an item whose lines may cross a box; `None` if the item certainly lies beside it.
+    pub(super) fn crossing(
+        &mut self,
+        stock: &Stock<'_>,
+        item: u32,
+        sides: &Region,
+    ) -> Result<Option<SmallVec<[Half; 8]>>, Error> {
+        let ends = self.item_place(stock, item)?;
+        if is_within(&stock.items[item as usize].region, sides) {
+            return Ok(Some(SmallVec::from_slice(self.at(ends))));
+        }
+        let mut crossing = SmallVec::new();
+        for &half in self.at(ends) {
+            match self.lines.across(half, sides) {
+                Across::Inside => {}
+                Across::Outside => return Ok(None),
+                Across::Maybe => crossing.push(half),
+            }
+        }
+        Ok(Some(crossing))
+    }
+
+    /// Whether a face certainly covers a box.
+    pub(super) fn covers(
+        &mut self,
+        stock: &Stock<'_>,
+        face: u32,
+        sides: &Region,
+    ) -> Result<bool, Error> {
+        if !is_within(sides, &stock.views[face as usize].region) {
+            return Ok(false);
+        }
+        let ends = self.outline_place(stock, face)?;
+        Ok(self.across(ends, sides) == Across::Inside)
+    }
+
+    fn across(&self, ends: [u32; 2], sides: &Region) -> Across {
+        let mut all = Across::Inside;
+        for &half in self.at(ends) {
+            match self.lines.across(half, sides) {
+                Across::Inside => {}
+                Across::Outside => return Across::Outside,
+                Across::Maybe => all = Across::Maybe,
+            }
+        }
+        all
+    }
+
+    fn at(&self, [start, end]: [u32; 2]) -> &[Half] {
+        &self.halves[start as usize..end as usize]
+    }
+
+    fn outline_place(&mut self, stock: &Stock<'_>, face: u32) -> Result<[u32; 2], Error> {
+        if let Some(&ends) = self.of_faces.get(&face) {
+            return Ok(ends);
+        }
+        let Self { lines, halves, .. } = self;
+        let View { is_positive, .. } = stock.views[face as usize];
+        let (rays, faces) = (&stock.frame.rays, stock.frame.faces);
+        let start = place(halves.len())?;
+        for k in 0..faces.corners(face).len() as u32 {
+            push(halves, lines.edge(face, k, is_positive)?)?;
+        }
+        // Edges in a plane bound a cone, all of it ahead of the eye; others may bound its image
+        // behind the eye as well.
+        if rays.is_perspective() && faces.upright_axis(face).is_some() {
+            push(halves, lines.ahead(face, is_positive)?)?;
+        }
+        let ends = [start, place(halves.len())?];
+        insert(&mut self.of_faces, face, ends)?;
+        Ok(ends)
+    }
+
+    fn item_place(&mut self, stock: &Stock<'_>, item: u32) -> Result<[u32; 2], Error> {
+        if let Some(&ends) = self.of_items.get(&item) {
+            return Ok(ends);
+        }
+        let Item { face, ref region, .. } = stock.items[item as usize];
+        let rim = self.outline_place(stock, face)?;
+        let fragment = stock.fragment(item);
+        if fragment.is_whole() {
+            return Ok(rim);
+        }
+        let start = self.halves.len();
+        // Edges of the face that do not touch the piece's box bound nothing of it.
+        for place in rim[0]..rim[1] {
+            let half = self.halves[place as usize];
+            if self.lines.across(half, region) != Across::Inside {
+                push(&mut self.halves, half)?;
+            }
+        }
+        let View { is_positive, .. } = stock.views[face as usize];
+        for line in fragment.lines() {
+            let Some(plane) = line.as_cut() else { continue };
+            push(&mut self.halves, self.lines.cut(face, plane, line.is_behind(), is_positive)?)?;
+        }
+        let ends = [place(start)?, place(self.halves.len())?];
+        insert(&mut self.of_items, item, ends)?;
+        Ok(ends)
+    }
+}
