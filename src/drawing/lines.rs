@@ -1,5 +1,8 @@
 //! The lines of a picture, each known by what made it.
 
+#[cfg(test)]
+mod tests;
+
 use std::cmp::Ordering;
 
 use super::frame::{Exact, Frame, is_opposite, is_same_line, meeting, orientation};

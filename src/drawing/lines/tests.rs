@@ -1,0 +1,149 @@
+use glam::DVec3;
+
+use super::{Key, Lines, Rounded};
+use crate::build::progress::Watch;
+use crate::drawing::half::Half;
+use crate::drawing::rims::Rims;
+use crate::drawing::stock::Stock;
+use crate::random::SplitMix64;
+use crate::raster::Rays;
+use crate::tree::BspTree;
+use crate::view::Camera;
+
+const SIZE: [u32; 2] = [320, 200];
+
+/// All lines of all pieces that a camera sees.
+fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
+    let rays = Rays::new(camera, tree.faces()).ok()?;
+    let stock = Stock::new(tree, rays, &Watch::default()).unwrap();
+    let mut rims = Rims::new(&stock);
+    for item in 0..stock.items.len() as u32 {
+        rims.item(&stock, item).unwrap();
+    }
+    Some(rims)
+}
+
+/// Whether a line in floats is no further from another one, in the picture, than both say.
+fn agree(a: &Rounded, b: &Rounded, reach: [f64; 2]) -> bool {
+    let [_, ax, ay] = a.k;
+    let axis = if ax.abs() > ay.abs() { 1 } else { 2 };
+    // The scales are powers of two: they are one, or one apart.
+    let ratio = (a.k[axis] / b.k[axis]).log2().round().exp2();
+    let error = 1.001 * (a.error + ratio * b.error);
+    let corners = [[-1.0, -1.0], [-1.0, reach[1]], [reach[0], -1.0], reach];
+    let slope = error / reach[0].min(reach[1]);
+    corners.iter().all(|&at| (a.at(at) - ratio * b.at(at)).abs() <= error)
+        && (1..3).all(|i| (a.k[i] - ratio * b.k[i]).abs() <= slope)
+}
+
+/// Quads in a cube of this size at this distance from the origin, most of them bent a little, so that
+/// they are flattened.
+fn quads(random: &mut SplitMix64, size: f64, off: DVec3) -> Vec<[DVec3; 4]> {
+    let quad = |_| {
+        let [a, u, v] = [(); 3].map(|()| random.point(-size, size));
+        let bend = random.point(-size, size) * 1e-8;
+        [a, a + u, a + u + v + bend, a + v].map(|corner| corner + off)
+    };
+    (0..12).map(quad).collect()
+}
+
+#[test]
+fn lines_in_floats_are_as_near_as_they_say() {
+    let mut random = SplitMix64::new(7);
+    let (mut lines, mut kinds) = (0, [0; 4]);
+    for round in 0..60 {
+        let size = [1.0, 1e-20, 1e9][round % 3];
+        let off = random.point(-size, size) * [0.0, 3.0, 1e5][round / 3 % 3];
+        let quads = quads(&mut random, size, off);
+        let tree = BspTree::build(&quads).unwrap();
+        let towards = random.point(-1.0, 1.0) * size;
+        let distance = [0.1, 3.0, 1e3, 1e6][round % 4];
+        let eye = off + random.point(-1.0, 1.0) * size * distance;
+        let perspective =
+            Camera::perspective(eye, off + towards, DVec3::Z, 1.0 / distance.max(1.0), SIZE);
+        let parallel = Camera::parallel(towards, DVec3::Z, off, 3.0 * size, SIZE);
+        for camera in [perspective, parallel] {
+            let Some(rims) = all_lines(&tree, &camera.unwrap()) else { continue };
+            let Lines { keys, rounded, reach, .. } = &rims.lines;
+            for (key, rounded) in keys.iter().zip(rounded) {
+                let exact = Rounded::new(&rims.lines.exact_of(*key), *reach);
+                assert!(agree(rounded, &exact, *reach), "{key:?}: {rounded:?}, not {exact:?}");
+                lines += 1;
+                kinds[match key {
+                    Key::Edge(_) => 0,
+                    Key::Upright(..) => 1,
+                    Key::Cut(..) => 2,
+                    Key::Horizon(_) => 3,
+                }] += 1;
+            }
+        }
+    }
+    assert!(lines > 5000 && kinds.iter().all(|&count| count > 100), "{lines}, {kinds:?}");
+}
+
+#[test]
+fn edges_on_one_line_are_one() {
+    // Walls side by side on the ground, and above them a beam along all of them, on which they do not
+    // have corners in common with it.
+    let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    let wall = |x: f64, w: f64, z: f64, h: f64| {
+        [corner(x, z), corner(x + w, z), corner(x + w, z + h), corner(x, z + h)]
+    };
+    let mut walls: Vec<_> = (0..7).map(|i| wall(f64::from(i), 1.0, 0.0, 2.0)).collect();
+    walls.push(wall(0.25, 6.5, 2.0, 0.25));
+    let tree = BspTree::build(&walls).unwrap();
+    let eye = DVec3::new(1.3, -9.7, 0.6);
+    let camera = Camera::perspective(eye, DVec3::new(3.0, 0.0, 1.0), DVec3::Z, 1.2, SIZE).unwrap();
+    let rims = all_lines(&tree, &camera).unwrap();
+    // The ground, the common line, the upper edge of the beam; and nine ends of walls and beam.
+    assert_eq!(rims.lines.keys.len(), 3 + 8 + 2);
+    let halves = |face: u32| rims.known_outline(face);
+    for face in 0..7 {
+        // Walls are above the ground and below the beam; those beside share an edge from two sides.
+        assert_eq!([halves(face)[0], halves(face)[2]], [halves(0)[0], halves(0)[2]]);
+        let beam: Half = halves(7)[0];
+        assert_eq!(halves(face)[2], beam.flipped(true));
+    }
+    assert_eq!(halves(2)[1], halves(3)[3].flipped(true));
+}
+
+#[test]
+fn lines_of_another_list_keep_their_sides() {
+    let mut random = SplitMix64::new(11);
+    let quads = quads(&mut random, 1.0, DVec3::ZERO);
+    let tree = BspTree::build(&quads).unwrap();
+    let camera = Camera::perspective(DVec3::splat(2.5), DVec3::ZERO, DVec3::Z, 1.0, SIZE).unwrap();
+    let stock =
+        Stock::new(&tree, Rays::new(&camera, tree.faces()).unwrap(), &Watch::default()).unwrap();
+    let count = stock.items.len() as u32;
+    assert!(count > 20, "{count}");
+    // The one list asks from the front to the back, the other the other way.
+    let (mut first, mut second) = (Rims::new(&stock), Rims::new(&stock));
+    for item in 0..count {
+        first.item(&stock, item).unwrap();
+        second.item(&stock, count - 1 - item).unwrap();
+    }
+    let (mut adopted, before) = (Default::default(), first.lines.keys.len());
+    for item in 0..count {
+        let own = first.known_item(&stock, item).to_vec();
+        for (half, other) in own.iter().zip(second.known_item(&stock, item).to_vec()) {
+            let other = first.lines.adopted(&second.lines, other, &mut adopted).unwrap();
+            assert_eq!(other, *half);
+        }
+    }
+    assert_eq!(first.lines.keys.len(), before);
+    // A list that knows nothing has the same lines afterwards.
+    let mut third = Rims::new(&stock);
+    let mut adopted = Default::default();
+    for item in 0..count {
+        for half in second.known_item(&stock, item).to_vec() {
+            let own = third.lines.adopted(&second.lines, half, &mut adopted).unwrap();
+            let [ours, theirs] = [third.lines.rounded(own), second.lines.rounded(half)];
+            let is_same = own.is_negative() == half.is_negative();
+            let sign = if is_same { 1.0 } else { -1.0 };
+            let middle = [160.0, 100.0];
+            let off = (ours.at(middle) - sign * theirs.at(middle)).abs();
+            assert!(off <= ours.error + theirs.error, "{ours:?}, {theirs:?}");
+        }
+    }
+}
