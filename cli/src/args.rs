@@ -38,6 +38,7 @@ pub(crate) enum Command {
     Stats(StatsArgs),
     Render(RenderArgs),
     Draw(DrawArgs),
+    Page(PageArgs),
     Report(ReportArgs),
     /// List the built-in scenes
     Scenes,
@@ -274,6 +275,27 @@ pub(crate) struct DrawArgs {
     /// file, and the time in seconds to build or read the tree and to draw.
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) cull: CullArgs,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+}
+
+/// Write a page that stands alone, in which people turn the scene
+///
+/// The page has the tree, and paints its fragments in the tree's order, which is that of the library for every
+/// eye. It shows the paint order step by step, the cuts, the depth of nodes and the figures of the
+/// heuristic. It needs a browser, and no network.
+#[derive(Args, Debug)]
+#[command(after_help = examples::PAGE)]
+pub(crate) struct PageArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// File to write, complete or not at all, such as scene.html; - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) up: UpArgs,
     #[command(flatten)]
     pub(crate) cull: CullArgs,
     #[command(flatten)]
