@@ -28,6 +28,7 @@ use crate::tree::BspTree;
 /// from −½ to its size less ½, x to the right, y down.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
+    pub(super) tree: &'t BspTree,
     pub(super) stock: Stock<'t>,
     pub(super) leaves: Vec<Leaf>,
 }
@@ -82,7 +83,7 @@ impl<'t> VisibilityMap<'t> {
         let size = rays.size();
         let stock = Stock::new(tree, rays, watch)?;
         let leaves = visible(&stock, Tile::picture(size), watch)?;
-        Ok(Self { stock, leaves })
+        Ok(Self { tree, stock, leaves })
     }
 
     /// The picture's width and height in pixels.

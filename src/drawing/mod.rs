@@ -30,6 +30,8 @@
 //! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
 //! | `crossings` | lines in which polygons go through one another |
+//! | `sight` | segments and points of the scene as the picture shows them |
+//! | `overlaid` | what shows of an overlay's lines and points |
 //! | `pen` | segments joined to lines, in an order for a pen |
 //! | `near` | the nearest of the ends that are left |
 
@@ -48,11 +50,13 @@ mod near;
 mod opaque;
 mod order;
 mod outline;
+mod overlaid;
 mod overlaps;
 mod pairs;
 mod pen;
 mod reaches;
 mod region;
+mod sight;
 mod stock;
 mod table;
 mod tile;
@@ -62,4 +66,5 @@ mod visible;
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};
+pub use overlaid::{LineRun, MarkerView};
 pub use pen::{Polyline, polylines};

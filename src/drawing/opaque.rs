@@ -69,7 +69,7 @@ impl VisibilityMap<'_> {
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
-        let Self { stock, leaves } = self;
+        let Self { stock, leaves, .. } = self;
         let size = self.size();
         let shown = Nodes::of(stock, leaves)?;
         let place = |seen: u32| shown.places[seen as usize];

@@ -5,9 +5,11 @@ mod coincidences;
 mod crossings;
 mod hidden;
 mod lines;
+mod overlay;
 mod pen;
 mod progress;
 mod scenes;
+mod sightlines;
 #[path = "../support/mod.rs"]
 mod support;
 mod translucent;
