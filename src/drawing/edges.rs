@@ -176,7 +176,7 @@ fn shared(faces: &Faces) -> Result<(Vec<Shared>, Numbers), Error> {
     Ok((all, numbers))
 }
 
-fn ends_of(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
+pub(super) fn ends_of(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
     let corners = faces.corners(face);
     let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
     [corners[k as usize], corners[next]]

@@ -32,6 +32,8 @@
 //! | `crossings` | lines in which polygons go through one another |
 //! | `sight` | segments and points of the scene as the picture shows them |
 //! | `overlaid` | what shows of an overlay's lines and points |
+//! | `passes` | where segments pass in front of pieces or behind them |
+//! | `in_front` | how many polygons lie in front of lines |
 //! | `pen` | segments joined to lines, in an order for a pen |
 //! | `near` | the nearest of the ends that are left |
 
@@ -42,6 +44,7 @@ mod edges;
 mod frame;
 mod half;
 mod halving;
+mod in_front;
 mod join;
 mod lines;
 mod map;
@@ -53,6 +56,7 @@ mod outline;
 mod overlaid;
 mod overlaps;
 mod pairs;
+mod passes;
 mod pen;
 mod reaches;
 mod region;
