@@ -4,8 +4,8 @@
 
 use super::edges::{EdgeRun, SHORTEST, ends_of};
 use super::map::VisibilityMap;
-use super::overlaid::LineRun;
-use super::passes::{Pieces, passes};
+use super::overlaid::{LineRun, sights};
+use super::passes::{Passing, Pieces, passes};
 use super::reaches::Reaches;
 use super::sight::Sight;
 use super::table::{Table, insert};
@@ -46,7 +46,8 @@ impl VisibilityMap<'_> {
     /// number of polygons in front of them changes.
     ///
     /// All polygons count that show a side to the camera, once each, be they hidden themselves; but not
-    /// those in whose planes the edge lies. Time goes with how many lie in front of hidden edges.
+    /// those that the edge lies on. One counts at least, as where the edge of a shelf lies on the wall that
+    /// hides the shelf. Time goes with how many lie in front of hidden edges.
     ///
     /// # Errors
     ///
@@ -97,7 +98,7 @@ impl VisibilityMap<'_> {
     /// As for `lines`.
     pub fn lines_in_layers(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
         let runs = self.lines(overlay)?;
-        let (segments, sights) = self.sights(overlay)?;
+        let (segments, sights) = sights(&self.stock.lines, overlay)?;
         let all: Vec<Hidden> =
             sights.into_iter().map(|sight| Hidden { sight, own: u32::MAX }).collect();
         let steps = self.steps(&all)?;
@@ -124,7 +125,9 @@ impl VisibilityMap<'_> {
         let around = |seen: u32| stock.seen[seen as usize].region;
         let pieces = Pieces { stock, reaches, seen: &|seen| seen, around: &around };
         let sights: Vec<Sight> = all.iter().map(|hidden| hidden.sight).collect();
-        let mut passes = passes(pieces, &sights, |is_behind| is_behind, &Watch::default())?;
+        let passing = Passing { sights: &sights, spots: &[] };
+        let found = passes(pieces, passing, |is_behind| is_behind, &Watch::default())?;
+        let mut passes = found.sights;
         let face = |piece: u32| stock.seen[piece as usize].face;
         passes.retain(|pass| face(pass.piece) != all[pass.sight as usize].own);
         let polygon = |piece: u32| faces.polygon(face(piece));

@@ -34,10 +34,12 @@
 //! | `overlaid` | what shows of an overlay's lines and points |
 //! | `passes` | where segments pass in front of pieces or behind them |
 //! | `in_front` | how many polygons lie in front of lines |
+//! | `between` | lines and points between what is painted |
 //! | `pen` | segments joined to lines, in an order for a pen |
 //! | `near` | the nearest of the ends that are left |
 
 mod above;
+mod between;
 mod cell;
 mod crossings;
 mod edges;
@@ -67,6 +69,7 @@ mod tile;
 mod translucent;
 mod visible;
 
+pub use between::Step;
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};

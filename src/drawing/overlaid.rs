@@ -3,7 +3,9 @@
 use super::above::region;
 use super::edges::SHORTEST;
 use super::halving::{CUT, NARROWED, found_in};
+use super::lines::Lines;
 use super::map::VisibilityMap;
+use super::passes::{Passing, kept};
 use super::region::are_apart;
 use super::sight::{Sight, Spot};
 use super::visible::{Leaf, Visible};
@@ -42,6 +44,13 @@ pub struct MarkerView {
     pub is_visible: bool,
 }
 
+impl LineRun {
+    pub(super) fn new(segment: &GivenSegment, ends: [[f64; 2]; 2], is_visible: bool) -> Self {
+        let GivenSegment { line, number, .. } = *segment;
+        Self { line, segment: number, ends, is_visible, layers: None }
+    }
+}
+
 impl VisibilityMap<'_> {
     /// The lines of an overlay of the same tree, as far as they are in the picture, in runs that are visible
     /// or hidden: in input order, and along each segment from its beginning to its end.
@@ -60,8 +69,8 @@ impl VisibilityMap<'_> {
     /// which is [`Error::polygon`]; or if there is not enough memory.
     pub fn lines(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
-        let (segments, sights) = self.sights(overlay)?;
-        let mut hidden = self.covered(&sights, &[])?.hidden;
+        let (segments, sights) = sights(&self.stock.lines, overlay)?;
+        let mut hidden = self.covered(Passing { sights: &sights, spots: &[] })?.hidden;
         hidden.sort_unstable_by(|(a, p), (b, q)| a.cmp(b).then(p[0].total_cmp(&q[0])));
         let mut rest = &hidden[..];
         let mut runs = Vec::new();
@@ -82,43 +91,22 @@ impl VisibilityMap<'_> {
     /// As for `lines`.
     pub fn markers(&self, overlay: &Overlay) -> Result<Vec<MarkerView>, Error> {
         overlay.expect_no_polygons(self.tree)?;
-        let (mut views, mut spots) = (Vec::new(), Vec::new());
-        for (point, given) in overlay.given_points().enumerate() {
-            if let Some(spot) = Spot::new(&self.stock.lines, given) {
-                push(&mut views, MarkerView { point, at: spot.at, is_visible: true })?;
-                push(&mut spots, spot)?;
-            }
-        }
-        for number in self.covered(&[], &spots)?.hidden_spots {
+        let (mut views, spots) = spots(&self.stock.lines, overlay)?;
+        for number in self.covered(Passing { sights: &[], spots: &spots })?.hidden_spots {
             views[number as usize].is_visible = false;
         }
         Ok(views)
     }
 
-    /// The segments of an overlay that the picture shows as lines.
-    pub(super) fn sights(
-        &self,
-        overlay: &Overlay,
-    ) -> Result<(Vec<GivenSegment>, Vec<Sight>), Error> {
-        let (mut segments, mut sights) = (Vec::new(), Vec::new());
-        for segment in overlay.given_segments() {
-            if let Some(sight) = Sight::new(&self.stock.lines, segment.ends) {
-                push(&mut segments, segment)?;
-                push(&mut sights, sight)?;
-            }
-        }
-        Ok((segments, sights))
-    }
-
     /// What is hidden of segments and points, in no particular order.
-    fn covered<'m>(&'m self, sights: &[Sight], spots: &[Spot]) -> Result<Covered, Error> {
-        let sight_numbers = (0..sights.len() as u32).collect();
-        let spot_numbers = (0..spots.len() as u32).collect();
+    fn covered<'m>(&'m self, passing: Passing<'_>) -> Result<Covered, Error> {
+        let sights = (0..passing.sights.len() as u32).collect();
+        let spots = (0..passing.spots.len() as u32).collect();
         let watch = Watch::default();
-        let scene = Scene { map: self, sights, spots };
-        let all = Entry { leaves: &self.leaves, sights: sight_numbers, spots: spot_numbers };
-        let halves = |entry: &Entry<'m>| entry.halves(&scene, &watch);
-        let leaf = |entry: &Entry<'_>, found: &mut Covered| entry.leaf(&scene, found, &watch);
+        let all = Entry { leaves: &self.leaves, sights, spots };
+        let halves = |entry: &Entry<'m>| entry.halves(passing, &watch);
+        let leaf =
+            |entry: &Entry<'_>, found: &mut Covered| entry.leaf(self, passing, found, &watch);
         let mut all_found = Covered::default();
         for mut found in found_in(all, halves, leaf, &watch)? {
             reserve(&mut all_found.hidden, found.hidden.len())?;
@@ -130,19 +118,42 @@ impl VisibilityMap<'_> {
     }
 }
 
+/// The segments of an overlay that the picture shows as lines.
+pub(super) fn sights(
+    lines: &Lines<'_>,
+    overlay: &Overlay,
+) -> Result<(Vec<GivenSegment>, Vec<Sight>), Error> {
+    let (mut segments, mut sights) = (Vec::new(), Vec::new());
+    for segment in overlay.given_segments() {
+        if let Some(sight) = Sight::new(lines, segment.ends) {
+            push(&mut segments, segment)?;
+            push(&mut sights, sight)?;
+        }
+    }
+    Ok((segments, sights))
+}
+
+/// The points of an overlay that are in the picture, not hidden so far.
+pub(super) fn spots(
+    lines: &Lines<'_>,
+    overlay: &Overlay,
+) -> Result<(Vec<MarkerView>, Vec<Spot>), Error> {
+    let (mut views, mut spots) = (Vec::new(), Vec::new());
+    for (point, given) in overlay.given_points().enumerate() {
+        if let Some(spot) = Spot::new(lines, given) {
+            push(&mut views, MarkerView { point, at: spot.at, is_visible: true })?;
+            push(&mut spots, spot)?;
+        }
+    }
+    Ok((views, spots))
+}
+
 /// What is hidden.
 #[derive(Default)]
 struct Covered {
     /// Of segments, by their numbers: from one place to another.
     hidden: Vec<(u32, [f64; 2])>,
     hidden_spots: Vec<u32>,
-}
-
-/// What is compared.
-struct Scene<'a> {
-    map: &'a VisibilityMap<'a>,
-    sights: &'a [Sight],
-    spots: &'a [Spot],
 }
 
 /// Leaves, with the segments and points that may be in them.
@@ -154,7 +165,7 @@ struct Entry<'l> {
 
 impl<'l> Entry<'l> {
     /// The first and the second half of the leaves; `None` of a single one, or where nothing is.
-    fn halves(&self, scene: &Scene<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(&self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
         let Self { leaves, sights, spots } = self;
         watch.work((sights.len() + spots.len()) * NARROWED)?;
         if leaves.len() < 2 || sights.is_empty() && spots.is_empty() {
@@ -163,19 +174,23 @@ impl<'l> Entry<'l> {
         let (first, second) = leaves.split_at(leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
             let around = region(leaves);
-            let sights = kept(sights, |number| {
-                let sight = &scene.sights[number as usize];
-                !are_apart(&around, &sight.region) && sight.may_meet(&around)
-            })?;
-            let is_near = |number: u32| !are_apart(&around, &scene.spots[number as usize].region());
+            let sights = kept(sights, |number| passing.sights[number as usize].may_meet(&around))?;
+            let is_near =
+                |number: u32| !are_apart(&around, &passing.spots[number as usize].region());
             Ok(Self { leaves, sights, spots: kept(spots, is_near)? })
         };
         Ok(Some([part(first)?, part(second)?]))
     }
 
     /// Adds what the cells of the leaves hide.
-    fn leaf(&self, scene: &Scene<'_>, found: &mut Covered, watch: &Watch<'_>) -> Result<(), Error> {
-        let (stock, lines) = (&scene.map.stock, &scene.map.stock.lines);
+    fn leaf(
+        &self,
+        map: &VisibilityMap<'_>,
+        passing: Passing<'_>,
+        found: &mut Covered,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let (stock, lines) = (&map.stock, &map.stock.lines);
         for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
             watch.work((1 + self.sights.len() + self.spots.len()) * CUT)?;
             let around = cell.region();
@@ -183,8 +198,8 @@ impl<'l> Entry<'l> {
             let mut side = None;
             let mut seen = || *side.get_or_insert_with(|| lines.frame.seen_side(face));
             for &number in &self.sights {
-                let sight = &scene.sights[number as usize];
-                if are_apart(&around, &sight.region) || !sight.may_meet(&around) {
+                let sight = &passing.sights[number as usize];
+                if !sight.may_meet(&around) {
                     continue;
                 }
                 let Some([from, to]) = sight.chord(lines, cell) else { continue };
@@ -195,7 +210,7 @@ impl<'l> Entry<'l> {
                 }
             }
             for &number in &self.spots {
-                let spot = &scene.spots[number as usize];
+                let spot = &passing.spots[number as usize];
                 if !are_apart(&around, &spot.region())
                     && spot.is_in(lines, cell)
                     && spot.is_behind(lines, face, seen())
@@ -206,14 +221,6 @@ impl<'l> Entry<'l> {
         }
         Ok(())
     }
-}
-
-/// Those of some numbers that a function keeps.
-fn kept(numbers: &[u32], keep: impl Fn(u32) -> bool) -> Result<Vec<u32>, Error> {
-    let mut kept = Vec::new();
-    reserve(&mut kept, numbers.len())?;
-    kept.extend(numbers.iter().filter(|&&number| keep(number)));
-    Ok(kept)
 }
 
 /// Adds the runs of a segment of which some parts are hidden, in the order of their beginnings.
@@ -229,8 +236,7 @@ fn add_runs(
             return Ok(());
         }
         let ends = [from, to].map(|place| sight.at(place));
-        let GivenSegment { line, number, .. } = *segment;
-        push(runs, LineRun { line, segment: number, ends, is_visible, layers: None })
+        push(runs, LineRun::new(segment, ends, is_visible))
     };
     let mut parts = hidden.iter().map(|(_, part)| *part).peekable();
     while let Some([from, mut to]) = parts.next() {

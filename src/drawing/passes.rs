@@ -4,7 +4,7 @@ use super::cell::Cell;
 use super::halving::{CUT, NARROWED, found_in};
 use super::reaches::Reaches;
 use super::region::{Region, are_apart};
-use super::sight::Sight;
+use super::sight::{Sight, Spot};
 use super::stock::Stock;
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
@@ -23,6 +23,29 @@ pub(super) struct Pass {
     pub(super) places: [f64; 2],
 }
 
+/// A point that is in a piece in the picture, or on its border.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpotPass {
+    pub(super) spot: u32,
+    pub(super) piece: u32,
+    /// Whether the piece is in front of it.
+    pub(super) is_behind: bool,
+}
+
+/// What passes pieces.
+#[derive(Clone, Copy)]
+pub(super) struct Passing<'a> {
+    pub(super) sights: &'a [Sight],
+    pub(super) spots: &'a [Spot],
+}
+
+/// What was found: one segment may pass a piece in several parts, and one point be found twice.
+#[derive(Default)]
+pub(super) struct Passes {
+    pub(super) sights: Vec<Pass>,
+    pub(super) spots: Vec<SpotPass>,
+}
+
 /// Convex pieces of faces, all by their numbers.
 pub(super) struct Pieces<'a> {
     pub(super) stock: &'a Stock<'a>,
@@ -37,37 +60,40 @@ pub(super) struct Pieces<'a> {
 /// segments are compared with more pieces; smaller: more tiles, and more parts of segments.
 const FEW: usize = 8;
 
-/// A tile with the pieces and segments that may be in it.
+/// A tile with the pieces, segments and points that may be in it.
 struct Entry {
     tile: Tile,
     reaches: Reaches,
     sights: Vec<u32>,
+    spots: Vec<u32>,
     in_vain: u32,
 }
 
-/// All passes that are wanted, by whether the piece is in front; one segment may pass a piece in several
-/// parts.
+/// All passes that are wanted, by whether the piece is in front.
 pub(super) fn passes(
     mut pieces: Pieces<'_>,
-    sights: &[Sight],
+    passing: Passing<'_>,
     is_wanted: impl Fn(bool) -> bool + Sync,
     watch: &Watch<'_>,
-) -> Result<Vec<Pass>, Error> {
-    let picture = Tile::picture(pieces.stock.lines.frame.rays.size());
+) -> Result<Passes, Error> {
+    let tile = Tile::picture(pieces.stock.lines.frame.rays.size());
     let reaches = std::mem::take(&mut pieces.reaches);
-    let numbers = (0..sights.len() as u32).collect();
-    let all = Entry { tile: picture, reaches, sights: numbers, in_vain: 0 };
+    let sights = (0..passing.sights.len() as u32).collect();
+    let spots = (0..passing.spots.len() as u32).collect();
+    let all = Entry { tile, reaches, sights, spots, in_vain: 0 };
     let halves = |entry: &Entry| {
-        watch.work((entry.reaches.list.len() + entry.sights.len()) * NARROWED)?;
-        entry.halves(&pieces, sights)
+        let Entry { reaches, sights, spots, .. } = entry;
+        watch.work((reaches.list.len() + sights.len() + spots.len()) * NARROWED)?;
+        entry.halves(&pieces, passing)
     };
-    let leaf = |entry: &Entry, found: &mut Vec<Pass>| {
-        entry.leaf(&pieces, sights, &is_wanted, found, watch)
-    };
-    let mut passes = Vec::new();
-    for mut found in found_in(all.narrowed(&pieces, sights, picture)?, halves, leaf, watch)? {
-        reserve(&mut passes, found.len())?;
-        passes.append(&mut found);
+    let leaf =
+        |entry: &Entry, found: &mut Passes| entry.leaf(&pieces, passing, &is_wanted, found, watch);
+    let mut passes = Passes::default();
+    for mut found in found_in(all.narrowed(&pieces, passing, tile)?, halves, leaf, watch)? {
+        reserve(&mut passes.sights, found.sights.len())?;
+        passes.sights.append(&mut found.sights);
+        reserve(&mut passes.spots, found.spots.len())?;
+        passes.spots.append(&mut found.spots);
     }
     Ok(passes)
 }
@@ -79,75 +105,97 @@ impl Entry {
     }
 
     fn is_leaf(&self) -> bool {
-        let is_done = self.sights.is_empty() || self.open() <= FEW;
+        let is_done = self.sights.is_empty() && self.spots.is_empty() || self.open() <= FEW;
         is_done || self.in_vain == IN_VAIN || self.tile.is_tiny()
     }
 
     /// Both halves of the tile; `None` of a leaf.
-    fn halves(&self, pieces: &Pieces<'_>, sights: &[Sight]) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(
+        &self,
+        pieces: &Pieces<'_>,
+        passing: Passing<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(pieces, sights, tile);
+        let narrowed = |tile| self.narrowed(pieces, passing, tile);
         let mut parts = [narrowed(first)?, narrowed(second)?];
         let counts = [parts[0].open(), parts[1].open()];
         [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, self.open(), counts);
         Ok(Some(parts))
     }
 
-    fn narrowed(&self, pieces: &Pieces<'_>, sights: &[Sight], tile: Tile) -> Result<Self, Error> {
+    fn narrowed(
+        &self,
+        pieces: &Pieces<'_>,
+        passing: Passing<'_>,
+        tile: Tile,
+    ) -> Result<Self, Error> {
         let sides = tile.sides();
         let reaches = self.reaches.narrowed(&pieces.stock.lines, &sides, pieces.around)?;
-        let mut kept = Vec::new();
-        reserve(&mut kept, self.sights.len())?;
-        kept.extend(self.sights.iter().filter(|&&number| {
-            let sight = &sights[number as usize];
-            !are_apart(&sides, &sight.region) && sight.may_meet(&sides)
-        }));
-        Ok(Self { tile, reaches, sights: kept, in_vain: 0 })
+        let sights = kept(&self.sights, |number| passing.sights[number as usize].may_meet(&sides))?;
+        let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].region());
+        let spots = kept(&self.spots, is_near)?;
+        Ok(Self { tile, reaches, sights, spots, in_vain: 0 })
     }
 
     /// Adds the passes in the tile.
     fn leaf(
         &self,
         pieces: &Pieces<'_>,
-        sights: &[Sight],
+        passing: Passing<'_>,
         is_wanted: &impl Fn(bool) -> bool,
-        found: &mut Vec<Pass>,
+        found: &mut Passes,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        if self.sights.is_empty() {
+        if self.sights.is_empty() && self.spots.is_empty() {
             return Ok(());
         }
         let (stock, lines) = (pieces.stock, &pieces.stock.lines);
         let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
         for reach in &self.reaches.list {
-            watch.work((1 + self.sights.len()) * CUT)?;
-            let Some(cell) = whole.within(lines, self.reaches.halves_of(reach), None)? else {
-                continue;
-            };
+            watch.work((1 + self.sights.len() + self.spots.len()) * CUT)?;
+            let halves = self.reaches.halves_of(reach);
+            let Some(cell) = whole.within(lines, halves, None)? else { continue };
             let (around, piece) = (cell.region(), reach.number);
             let face = stock.seen[(pieces.seen)(piece) as usize].face;
             let side = lines.frame.seen_side(face);
-            for &sight in &self.sights {
-                let segment = &sights[sight as usize];
-                if are_apart(&around, &segment.region) || !segment.may_meet(&around) {
+            for &number in &self.sights {
+                let sight = &passing.sights[number as usize];
+                if !sight.may_meet(&around) {
                     continue;
                 }
-                let Some(chord) = segment.chord(lines, &cell) else { continue };
+                let Some(chord) = sight.chord(lines, &cell) else { continue };
                 let mut add = |is_behind: bool, [from, to]: [f64; 2]| {
                     let places = [from.max(chord[0]), to.min(chord[1])];
+                    let pass = Pass { sight: number, piece, is_behind, places };
                     let is_any = is_wanted(is_behind) && places[0] < places[1];
-                    let pass = Pass { sight, piece, is_behind, places };
-                    if is_any { push(found, pass) } else { Ok(()) }
+                    if is_any { push(&mut found.sights, pass) } else { Ok(()) }
                 };
-                let [from, to] = segment.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
+                let [from, to] = sight.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
                 add(true, [from, to])?;
                 add(false, [f64::NEG_INFINITY, from])?;
                 add(false, [to, f64::INFINITY])?;
             }
+            for &number in &self.spots {
+                let spot = &passing.spots[number as usize];
+                if !are_apart(&around, &spot.region()) && spot.is_in(lines, &cell) {
+                    let is_behind = spot.is_behind(lines, face, side);
+                    if is_wanted(is_behind) {
+                        push(&mut found.spots, SpotPass { spot: number, piece, is_behind })?;
+                    }
+                }
+            }
         }
         Ok(())
     }
+}
+
+/// Those of some numbers that a function keeps.
+pub(super) fn kept(numbers: &[u32], keep: impl Fn(u32) -> bool) -> Result<Vec<u32>, Error> {
+    let mut kept = Vec::new();
+    reserve(&mut kept, numbers.len())?;
+    kept.extend(numbers.iter().filter(|&&number| keep(number)));
+    Ok(kept)
 }

@@ -8,7 +8,7 @@ use super::cell::{Cell, Corner, side_on_line};
 use super::edges::SHORTEST;
 use super::frame::{Exact, Image, meeting};
 use super::lines::{Lines, Rounded};
-use super::region::Region;
+use super::region::{Region, are_apart};
 use super::tile::Tile;
 use crate::exact::{Exact as Exactly, Int, Kernel, PlaneId};
 
@@ -24,11 +24,11 @@ pub(super) struct Sight {
     /// Where it begins and ends in the picture.
     pub(super) places: [f64; 2],
     /// A box around that part.
-    pub(super) region: Region,
+    region: Region,
 }
 
 /// Boxes are larger than what they are around by this, in pixels: far more than rounding.
-pub(super) const MARGIN: f64 = 1e-3;
+const MARGIN: f64 = 1e-3;
 
 impl Sight {
     /// `None` if it is not in the picture, or a point there.
@@ -87,8 +87,12 @@ impl Sight {
         lines.frame.edge(self.ends)
     }
 
-    /// Whether its line may meet a box.
-    pub(super) fn may_meet(&self, [low, high]: &Region) -> bool {
+    /// Whether it may meet a box.
+    pub(super) fn may_meet(&self, region: &Region) -> bool {
+        if are_apart(region, &self.region) {
+            return false;
+        }
+        let [low, high] = region;
         let half = |axis: usize| 0.5 * (high[axis] - low[axis]) + MARGIN;
         let middle = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [_, kx, ky] = self.rounded.k;

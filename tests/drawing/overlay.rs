@@ -110,7 +110,7 @@ fn check_tiling(runs: &[LineRun]) -> Result<(), String> {
 }
 
 /// Where rays come from in a scene's lattice; `None` if that is rounded.
-fn origin(tree: &BspTree, camera: &Camera) -> Option<Origin> {
+pub(crate) fn origin(tree: &BspTree, camera: &Camera) -> Option<Origin> {
     let lattice = tree.faces().lattice();
     match camera.viewpoint() {
         binspace::Viewpoint::Eye(eye) => {
@@ -124,12 +124,12 @@ fn origin(tree: &BspTree, camera: &Camera) -> Option<Origin> {
     }
 }
 
-fn between([a, b]: &[Point; 2], share: f64) -> Point {
+pub(crate) fn between([a, b]: &[Point; 2], share: f64) -> Point {
     let share = rational::exact(share);
     std::array::from_fn(|i| &a[i] + (&b[i] - &a[i]) * &share)
 }
 
-fn project(
+pub(crate) fn project(
     camera: &Camera,
     lattice: &binspace::internals::Lattice,
     point: &Point,
@@ -141,7 +141,7 @@ fn project(
 }
 
 /// Whether a point is well inside of a run; `None` if it is not in it at all.
-fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
+pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     let way = [0, 1].map(|i: usize| ends[1][i] - ends[0][i]);
     let arm = [0, 1].map(|i: usize| at[i] - ends[0][i]);
     let length = way[0].hypot(way[1]);
@@ -150,7 +150,7 @@ fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     (inside > -NEAR).then_some(inside > NEAR)
 }
 
-fn square(low: [f64; 2], high: [f64; 2], z: f64) -> Vec<DVec3> {
+pub(crate) fn square(low: [f64; 2], high: [f64; 2], z: f64) -> Vec<DVec3> {
     let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
     corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec()
 }
@@ -278,7 +278,7 @@ fn overlays_of_other_trees_and_polygons_are_refused() {
 
 /// Lines and points that a scene and an eye make hard: along edges and through them, through corners, in
 /// planes, and in line with the eye.
-fn hard_shapes(
+pub(crate) fn hard_shapes(
     polygons: &[Vec<DVec3>],
     eye: DVec3,
     dice: &mut Dice,
@@ -308,7 +308,7 @@ fn hard_shapes(
 #[test]
 fn hard_lines_and_points_are_hidden_as_rays_are() {
     let cases = (hard::scene(), any::<u64>());
-    let score = tally(file!(), 192, cases, |score: &mut Score, (scene, seed)| {
+    let score = tally(file!(), 128, cases, |score: &mut Score, (scene, seed)| {
         let mut dice = Dice(seed);
         let corners = || scene.polygons.iter().flatten().copied();
         let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
@@ -339,20 +339,23 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
         }
         Ok(())
     });
-    assert!(score.visible > 8000 && score.hidden > 3000 && score.deeper > 500, "{score:?}");
-    assert!(score.shown_points > 3000 && score.hidden_points > 1000, "{score:?}");
+    assert!(score.visible > 5000 && score.hidden > 2000 && score.deeper > 300, "{score:?}");
+    assert!(score.shown_points > 2000 && score.hidden_points > 600, "{score:?}");
+}
+
+pub(crate) fn triangles(random: &mut SplitMix64, count: usize, edge: f64) -> Vec<Vec<DVec3>> {
+    let triangle = |_| {
+        let centre = random.point(-1.0, 1.0);
+        (0..3).map(|_| centre + random.point(-1.0, 1.0) * edge).collect()
+    };
+    (0..count).map(triangle).collect()
 }
 
 #[test]
 fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
     let (mut random, mut dice, mut score) = (SplitMix64::new(5), Dice(5), Score::default());
     for (count, edge) in [(40, 0.8), (150, 0.3), (300, 0.1)] {
-        let triangles: Vec<Vec<DVec3>> = (0..count)
-            .map(|_| {
-                let centre = random.point(-1.0, 1.0);
-                (0..3).map(|_| centre + random.point(-1.0, 1.0) * edge).collect()
-            })
-            .collect();
+        let triangles = triangles(&mut random, count, edge);
         let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
         let bounded = exact.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
         let tree = bounded.build(&triangles).unwrap();
@@ -368,5 +371,5 @@ fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
             check(&tree, &camera, &lines, &points, (&mut dice, 20), &mut score).unwrap();
         }
     }
-    assert!(score.visible > 2000 && score.hidden > 1000 && score.deeper > 500, "{score:?}");
+    assert!(score.visible > 2000 && score.hidden > 1000 && score.deeper > 300, "{score:?}");
 }
