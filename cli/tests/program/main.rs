@@ -3,6 +3,7 @@
 mod bad_input;
 mod cull;
 mod draw;
+mod draw_ink;
 mod draw_lines;
 mod draw_pdf;
 mod draw_png;
