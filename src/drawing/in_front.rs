@@ -14,6 +14,9 @@ use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 use crate::overlay::Overlay;
 
+/// Both ends of a run.
+type Ends = [[f64; 2]; 2];
+
 /// A segment with hidden parts.
 struct Hidden {
     sight: Sight,
@@ -168,10 +171,10 @@ impl VisibilityMap<'_> {
 /// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
 /// rounding has left are not told from those before them.
 fn in_layers(
-    ends: [[f64; 2]; 2],
+    ends: Ends,
     is_visible: bool,
     steps: Option<(&Sight, &[Step])>,
-) -> Result<Vec<([[f64; 2]; 2], u32)>, Error> {
+) -> Result<Vec<(Ends, u32)>, Error> {
     let Some((sight, steps)) = steps.filter(|_| !is_visible) else {
         return Ok(vec![(ends, u32::from(!is_visible))]);
     };

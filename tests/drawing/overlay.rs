@@ -174,7 +174,7 @@ fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
 #[test]
 fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     let wall = square([-1.0, -1.0], [1.0, 1.0], 0.0);
-    let one = |line: &[[f64; 3]]| from_above(&[wall.clone()], line);
+    let one = |line: &[[f64; 3]]| from_above(std::slice::from_ref(&wall), line);
     // On it, above it, below it.
     assert_eq!(one(&[[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 0.0, 1.0], [2.0, 0.0, 1.0]]), [(4.0, true)]);
