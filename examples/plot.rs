@@ -3,17 +3,23 @@
 //!
 //! ```sh
 //! cargo run --release --example plot -- docs/plot.png
+//! cargo run --release --example plot -- plot.svg
 //! ```
 //!
 //! The surfaces are the polygons of a tree. Lines and points go into an overlay, which cuts each line
 //! where it goes through a surface, so that it is painted before the surface on one side and after it
 //! on the other. A label is a point that is written at its turn.
 //!
+//! As SVG (`plot/svg.rs`) there is one path for each quad that shows, and what surfaces hide of lines is
+//! dashed: the map of what shows tells which parts these are.
+//!
 //! ![Two surfaces that cross, axes, a curve, markers and labels](../docs/plot.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
 mod canvas;
+#[path = "plot/svg.rs"]
+mod svg;
 
 use binspace::glam::{DVec2, DVec3, dvec2, dvec3};
 use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint};
@@ -24,6 +30,8 @@ use std::f64::consts::TAU;
 const SIZE: [usize; 2] = [960, 640];
 /// Parallel projection from here.
 const TOWARDS_EYE: DVec3 = dvec3(0.62, -0.78, 0.52);
+/// Pixels for a length of 1.
+const UNIT: f64 = 128.0;
 /// Quads along each side of a surface.
 const QUADS: usize = 36;
 const TURNS: f64 = 3.0;
@@ -124,7 +132,7 @@ fn project(point: DVec3) -> DVec2 {
     let ahead = TOWARDS_EYE.normalize();
     let right = DVec3::Z.cross(ahead).normalize();
     let down = right.cross(ahead);
-    dvec2(right.dot(point), down.dot(point)) * 128.0 + dvec2(480.0, 284.0)
+    dvec2(right.dot(point), down.dot(point)) * UNIT + dvec2(480.0, 284.0)
 }
 
 fn stroke(canvas: &mut Canvas, a: DVec2, b: DVec2, width: f64, colour: Colour) {
@@ -262,7 +270,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         plot.overlay.len()
     );
     if let Some(path) = std::env::args().nth(1) {
-        plot.paint()?.write_png(&path)?;
+        match path.ends_with(".svg") {
+            true => std::fs::write(path, svg::text(&plot)?)?,
+            false => plot.paint()?.write_png(&path)?,
+        }
     }
     Ok(())
 }
@@ -300,4 +311,33 @@ fn markers_show_where_no_surface_is_in_front_of_them() {
         found[usize::from(hidden)] += 1;
     }
     assert!(found[0] > 3 && found[1] > 1, "{found:?}");
+}
+
+/// The map says so too, in the same place of the picture.
+#[test]
+fn a_vector_picture_has_the_markers_that_show() {
+    use binspace::drawing::VisibilityMap;
+    use binspace::raster::Rays;
+
+    let plot = Plot::new().unwrap();
+    let rays = Rays::new(&svg::camera().unwrap(), plot.tree.faces()).unwrap();
+    let map = VisibilityMap::of(&plot.tree, rays).unwrap();
+    let mut found = [0; 2];
+    let markers = map.markers(&plot.overlay).unwrap();
+    for marker in &markers {
+        let place = plot.marks[marker.point].at;
+        // Pixels of the map are counted from the centre of the first one.
+        let at = project(place) - dvec2(0.5, 0.5);
+        assert!((DVec2::from(marker.at) - at).length() < 2e-3, "{marker:?} {at}");
+        // Labels lie beyond the surfaces.
+        let is_dot = plot.marks[marker.point].text.is_empty();
+        let Some(hidden) = is_dot.then(|| is_hidden(place)).flatten() else { continue };
+        assert_eq!(marker.is_visible, !hidden, "{marker:?}");
+        found[usize::from(hidden)] += 1;
+    }
+    assert!(found[0] > 5 && found[1] > 1, "{found:?}");
+    let shown = markers.iter().filter(|marker| marker.is_visible).count();
+    let text = svg::text(&plot).unwrap();
+    assert_eq!(text.matches("<circle").count() + text.matches("<text").count(), shown);
+    assert!(text.matches("<path").count() > 1000 && text.contains("stroke-dasharray"));
 }

@@ -45,6 +45,10 @@ enum Kind {
         number: usize,
     },
     OverlaidTree,
+    #[cfg(feature = "drawing")]
+    OverlayPolygon {
+        number: usize,
+    },
     #[cfg(feature = "layers")]
     Layer {
         layer: usize,
@@ -144,6 +148,11 @@ impl Error {
         Self { kind: Kind::OverlaidTree }
     }
 
+    #[cfg(feature = "drawing")]
+    pub(crate) const fn overlay_polygon(number: usize) -> Self {
+        Self { kind: Kind::OverlayPolygon { number } }
+    }
+
     #[cfg(feature = "layers")]
     pub(crate) const fn layer(layer: usize) -> Self {
         Self { kind: Kind::Layer { layer } }
@@ -171,6 +180,8 @@ impl Error {
         match self.kind {
             #[cfg(feature = "layers")]
             Kind::Layer { layer } => Some(layer),
+            #[cfg(feature = "drawing")]
+            Kind::OverlayPolygon { number } => Some(number),
             _ => self.number_of(InputKind::Polygon),
         }
     }
@@ -278,6 +289,12 @@ impl fmt::Display for Error {
             ),
             Kind::OverlaidTree => f.write_str(
                 "the tree is not the one that the overlay was made for: make an overlay for it",
+            ),
+            #[cfg(feature = "drawing")]
+            Kind::OverlayPolygon { number } => write!(
+                f,
+                "polygon {number} of the overlay cannot be drawn: drawings take its lines and points \
+                 alone, so give the polygons to the tree"
             ),
             Kind::Cancelled => f.write_str("the build was cancelled"),
             #[cfg(feature = "layers")]

@@ -203,7 +203,8 @@ pub(crate) struct RenderArgs {
 /// translucent ones as such.
 ///
 /// A PDF has one page, with a point for each pixel. A PNG has in each pixel the colours that show there,
-/// each by the exact area that it has of the pixel, and blended by their numbers as SVG viewers do.
+/// each by the exact area that it has of the pixel, and blended by their numbers as SVG viewers do; lines are
+/// drawn over them by the area that they cover.
 ///
 /// Where a polygon shows that is translucent, say how to draw it: as such, with all that is behind it, or
 /// as if it were opaque.
@@ -235,6 +236,9 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "KIND", value_parser = EdgeChoice::parse)]
     pub(crate) edges: Option<EdgeChoice>,
     /// How to draw the hidden parts of these edges [default: none]
+    ///
+    /// With `layers` in an SVG, groups of class hidden that are behind more than one polygon have another
+    /// class as well: layers-2, layers-3, or layers-4 for all others.
     #[arg(long, value_name = "STYLE", value_enum)]
     pub(crate) hidden: Option<Hidden>,
     #[command(flatten)]

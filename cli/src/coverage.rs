@@ -34,6 +34,11 @@ pub(crate) fn picture(map: &VisibilityMap<'_>, rgb: impl Fn(usize) -> [u8; 3]) -
     pixels
 }
 
+/// The pixels of an empty picture.
+pub(crate) fn blank(size: [u32; 2]) -> Vec<u8> {
+    BACKGROUND.repeat(size.map(|side| side as usize).iter().product())
+}
+
 /// Some rows of a picture.
 struct Band {
     width: usize,

@@ -12,9 +12,18 @@ use crate::traps::{Outline, trapped};
 
 /// The width of visible lines, in pixels.
 pub(crate) const WIDTH: f64 = 1.0;
-/// The width of hidden lines, and how long their dashes and the gaps between them are, in pixels.
+/// The width of hidden lines, in pixels.
 pub(crate) const HIDDEN_WIDTH: f64 = 0.6;
-pub(crate) const DASHES: [f64; 2] = [3.0, 2.0];
+
+/// How long the dashes of hidden lines and the gaps between them are, in pixels, by the lines' depth.
+pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
+    match depth {
+        0 | 1 => [3.0, 2.0],
+        2 => [2.0, 3.0],
+        3 => [1.0, 3.0],
+        _ => [1.0, 6.0],
+    }
+}
 
 /// A filled path.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use pdf_writer::writers::ExtGraphicsState;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
 use crate::colours::BACKGROUND;
-use crate::drawn::{DASHES, Drawn, HIDDEN_WIDTH, WIDTH};
+use crate::drawn::{Drawn, HIDDEN_WIDTH, WIDTH, dashes};
 use crate::path_data::{Steps, points, units};
 use crate::strokes::Strokes;
 
@@ -65,12 +65,13 @@ fn painted(drawn: &Drawn<'_>) -> Vec<u8> {
         content.fill_nonzero();
     }
     content.set_line_join(LineJoinStyle::RoundJoin).set_stroke_gray(0.0);
-    for same in drawn.strokes.chunk_by(|a, b| a.is_visible == b.is_visible) {
-        if same.iter().all(|strokes| strokes.is_visible) {
+    for same in drawn.strokes.chunk_by(|a, b| a.depth == b.depth) {
+        let depth = same.first().map_or(0, |strokes| strokes.depth);
+        if depth == 0 {
             content.set_line_cap(LineCapStyle::RoundCap);
             content.set_line_width(WIDTH as f32 / scale).set_dash_pattern([], 0.0);
         } else {
-            let dashes = DASHES.map(|length| length as f32 / scale);
+            let dashes = dashes(depth).map(|length| length as f32 / scale);
             content.set_line_width(HIDDEN_WIDTH as f32 / scale).set_dash_pattern(dashes, 0.0);
         }
         for Strokes { lines, .. } in same {

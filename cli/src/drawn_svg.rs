@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use binspace::drawing::{EdgeKind, EdgeRun};
 
-use crate::drawn::{DASHES, Drawn, Filled, HIDDEN_WIDTH, WIDTH};
+use crate::drawn::{Drawn, Filled, HIDDEN_WIDTH, WIDTH, dashes};
 use crate::path_data::{Steps, points, units};
 use crate::shading::hex;
 use crate::strokes::Strokes;
@@ -30,7 +30,7 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
             writeln!(out, "</g>")?;
         }
     }
-    for same in drawn.strokes.chunk_by(|a, b| a.is_visible == b.is_visible) {
+    for same in drawn.strokes.chunk_by(|a, b| a.depth == b.depth) {
         write_strokes(out, same, units, drawn.ids)?;
     }
     writeln!(out, "</g>\n</svg>")
@@ -64,18 +64,21 @@ fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], units: u32, ids: bool) 
     if is_group { writeln!(out, "</g>") } else { Ok(()) }
 }
 
-/// Writes lines, all of them visible or all hidden: one path for each kind of edges, or, named, for each
+/// Writes lines, all of one depth: one path for each kind of edges, or, named, for each
 /// run of an edge.
 fn write_strokes(out: &mut dyn Write, all: &[Strokes], units: u32, ids: bool) -> io::Result<()> {
     let scaled = |pixels: f64| pixels * f64::from(units);
-    if all.first().is_some_and(|strokes| strokes.is_visible) {
+    let depth = all.first().map_or(0, |strokes| strokes.depth);
+    if depth == 0 {
         let width = scaled(WIDTH);
         write!(out, "<g class=\"visible\" stroke-width=\"{width}\" stroke-linecap=\"round\"")?;
     } else {
-        let ([dash, gap], width) = (DASHES.map(scaled), scaled(HIDDEN_WIDTH));
+        let ([dash, gap], width) = (dashes(depth).map(scaled), scaled(HIDDEN_WIDTH));
+        // A second class for those behind several polygons.
+        let layers = if depth > 1 { format!(" layers-{depth}") } else { String::new() };
         write!(
             out,
-            "<g class=\"hidden\" stroke-width=\"{width}\" stroke-dasharray=\"{dash} {gap}\""
+            "<g class=\"hidden{layers}\" stroke-width=\"{width}\" stroke-dasharray=\"{dash} {gap}\""
         )?;
     }
     writeln!(out, " fill=\"none\" stroke=\"#000000\" stroke-linejoin=\"round\">")?;

@@ -16,6 +16,7 @@ mod files;
 mod fill_order;
 mod format;
 mod framing;
+mod ink;
 mod job;
 mod measure;
 mod memory;

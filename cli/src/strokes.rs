@@ -25,6 +25,8 @@ pub(crate) enum EdgeChoice {
 pub(crate) enum Hidden {
     /// Dashed, and thinner
     Dashed,
+    /// Dashed the more sparsely the more polygons lie in front: one, two, three, or more
+    Layers,
     /// Not at all
     None,
 }
@@ -32,7 +34,9 @@ pub(crate) enum Hidden {
 /// Lines that are drawn alike.
 #[derive(Debug)]
 pub(crate) struct Strokes {
-    pub(crate) is_visible: bool,
+    /// How many polygons lie in front of them, up to [`DEEPEST`]: 0 if they are visible, 1 if they are hidden
+    /// and all drawn alike.
+    pub(crate) depth: u32,
     /// The kind of the edges.
     pub(crate) class: &'static str,
     /// What the segments of the lines are, by their numbers.
@@ -72,6 +76,9 @@ impl EdgeChoice {
     }
 }
 
+/// Lines behind more polygons are drawn as those behind so many.
+pub(crate) const DEEPEST: u32 = 4;
+
 /// What edges are called in a file, in the order to draw them.
 const CLASSES: [&str; 5] = ["other", "crossing", "crease", "border", "silhouette"];
 
@@ -97,12 +104,16 @@ pub(crate) fn strokes(
     shortest: f64,
 ) -> Result<Vec<Strokes>, Error> {
     let mut all = Vec::new();
-    for is_visible in [false, true] {
+    let depth_of = |run: &EdgeRun| match run.is_visible {
+        true => 0,
+        false => run.layers.unwrap_or(1).clamp(1, DEEPEST),
+    };
+    for depth in (0..=DEEPEST).rev() {
         for name in CLASSES {
-            let is_drawn = is_visible || hidden == Hidden::Dashed;
+            let is_drawn = depth == 0 || hidden != Hidden::None;
             let runs = runs.iter().copied().filter(|run| {
                 is_drawn
-                    && run.is_visible == is_visible
+                    && depth_of(run) == depth
                     && class(run.kind) == name
                     && edges.draws(run.kind)
             });
@@ -110,7 +121,7 @@ pub(crate) fn strokes(
             let mut lines = polylines(runs.iter().map(|run| run.ends))?;
             lines.retain(|line| line.length() >= shortest);
             if !lines.is_empty() {
-                all.push(Strokes { is_visible, class: name, runs, lines });
+                all.push(Strokes { depth, class: name, runs, lines });
             }
         }
     }

@@ -107,7 +107,7 @@ fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> bool {
 }
 
 /// The box around leaves.
-fn region(leaves: &[Leaf]) -> Region {
+pub(super) fn region(leaves: &[Leaf]) -> Region {
     let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     leaves.iter().fold(none, |[low, high], leaf| {
         let [from, to] = leaf.tile.sides();

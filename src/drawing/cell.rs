@@ -181,7 +181,7 @@ impl Cell {
 }
 
 /// The side of which both ends are on a line.
-fn side_on_line(signs: &[Ordering]) -> Option<usize> {
+pub(super) fn side_on_line(signs: &[Ordering]) -> Option<usize> {
     let next = |i: usize| if i + 1 == signs.len() { 0 } else { i + 1 };
     (0..signs.len()).find(|&i| signs[i].is_eq() && signs[next(i)].is_eq())
 }

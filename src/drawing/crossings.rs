@@ -171,7 +171,8 @@ impl VisibilityMap<'_> {
         let start = if first.places[0] > second.places[0] { first } else { second }.ends[0];
         let end = if first.places[1] < second.places[1] { first } else { second }.ends[1];
         let kind = EdgeKind::Crossing(a.max(b));
-        EdgeRun { polygon: a.min(b), edge: None, kind, ends: [start, end], is_visible: true }
+        let (polygon, ends) = (a.min(b), [start, end]);
+        EdgeRun { polygon, edge: None, kind, ends, is_visible: true, layers: None }
     }
 }
 

@@ -42,6 +42,8 @@ pub struct EdgeRun {
     pub ends: [[f64; 2]; 2],
     /// Whether it shows.
     pub is_visible: bool,
+    /// How many polygons lie in front of it; `None` if they were not counted.
+    pub layers: Option<u32>,
 }
 
 /// Runs and gaps shorter than this, in pixels, are what rounding has left.
@@ -175,7 +177,7 @@ fn shared(faces: &Faces) -> Result<(Vec<Shared>, Numbers), Error> {
     Ok((all, numbers))
 }
 
-fn ends_of(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
+pub(super) fn ends_of(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
     let corners = faces.corners(face);
     let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
     [corners[k as usize], corners[next]]
@@ -243,10 +245,7 @@ struct Views<'m> {
 impl Views<'_> {
     fn side(&mut self, face: u32) -> Ordering {
         let frame = &self.map.stock.frame;
-        *self.sides.entry(face).or_insert_with(|| {
-            let side = frame.sheet(PlaneId::face(face)).side();
-            if frame.rays.is_perspective() { side } else { side.reverse() }
-        })
+        *self.sides.entry(face).or_insert_with(|| frame.seen_side(face))
     }
 
     /// The runs of an edge, unless no polygon shows a side there.
@@ -273,7 +272,7 @@ impl Views<'_> {
             }
             let ends = [span.at(from), span.at(to)];
             reserve(runs, 1)?;
-            runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible });
+            runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
             Ok::<(), Error>(())
         };
         edge.visible.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));

@@ -31,6 +31,10 @@ pub(super) struct Sheet {
     phi: [Int<3>; 3],
 }
 
+/// A point of the scene in the picture: a weight, which is positive ahead of the eye, and that many times
+/// its coordinates.
+pub(super) type Image = [Int<4>; 3];
+
 impl Frame<'_> {
     /// A plane of the scene, as the rays meet it.
     pub(super) fn sheet(&self, plane: PlaneId) -> Sheet {
@@ -58,7 +62,32 @@ impl Frame<'_> {
         Sheet { kappa, phi: [first, right, down].map(|v| plane.along(v)) }
     }
 
-    /// The edge from one lattice point to another. Of a face whose front is seen, the inside is where
+    /// The side of a face's plane from which rays come; `Equal` if they run along it.
+    pub(super) fn seen_side(&self, face: u32) -> Ordering {
+        let side = self.sheet(PlaneId::face(face)).side();
+        if self.rays.is_perspective() { side } else { side.reverse() }
+    }
+
+    /// Where a lattice point is in the picture.
+    pub(super) fn image(&self, point: [f64; 3]) -> Image {
+        let Rays { base, right, down, pencil, .. } = self.rays;
+        let point = point.map(|c| c as i64);
+        // With `base`, `right` and `down`, or `right`, `down` and the direction, as axes: G. Cramer's rule.
+        // (Both are right-handed: cameras look along right × down.)
+        match pencil {
+            Pencil::From { eye, shift } => {
+                let duals = [product(right, down), product(down, base), product(base, right)];
+                duals.map(|dual| dot(dual, point).resize() - dot(dual, eye).shifted(shift))
+            }
+            Pencil::Along { direction } => {
+                let arm = std::array::from_fn(|i| point[i] - base[i]);
+                let [x, y] = [product(down, direction), product(direction, right)];
+                [(x, right), (x, arm), (y, arm)].map(|(dual, v)| dot(dual, v).resize())
+            }
+        }
+    }
+
+    /// The edge from one lattice point to another. In the picture it leads along (k₂, −k₁). Of a face whose front is seen, the inside is where
     /// its edges are negative.
     pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> Exact {
         let Rays { base, right, down, pencil, .. } = self.rays;
@@ -112,6 +141,12 @@ pub(super) fn orientation([a, b, c]: [&Exact; 3]) -> Ordering {
         |i: usize, j: usize| -> Int<12> { a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i]) };
     let term = |i: usize, minor: Int<12>| -> Int<17> { minor.times(&c[i]) };
     (term(0, minor(1, 2)) + term(1, minor(2, 0)) + term(2, minor(0, 1))).sign()
+}
+
+/// On which side of a line a point is that is ahead of the eye.
+pub(super) fn side_at(line: &Exact, image: &Image) -> Ordering {
+    let term = |i: usize| -> Int<11> { line[i].times(&image[i]) };
+    (term(0) + term(1) + term(2)).sign()
 }
 
 /// Whether two lines are one, in whatever direction.

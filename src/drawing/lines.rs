@@ -361,6 +361,11 @@ impl<'t> Lines<'t> {
         line.error / self.reach[0].min(self.reach[1])
     }
 
+    /// A line in floats that is none of these.
+    pub(super) fn rounded_other(&self, exact: &Exact) -> Rounded {
+        Rounded::new(exact, self.reach)
+    }
+
     /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
     pub(super) fn shows(&self, at: [f64; 2]) -> bool {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
@@ -378,6 +383,14 @@ impl<'t> Lines<'t> {
         let side = orientation(exact.each_ref());
         let flips = lines.iter().filter(|half| half.is_negative()).count();
         if flips % 2 == 1 { side.reverse() } else { side }
+    }
+
+    /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
+    #[cold]
+    pub(super) fn exact_side_of(&self, line: &Exact, corner: [Half; 2]) -> Ordering {
+        let [a, b] = corner.map(|half| self.exact(half));
+        let side = orientation([&a, &b, line]);
+        if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
     }
 
     /// Where two lines meet, from integers, and how far off that may be by rounding.

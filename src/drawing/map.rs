@@ -31,6 +31,7 @@ use crate::tree::BspTree;
 /// from −½ to its size less ½, x to the right, y down.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
+    pub(super) tree: &'t BspTree,
     pub(super) stock: Stock<'t>,
     /// Of the faces of polygons that show.
     pub(super) rims: Rims<'t>,
@@ -98,7 +99,7 @@ impl<'t> VisibilityMap<'t> {
                 rims.outline(&stock, face)?;
             }
         }
-        Ok(Self { stock, rims, leaves })
+        Ok(Self { tree, stock, rims, leaves })
     }
 
     /// The picture's width and height in pixels.

@@ -31,16 +31,23 @@
 //! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
 //! | `crossings` | lines in which polygons go through one another |
+//! | `sight` | segments and points of the scene as the picture shows them |
+//! | `overlaid` | what shows of an overlay's lines and points |
+//! | `passes` | where segments pass in front of pieces or behind them |
+//! | `in_front` | how many polygons lie in front of lines |
+//! | `between` | lines and points between what is painted |
 //! | `pen` | segments joined to lines, in an order for a pen |
 //! | `near` | the nearest of the ends that are left |
 
 mod above;
+mod between;
 mod cell;
 mod crossings;
 mod edges;
 mod frame;
 mod half;
 mod halving;
+mod in_front;
 mod join;
 mod lines;
 mod map;
@@ -49,19 +56,24 @@ mod near;
 mod opaque;
 mod order;
 mod outline;
+mod overlaid;
 mod overlaps;
 mod pairs;
+mod passes;
 mod pen;
 mod reaches;
 mod region;
 mod rims;
+mod sight;
 mod stock;
 mod table;
 mod tile;
 mod translucent;
 mod visible;
 
+pub use between::Step;
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};
+pub use overlaid::{LineRun, MarkerView};
 pub use pen::{Polyline, polylines};

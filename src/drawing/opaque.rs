@@ -3,6 +3,7 @@
 use std::ops::{ControlFlow, Range};
 
 use super::above::pairs;
+use super::between::Overlaid;
 use super::cell::Cell;
 use super::half::Half;
 use super::halving::CUT;
@@ -30,6 +31,8 @@ pub struct Drawing {
     /// Where each outline begins, and all corners.
     outlines: Vec<u32>,
     corners: Vec<[f64; 2]>,
+    /// Lines and points, each with how many paths come before it: in the order to paint them.
+    pub(super) overlaid: Vec<(u32, Overlaid)>,
 }
 
 #[derive(Clone, Debug)]
@@ -74,7 +77,7 @@ impl VisibilityMap<'_> {
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
-        let Self { stock, rims, leaves } = self;
+        let Self { stock, rims, leaves, .. } = self;
         let size = self.size();
         let shown = Nodes::of(stock, leaves)?;
         let place = |face: u32| shown.places[face as usize];
@@ -112,7 +115,7 @@ impl VisibilityMap<'_> {
 impl Drawing {
     /// Nothing is painted.
     pub(super) fn empty(size: [u32; 2]) -> Self {
-        Self { size, paths: vec![], outlines: vec![], corners: vec![] }
+        Self { size, paths: vec![], outlines: vec![], corners: vec![], overlaid: vec![] }
     }
 
     /// Adds a path that fills what edges go around.

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::between::{NO_PATH, between};
 use super::halving::{CUT, LINES};
 use super::join::Groups;
 use super::opaque::{Drawing, add_edges};
@@ -15,6 +16,7 @@ use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
 use crate::memory::{collect, push, reserve};
+use crate::overlay::Overlay;
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -38,7 +40,7 @@ impl Drawing {
     ///
     /// If there is not enough memory.
     pub fn translucent(tree: &BspTree, rays: Rays) -> Result<Self, Error> {
-        Self::with_all(tree, rays, &Watch::default())
+        Self::with_all(tree, rays, None, &Watch::default())
     }
 
     /// As [`translucent`](Self::translucent). Now and then `progress` is called with how far the drawing has
@@ -53,10 +55,15 @@ impl Drawing {
         progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
     ) -> Result<Self, Error> {
         let progress = one_at_a_time(progress);
-        Self::with_all(tree, rays, &Watch::new(&progress))
+        Self::with_all(tree, rays, None, &Watch::new(&progress))
     }
 
-    fn with_all(tree: &BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
+    pub(super) fn with_all(
+        tree: &BspTree,
+        rays: Rays,
+        overlay: Option<&Overlay>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         let size = rays.size();
         let stock = Stock::new(tree, rays, watch)?;
         let mut rims = Rims::new(&stock);
@@ -75,6 +82,7 @@ impl Drawing {
         let mut drawing = Self::empty(size);
         reserve(&mut drawing.paths, order.len())?;
         let mut edges = Vec::new();
+        let mut path_of: Vec<u32> = collect(stock.items.iter().map(|_| NO_PATH))?;
         for part in order {
             watch.work(CUT)?;
             let items = &parts.items[part as usize];
@@ -91,10 +99,16 @@ impl Drawing {
                 }
             }
             if !edges.is_empty() {
+                let path = drawing.paths.len() as u32;
+                items.iter().for_each(|&item| path_of[item as usize] = path);
                 let polygon = stock.polygon(items[0]);
                 let is_part = (items.len() as u32) < of_polygon[polygon];
                 drawing.push(polygon, is_part, &edges)?;
             }
+        }
+        if let Some(overlay) = overlay {
+            drawing.overlaid =
+                between(&stock, &rims, &path_of, drawing.paths.len() as u32, overlay)?;
         }
         Ok(drawing)
     }

@@ -67,6 +67,21 @@ impl ExactSplitter {
         }
     }
 
+    /// On which side of the plane a lattice point lies further off than the tolerance.
+    #[cfg(feature = "drawing")]
+    pub(crate) fn side_beyond(&self, faces: &Faces, point: &[f64; 3]) -> Ordering {
+        let (distance, far) = (self.distance(*point), self.band + 2.0 * self.bound);
+        if distance.abs() > far {
+            return distance.total_cmp(&0.0);
+        }
+        let (at, band) = (faces.plane(self.plane).at(point), Int::<3>::from_f64(self.band));
+        match ((at - band).sign(), (at + band).sign()) {
+            (Ordering::Greater, _) => Ordering::Greater,
+            (_, Ordering::Less) => Ordering::Less,
+            _ => Ordering::Equal,
+        }
+    }
+
     /// The largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a
     /// vertex rounded to a position further than this from the plane certainly lies on the side
     /// that the distance says.

@@ -1,6 +1,8 @@
 //! Polygons that move, lines and points, beside a tree that stays as it is.
 
 mod anchors;
+#[cfg(feature = "drawing")]
+pub(crate) mod given;
 mod indices;
 mod order;
 mod place;

@@ -42,7 +42,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("raster", &["exact", "view"]),
     ("verify", &["exact", "tree", "view", "raster"]),
     ("occlusion", &["tree", "raster", "verify"]),
-    ("drawing", &["exact", "tree", "build", "raster"]),
+    ("drawing", &["exact", "tree", "build", "overlay", "raster"]),
 ];
 
 fn source() -> PathBuf {

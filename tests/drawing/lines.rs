@@ -120,6 +120,10 @@ fn edges_end_with_the_picture() {
     }
 }
 
+/// Points nearer to the end of a run, in pixels, are not judged: rays of pictures are rounded, by up to a
+/// thousandth of a pixel.
+const NEAR: f64 = 2.1e-3;
+
 /// What was compared.
 #[derive(Debug, Default)]
 struct Score {
@@ -134,7 +138,7 @@ fn check_runs(
     tree: &BspTree,
     polygons: &[Vec<DVec3>],
     camera: &Camera,
-    dice: &mut Dice,
+    (dice, each): (&mut Dice, usize),
     score: &mut Score,
 ) {
     for run in edges(tree, camera) {
@@ -150,8 +154,12 @@ fn check_runs(
         };
         let way = [0, 1].map(|i: usize| run.ends[1][i] - run.ends[0][i]);
         let length = way[0].hypot(way[1]);
-        for _ in 0..2 {
-            let share = 0.02 + 0.96 * dice.share();
+        for _ in 0..each {
+            let share = dice.share();
+            if share.min(1.0 - share) * length < NEAR {
+                score.unsure += 1;
+                continue;
+            }
             let point = [0, 1].map(|i: usize| run.ends[0][i] + way[i] * share);
             let across = [-way[1] / length * 0.005, way[0] / length * 0.005];
             let is_hidden = |off: f64| {
@@ -211,9 +219,10 @@ fn rays_agree_with_runs() {
         let bounds = [corners().reduce(DVec3::min).unwrap(), corners().reduce(DVec3::max).unwrap()];
         for camera in views(bounds, *up, 4, [320, 240], 7).unwrap() {
             assert!(matches!(camera.viewpoint(), Viewpoint::Eye(_)));
-            check_runs(&tree, polygons, &camera, &mut dice, &mut score);
+            check_runs(&tree, polygons, &camera, (&mut dice, 60), &mut score);
         }
     }
-    assert!(score.visible > 5000 && score.hidden > 5000, "{score:?}");
+    assert!(score.visible + score.hidden > 1_000_000, "{score:?}");
+    assert!(score.visible > 300_000 && score.hidden > 300_000, "{score:?}");
     assert!(score.unsure * 10 < score.visible + score.hidden, "{score:?}");
 }

@@ -27,7 +27,7 @@ use crate::shading::shaded;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::say;
 use crate::upright::note_z_up;
-use crate::{camera, coverage, drawn_pdf, drawn_svg, job, png_file};
+use crate::{camera, coverage, drawn_pdf, drawn_svg, ink, job, png_file};
 
 /// The side of the square, in pixels, that a polygon has to show, unless the user says.
 const MIN_SIZE: f64 = 0.01;
@@ -69,7 +69,13 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         refuse_translucent(&scene, &colours, &shown)?;
     }
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
-        let pixels = coverage::picture(map, |polygon| view.colour(polygon));
+        let mut pixels = match args.lines {
+            true => coverage::blank(camera.size()),
+            false => coverage::picture(map, |polygon| view.colour(polygon)),
+        };
+        let strokes = view.strokes(Some(map), edges).map_err(about)?;
+        figures.count(&strokes);
+        ink::draw(&mut pixels, camera.size(), &strokes);
         figures.draw_seconds = start.elapsed().as_secs_f64();
         let write = |out: &mut dyn Write| png_file::write(out, camera.size(), &pixels);
         figures.bytes = output.write_counted(write)?;
@@ -135,11 +141,15 @@ impl<'a> View<'a> {
         edges: EdgeChoice,
     ) -> Result<Vec<Strokes>, Error> {
         let Some(map) = map.filter(|_| edges != EdgeChoice::None) else { return Ok(vec![]) };
-        let mut runs = map.edges()?;
+        let hidden = self.args.hidden.unwrap_or(Hidden::None);
+        let mut runs = match hidden {
+            Hidden::Layers => map.edges_in_layers()?,
+            _ => map.edges()?,
+        };
         if edges != EdgeChoice::Silhouettes {
             runs.append(&mut map.crossings()?);
         }
-        strokes(&runs, edges, self.args.hidden.unwrap_or(Hidden::None), self.min_size())
+        strokes(&runs, edges, hidden, self.min_size())
     }
 
     /// The paths and lines that are written, counted.
@@ -164,9 +174,7 @@ impl<'a> View<'a> {
             let drawn = paths.iter().map(|path| path.polygon());
             figures.visible = drawn.collect::<HashSet<usize>>().len();
         }
-        let lines = strokes.iter().flat_map(|strokes| &strokes.lines);
-        figures.lines = lines.clone().count();
-        figures.runs = lines.map(|line| line.segments.len()).sum();
+        figures.count(&strokes);
         let is_translucent = args.translucent;
         let style = Style { scene, camera, colours, ids: args.ids, is_translucent };
         Drawn { size: camera.size(), fills: filled(&paths, &style), strokes, ids: args.ids }
@@ -197,6 +205,14 @@ struct Figures {
     draw_seconds: f64,
 }
 
+impl Figures {
+    fn count(&mut self, strokes: &[Strokes]) {
+        let lines = strokes.iter().flat_map(|strokes| &strokes.lines);
+        self.lines = lines.clone().count();
+        self.runs = lines.map(|line| line.segments.len()).sum();
+    }
+}
+
 /// Which edges are drawn: those of a line drawing that are seen best, unless the user says.
 fn edges(args: &DrawArgs) -> EdgeChoice {
     let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
@@ -211,10 +227,8 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         "the drawing and the figures of --json cannot both go there: name a file"
     } else if args.lines && !has_lines {
         "with --lines and `--edges none` there is nothing to draw: choose other edges"
-    } else if args.hidden == Some(Hidden::Dashed) && !has_lines {
-        "`--hidden dashed` is for lines: add --lines, or --edges for lines over the polygons"
-    } else if format == DrawFormat::Png && has_lines {
-        "a PNG has no lines: write .svg or .pdf, or leave out --lines and --edges"
+    } else if matches!(args.hidden, Some(Hidden::Dashed | Hidden::Layers)) && !has_lines {
+        "--hidden is for lines: add --lines, or --edges for lines over the polygons"
     } else if format == DrawFormat::Png && args.translucent {
         "a PNG is made of what shows: write .svg or .pdf, or use `binspace render` for a picture of \
          translucent polygons"
@@ -224,8 +238,8 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         "with --translucent nothing is hidden, so --min-size leaves nothing out"
     } else if format != DrawFormat::Svg && args.ids {
         "--ids is for SVG: other formats have no place for names"
-    } else if format == DrawFormat::Png && args.min_size.is_some() {
-        "--min-size is for SVG and PDF: a PNG has of each polygon just what it shows"
+    } else if format == DrawFormat::Png && args.min_size.is_some() && !has_lines {
+        "--min-size is for SVG, PDF and lines: a PNG has of each polygon just what it shows"
     } else if format == DrawFormat::Pdf && longest > drawn_pdf::LONGEST {
         return Err(format!(
             "a page of a PDF has at most {} points each way, one for each pixel: give a smaller --size",

@@ -4,6 +4,7 @@ mod bad_input;
 mod chromium;
 mod cull;
 mod draw;
+mod draw_ink;
 mod draw_lines;
 mod draw_pdf;
 mod draw_png;

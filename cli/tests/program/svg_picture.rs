@@ -65,6 +65,22 @@ impl Svg {
         self.rendered(ShapeRendering::GeometricPrecision)
     }
 
+    /// The red of each pixel, as the mean of so many pixels each way of a larger picture.
+    pub(crate) fn averaged(&self, each: u32) -> Vec<f64> {
+        let tree = Tree::from_str(&self.text, &Options::default()).unwrap();
+        let size = tree.size().to_int_size();
+        let mut pixels = Pixmap::new(size.width() * each, size.height() * each).unwrap();
+        let scale = Transform::from_scale(each as f32, each as f32);
+        resvg::render(&tree, scale, &mut pixels.as_mut());
+        let (width, each) = (size.width() as usize, each as usize);
+        let mut sums = vec![0.0; width * size.height() as usize];
+        for (i, rgba) in pixels.data().chunks_exact(4).enumerate() {
+            let (x, y) = (i % (width * each) / each, i / (width * each) / each);
+            sums[y * width + x] += f64::from(rgba[0]) / (each * each) as f64;
+        }
+        sums
+    }
+
     fn rendered(&self, shape_rendering: ShapeRendering) -> Picture {
         let options = Options { shape_rendering, ..Options::default() };
         let tree = Tree::from_str(&self.text, &options).unwrap();

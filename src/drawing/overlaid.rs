@@ -1,0 +1,255 @@
+//! What shows of an overlay's lines and points.
+
+use super::above::region;
+use super::edges::SHORTEST;
+use super::halving::{CUT, NARROWED, found_in};
+use super::lines::Lines;
+use super::map::VisibilityMap;
+use super::passes::{Passing, kept};
+use super::region::are_apart;
+use super::sight::{Sight, Spot};
+use super::visible::{Leaf, Visible};
+use crate::Error;
+use crate::build::progress::Watch;
+use crate::memory::{push, reserve};
+use crate::overlay::Overlay;
+use crate::overlay::given::GivenSegment;
+
+/// A part of a segment of an overlay's line, visible or hidden from one end to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LineRun {
+    /// The line, by its number in the overlay.
+    pub line: usize,
+    /// The number of the segment in its line: it joins the corners of this number and the next.
+    pub segment: usize,
+    /// Where the run begins and ends in the picture, in the direction of the line, in pixels from the centre
+    /// of the first one.
+    pub ends: [[f64; 2]; 2],
+    /// Whether it shows.
+    pub is_visible: bool,
+    /// How many polygons lie in front of it; `None` if they were not counted.
+    pub layers: Option<u32>,
+}
+
+/// A point of an overlay in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MarkerView {
+    /// The point, by its number in the overlay.
+    pub point: usize,
+    /// Where it is in the picture, in pixels from the centre of the first one.
+    pub at: [f64; 2],
+    /// Whether it shows.
+    pub is_visible: bool,
+}
+
+impl LineRun {
+    pub(super) fn new(segment: &GivenSegment, ends: [[f64; 2]; 2], is_visible: bool) -> Self {
+        let GivenSegment { line, number, .. } = *segment;
+        Self { line, segment: number, ends, is_visible, layers: None }
+    }
+}
+
+impl VisibilityMap<'_> {
+    /// The lines of an overlay of the same tree, as far as they are in the picture, in runs that are visible
+    /// or hidden: in input order, and along each segment from its beginning to its end.
+    ///
+    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, be it
+    /// with its edge or a corner alone. A segment that is no further from a polygon's plane than the
+    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only counts as
+    /// all on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
+    /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
+    ///
+    /// O(n log n) for n segments and cells, and what they have in common.
+    ///
+    /// # Errors
+    ///
+    /// If the overlay was made for another tree, as far as its size tells; if it has polygons, the first of
+    /// which is [`Error::polygon`]; or if there is not enough memory.
+    pub fn lines(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
+        overlay.expect_no_polygons(self.tree)?;
+        let (segments, sights) = sights(&self.rims.lines, overlay)?;
+        let mut hidden = self.covered(Passing { sights: &sights, spots: &[] })?.hidden;
+        hidden.sort_unstable_by(|(a, p), (b, q)| a.cmp(b).then(p[0].total_cmp(&q[0])));
+        let mut rest = &hidden[..];
+        let mut runs = Vec::new();
+        for (number, (segment, sight)) in (0..).zip(segments.iter().zip(&sights)) {
+            let (parts, others) = rest.split_at(rest.partition_point(|&(of, _)| of == number));
+            rest = others;
+            add_runs(segment, sight, parts, &mut runs)?;
+        }
+        Ok(runs)
+    }
+
+    /// The points of an overlay of the same tree that are in the picture, in input order.
+    ///
+    /// A point is hidden as a point of a line is: see [`lines`](Self::lines).
+    ///
+    /// # Errors
+    ///
+    /// As for `lines`.
+    pub fn markers(&self, overlay: &Overlay) -> Result<Vec<MarkerView>, Error> {
+        overlay.expect_no_polygons(self.tree)?;
+        let (mut views, spots) = spots(&self.rims.lines, overlay)?;
+        for number in self.covered(Passing { sights: &[], spots: &spots })?.hidden_spots {
+            views[number as usize].is_visible = false;
+        }
+        Ok(views)
+    }
+
+    /// What is hidden of segments and points, in no particular order.
+    fn covered<'m>(&'m self, passing: Passing<'_>) -> Result<Covered, Error> {
+        let sights = (0..passing.sights.len() as u32).collect();
+        let spots = (0..passing.spots.len() as u32).collect();
+        let watch = Watch::default();
+        let all = Entry { leaves: &self.leaves, sights, spots };
+        let halves = |entry: &Entry<'m>, _: &mut Covered| entry.halves(passing, &watch);
+        let leaf =
+            |entry: &Entry<'_>, found: &mut Covered| entry.leaf(self, passing, found, &watch);
+        let mut all_found = Covered::default();
+        for mut found in found_in(all, Covered::default, halves, leaf, &watch)? {
+            reserve(&mut all_found.hidden, found.hidden.len())?;
+            all_found.hidden.append(&mut found.hidden);
+            reserve(&mut all_found.hidden_spots, found.hidden_spots.len())?;
+            all_found.hidden_spots.append(&mut found.hidden_spots);
+        }
+        Ok(all_found)
+    }
+}
+
+/// The segments of an overlay that the picture shows as lines.
+pub(super) fn sights(
+    lines: &Lines<'_>,
+    overlay: &Overlay,
+) -> Result<(Vec<GivenSegment>, Vec<Sight>), Error> {
+    let (mut segments, mut sights) = (Vec::new(), Vec::new());
+    for segment in overlay.given_segments() {
+        if let Some(sight) = Sight::new(lines, segment.ends) {
+            push(&mut segments, segment)?;
+            push(&mut sights, sight)?;
+        }
+    }
+    Ok((segments, sights))
+}
+
+/// The points of an overlay that are in the picture, not hidden so far.
+pub(super) fn spots(
+    lines: &Lines<'_>,
+    overlay: &Overlay,
+) -> Result<(Vec<MarkerView>, Vec<Spot>), Error> {
+    let (mut views, mut spots) = (Vec::new(), Vec::new());
+    for (point, given) in overlay.given_points().enumerate() {
+        if let Some(spot) = Spot::new(lines, given) {
+            push(&mut views, MarkerView { point, at: spot.at, is_visible: true })?;
+            push(&mut spots, spot)?;
+        }
+    }
+    Ok((views, spots))
+}
+
+/// What is hidden.
+#[derive(Default)]
+struct Covered {
+    /// Of segments, by their numbers: from one place to another.
+    hidden: Vec<(u32, [f64; 2])>,
+    hidden_spots: Vec<u32>,
+}
+
+/// Leaves, with the segments and points that may be in them.
+struct Entry<'l> {
+    leaves: &'l [Leaf],
+    sights: Vec<u32>,
+    spots: Vec<u32>,
+}
+
+impl<'l> Entry<'l> {
+    /// The first and the second half of the leaves; `None` of a single one, or where nothing is.
+    fn halves(&self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+        let Self { leaves, sights, spots } = self;
+        watch.work((sights.len() + spots.len()) * NARROWED)?;
+        if leaves.len() < 2 || sights.is_empty() && spots.is_empty() {
+            return Ok(None);
+        }
+        let (first, second) = leaves.split_at(leaves.len() / 2);
+        let part = |leaves: &'l [Leaf]| {
+            let around = region(leaves);
+            let sights = kept(sights, |number| passing.sights[number as usize].may_meet(&around))?;
+            let is_near =
+                |number: u32| !are_apart(&around, &passing.spots[number as usize].region());
+            Ok(Self { leaves, sights, spots: kept(spots, is_near)? })
+        };
+        Ok(Some([part(first)?, part(second)?]))
+    }
+
+    /// Adds what the cells of the leaves hide.
+    fn leaf(
+        &self,
+        map: &VisibilityMap<'_>,
+        passing: Passing<'_>,
+        found: &mut Covered,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let (stock, lines) = (&map.stock, &map.rims.lines);
+        for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
+            watch.work((1 + self.sights.len() + self.spots.len()) * CUT)?;
+            let around = cell.region();
+            let face = stock.face(*item);
+            let mut side = None;
+            let mut seen = || *side.get_or_insert_with(|| lines.frame.seen_side(face));
+            for &number in &self.sights {
+                let sight = &passing.sights[number as usize];
+                if !sight.may_meet(&around) {
+                    continue;
+                }
+                let Some([from, to]) = sight.chord(lines, cell) else { continue };
+                let Some([first, last]) = sight.behind(lines, face, seen()) else { continue };
+                let (from, to) = (from.max(first), to.min(last));
+                if from < to {
+                    push(&mut found.hidden, (number, [from, to]))?;
+                }
+            }
+            for &number in &self.spots {
+                let spot = &passing.spots[number as usize];
+                if !are_apart(&around, &spot.region())
+                    && spot.is_in(lines, cell)
+                    && spot.is_behind(lines, face, seen())
+                {
+                    push(&mut found.hidden_spots, number)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Adds the runs of a segment of which some parts are hidden, in the order of their beginnings.
+fn add_runs(
+    segment: &GivenSegment,
+    sight: &Sight,
+    hidden: &[(u32, [f64; 2])],
+    runs: &mut Vec<LineRun>,
+) -> Result<(), Error> {
+    let [mut done, end] = sight.places;
+    let mut add = |from: f64, to: f64, is_visible: bool| {
+        if to - from < SHORTEST {
+            return Ok(());
+        }
+        let ends = [from, to].map(|place| sight.at(place));
+        push(runs, LineRun::new(segment, ends, is_visible))
+    };
+    let mut parts = hidden.iter().map(|(_, part)| *part).peekable();
+    while let Some([from, mut to]) = parts.next() {
+        while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
+            to = to.max(next[1]);
+        }
+        let (from, to) = (from.max(done), to.min(end));
+        if to - from < SHORTEST {
+            continue;
+        }
+        add(done, from, true)?;
+        add(from, to, false)?;
+        done = to;
+    }
+    add(done, end, true)
+}

@@ -1,0 +1,219 @@
+//! Segments of the scene as the picture shows them.
+
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
+use super::cell::{Cell, Corner, side_on_line};
+use super::edges::SHORTEST;
+use super::frame::{Exact, Image, meeting};
+use super::lines::{Lines, Rounded};
+use super::region::{Region, are_apart};
+use super::tile::Tile;
+use crate::exact::{Exact as Exactly, Int, Kernel, PlaneId};
+
+/// A segment between two lattice points, as far as the picture has it. How far along something is, is its
+/// place: in pixels, rising from the first end to the second.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    ends: [[f64; 3]; 2],
+    /// The line of the picture that it is on.
+    rounded: Rounded,
+    /// Along that line; of length 1.
+    direction: [f64; 2],
+    /// Where it begins and ends in the picture.
+    pub(super) places: [f64; 2],
+    /// A box around that part.
+    region: Region,
+}
+
+/// Boxes are larger than what they are around by this, in pixels: far more than rounding.
+const MARGIN: f64 = 1e-3;
+
+impl Sight {
+    /// `None` if it is not in the picture, or a point there.
+    pub(super) fn new(lines: &Lines<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
+        let rounded = lines.rounded_other(&lines.frame.edge(ends));
+        let [_, kx, ky] = rounded.k;
+        let slope = kx.hypot(ky);
+        if slope == 0.0 {
+            return None;
+        }
+        let direction = [ky / slope, -kx / slope];
+        let region = Tile::picture(lines.frame.rays.size()).sides();
+        let mut sight = Self { ends, rounded, direction, places: [0.0; 2], region };
+        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
+        let [mut from, mut to] = sight.chord(lines, &Cell::rectangle(lines, low, high))?;
+        let images = ends.map(|end| lines.frame.image(end));
+        let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
+        if is_ahead[0] {
+            from = from.max(sight.place_of(&images[0]));
+        }
+        if is_ahead[1] {
+            to = to.min(sight.place_of(&images[1]));
+        }
+        if is_ahead == [false; 2] || (to - from).is_nan() || to - from < SHORTEST {
+            return None;
+        }
+        sight.places = [from, to];
+        let [a, b] = sight.places.map(|place| sight.at(place));
+        let axes = [0, 1];
+        sight.region = [
+            axes.map(|i: usize| a[i].min(b[i]) - MARGIN),
+            axes.map(|i: usize| a[i].max(b[i]) + MARGIN),
+        ];
+        Some(sight)
+    }
+
+    /// The point of its line at a place.
+    pub(super) fn at(&self, place: f64) -> [f64; 2] {
+        let [k0, kx, ky] = self.rounded.k;
+        // From the point of the line that is nearest to the origin.
+        let foot = -k0 / (kx * kx + ky * ky);
+        [foot * kx + self.direction[0] * place, foot * ky + self.direction[1] * place]
+    }
+
+    /// How far along a point of the picture is.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> f64 {
+        x * self.direction[0] + y * self.direction[1]
+    }
+
+    fn place_of<const N: usize>(&self, image: &[Int<N>; 3]) -> f64 {
+        let [weight, x, y] = image.map(Int::to_f64);
+        self.place([x / weight, y / weight])
+    }
+
+    fn exact(&self, lines: &Lines<'_>) -> Exact {
+        lines.frame.edge(self.ends)
+    }
+
+    /// Whether it may meet a box.
+    pub(super) fn may_meet(&self, region: &Region) -> bool {
+        if are_apart(region, &self.region) {
+            return false;
+        }
+        let [low, high] = region;
+        let half = |axis: usize| 0.5 * (high[axis] - low[axis]) + MARGIN;
+        let middle = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
+        let [_, kx, ky] = self.rounded.k;
+        let reach = kx.abs() * half(0) + ky.abs() * half(1);
+        self.rounded.at(middle).abs() <= reach
+    }
+
+    /// From where to where the line goes through a cell or along one of its sides: which of these it does is
+    /// exact, where is rounded.
+    pub(super) fn chord(&self, lines: &Lines<'_>, cell: &Cell) -> Option<[f64; 2]> {
+        let n = cell.sides.len();
+        let signs: SmallVec<[Ordering; 8]> = (0..n).map(|i| self.side(lines, cell, i)).collect();
+        let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
+        let mut ends: SmallVec<[f64; 2]> = SmallVec::new();
+        if signs.contains(&Ordering::Greater) && signs.contains(&Ordering::Less) {
+            for i in 0..n {
+                if signs[i].is_eq() {
+                    ends.push(self.place(cell.sides[i].start.at));
+                } else if signs[i] == signs[next(i)].reverse() {
+                    let side = lines.exact(cell.sides[i].half);
+                    ends.push(self.place(meeting([&self.exact(lines), &side])));
+                }
+            }
+        } else {
+            let side = side_on_line(&signs)?;
+            ends.extend([side, next(side)].map(|i| self.place(cell.sides[i].start.at)));
+        }
+        let [a, b] = ends[..] else { return None };
+        Some([a.min(b), a.max(b)])
+    }
+
+    /// On which side of the line a corner of a cell lies.
+    fn side(&self, lines: &Lines<'_>, cell: &Cell, corner: usize) -> Ordering {
+        let Corner { at, radius } = cell.sides[corner].start;
+        let value = self.rounded.at(at);
+        if value.abs() > self.rounded.error + self.rounded.slope * radius {
+            return value.total_cmp(&0.0);
+        }
+        let before = if corner == 0 { cell.sides.len() - 1 } else { corner - 1 };
+        let halves = [before, corner].map(|i| cell.sides[i].half);
+        lines.exact_side_of(&self.exact(lines), halves)
+    }
+
+    /// The places where it is further away than a face's plane, which is seen from a side; `None` if it is
+    /// nowhere. No further off than the tolerance it is on the plane, and not behind it.
+    pub(super) fn behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> Option<[f64; 2]> {
+        const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        let faces = lines.frame.faces;
+        let splitter = Exactly.splitter(faces, PlaneId::face(face));
+        let sides = self.ends.map(|end| splitter.side_beyond(faces, &end));
+        let is_behind = sides.map(|side| side == seen.reverse());
+        if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
+            return (is_behind != [false; 2]).then_some(ALL);
+        }
+        // It goes through the plane, at a mean of its ends.
+        let plane = faces.plane(PlaneId::face(face));
+        let [a, b] = self.ends.map(|end| lines.frame.image(end));
+        let weights = [self.ends[1], self.ends[0]].map(|end| {
+            let at = plane.at(&end);
+            if at.is_negative() { -at } else { at }
+        });
+        let mean: [Int<6>; 3] = std::array::from_fn(|i| {
+            let parts: [Int<6>; 2] = [a[i].times(&weights[0]), b[i].times(&weights[1])];
+            parts[0] + parts[1]
+        });
+        if mean[0].sign().is_gt() {
+            let place = self.place_of(&mean);
+            return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
+        }
+        // Behind the eye: what is ahead is all on the side of the end that is.
+        let ahead = if a[0].sign().is_gt() { 0 } else { 1 };
+        is_behind[ahead].then_some(ALL)
+    }
+}
+
+/// A point of the scene as the picture shows it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    point: [f64; 3],
+    pub(super) at: [f64; 2],
+}
+
+impl Spot {
+    /// `None` if it is not in the picture.
+    pub(super) fn new(lines: &Lines<'_>, point: [f64; 3]) -> Option<Self> {
+        let image = lines.frame.image(point);
+        if !image[0].sign().is_gt() {
+            return None;
+        }
+        let [weight, x, y] = image.map(Int::to_f64);
+        let spot = Self { point, at: [x / weight, y / weight] };
+        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
+        spot.is_in(lines, &Cell::rectangle(lines, low, high)).then_some(spot)
+    }
+
+    /// A box around it.
+    pub(super) fn region(&self) -> Region {
+        [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
+    }
+
+    /// Whether it is in a cell, or on one of its sides: exact.
+    pub(super) fn is_in(&self, lines: &Lines<'_>, cell: &Cell) -> bool {
+        cell.sides.iter().all(|side| {
+            let line = lines.rounded(side.half);
+            let value = line.at(self.at);
+            let is_outside = |side_of: Ordering| side_of.is_lt() != side.half.is_negative();
+            // Its coordinates are rounded three times.
+            let off = 4.0 * f64::EPSILON * (self.at[0].abs() + self.at[1].abs());
+            if value.abs() > line.error + line.slope * off {
+                return !is_outside(value.total_cmp(&0.0));
+            }
+            let image: Image = lines.frame.image(self.point);
+            let exact = super::frame::side_at(&lines.exact(side.half), &image);
+            exact.is_eq() || !is_outside(exact)
+        })
+    }
+
+    /// Whether it is further away than a face's plane.
+    pub(super) fn is_behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> bool {
+        let faces = lines.frame.faces;
+        let splitter = Exactly.splitter(faces, PlaneId::face(face));
+        splitter.side_beyond(faces, &self.point) == seen.reverse()
+    }
+}

@@ -1,0 +1,253 @@
+//! Lines and points between translucent polygons, against rays in rationals.
+
+use super::overlay::{between, hard_shapes, origin, place_in, project, square, triangles};
+use super::sightlines::Sightlines;
+use super::support::dice::Dice;
+use super::support::hard;
+use super::support::rational::{self, Point};
+use super::support::tally::tally;
+use binspace::drawing::{Drawing, LineRun, Path, Step, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions, Overlay, Shapes};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+
+/// What was compared.
+#[derive(Debug, Default)]
+struct Score {
+    /// Paths before points of lines, and after them.
+    below: usize,
+    above: usize,
+    marker_below: usize,
+    marker_above: usize,
+    runs: usize,
+    segments: usize,
+}
+
+/// Outlines nearer to a point than this, in pixels, are not compared.
+const NEAR: f64 = 0.01;
+
+/// Whether a path covers a point; `None` if one of its outlines is too near.
+fn covers(path: &Path<'_>, [x, y]: [f64; 2]) -> Option<bool> {
+    let mut winding = 0;
+    for outline in path.outlines() {
+        for (i, a) in outline.iter().enumerate() {
+            let b = outline[(i + 1) % outline.len()];
+            let way = [b[0] - a[0], b[1] - a[1]];
+            let square = way[0] * way[0] + way[1] * way[1];
+            let along = ((x - a[0]) * way[0] + (y - a[1]) * way[1]) / square.max(1e-300);
+            let share = along.clamp(0.0, 1.0);
+            let off = [a[0] + way[0] * share - x, a[1] + way[1] * share - y];
+            if off[0].hypot(off[1]) < NEAR {
+                return None;
+            }
+            let side = way[0] * (y - a[1]) - way[1] * (x - a[0]);
+            if a[1] <= y && y < b[1] && side > 0.0 {
+                winding += 1;
+            } else if b[1] <= y && y < a[1] && side < 0.0 {
+                winding -= 1;
+            }
+        }
+    }
+    Some(winding != 0)
+}
+
+/// Judges the order of a drawing at points of its lines, so many for each part, and at its points.
+fn check(
+    tree: &BspTree,
+    camera: &Camera,
+    lines: &[Vec<DVec3>],
+    points: &[DVec3],
+    (dice, each): (&mut Dice, usize),
+    score: &mut Score,
+) -> Result<(), String> {
+    let text = |error: binspace::Error| error.to_string();
+    let mut overlay = Overlay::new(tree);
+    let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
+    overlay.replace_with(tree, shapes).map_err(text)?;
+    let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
+    let Some(origin) = origin(tree, camera) else { return Ok(()) };
+    let sightlines = Sightlines::new(tree.faces(), origin);
+    let lattice = *tree.faces().lattice();
+    let snap = |point: DVec3| rational::point(lattice.snap(point));
+    let drawing = Drawing::translucent_with(tree, rays.clone(), &overlay).map_err(text)?;
+    let paths: Vec<Path<'_>> = drawing.paths().collect();
+    let mut faces_of =
+        vec![
+            0;
+            1 + (0..tree.faces().len()).map(|f| tree.faces().polygon(f as u32)).max().unwrap_or(0)
+        ];
+    (0..tree.faces().len()).for_each(|face| faces_of[tree.faces().polygon(face as u32)] += 1);
+    // How many paths there have to be before a point, and not before it.
+    let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
+        let before = sightlines.polygons_before(point);
+        let mut judged = [0; 2];
+        for (number, path) in paths.iter().enumerate() {
+            // Those of bent polygons may be behind a line with one face and in front with another.
+            if faces_of[path.polygon()] > 1 || covers(path, at) != Some(true) {
+                continue;
+            }
+            let is_before = before.contains(&path.polygon());
+            if is_before == (number < below) {
+                return Err(format!("path {number} of {path:?}, {below} at {at:?}, {camera:?}"));
+            }
+            judged[usize::from(is_before)] += 1;
+        }
+        Ok(judged)
+    };
+    let mut below = 0;
+    let mut runs: Vec<LineRun> = vec![];
+    let mut markers = 0;
+    for step in drawing.steps() {
+        match step {
+            Step::Path(path) => {
+                assert_eq!(path.polygon(), paths[below].polygon());
+                below += 1;
+            }
+            Step::Line(run) => {
+                let ends = [run.segment, run.segment + 1].map(|k| snap(lines[run.line][k]));
+                for _ in 0..each {
+                    let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
+                    let point: Point = between(&ends, share);
+                    let Some(at) = project(camera, &lattice, &point) else { continue };
+                    if place_in(run.ends, at) == Some(true) {
+                        let judged = judge(&point, at, below)?;
+                        score.below += judged[0];
+                        score.above += judged[1];
+                    }
+                }
+                runs.push(run);
+            }
+            Step::Marker(marker) => {
+                let judged = judge(&snap(points[marker.point]), marker.at, below)?;
+                score.marker_below += judged[0];
+                score.marker_above += judged[1];
+                markers += 1;
+            }
+            _ => unreachable!(),
+        }
+    }
+    assert_eq!(below, paths.len());
+    // All that the picture has of lines and points is there.
+    let map = VisibilityMap::of(tree, rays).map_err(text)?;
+    assert_eq!(map.markers(&overlay).map_err(text)?.len(), markers);
+    let length = |runs: &[LineRun]| -> f64 {
+        runs.iter()
+            .map(|run| (run.ends[1][0] - run.ends[0][0]).hypot(run.ends[1][1] - run.ends[0][1]))
+            .sum()
+    };
+    let all = map.lines(&overlay).map_err(text)?;
+    let [expected, found] = [length(&all), length(&runs)];
+    if (expected - found).abs() > 1e-4 {
+        return Err(format!("{found} pixels of lines, not {expected}, {camera:?}"));
+    }
+    let mut names: Vec<(usize, usize)> = all.iter().map(|run| (run.line, run.segment)).collect();
+    names.dedup();
+    score.segments += names.len();
+    score.runs += runs.len();
+    Ok(())
+}
+
+/// Through three walls, one behind another, a line is in four parts; in front of them, on the first, or
+/// behind all it is in one, also where some do not reach.
+#[test]
+fn a_line_is_cut_only_where_it_goes_through() {
+    let walls = [-1.0, 0.0, 1.0].map(|z| square([-2.0, -2.0], [2.0, 2.0], z));
+    let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
+    let tree = options.build(walls).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    for (line, expected) in [
+        ([[-3.0, 0.0, 3.0], [3.0, 0.0, 3.0]], &[3][..]),
+        ([[-3.0, 0.0, 1.0], [3.0, 0.0, 1.0]], &[3]),
+        ([[-3.0, 0.0, 0.5], [3.0, 0.0, 0.5]], &[2]),
+        ([[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[2]),
+        ([[-3.0, 0.0, -2.0], [3.0, 0.0, -2.0]], &[0]),
+        ([[-1.9, 0.0, -1.9], [1.9, 0.0, 1.9]], &[0, 1, 2, 3]),
+        // Where it goes through the others, they do not reach.
+        ([[-7.0, 0.0, -3.5], [1.0, 0.0, 0.5]], &[1, 2]),
+    ] {
+        let mut overlay = Overlay::new(&tree);
+        overlay
+            .replace_with(&tree, Shapes::NONE.with_lines([line]).with_points([line[0]]))
+            .unwrap();
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let drawing = Drawing::translucent_with(&tree, rays, &overlay).unwrap();
+        let (mut paths, mut found) = (0, vec![]);
+        for step in drawing.steps() {
+            match step {
+                Step::Path(path) => {
+                    assert_eq!(path.polygon(), paths);
+                    paths += 1;
+                }
+                Step::Line(run) => {
+                    assert_eq!((run.line, run.segment), (0, 0));
+                    found.push(paths);
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(found, expected, "{line:?}");
+    }
+}
+
+#[test]
+fn lines_come_between_hard_polygons() {
+    let cases = (hard::scene(), any::<u64>());
+    let score = tally(file!(), 128, cases, |score: &mut Score, (scene, seed)| {
+        let mut dice = Dice(seed);
+        let corners = || scene.polygons.iter().flatten().copied();
+        let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
+        else {
+            return Ok(());
+        };
+        let (middle, reach) = ((low + high) * 0.5, (high - low).max_element() * 4.0);
+        let options = BuildOptions::DEFAULT.with_tolerance(0.0);
+        let options = options.with_bounds(middle - reach, middle + reach);
+        let Ok(tree) = options.build(&scene.polygons) else { return Ok(()) };
+        let lattice = tree.faces().lattice();
+        let off = DVec3::from([(); 3].map(|()| dice.around_zero(3)));
+        let eye = middle + off * (high - low) * 0.5;
+        let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+        let up = DVec3::new(0.1, 0.2, 0.9);
+        let (lines, points) = hard_shapes(&scene.polygons, eye, &mut dice);
+        let at = Camera::perspective(eye, middle, up, 1.0, [96, 72]);
+        let direction = DVec3::from([(); 3].map(|()| dice.around_zero(2)));
+        let along = Camera::parallel(direction, up, middle, reach, [96, 72]);
+        for camera in [at, along].into_iter().flatten() {
+            let result = check(&tree, &camera, &lines, &points, (&mut dice, 3), score);
+            result.map_err(TestCaseError::fail)?;
+        }
+        Ok(())
+    });
+    assert!(score.below > 2000 && score.above > 2000, "{score:?}");
+    assert!(score.marker_below > 250 && score.marker_above > 250, "{score:?}");
+}
+
+#[test]
+fn lines_come_between_triangles() {
+    let (mut random, mut dice, mut score) = (SplitMix64::new(6), Dice(6), Score::default());
+    for (count, edge) in [(30, 0.8), (150, 0.3), (300, 0.1)] {
+        let triangles = triangles(&mut random, count, edge);
+        let options = BuildOptions::DEFAULT.with_tolerance(0.0);
+        let options = options.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
+        let tree = options.build(&triangles).unwrap();
+        let lattice = tree.faces().lattice();
+        for far in [4.0, 0.5] {
+            let eye = random.point(-1.0, 1.0).normalize() * far;
+            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
+            let mut lines: Vec<Vec<DVec3>> =
+                (0..20).map(|_| (0..4).map(|_| random.point(-2.0, 2.0)).collect()).collect();
+            lines.extend(hard_shapes(&triangles, eye, &mut dice).0);
+            let points: Vec<DVec3> = (0..40).map(|_| random.point(-1.0, 1.0)).collect();
+            check(&tree, &camera, &lines, &points, (&mut dice, 30), &mut score).unwrap();
+        }
+    }
+    assert!(score.below > 1000 && score.above > 2000, "{score:?}");
+    assert!(score.marker_below > 20 && score.marker_above > 40, "{score:?}");
+    // Most segments pass several triangles, and are cut more seldom.
+    assert!(score.runs > score.segments && score.runs < 4 * score.segments, "{score:?}");
+}

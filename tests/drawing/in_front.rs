@@ -1,0 +1,111 @@
+//! How many polygons lie in front of hidden edges, against rays in rationals.
+
+use super::overlay::{between, origin, place_in, project, square, triangles};
+use super::sightlines::Sightlines;
+use super::support::dice::Dice;
+use super::support::rational::{self, Point};
+use binspace::drawing::{EdgeRun, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::scene::Builtin;
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions};
+
+fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
+    let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
+    let runs = map.edges().unwrap();
+    let layered = map.edges_in_layers().unwrap();
+    // They are the same runs, cut further.
+    let mut rest = layered.iter();
+    for run in &runs {
+        assert_eq!(run.layers, None);
+        let mut end = run.ends[0];
+        while end != run.ends[1] {
+            let part = rest.next().expect("a part");
+            assert_eq!(part.ends[0], end, "{part:?} of {run:?}");
+            end = part.ends[1];
+            let mut same = *part;
+            (same.layers, same.ends) = (None, run.ends);
+            assert_eq!(same, *run);
+            assert_eq!(part.layers == Some(0), run.is_visible);
+        }
+    }
+    assert_eq!(rest.next(), None);
+    layered
+}
+
+/// Squares one before another, each smaller: what is behind k of them has k layers.
+#[test]
+fn squares_before_one_another_are_counted() {
+    let side = |k: u32| f64::from(5 - k);
+    let squares: Vec<Vec<DVec3>> =
+        (0..4).map(|k| square([-side(k), -0.5], [side(k), 0.5], f64::from(k))).collect();
+    // Behind all of them.
+    let bar = square([-6.0, -0.25], [6.0, 0.25], -1.0);
+    let tree = BspTree::build(squares.iter().chain([&bar])).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 16.0, [160, 160]).unwrap();
+    let runs = in_layers(&tree, &camera);
+    let edge: Vec<(u32, f64)> = runs
+        .iter()
+        .filter(|run| run.polygon == 4 && run.edge == Some(0))
+        .map(|run| (run.layers.unwrap(), ((run.ends[1][0] - run.ends[0][0]) * 1e6).round() / 1e6))
+        .collect();
+    let expected = [0, 1, 2, 3, 4, 3, 2, 1, 0];
+    let lengths = [10.0, 10.0, 10.0, 10.0, 40.0, 10.0, 10.0, 10.0, 10.0];
+    assert_eq!(edge, expected.into_iter().zip(lengths).collect::<Vec<_>>());
+    // Their ends are hidden only where more than the edge itself lies before them.
+    let ends = runs.iter().filter(|run| run.polygon == 0 && run.edge == Some(1));
+    assert_eq!(ends.map(|run| run.layers.unwrap()).collect::<Vec<_>>(), [0]);
+}
+
+#[test]
+fn edges_have_as_many_layers_as_rays_meet() {
+    let (mut random, mut dice) = (SplitMix64::new(8), Dice(8));
+    let mut scenes: Vec<Vec<Vec<DVec3>>> = [(40, 0.8), (200, 0.3), (400, 0.1)]
+        .map(|(count, edge)| triangles(&mut random, count, edge))
+        .to_vec();
+    for builtin in [Builtin::City, Builtin::Sphere] {
+        let scene = builtin.build(Some(200), 2);
+        scenes.push((0..scene.len()).map(|i| scene.polygon(i).to_vec()).collect());
+    }
+    let (mut judged, mut most, mut on_walls) = ([0; 4], 0, 0);
+    for polygons in &scenes {
+        let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(polygons).unwrap();
+        let corners = || polygons.iter().flatten().copied();
+        let (low, high) =
+            (corners().reduce(DVec3::min).unwrap(), corners().reduce(DVec3::max).unwrap());
+        let lattice = *tree.faces().lattice();
+        for far in [2.0, 0.2] {
+            let (middle, size) = ((low + high) * 0.5, high - low);
+            let eye = middle + random.point(-1.0, 1.0).normalize() * size * far;
+            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let camera = Camera::perspective(eye, middle, DVec3::Z, 0.8, [320, 240]).unwrap();
+            let Some(origin) = origin(&tree, &camera) else { continue };
+            let sightlines = Sightlines::new(tree.faces(), origin);
+            for run in in_layers(&tree, &camera) {
+                let edge = run.edge.unwrap() as usize;
+                let corners = &polygons[run.polygon];
+                let ends = [edge, (edge + 1) % corners.len()]
+                    .map(|k| rational::point(lattice.snap(corners[k])));
+                for _ in 0..3 {
+                    let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
+                    let point: Point = between(&ends, share);
+                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    if place_in(run.ends, at) != Some(true) {
+                        continue;
+                    }
+                    // What the edge lies on is not before it, though it may hide the polygon.
+                    let mut layers = sightlines.polygons_before(&point).len();
+                    on_walls += usize::from(layers == 0 && !run.is_visible);
+                    layers = layers.max(usize::from(!run.is_visible));
+                    assert_eq!(run.layers, Some(layers as u32), "{run:?} at {share}, {camera:?}");
+                    judged[layers.min(3)] += 1;
+                    most = most.max(layers);
+                }
+            }
+        }
+    }
+    assert!(judged.iter().all(|&count| count > 500) && most > 5, "{judged:?} {most}");
+    assert!(on_walls * 10 < judged[1], "{on_walls} {judged:?}");
+}

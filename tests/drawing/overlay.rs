@@ -1,0 +1,375 @@
+//! Lines and points of an overlay in a picture, by hand and against rays in rationals.
+
+use super::sightlines::{Origin, Sightlines};
+use super::support::dice::Dice;
+use super::support::hard;
+use super::support::rational::{self, Point};
+use super::support::tally::tally;
+use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions, Overlay, Shapes};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+
+/// What was compared.
+#[derive(Debug, Default)]
+struct Score {
+    pictures: usize,
+    visible: usize,
+    hidden: usize,
+    /// Hidden by more than one.
+    deeper: usize,
+    runs: usize,
+    shown_points: usize,
+    hidden_points: usize,
+    /// Too near to the end of a run.
+    unsure: usize,
+}
+
+/// Places nearer to the end of a run than this, in pixels, are not judged: rays are rounded by up to a
+/// thousandth of a pixel.
+const NEAR: f64 = 2.1e-3;
+
+/// Compares what a map says of lines and points with what hides these: so many points are judged of each run,
+/// or fewer.
+fn check(
+    tree: &BspTree,
+    camera: &Camera,
+    lines: &[Vec<DVec3>],
+    points: &[DVec3],
+    (dice, each): (&mut Dice, usize),
+    score: &mut Score,
+) -> Result<(), String> {
+    let text = |error: binspace::Error| error.to_string();
+    let mut overlay = Overlay::new(tree);
+    let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
+    overlay.replace_with(tree, shapes).map_err(text)?;
+    let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
+    let Some(origin) = origin(tree, camera) else { return Ok(()) };
+    let sightlines = Sightlines::new(tree.faces(), origin);
+    let map = VisibilityMap::of(tree, rays).map_err(text)?;
+    let lattice = *tree.faces().lattice();
+    let snap = |point: DVec3| rational::point(lattice.snap(point));
+    let runs = map.lines(&overlay).map_err(text)?;
+    score.pictures += 1;
+    for run in map.lines_in_layers(&overlay).map_err(text)? {
+        let ends = [run.segment, run.segment + 1].map(|k| snap(lines[run.line][k]));
+        for _ in 0..each {
+            let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
+            let point: Point = between(&ends, share);
+            let Some(at) = project(camera, &lattice, &point) else { continue };
+            match place_in(run.ends, at) {
+                Some(true) => {}
+                Some(false) => {
+                    score.unsure += 1;
+                    continue;
+                }
+                None => continue,
+            }
+            let hiding = sightlines.polygons_before(&point);
+            if Some(hiding.len() as u32) != run.layers || run.is_visible != hiding.is_empty() {
+                return Err(format!("{run:?} at {share}, {at:?}: {hiding:?}, {camera:?}"));
+            }
+            *if run.is_visible { &mut score.visible } else { &mut score.hidden } += 1;
+            score.deeper += usize::from(hiding.len() > 1);
+        }
+    }
+    score.runs += runs.len();
+    check_tiling(&runs)?;
+    for MarkerView { point, at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
+        let exact = snap(points[point]);
+        let projected = project(camera, &lattice, &exact).expect("ahead of the eye");
+        if (0..2).any(|i| (projected[i] - at[i]).abs() > 1.1e-3) {
+            return Err(format!("point {point}: {at:?}, not {projected:?}, {camera:?}"));
+        }
+        let hiding = sightlines.polygons_before(&exact);
+        if hiding.is_empty() != is_visible {
+            return Err(format!("point {point} at {at:?}: {hiding:?}, {camera:?}"));
+        }
+        *if is_visible { &mut score.shown_points } else { &mut score.hidden_points } += 1;
+    }
+    Ok(())
+}
+
+/// Runs of a segment begin where those before them end, visible and hidden by turns.
+fn check_tiling(runs: &[LineRun]) -> Result<(), String> {
+    for pair in runs.windows(2) {
+        let [before, run] = [pair[0], pair[1]];
+        if (before.line, before.segment) > (run.line, run.segment) {
+            return Err(format!("{run:?} after {before:?}"));
+        }
+        let goes_on = (before.line, before.segment) == (run.line, run.segment);
+        if goes_on && (before.ends[1] != run.ends[0] || before.is_visible == run.is_visible) {
+            return Err(format!("{run:?} after {before:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// Where rays come from in a scene's lattice; `None` if that is rounded.
+pub(crate) fn origin(tree: &BspTree, camera: &Camera) -> Option<Origin> {
+    let lattice = tree.faces().lattice();
+    match camera.viewpoint() {
+        binspace::Viewpoint::Eye(eye) => {
+            let place = lattice.to_lattice(eye);
+            let is_exact = place.iter().all(|c| c.fract() == 0.0);
+            is_exact.then(|| Origin::Eye(rational::point(place)))
+        }
+        binspace::Viewpoint::Direction(direction) => {
+            Some(Origin::Along(rational::point(direction)))
+        }
+    }
+}
+
+pub(crate) fn between([a, b]: &[Point; 2], share: f64) -> Point {
+    let share = rational::exact(share);
+    std::array::from_fn(|i| &a[i] + (&b[i] - &a[i]) * &share)
+}
+
+pub(crate) fn project(
+    camera: &Camera,
+    lattice: &binspace::internals::Lattice,
+    point: &Point,
+) -> Option<[f64; 2]> {
+    use num_traits::ToPrimitive;
+    let rounded = point.each_ref().map(|c| c.to_f64().expect("in range"));
+    // Pixels of cameras begin at the picture's corner.
+    camera.project(lattice.to_world(rounded)).map(|at| at.map(|c| c - 0.5))
+}
+
+/// Whether a point is well inside of a run; `None` if it is not in it at all.
+pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
+    let way = [0, 1].map(|i: usize| ends[1][i] - ends[0][i]);
+    let arm = [0, 1].map(|i: usize| at[i] - ends[0][i]);
+    let length = way[0].hypot(way[1]);
+    let place = (arm[0] * way[0] + arm[1] * way[1]) / length;
+    let inside = place.min(length - place);
+    (inside > -NEAR).then_some(inside > NEAR)
+}
+
+pub(crate) fn square(low: [f64; 2], high: [f64; 2], z: f64) -> Vec<DVec3> {
+    let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
+    corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec()
+}
+
+/// The runs of one line over polygons, as seen from above, ten pixels a unit: how far each goes along x,
+/// and whether it shows.
+fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
+    let tree = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
+    let tree = tree.with_tolerance(0.0).build(polygons).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    let mut overlay = Overlay::new(&tree);
+    overlay.replace_with(&tree, Shapes::NONE.with_lines([line])).unwrap();
+    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    let runs = map.lines(&overlay).unwrap();
+    let rounded = |x: f64| (x * 1e6).round() / 1e6;
+    runs.iter()
+        .map(|run| (rounded((run.ends[1][0] - run.ends[0][0]) / 10.0), run.is_visible))
+        .collect()
+}
+
+#[test]
+fn lines_are_seen_on_polygons_and_hidden_behind_them() {
+    let wall = square([-1.0, -1.0], [1.0, 1.0], 0.0);
+    let one = |line: &[[f64; 3]]| from_above(std::slice::from_ref(&wall), line);
+    // On it, above it, below it.
+    assert_eq!(one(&[[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [(4.0, true)]);
+    assert_eq!(one(&[[-2.0, 0.0, 1.0], [2.0, 0.0, 1.0]]), [(4.0, true)]);
+    let behind = [(1.0, true), (2.0, false), (1.0, true)];
+    assert_eq!(one(&[[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]]), behind);
+    // Through it, and up to it from either side.
+    assert_eq!(
+        one(&[[-2.0, 0.0, -2.0], [2.0, 0.0, 2.0]]),
+        [(1.0, true), (1.0, false), (2.0, true)]
+    );
+    assert_eq!(one(&[[-2.0, 0.0, -2.0], [0.0, 0.0, 0.0]]), [(1.0, true), (1.0, false)]);
+    assert_eq!(one(&[[-2.0, 0.0, 2.0], [0.0, 0.0, 0.0]]), [(2.0, true)]);
+    // Along its edge: on it, and below it, where the edge hides it; and through a corner.
+    assert_eq!(one(&[[-2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), [(4.0, true)]);
+    assert_eq!(one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, -1.0]]), behind);
+    assert_eq!(one(&[[0.0, 2.0, -1.0], [2.0, 0.0, -1.0]]), [(2.0, true)]);
+    // Through its edge: a point of it.
+    assert_eq!(
+        one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, 1.0]]),
+        [(1.0, true), (1.0, false), (2.0, true)]
+    );
+    // Two segments of one line, and one that is seen end-on.
+    let bent = [[-2.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [3.0, 0.0, -1.0]];
+    assert_eq!(one(&bent), [(2.0, true), (1.0, false), (2.0, true)]);
+    assert_eq!(one(&[[0.0, 0.0, 5.0], [0.0, 0.0, -5.0]]), []);
+}
+
+/// Where two walls meet there is no crack, and what lies along the corner of a room is seen: on both.
+#[test]
+fn lines_in_cracks_and_corners() {
+    let halves = [square([-1.0, -1.0], [1.0, 0.0], 0.0), square([-1.0, 0.0], [1.0, 1.0], 0.0)];
+    let line = [[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]];
+    assert_eq!(from_above(&halves, &line), [(1.0, true), (2.0, false), (1.0, true)]);
+    // A valley, all of it further back than its rims, in every order of its sides and a wall through it.
+    let [left, right] = [-1.0, 1.0].map(|y| {
+        let side = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, y, 1.0], [-1.0, y, 1.0]];
+        side.map(DVec3::from).to_vec()
+    });
+    let wall = [[-1.0, 0.0, -3.0], [1.0, 0.0, -3.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+    let wall = wall.map(DVec3::from).to_vec();
+    let floor = square([-3.0, -3.0], [3.0, 3.0], 0.0);
+    let all = [left, right, wall, floor];
+    for first in 0..4 {
+        for second in 0..4 {
+            let mut polygons = all.to_vec();
+            polygons.swap(0, first);
+            polygons.swap(1, second);
+            let line = [[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+            assert_eq!(from_above(&polygons, &line), [(4.0, true)], "{first} {second}");
+            let below = [[-2.0, 0.0, -0.5], [2.0, 0.0, -0.5]];
+            assert_eq!(from_above(&polygons, &below), [(4.0, false)], "{first} {second}");
+        }
+    }
+}
+
+/// A line from far behind the eye, close by it, to far ahead is straight where it shows.
+#[test]
+fn lines_across_the_eye_end_with_the_picture() {
+    let wall = square([-9.0, -9.0], [9.0, 9.0], -90.0);
+    let bounded = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1e6), DVec3::splat(1e6));
+    let tree = bounded.build([wall]).unwrap();
+    let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.6, [200, 100]).unwrap();
+    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    let mut overlay = Overlay::new(&tree);
+    let line = [[0.001, 0.0, 1e6], [0.001, 0.0, -1e6]];
+    let behind = [[5.0, 1.0, 1.0], [-5.0, 1.0, 1.0]];
+    let through = [[0.0, 0.0, 5.0], [0.0, 0.0, -50.0]];
+    overlay.replace_with(&tree, Shapes::NONE.with_lines([line, behind, through])).unwrap();
+    let runs = map.lines(&overlay).unwrap();
+    let [seen, hidden] = runs[..] else { panic!("{runs:?}") };
+    assert!(seen.is_visible && !hidden.is_visible && seen.line == 0);
+    // From the right end of the picture to the vanishing point, to a thousandth of a pixel.
+    let pixel = camera.pixel_size();
+    let expected = [199.5, 99.5 + 0.001 / 90.0 / pixel, 99.5 + 0.001 / 1e6 / pixel];
+    for (at, x) in [seen.ends[0], seen.ends[1], hidden.ends[1]].into_iter().zip(expected) {
+        assert!((at[0] - x).abs() < 1.1e-3 && (at[1] - 49.5).abs() < 1.1e-3, "{at:?} {x}");
+    }
+}
+
+#[test]
+fn overlays_of_other_trees_and_polygons_are_refused() {
+    let tree = BspTree::build([square([-1.0, -1.0], [1.0, 1.0], 0.0)]).unwrap();
+    let other = BspTree::build([[DVec3::ZERO, DVec3::X, DVec3::Y]]).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    assert!(map.lines(&Overlay::new(&other)).is_err());
+    let mut overlay = Overlay::new(&tree);
+    assert_eq!(map.lines(&overlay), Ok(vec![]));
+    assert_eq!(map.markers(&overlay), Ok(vec![]));
+    let line = [DVec3::ZERO, DVec3::X];
+    // One without area is none.
+    let polygons = [[DVec3::ZERO; 3], [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5]];
+    let shapes = Shapes::NONE.with_lines([line]);
+    overlay.replace_with(&tree, shapes.with_polygons(&polygons[..1])).unwrap();
+    assert_eq!(map.lines(&overlay).unwrap().len(), 1);
+    overlay.replace_with(&tree, Shapes::NONE.with_polygons(polygons).with_lines([line])).unwrap();
+    let error = map.lines(&overlay).unwrap_err();
+    assert!(error.polygon() == Some(1) && error.to_string().contains("polygon 1"), "{error}");
+    assert_eq!(map.markers(&overlay).unwrap_err(), error);
+}
+
+/// Lines and points that a scene and an eye make hard: along edges and through them, through corners, in
+/// planes, and in line with the eye.
+pub(crate) fn hard_shapes(
+    polygons: &[Vec<DVec3>],
+    eye: DVec3,
+    dice: &mut Dice,
+) -> (Vec<Vec<DVec3>>, Vec<DVec3>) {
+    let corner = |dice: &mut Dice| {
+        let polygon = &polygons[dice.below(polygons.len())];
+        polygon[dice.below(polygon.len())]
+    };
+    let some = |dice: &mut Dice| {
+        let polygon = &polygons[dice.below(polygons.len())];
+        let k = dice.below(polygon.len());
+        let (a, b) = (polygon[k], polygon[(k + 1) % polygon.len()]);
+        match dice.below(5) {
+            0 => a,
+            1 => (a + b) * 0.5,
+            2 => a + (b - a) * 2.0,
+            3 => (a + corner(dice)) * 0.5,
+            // Seen through the corner of another polygon.
+            _ => eye + (a - eye) * [0.5, 2.0, 0.75, 1.5, 1.0][dice.below(5)],
+        }
+    };
+    let lines = (0..8).map(|_| (0..2 + dice.below(2)).map(|_| some(dice)).collect());
+    let lines = lines.collect();
+    (lines, (0..8).map(|_| some(dice)).collect())
+}
+
+#[test]
+fn hard_lines_and_points_are_hidden_as_rays_are() {
+    let cases = (hard::scene(), any::<u64>());
+    let score = tally(file!(), 128, cases, |score: &mut Score, (scene, seed)| {
+        let mut dice = Dice(seed);
+        let corners = || scene.polygons.iter().flatten().copied();
+        let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
+        else {
+            return Ok(());
+        };
+        let (middle, size) = ((low + high) * 0.5, high - low);
+        let reach = DVec3::splat(size.max_element() * 4.0);
+        let options = BuildOptions::DEFAULT.with_tolerance(0.0);
+        let options = options.with_bounds(middle - reach, middle + reach);
+        let Ok(tree) = options.build(&scene.polygons) else { return Ok(()) };
+        let lattice = tree.faces().lattice();
+        for _ in 0..3 {
+            // On planes of the scene as well, and in the middle of it.
+            let off = [(); 3].map(|()| dice.around_zero(3));
+            let eye = middle + DVec3::from(off) * size * 0.5;
+            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let direction = DVec3::from([(); 3].map(|()| dice.around_zero(2)));
+            let along =
+                Camera::parallel(direction, DVec3::new(0.1, 0.2, 0.9), middle, reach.x, [48, 36]);
+            let up = DVec3::new(0.1, 0.2, 0.9);
+            let at = Camera::perspective(eye, middle, up, 1.0, [48, 36]);
+            let (lines, points) = hard_shapes(&scene.polygons, eye, &mut dice);
+            for camera in [at, along].into_iter().flatten() {
+                let result = check(&tree, &camera, &lines, &points, (&mut dice, 2), score);
+                result.map_err(TestCaseError::fail)?;
+            }
+        }
+        Ok(())
+    });
+    assert!(score.visible > 5000 && score.hidden > 2000 && score.deeper > 300, "{score:?}");
+    assert!(score.shown_points > 2000 && score.hidden_points > 600, "{score:?}");
+}
+
+pub(crate) fn triangles(random: &mut SplitMix64, count: usize, edge: f64) -> Vec<Vec<DVec3>> {
+    let triangle = |_| {
+        let centre = random.point(-1.0, 1.0);
+        (0..3).map(|_| centre + random.point(-1.0, 1.0) * edge).collect()
+    };
+    (0..count).map(triangle).collect()
+}
+
+#[test]
+fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
+    let (mut random, mut dice, mut score) = (SplitMix64::new(5), Dice(5), Score::default());
+    for (count, edge) in [(40, 0.8), (150, 0.3), (300, 0.1)] {
+        let triangles = triangles(&mut random, count, edge);
+        let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
+        let bounded = exact.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
+        let tree = bounded.build(&triangles).unwrap();
+        let lattice = tree.faces().lattice();
+        for far in [4.0, 0.5] {
+            let eye = random.point(-1.0, 1.0).normalize() * far;
+            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
+            let mut lines: Vec<Vec<DVec3>> =
+                (0..20).map(|_| (0..4).map(|_| random.point(-2.0, 2.0)).collect()).collect();
+            lines.extend(hard_shapes(&triangles, eye, &mut dice).0);
+            let points: Vec<DVec3> = (0..40).map(|_| random.point(-1.0, 1.0)).collect();
+            check(&tree, &camera, &lines, &points, (&mut dice, 20), &mut score).unwrap();
+        }
+    }
+    assert!(score.visible > 2000 && score.hidden > 1000 && score.deeper > 300, "{score:?}");
+}
