@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::edges::SHORTEST;
-use super::opaque::{Drawing, Path};
-use super::overlaid::{LineRun, MarkerView, sights, spots};
+use super::overlaid::{LineRun, Overlaid, sights, spots};
 use super::passes::{Pass, Passing, Pieces, passes};
 use super::reaches::Reaches;
 use super::rims::Rims;
@@ -13,68 +12,9 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::push;
 use crate::overlay::Overlay;
-use crate::raster::Rays;
-use crate::tree::BspTree;
-
-/// What is painted next.
-#[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub enum Step<'d> {
-    /// A polygon, or a part of one.
-    Path(Path<'d>),
-    /// A part of a segment of an overlay's line.
-    Line(LineRun),
-    /// A point of an overlay.
-    Marker(MarkerView),
-}
-
-/// A line or a point that is in a drawing.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Overlaid {
-    Line(LineRun),
-    Marker(MarkerView),
-}
 
 /// The path of what is not in the picture.
 pub(super) const NO_PATH: u32 = u32::MAX;
-
-impl Drawing {
-    /// As [`translucent`](Self::translucent), with the lines and points of an overlay of the same tree
-    /// between the paths: see [`steps`](Self::steps). To have them above all, paint the runs of
-    /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last: nothing is cut then but what it says is
-    /// hidden.
-    ///
-    /// No path is cut because of them; a segment is, where it goes from one place of the order to another.
-    /// Each part comes after all that lies behind it, or that it lies on, and before what lies in front of
-    /// it, as `lines` tells these apart. Lines and points in one place of the order come in input order, lines
-    /// first, and so may those that cross in the picture.
-    ///
-    /// # Errors
-    ///
-    /// As for `translucent` and `lines`.
-    pub fn translucent_with(tree: &BspTree, rays: Rays, overlay: &Overlay) -> Result<Self, Error> {
-        overlay.expect_no_polygons(tree)?;
-        Self::with_all(tree, rays, Some(overlay), &Watch::default())
-    }
-
-    /// All that is painted, in order: [`paths`](Self::paths), with the lines and points between them that
-    /// the drawing was made with.
-    pub fn steps(&self) -> impl Iterator<Item = Step<'_>> + Clone {
-        let mut overlaid = self.overlaid.iter().peekable();
-        let mut paths = self.paths();
-        let count = self.paths.len();
-        std::iter::from_fn(move || {
-            let painted = (count - paths.len()) as u32;
-            if let Some((_, next)) = overlaid.next_if(|(below, _)| *below <= painted) {
-                return Some(match next {
-                    Overlaid::Line(run) => Step::Line(*run),
-                    Overlaid::Marker(marker) => Step::Marker(*marker),
-                });
-            }
-            paths.next().map(Step::Path)
-        })
-    }
-}
 
 /// The lines and points of an overlay, each with how many of the paths come before it, in order. `path_of`
 /// has the path of each item.

@@ -36,6 +36,7 @@
 //! | `passes` | where segments pass in front of pieces or behind them |
 //! | `in_front` | how many polygons lie in front of lines |
 //! | `between` | lines and points between what is painted |
+//! | `steps` | all that a drawing paints |
 //! | `pen` | segments joined to lines, in an order for a pen |
 //! | `near` | the nearest of the ends that are left |
 
@@ -65,15 +66,16 @@ mod reaches;
 mod region;
 mod rims;
 mod sight;
+mod steps;
 mod stock;
 mod table;
 mod tile;
 mod translucent;
 mod visible;
 
-pub use between::Step;
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};
 pub use overlaid::{LineRun, MarkerView};
 pub use pen::{Polyline, polylines};
+pub use steps::Step;

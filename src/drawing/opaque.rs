@@ -3,7 +3,6 @@
 use std::ops::{ControlFlow, Range};
 
 use super::above::pairs;
-use super::between::Overlaid;
 use super::cell::Cell;
 use super::half::Half;
 use super::halving::CUT;
@@ -11,6 +10,7 @@ use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::order::{Ordered, order};
 use super::outline::{Edge, outlines};
+use super::overlaid::Overlaid;
 use super::stock::Stock;
 use super::tile::Tile;
 use super::visible::{Leaf, Visible};

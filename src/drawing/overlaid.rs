@@ -44,6 +44,13 @@ pub struct MarkerView {
     pub is_visible: bool,
 }
 
+/// A line or a point that is in a drawing.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Overlaid {
+    Line(LineRun),
+    Marker(MarkerView),
+}
+
 impl LineRun {
     pub(super) fn new(segment: &GivenSegment, ends: [[f64; 2]; 2], is_visible: bool) -> Self {
         let GivenSegment { line, number, .. } = *segment;

@@ -58,7 +58,25 @@ impl Drawing {
         Self::with_all(tree, rays, None, &Watch::new(&progress))
     }
 
-    pub(super) fn with_all(
+    /// As [`translucent`](Self::translucent), with the lines and points of an overlay of the same tree
+    /// between the paths: see [`steps`](Self::steps). To have them above all, paint the runs of
+    /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last: nothing is cut then but what it says is
+    /// hidden.
+    ///
+    /// No path is cut because of them; a segment is, where it goes from one place of the order to another.
+    /// Each part comes after all that lies behind it, or that it lies on, and before what lies in front of
+    /// it, as `lines` tells these apart. Lines and points in one place of the order come in input order, lines
+    /// first, and so may those that cross in the picture.
+    ///
+    /// # Errors
+    ///
+    /// As for `translucent` and `lines`.
+    pub fn translucent_with(tree: &BspTree, rays: Rays, overlay: &Overlay) -> Result<Self, Error> {
+        overlay.expect_no_polygons(tree)?;
+        Self::with_all(tree, rays, Some(overlay), &Watch::default())
+    }
+
+    fn with_all(
         tree: &BspTree,
         rays: Rays,
         overlay: Option<&Overlay>,
