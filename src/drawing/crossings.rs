@@ -175,8 +175,14 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Joins runs of the same polygons, from the `first` on, where one begins where another ends: they are on
-/// one line, in its direction.
+/// How far the second of two runs along a line begins behind the end of the first, if it does.
+fn gap(before: &EdgeRun, run: &EdgeRun) -> f64 {
+    let reach = distance(before.ends[0], before.ends[1]);
+    distance(before.ends[0], run.ends[0]) - reach
+}
+
+/// Joins runs of the same polygons, from the `first` on, where one begins where another ends or before: they are
+/// on one line, in its direction. (Runs of two translucent polygons are found from either side.)
 fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
     let other = |run: &EdgeRun| match run.kind {
         EdgeKind::Crossing(other) => other,
@@ -190,10 +196,14 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
         let goes_on = kept > first && {
             let before = &runs[kept - 1];
             (before.polygon, before.kind) == (run.polygon, run.kind)
-                && distance(before.ends[1], run.ends[0]) <= SHORTEST
+                && gap(before, &run) <= SHORTEST
         };
         if goes_on {
-            runs[kept - 1].ends[1] = run.ends[1];
+            let before = &mut runs[kept - 1];
+            let [start, end] = [before.ends[1], run.ends[1]];
+            if distance(before.ends[0], end) > distance(before.ends[0], start) {
+                before.ends[1] = end;
+            }
         } else {
             runs[kept] = run;
             kept += 1;

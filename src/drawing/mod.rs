@@ -2,7 +2,8 @@
 //!
 //! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts. A
 //! [`VisibilityMap`] says which polygon shows where, exactly. From it a [`Drawing`] is made: one filled
-//! path for each polygon that shows, in an order to paint them in. [`Drawing::translucent`] hides nothing
+//! path for each polygon that shows, in an order to paint them in. Polygons may be translucent:
+//! [`VisibilityMap::with_opacities`] knows what shows through, and [`Drawing::translucent`] hides nothing
 //! and needs no map.
 //!
 //! | file | |
@@ -26,7 +27,8 @@
 //! | `opaque` | the drawing |
 //! | `overlaps` | which pieces overlap, nothing hidden |
 //! | `join` | pieces joined while an order is left |
-//! | `translucent` | the drawing in which nothing is hidden |
+//! | `parts` | parts of polygons that are painted at once |
+//! | `translucent` | drawings of translucent polygons |
 //! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
 //! | `crossings` | lines in which polygons go through one another |
@@ -50,6 +52,7 @@ mod order;
 mod outline;
 mod overlaps;
 mod pairs;
+mod parts;
 mod pen;
 mod reaches;
 mod region;

@@ -109,7 +109,7 @@ impl<'a, 'b> Narrow<'a, 'b> {
         }
         let halves = [place(start)?, place(list.halves.len())?];
         push(&mut list.items, Listed { item, seen, halves })?;
-        if start == list.halves.len() {
+        if start == list.halves.len() && stock.is_opaque(item) {
             // It covers the tile.
             self.limit = item;
         }
@@ -133,6 +133,7 @@ impl<'a, 'b> Narrow<'a, 'b> {
             let face = listed.seen;
             // If pieces of it are missing from the list, the others alone may not cover the tile.
             if tried.contains(&face)
+                || !stock.is_opaque(listed.item)
                 || stock.seen[face as usize].last > *limit
                 || !stock.covers(face, sides)
             {

@@ -11,6 +11,7 @@ use super::order::{Ordered, order};
 use super::outline::{Edge, outlines};
 use super::stock::Stock;
 use super::tile::Tile;
+use super::translucent::mixed;
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::Progress;
@@ -42,10 +43,15 @@ pub struct Path<'d> {
 }
 
 impl VisibilityMap<'_> {
-    /// The view as filled outlines, one for each polygon that shows, all of them opaque.
+    /// The view as filled outlines, one for each opaque polygon that shows.
     ///
     /// Polygons are drawn whole, each before those that show above it. A few that are in cycles with
     /// others, none in most scenes, are clipped: only what shows of them is drawn.
+    ///
+    /// Translucent polygons are painted over what is behind them. A few that lie before and behind others
+    /// in a circle are in several paths, as in [`Drawing::translucent`]; each point that shows of one is in
+    /// one path. Time and memory go up with the square of how many translucent polygons lie over
+    /// one another; where all are translucent, `Drawing::translucent` takes less.
     ///
     /// # Errors
     ///
@@ -70,12 +76,15 @@ impl VisibilityMap<'_> {
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
         let Self { stock, leaves } = self;
+        if stock.has_translucent() {
+            return mixed(stock, leaves, watch);
+        }
         let size = self.size();
         let shown = Nodes::of(stock, leaves)?;
         let place = |seen: u32| shown.places[seen as usize];
         let pairs = pairs(stock, leaves, &place, watch)?;
         let Ordered { order, is_clipped } =
-            order(shown.polygons.len(), &pairs, &shown.ranks, watch)?;
+            order(shown.polygons.len(), &pairs, &shown.ranks, &|_| true, watch)?;
         let mut drawing = Drawing::empty(size);
         let cells = shown.cells(stock, leaves, &is_clipped)?;
         reserve(&mut drawing.paths, order.len())?;
@@ -144,7 +153,7 @@ impl<'d> Path<'d> {
     }
 
     /// Whether the path has only a part of its polygon: what shows of one that is in a cycle with others;
-    /// or, in a drawing where nothing is hidden, one of several parts.
+    /// or one of several parts of a translucent one.
     pub fn is_clipped(&self) -> bool {
         self.record.is_clipped
     }
@@ -228,7 +237,7 @@ fn apart(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
     parts.map(|part| part.iter().map(|edge| edge.from).collect()).collect()
 }
 
-fn add_sides(cell: &Cell, edges: &mut Vec<Edge>) -> Result<(), Error> {
+pub(super) fn add_sides(cell: &Cell, edges: &mut Vec<Edge>) -> Result<(), Error> {
     let n = cell.sides.len();
     reserve(edges, n)?;
     edges.extend((0..n).map(|i| {

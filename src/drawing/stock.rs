@@ -35,6 +35,8 @@ pub(super) struct Seen {
     pub(super) last: u32,
     /// A box around it in the picture.
     pub(super) region: Region,
+    /// Whether it hides what is behind it.
+    pub(super) is_opaque: bool,
 }
 
 /// All pieces that may show, front to back.
@@ -44,6 +46,8 @@ pub(super) struct Stock<'t> {
     pub(super) items: Vec<Item>,
     pub(super) seen: Vec<Seen>,
     halves: Vec<Half>,
+    /// Of each polygon; none if all are opaque.
+    opacities: Vec<f64>,
 }
 
 /// To make the lines of a fragment takes as long as a build takes to examine so many pieces.
@@ -54,11 +58,17 @@ const UNSEEN: u32 = u32::MAX;
 const UNKNOWN: u32 = u32::MAX - 1;
 
 impl<'t> Stock<'t> {
-    /// The pieces of a tree that rays may meet.
-    pub(super) fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
+    /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
+    /// are opaque.
+    pub(super) fn new(
+        tree: &'t BspTree,
+        rays: Rays,
+        opacities: Vec<f64>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         let (faces, viewpoint) = (tree.faces(), rays.viewpoint());
         let lines = Lines::new(Frame { rays, faces });
-        let mut stock = Self { lines, items: vec![], seen: vec![], halves: vec![] };
+        let mut stock = Self { lines, items: vec![], seen: vec![], halves: vec![], opacities };
         let mut numbers: Vec<u32> = Vec::new();
         reserve(&mut numbers, faces.len())?;
         numbers.resize(faces.len(), UNKNOWN);
@@ -124,6 +134,10 @@ impl<'t> Stock<'t> {
     fn see(&mut self, face: u32, sheets: &mut Vec<Sheet>) -> Result<u32, Error> {
         let Frame { rays, faces } = &self.lines.frame;
         let faces = *faces;
+        let opacity = self.opacity(face);
+        if opacity == 0.0 {
+            return Ok(UNSEEN);
+        }
         let Some(region) = rays.region(faces.corners(face)) else { return Ok(UNSEEN) };
         let sheet = self.lines.frame.sheet(PlaneId::face(face));
         let side = sheet.side();
@@ -145,7 +159,7 @@ impl<'t> Stock<'t> {
         }
         let halves = start..place(self.halves.len())?;
         push(sheets, sheet)?;
-        push(&mut self.seen, Seen { face, halves, last: 0, region })?;
+        push(&mut self.seen, Seen { face, halves, last: 0, region, is_opaque: opacity == 1.0 })?;
         Ok(self.seen.len() as u32 - 1)
     }
 
@@ -173,6 +187,22 @@ impl<'t> Stock<'t> {
     /// The place of an item's face in [`Stock::seen`].
     pub(super) fn seen_of(&self, item: u32) -> u32 {
         self.items[item as usize].seen
+    }
+
+    /// The opacity of a face.
+    pub(super) fn opacity(&self, face: u32) -> f64 {
+        let polygon = self.lines.frame.faces.polygon(face);
+        self.opacities.get(polygon).copied().unwrap_or(1.0)
+    }
+
+    /// Whether an item hides what is behind it.
+    pub(super) fn is_opaque(&self, item: u32) -> bool {
+        self.seen[self.seen_of(item) as usize].is_opaque
+    }
+
+    /// Whether something shows through an item.
+    pub(super) fn has_translucent(&self) -> bool {
+        self.seen.iter().any(|seen| !seen.is_opaque)
     }
 
     /// The polygon of an item.

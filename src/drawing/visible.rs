@@ -15,7 +15,8 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 
-/// A part of what is visible: all of it in the picture, and none of it shown by another item.
+/// A part of what is visible: all of it in the picture, with nothing opaque before it. Where all items
+/// are opaque, none of it is shown by another.
 #[derive(Clone, Debug)]
 pub(super) struct Visible {
     pub(super) item: u32,
@@ -124,14 +125,19 @@ impl Entry {
             watch.work(open.len() * CUT)?;
             let region = &stock.items[listed.item as usize].region;
             let halves = list.halves_of(listed);
+            let is_opaque = stock.is_opaque(listed.item);
             let mut i = 0;
             while let Some(Open { cell, around }) = open.get(i) {
                 // Where nothing of the piece is, there is no need to cut the cell.
                 let shown = match are_apart(around, region) {
                     true => None,
-                    false => cell.within(lines, halves, Some(&mut outside))?,
+                    false => cell.within(lines, halves, is_opaque.then_some(&mut outside))?,
                 };
                 match shown {
+                    Some(cell) if !is_opaque => {
+                        push(&mut cells, Visible { item: listed.item, cell })?;
+                        i += 1;
+                    }
                     Some(cell) => {
                         push(&mut cells, Visible { item: listed.item, cell })?;
                         open.swap_remove(i);

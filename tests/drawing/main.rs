@@ -5,6 +5,7 @@ mod coincidences;
 mod crossings;
 mod hidden;
 mod lines;
+mod mixed;
 mod pen;
 mod progress;
 mod scenes;

@@ -1,0 +1,53 @@
+//! Drawings of scenes in which some polygons are translucent and some are not.
+
+use super::scenes::cameras;
+use crate::support::layered::{Layers, check_mixed};
+use binspace::BuildOptions;
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::scene::{Builtin, Scene};
+
+/// Opacities of a third of the polygons, of nearly all, and with some left out.
+const MIXES: [fn(usize) -> f64; 3] = [
+    |polygon| if polygon % 3 == 0 { 0.5 } else { 1.0 },
+    |polygon| if polygon % 17 == 0 { 1.0 } else { 0.25 },
+    |polygon| [0.0, 1.0, 0.75, 1.0][polygon / 5 % 4],
+];
+
+fn check_scene(scene: &Scene, score: &mut Layers) {
+    let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
+    for (i, camera) in cameras(scene, 4, [96, 72]).into_iter().enumerate() {
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        check_mixed(&tree, &camera, rays, &MIXES[i % 3], score)
+            .unwrap_or_else(|fault| panic!("{}, {i}, {camera:?}: {fault}", scene.name()));
+    }
+}
+
+#[test]
+fn layers_of_whole_scenes_end_at_what_is_opaque() {
+    let mut score = Layers::default();
+    for builtin in Builtin::ALL {
+        let size = builtin.default_size().map(|size| size.min(300));
+        check_scene(&builtin.build(size, 3), &mut score);
+    }
+    assert!(score.pixels > 400_000 && score.layers > 300_000, "{score:?}");
+    assert!(score.unsure < score.pixels / 100, "{score:?}");
+    assert!(score.hidden > 3_000 && score.rays > 2_000 && score.small > 0, "{score:?}");
+}
+
+/// Polygons that cross: opaque ones are clipped, translucent ones in parts.
+#[test]
+fn layers_of_crossing_triangles_end_at_what_is_opaque() {
+    let mut random = SplitMix64::new(1);
+    let mut score = Layers::default();
+    for (count, edge) in [(300, 0.1), (300, 0.5), (60, 1.0)] {
+        let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
+        for _ in 0..count {
+            let centre = random.point(0.0, 1.0);
+            scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge), 0);
+        }
+        check_scene(&scene, &mut score);
+    }
+    assert!(score.clipped > 50 && score.paths > score.polygons, "{score:?}");
+}
