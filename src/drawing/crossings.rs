@@ -70,9 +70,9 @@ impl VisibilityMap<'_> {
     fn cut_sides(&self) -> Result<Vec<CutSide>, Error> {
         let lines = &self.stock.lines;
         let mut found = Vec::new();
-        for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = self.stock.seen[self.stock.seen_of(visible.item) as usize].face;
-            let sides = &visible.cell.sides;
+        self.for_each_part(|item, cell| {
+            let face = self.stock.seen[self.stock.seen_of(item) as usize].face;
+            let sides = &cell.sides;
             for (i, side) in sides.iter().enumerate() {
                 let Some(line) = side.half.number() else { continue };
                 if !matches!(lines.key(line), Key::Cut(..)) {
@@ -83,7 +83,8 @@ impl VisibilityMap<'_> {
                 let is_negative = side.half.is_negative();
                 push(&mut found, self.cut_side(line, face, is_negative, ends))?;
             }
-        }
+            Ok(())
+        })?;
         Ok(found)
     }
 
@@ -131,9 +132,9 @@ impl VisibilityMap<'_> {
         if on.is_empty() {
             return Ok(());
         }
-        for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = self.stock.seen[self.stock.seen_of(visible.item) as usize].face;
-            let around = &visible.cell.sides;
+        self.for_each_part(|item, cell| {
+            let face = self.stock.seen[self.stock.seen_of(item) as usize].face;
+            let around = &cell.sides;
             for (i, side) in around.iter().enumerate().filter(|(_, s)| s.half.number().is_none()) {
                 let end = &around[if i + 1 == around.len() { 0 } else { i + 1 }];
                 for &(line, is_same) in on.get(&side.half.line()).into_iter().flatten() {
@@ -142,8 +143,8 @@ impl VisibilityMap<'_> {
                     push(sides, self.cut_side(line, face, is_negative, ends))?;
                 }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Whether two faces go through one another in the line between cells of theirs.

@@ -23,6 +23,7 @@
 //! | `pairs` | pairs of what is drawn before what |
 //! | `above` | which polygon shows above which |
 //! | `order` | an order of them, and who is in cycles |
+//! | `regions` | where the same polygons show, one behind the other |
 //! | `outline` | outlines of areas in parts |
 //! | `opaque` | the drawing |
 //! | `overlaps` | which pieces overlap, nothing hidden |
@@ -56,6 +57,7 @@ mod parts;
 mod pen;
 mod reaches;
 mod region;
+mod regions;
 mod stock;
 mod table;
 mod tile;
@@ -66,3 +68,4 @@ pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use opaque::{Drawing, Path};
 pub use pen::{Polyline, polylines};
+pub use regions::Region;

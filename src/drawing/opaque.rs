@@ -122,10 +122,7 @@ impl Drawing {
         edges: &[Edge],
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        // Parts of a folded polygon lie on one another, and specks are smaller than outlines can be:
-        // there each part is an outline of its own.
-        let all = outlines(edges).unwrap_or_else(|| apart(edges));
-        for outline in all {
+        for outline in joined(edges) {
             push(&mut self.outlines, self.corners.len() as u32)?;
             reserve(&mut self.corners, outline.len())?;
             self.corners.extend(outline);
@@ -229,6 +226,12 @@ impl Nodes {
         }
         Ok(cells)
     }
+}
+
+/// The outlines of what edges go around. Parts of a folded polygon lie on one another, and specks are smaller
+/// than outlines can be: there each part is an outline of its own.
+pub(super) fn joined(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
+    outlines(edges).unwrap_or_else(|| apart(edges))
 }
 
 /// The outlines of convex parts, one after another.

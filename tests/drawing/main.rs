@@ -1,14 +1,19 @@
 //! Visibility maps and drawings, against pictures whose every pixel is decided by integers of another
 //! hand, and against rays.
 
+mod areas;
 mod coincidences;
 mod crossings;
+mod extremes;
 mod hidden;
 mod lines;
+mod meetings;
 mod mixed;
 mod pen;
 mod progress;
+mod same;
 mod scenes;
+mod silhouettes;
 #[path = "../support/mod.rs"]
 mod support;
 mod translucent;
