@@ -6,6 +6,7 @@ mod draw;
 mod draw_lines;
 mod draw_pdf;
 mod draw_png;
+mod draw_seams;
 mod draw_translucent;
 mod help;
 mod notes;
