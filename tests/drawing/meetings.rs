@@ -56,7 +56,7 @@ fn fans_of_hundreds_of_triangles_hide_what_is_behind() {
         let rim = |k: usize| {
             let angle = std::f64::consts::TAU * (k % COUNT) as f64 / COUNT as f64;
             // Whole numbers, and not all in a plane.
-            let z = if k % 2 == 0 { 0.0 } else { 11.0 };
+            let z = if k.is_multiple_of(2) { 0.0 } else { 11.0 };
             DVec3::new((600.0 * angle.cos()).round(), (600.0 * angle.sin()).round(), z)
         };
         let fan: Vec<Vec<DVec3>> = (0..COUNT).map(|k| vec![apex, rim(k), rim(k + 1)]).collect();

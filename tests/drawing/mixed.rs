@@ -12,8 +12,8 @@ use binspace::{BspTree, BuildOptions};
 
 /// Opacities of a third of the polygons, of nearly all, and with some left out.
 const MIXES: [fn(usize) -> f64; 3] = [
-    |polygon| if polygon % 3 == 0 { 0.5 } else { 1.0 },
-    |polygon| if polygon % 17 == 0 { 1.0 } else { 0.25 },
+    |polygon| if polygon.is_multiple_of(3) { 0.5 } else { 1.0 },
+    |polygon| if polygon.is_multiple_of(17) { 1.0 } else { 0.25 },
     |polygon| [0.0, 1.0, 0.75, 1.0][polygon / 5 % 4],
 ];
 

@@ -27,7 +27,7 @@ type Job<'j> = (
 fn jobs_tell_how_far_they_are_and_can_be_cancelled() {
     let (tree, rays) = tree_and_rays();
     let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
-    let mixed = |polygon: usize| if polygon % 2 == 0 { 0.5 } else { 1.0 };
+    let mixed = |polygon: usize| if polygon.is_multiple_of(2) { 0.5 } else { 1.0 };
     let half = VisibilityMap::with_opacities(&tree, rays.clone(), mixed).unwrap();
     let jobs: [Job<'_>; 5] = [
         ("map", &|progress| {

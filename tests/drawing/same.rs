@@ -9,7 +9,7 @@ use binspace::view::Camera;
 
 /// Every third polygon is translucent.
 fn mixed(polygon: usize) -> f64 {
-    if polygon % 3 == 0 { 0.5 } else { 1.0 }
+    if polygon.is_multiple_of(3) { 0.5 } else { 1.0 }
 }
 
 /// All outlines of a drawing, bit for bit.
