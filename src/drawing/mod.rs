@@ -25,7 +25,8 @@
 //! | `order` | an order of them, and who is in cycles |
 //! | `regions` | where the same polygons show, one behind the other |
 //! | `outline` | outlines of areas in parts |
-//! | `opaque` | the drawing |
+//! | `paths` | drawings: filled outlines in an order |
+//! | `opaque` | drawings of opaque polygons |
 //! | `overlaps` | which pieces overlap, nothing hidden |
 //! | `join` | pieces joined while an order is left |
 //! | `parts` | parts of polygons that are painted at once |
@@ -54,6 +55,7 @@ mod outline;
 mod overlaps;
 mod pairs;
 mod parts;
+mod paths;
 mod pen;
 mod reaches;
 mod region;
@@ -66,6 +68,6 @@ mod visible;
 
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
-pub use opaque::{Drawing, Path};
+pub use paths::{Drawing, Path};
 pub use pen::{Polyline, polylines};
 pub use regions::Region;

@@ -3,10 +3,10 @@
 use super::cell::Cell;
 use super::halving::CUT;
 use super::join::Groups;
-use super::opaque::{Drawing, add_edges, add_sides};
 use super::order::{cycles, order};
 use super::outline::Edge;
 use super::pairs::Pair;
+use super::paths::{Drawing, add_edges, add_sides};
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
 use crate::Error;

@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::above::pairs;
-use super::opaque::Drawing;
 use super::overlaps::overlaps;
 use super::pairs::Pair;
 use super::parts::Parts;
+use super::paths::Drawing;
 use super::stock::Stock;
 use super::tile::Tile;
 use super::visible::Leaf;
