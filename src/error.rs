@@ -56,6 +56,11 @@ enum Kind {
     #[cfg(feature = "layers")]
     Viewport,
     TooManyIndices,
+    #[cfg(feature = "drawing")]
+    Opacity {
+        polygon: usize,
+        value: f64,
+    },
     Places {
         needed: usize,
         given: usize,
@@ -167,6 +172,11 @@ impl Error {
         Self { kind: Kind::TooManyIndices }
     }
 
+    #[cfg(feature = "drawing")]
+    pub(crate) const fn opacity(polygon: usize, value: f64) -> Self {
+        Self { kind: Kind::Opacity { polygon, value } }
+    }
+
     pub(crate) const fn places(needed: usize, given: usize) -> Self {
         Self { kind: Kind::Places { needed, given } }
     }
@@ -182,6 +192,8 @@ impl Error {
             Kind::Layer { layer } => Some(layer),
             #[cfg(feature = "drawing")]
             Kind::OverlayPolygon { number } => Some(number),
+            #[cfg(feature = "drawing")]
+            Kind::Opacity { polygon, .. } => Some(polygon),
             _ => self.number_of(InputKind::Polygon),
         }
     }
@@ -266,6 +278,13 @@ impl fmt::Display for Error {
                 "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
                  or choose another heuristic"
             ),
+            #[cfg(feature = "drawing")]
+            Kind::Opacity { polygon, value } => {
+                write!(
+                    f,
+                    "the opacity of polygon {polygon} is {value}: expected a number from 0 to 1"
+                )
+            }
             Kind::TooManyIndices => {
                 f.write_str("the mesh would have more than 2^32 indices: divide the scene")
             }

@@ -13,6 +13,7 @@ use crate::colours::Colouring;
 use crate::cull::CullArgs;
 use crate::examples;
 use crate::samples;
+use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden};
 use crate::values::{self, Heuristics};
 
@@ -249,13 +250,16 @@ pub(crate) struct DrawArgs {
     /// Draw translucent polygons as if they were opaque
     #[arg(long, conflicts_with = "translucent")]
     pub(crate) opaque: bool,
-    /// Draw all polygons, nothing hidden, each with its opacity
+    /// Draw hidden polygons too, below those that hide them, each with its opacity
     ///
-    /// A polygon is one path, or, where it lies before and behind others in a circle, several. Paths do not
-    /// reach under their neighbours, as that would show through: viewers show seams between polygons of
-    /// one surface.
+    /// Without it, what opaque polygons hide is left out. A polygon is one path, or, where it lies before and
+    /// behind others in a circle, several. A PNG is the same with it and without.
     #[arg(long)]
     pub(crate) translucent: bool,
+    /// What to do about seams: viewers blend the edges of each path with what is below it, so that the
+    /// background shows between neighbours [default: trap]
+    #[arg(long, value_name = "HOW", value_enum)]
+    pub(crate) seams: Option<Seams>,
     /// Leave out polygons that show less than PX x PX pixels of area in all, and lines shorter than PX
     /// [default: 0.01]
     ///

@@ -1,15 +1,16 @@
 //! Pictures of pixels by exact coverage: each polygon that shows in a pixel has the share of its colour
-//! that it has of the pixel's area.
+//! that it has of the pixel's area; where something shows through, each region of blended colour.
 //!
-//! Coverage comes from the sides of cells: each adds, in the pixels that it passes through, the area
+//! Coverage comes from the sides of cells and regions: each adds, in the pixels that it passes through, the area
 //! between it and the right end of its row, counted up or down. (The sum along a row is then what the cell
 //! covers; as in the rasterizers of fonts.) Time goes with the pixels that cells have.
 
 use std::ops::Range;
 
-use binspace::drawing::VisibilityMap;
+use binspace::drawing::{Region, VisibilityMap};
 
 use crate::colours::BACKGROUND;
+use crate::drawn::Style;
 
 /// How many pixels are summed up at once. Larger: more memory, 32 bytes each; smaller: more time, as all
 /// cells are looked at for each part of a picture.
@@ -19,16 +20,45 @@ const AT_ONCE: usize = 1 << 21;
 ///
 /// Colours are blended by their numbers, as viewers of vector pictures do, not by their light.
 pub(crate) fn picture(map: &VisibilityMap<'_>, rgb: impl Fn(usize) -> [u8; 3]) -> Vec<u8> {
-    let [width, height] = map.size().map(|side| side as usize);
+    let add = |band: &mut Band| {
+        for cell in map.cells() {
+            band.add(cell.corners().map(from_corner), rgb(cell.polygon()).map(f64::from));
+        }
+    };
+    pixels(map.size(), add)
+}
+
+/// The same where polygons are translucent.
+pub(crate) fn blended(size: [u32; 2], regions: &[Region], style: &Style<'_>) -> Vec<u8> {
+    let on_background = |region: &Region| -> [f64; 3] {
+        let blended = style.blended(region.polygons());
+        let left = 1.0 - blended[3];
+        std::array::from_fn(|i| 255.0 * blended[i] + left * f64::from(BACKGROUND[i]))
+    };
+    let colours: Vec<[f64; 3]> = regions.iter().map(on_background).collect();
+    let add = |band: &mut Band| {
+        for (region, &colour) in regions.iter().zip(&colours) {
+            for outline in region.outlines() {
+                band.add(outline.iter().copied().map(from_corner), colour);
+            }
+        }
+    };
+    pixels(size, add)
+}
+
+/// In pixels from the picture's corner: they begin half a pixel before their centres.
+fn from_corner(at: [f64; 2]) -> [f64; 2] {
+    at.map(|c| c + 0.5)
+}
+
+/// All pixels, row by row, where a function adds all areas to a part of the picture.
+fn pixels(size: [u32; 2], add: impl Fn(&mut Band)) -> Vec<u8> {
+    let [width, height] = size.map(|side| side as usize);
     let rows = (AT_ONCE / width).clamp(1, height);
     let mut pixels = Vec::with_capacity(3 * width * height);
     for top in (0..height).step_by(rows) {
         let mut band = Band::new(width, top, rows.min(height - top));
-        for cell in map.cells() {
-            // Pixels begin half a pixel before their centres.
-            let corners = cell.corners().map(|corner| corner.map(|c| c + 0.5));
-            band.add(corners, rgb(cell.polygon()));
-        }
+        add(&mut band);
         pixels.extend(band.pixels());
     }
     pixels
@@ -65,16 +95,16 @@ impl Band {
         }
     }
 
-    /// Adds a cell with corners in a clockwise order, y down, in pixels from the picture's corner.
-    fn add(&mut self, corners: impl Iterator<Item = [f64; 2]> + Clone, rgb: [u8; 3]) {
+    /// Adds a cell, or an outline of a region, with corners in a clockwise order, y down, in pixels from the
+    /// picture's corner; holes the other way round.
+    fn add(&mut self, corners: impl Iterator<Item = [f64; 2]> + Clone, rgb: [f64; 3]) {
         let next = corners.clone().cycle().skip(1);
         let (mut first, mut last) = (self.changed.len(), 0);
         for (from, to) in corners.zip(next) {
             let rows = self.add_side(from, to);
             (first, last) = (first.min(rows.start), last.max(rows.end));
         }
-        let difference: [f64; 3] =
-            std::array::from_fn(|i| f64::from(rgb[i]) - f64::from(BACKGROUND[i]));
+        let difference: [f64; 3] = std::array::from_fn(|i| rgb[i] - f64::from(BACKGROUND[i]));
         for row in first..last {
             let [left, right] = std::mem::replace(&mut self.changed[row], UNCHANGED);
             let mut covered = 0.0;
@@ -182,7 +212,7 @@ mod tests {
             &[[0.1, 3.25], [7.9, 3.5], [7.9, 3.75]],
             &[[0.0, 0.0], [0.1, 0.0], [8.0, 5.0], [7.9, 5.0]],
         ];
-        let black = BACKGROUND.map(|channel| 255 - channel);
+        let black = BACKGROUND.map(|channel| f64::from(255 - channel));
         for outline in outlines {
             // In two bands.
             for (top, rows) in [(0, 3), (3, 2)] {

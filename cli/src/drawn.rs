@@ -1,11 +1,12 @@
 //! What is written of a view: filled polygons in an order to paint them, and lines above them.
 
-use binspace::drawing::Path;
+use binspace::drawing::{Path, Region};
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
 use crate::colours::Colours;
 use crate::fill_order::by_fill;
+use crate::seams::Seams;
 use crate::shading::shaded;
 use crate::strokes::Strokes;
 use crate::traps::{Outline, trapped};
@@ -28,7 +29,8 @@ pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
 /// A filled path.
 #[derive(Debug)]
 pub(crate) struct Filled<'a> {
-    pub(crate) polygon: usize,
+    /// What shows, front to back: one, but for regions where something shows through.
+    pub(crate) polygons: Vec<usize>,
     /// The name of its material, if paths are to be named.
     pub(crate) material: &'a str,
     pub(crate) fill: [u8; 3],
@@ -45,6 +47,8 @@ pub(crate) struct Drawn<'a> {
     pub(crate) strokes: Vec<Strokes>,
     /// Whether polygons, materials and edges are named.
     pub(crate) ids: bool,
+    /// Whether fills are regions side by side, to be added up.
+    pub(crate) are_regions: bool,
 }
 
 /// Where the colours of paths come from.
@@ -54,38 +58,75 @@ pub(crate) struct Style<'a> {
     pub(crate) camera: &'a Camera,
     pub(crate) colours: &'a Colours<'a>,
     pub(crate) ids: bool,
-    /// Whether nothing is hidden, and polygons have their opacities.
-    pub(crate) is_translucent: bool,
+    /// Whether all polygons are drawn as if they were opaque.
+    pub(crate) is_opaque: bool,
+    pub(crate) seams: Seams,
+}
+
+impl<'a> Style<'a> {
+    pub(crate) fn opacity(&self, polygon: usize) -> f32 {
+        if self.is_opaque { 1.0 } else { self.colours.opacity(polygon) }
+    }
+
+    pub(crate) fn fill(&self, polygon: usize) -> [u8; 3] {
+        shaded(self.colours.rgb(polygon), self.scene.polygon(polygon), self.camera)
+    }
+
+    fn material(&self, polygon: usize) -> &'a str {
+        if self.ids { &self.scene.material(polygon).name } else { "" }
+    }
+
+    /// The colour of polygons one behind the other, front to back, times its opacity, and that: from 0 to 1.
+    pub(crate) fn blended(&self, polygons: &[usize]) -> [f64; 4] {
+        let over = |below: [f64; 4], &polygon: &usize| {
+            let opacity = f64::from(self.opacity(polygon));
+            let [r, g, b] = self.fill(polygon).map(|channel| f64::from(channel) / 255.0);
+            let own = [r, g, b, 1.0];
+            std::array::from_fn(|i| own[i] * opacity + below[i] * (1.0 - opacity))
+        };
+        polygons.iter().rev().fold([0.0; 4], over)
+    }
+}
+
+/// Regions as they are written: those that look alike together.
+pub(crate) fn filled_regions<'a>(regions: &[Region], style: &Style<'a>) -> Vec<Filled<'a>> {
+    let filled = regions.iter().map(|region| {
+        let [r, g, b, opacity] = style.blended(region.polygons());
+        let front = region.polygons().first().copied().unwrap_or_default();
+        Filled {
+            polygons: region.polygons().to_vec(),
+            material: style.material(front),
+            fill: [r, g, b].map(|channel| (255.0 * channel / opacity).round() as u8),
+            // Four decimals are finer than 256 levels.
+            opacity: (1e4 * opacity).round() as f32 / 1e4,
+            outlines: region.outlines().map(<[_]>::to_vec).collect(),
+        }
+    });
+    let mut filled: Vec<Filled<'_>> = filled.collect();
+    filled.sort_by_key(|filled| (filled.material, filled.fill, filled.opacity.to_bits()));
+    filled
 }
 
 /// Paths as they are written: those that look alike together where nothing lies between them, and opaque
 /// ones extended under their later neighbours.
 pub(crate) fn filled<'a>(paths: &[Path<'_>], style: &Style<'a>) -> Vec<Filled<'a>> {
-    let Style { scene, camera, colours, ids, is_translucent } = *style;
-    let material = |path: &Path<'_>| {
-        if ids { scene.material(path.polygon()).name.as_str() } else { "" }
-    };
-    let fill = |path: &Path<'_>| {
-        let polygon = path.polygon();
-        shaded(colours.rgb(polygon), scene.polygon(polygon), camera)
-    };
-    let opacity = |path: &Path<'_>| {
-        if is_translucent { colours.opacity(path.polygon()).clamp(0.0, 1.0) } else { 1.0 }
-    };
+    let size = style.camera.size();
     // Opacities from 0 to 1 are in the order of their bits.
-    let looks: Vec<(&str, [u8; 3], u32)> =
-        paths.iter().map(|path| (material(path), fill(path), opacity(path).to_bits())).collect();
-    let order = by_fill(paths, &looks, camera.size());
-    let paths: Vec<Path<'_>> = order.iter().map(|&number| paths[number]).collect();
-    let outlines = match is_translucent {
-        true => paths.iter().map(|path| path.outlines().map(<[_]>::to_vec).collect()).collect(),
-        false => trapped(&paths, camera.size()),
+    let look = |path: &Path<'_>| {
+        let polygon = path.polygon();
+        (style.material(polygon), style.fill(polygon), style.opacity(polygon).to_bits())
     };
+    let looks: Vec<(&str, [u8; 3], u32)> = paths.iter().map(look).collect();
+    let order = by_fill(paths, &looks, size);
+    let paths: Vec<Path<'_>> = order.iter().map(|&number| paths[number]).collect();
+    let is_trapped =
+        |number: usize| style.seams == Seams::Trap && style.opacity(paths[number].polygon()) == 1.0;
+    let outlines = trapped(&paths, size, is_trapped);
     let all = paths.iter().zip(outlines).zip(&order);
     let filled = all.map(|((path, outlines), &number)| {
         let (material, fill, opacity) = looks[number];
         let opacity = f32::from_bits(opacity);
-        Filled { polygon: path.polygon(), material, fill, opacity, outlines }
+        Filled { polygons: vec![path.polygon()], material, fill, opacity, outlines }
     });
     filled.collect()
 }

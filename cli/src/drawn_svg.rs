@@ -18,6 +18,11 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
     begin(out, drawn.size)?;
     let units = units(drawn.size);
     writeln!(out, "<g transform=\"scale({})\">", 1.0 / f64::from(units))?;
+    if drawn.are_regions {
+        // Added up in a group of their own, and all together put on the background.
+        writeln!(out, "<style>.regions path{{mix-blend-mode:plus-lighter}}</style>")?;
+        writeln!(out, "<g class=\"regions\" style=\"isolation:isolate\">")?;
+    }
     for run in drawn.fills.chunk_by(|a, b| a.material == b.material) {
         let material = run.first().map_or("", |filled| filled.material);
         if !material.is_empty() {
@@ -29,6 +34,9 @@ pub(crate) fn write(out: &mut dyn Write, drawn: &Drawn<'_>) -> io::Result<()> {
         if !material.is_empty() {
             writeln!(out, "</g>")?;
         }
+    }
+    if drawn.are_regions {
+        writeln!(out, "</g>")?;
     }
     for same in drawn.strokes.chunk_by(|a, b| a.depth == b.depth) {
         write_strokes(out, same, units, drawn.ids)?;
@@ -50,10 +58,15 @@ fn write_same(out: &mut dyn Write, paths: &[Filled<'_>], units: u32, ids: bool) 
     if is_group {
         writeln!(out, "<g{fill}>")?;
     }
-    for Filled { polygon, outlines, .. } in paths {
+    for Filled { polygons, outlines, .. } in paths {
         write!(out, "<path")?;
-        if ids {
-            write!(out, " data-polygon=\"{polygon}\"")?;
+        match &polygons[..] {
+            [polygon] if ids => write!(out, " data-polygon=\"{polygon}\"")?,
+            all if ids => {
+                let all: Vec<String> = all.iter().map(usize::to_string).collect();
+                write!(out, " data-polygons=\"{}\"", all.join(" "))?;
+            }
+            _ => {}
         }
         if !is_group {
             write!(out, "{fill}")?;

@@ -28,6 +28,7 @@ mod progress;
 mod samples;
 mod saved_file;
 mod scene_arg;
+mod seams;
 mod shading;
 mod signals;
 mod standard_input;

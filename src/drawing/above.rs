@@ -1,7 +1,8 @@
 //! Which polygon shows above which.
 //!
-//! A polygon that is drawn whole has to come before each that shows where it would be painted too.
-//! What is hidden by a third needs no order.
+//! An opaque polygon that is drawn whole has to come before each opaque one that shows where it would be
+//! painted too; a piece of a translucent one, before or after each that shows there, as they lie. What is
+//! hidden by a third needs no order.
 
 use super::halving::{CUT, NARROWED, found_in};
 use super::lines::Lines;
@@ -15,14 +16,15 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 
-/// Leaves with the faces that may reach into them.
+/// Leaves with the opaque faces that may reach into them, and the translucent items.
 struct Entry<'l> {
     leaves: &'l [Leaf],
     reaches: Reaches,
+    translucent: Reaches,
 }
 
-/// All pairs, sorted. `place` gives the place of each face's polygon in the list of those that show, or
-/// `u32::MAX`.
+/// All pairs, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does not show; in
+/// pairs, opaque polygons have that, translucent items their own.
 pub(super) fn pairs<'l>(
     stock: &Stock<'_>,
     rims: &Rims<'_>,
@@ -30,17 +32,25 @@ pub(super) fn pairs<'l>(
     place: &(dyn Fn(u32) -> u32 + Sync),
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
-    // Whole faces.
-    let mut all = Reaches::default();
-    for face in (0..stock.views.len() as u32).filter(|&face| place(face) != u32::MAX) {
-        all.push(face, rims.known_outline(face))?;
+    let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
+    let shows = |face: &u32| place(*face) != u32::MAX;
+    for face in (0..stock.views.len() as u32).filter(shows) {
+        if stock.views[face as usize].is_opaque {
+            reaches.push(face, rims.known_outline(face))?;
+        }
+    }
+    for item in 0..stock.items.len() as u32 {
+        if !stock.is_opaque(item) && shows(&stock.face(item)) {
+            translucent.push(item, rims.known_item(stock, item))?;
+        }
     }
     let halves = |entry: &Entry<'l>, _: &mut Found| {
-        watch.work(entry.reaches.list.len() * NARROWED)?;
+        watch.work((entry.reaches.list.len() + entry.translucent.list.len()) * NARROWED)?;
         entry.halves(stock, &rims.lines)
     };
     let leaf = |entry: &Entry<'l>, found: &mut Found| entry.leaf(stock, rims, place, found, watch);
-    sorted(found_in(Entry { leaves, reaches: all }, Found::default, halves, leaf, watch)?)
+    let all = Entry { leaves, reaches, translucent };
+    sorted(found_in(all, Found::default, halves, leaf, watch)?)
 }
 
 impl<'l> Entry<'l> {
@@ -51,9 +61,12 @@ impl<'l> Entry<'l> {
         }
         let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
-            let around = |face: u32| stock.views[face as usize].region;
-            let reaches = self.reaches.narrowed(lines, &region(leaves), around)?;
-            Ok(Self { leaves, reaches })
+            let region = region(leaves);
+            let of_face = |face: u32| stock.views[face as usize].region;
+            let of_item = |item: u32| stock.items[item as usize].region;
+            let reaches = self.reaches.narrowed(lines, &region, of_face)?;
+            let translucent = self.translucent.narrowed(lines, &region, of_item)?;
+            Ok(Self { leaves, reaches, translucent })
         };
         Ok(Some([part(first)?, part(second)?]))
     }
@@ -67,8 +80,8 @@ impl<'l> Entry<'l> {
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let Self { leaves, reaches } = self;
-        // Nothing shows above a face of which all shows that is in the tile.
+        let Self { leaves, reaches, .. } = self;
+        // Nothing opaque shows above a face of which all shows that is in the tile.
         let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
         let mut whole: Vec<u32> = Vec::new();
         for visible in cells().filter(|visible| is_whole(stock, rims, visible)) {
@@ -79,7 +92,14 @@ impl<'l> Entry<'l> {
         reserve(&mut below, reaches.list.len())?;
         let is_below = |reach: &&Reach| whole.binary_search(&reach.number).is_err();
         below.extend(reaches.list.iter().filter(is_below));
-        for Visible { item, cell } in cells() {
+        for visible in cells() {
+            let Visible { item, cell } = visible;
+            if !self.translucent.list.is_empty() {
+                self.add_blended(stock, rims, place, visible, found, watch)?;
+            }
+            if !stock.is_opaque(*item) {
+                continue;
+            }
             watch.work(below.len() * CUT)?;
             let above = place(stock.face(*item));
             let around = cell.region();
@@ -92,6 +112,39 @@ impl<'l> Entry<'l> {
                 if cell.meets(&rims.lines, reaches.halves_of(reach))? {
                     add(found, pair)?;
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the pairs of what is visible with translucent items. What is visible of two of these needs one
+    /// pair, that of the one behind.
+    fn add_blended(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        place: &(dyn Fn(u32) -> u32 + Sync),
+        &Visible { item, ref cell }: &Visible,
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        watch.work(self.translucent.list.len() * CUT)?;
+        let (face, is_opaque) = (stock.face(item), stock.is_opaque(item));
+        let own = if is_opaque { place(face) } else { item };
+        let around = cell.region();
+        for reach in &self.translucent.list {
+            let other = reach.number;
+            let pair = match other < item {
+                true => Pair { below: own, above: other },
+                false if is_opaque => Pair { below: other, above: own },
+                false => break,
+            };
+            let is_apart = are_apart(&around, &stock.items[other as usize].region);
+            if is_apart || stock.face(other) == face || found.contains(&pair) {
+                continue;
+            }
+            if cell.meets(&rims.lines, self.translucent.halves_of(reach))? {
+                add(found, pair)?;
             }
         }
         Ok(())

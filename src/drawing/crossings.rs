@@ -70,9 +70,9 @@ impl VisibilityMap<'_> {
     fn cut_sides(&self) -> Result<Vec<CutSide>, Error> {
         let lines = &self.rims.lines;
         let mut found = Vec::new();
-        for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = self.stock.face(visible.item);
-            let sides = &visible.cell.sides;
+        self.for_each_part(|item, cell| {
+            let face = self.stock.face(item);
+            let sides = &cell.sides;
             for (i, side) in sides.iter().enumerate() {
                 let Some(line) = side.half.number() else { continue };
                 if !matches!(lines.key(line), Key::Cut(..)) {
@@ -83,7 +83,8 @@ impl VisibilityMap<'_> {
                 let is_negative = side.half.is_negative();
                 push(&mut found, self.cut_side(line, face, is_negative, ends))?;
             }
-        }
+            Ok(())
+        })?;
         Ok(found)
     }
 
@@ -131,9 +132,9 @@ impl VisibilityMap<'_> {
         if on.is_empty() {
             return Ok(());
         }
-        for visible in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = self.stock.face(visible.item);
-            let around = &visible.cell.sides;
+        self.for_each_part(|item, cell| {
+            let face = self.stock.face(item);
+            let around = &cell.sides;
             for (i, side) in around.iter().enumerate().filter(|(_, s)| s.half.number().is_none()) {
                 let end = &around[if i + 1 == around.len() { 0 } else { i + 1 }];
                 for &(line, is_same) in on.get(&side.half.line()).into_iter().flatten() {
@@ -142,8 +143,8 @@ impl VisibilityMap<'_> {
                     push(sides, self.cut_side(line, face, is_negative, ends))?;
                 }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Whether two faces go through one another in the line between cells of theirs.
@@ -176,8 +177,14 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Joins runs of the same polygons, from the `first` on, where one begins where another ends: they are on
-/// one line, in its direction.
+/// How far the second of two runs along a line begins behind the end of the first, if it does.
+fn gap(before: &EdgeRun, run: &EdgeRun) -> f64 {
+    let reach = distance(before.ends[0], before.ends[1]);
+    distance(before.ends[0], run.ends[0]) - reach
+}
+
+/// Joins runs of the same polygons, from the `first` on, where one begins where another ends or before: they are
+/// on one line, in its direction. (Runs of two translucent polygons are found from either side.)
 fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
     let other = |run: &EdgeRun| match run.kind {
         EdgeKind::Crossing(other) => other,
@@ -191,10 +198,14 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
         let goes_on = kept > first && {
             let before = &runs[kept - 1];
             (before.polygon, before.kind) == (run.polygon, run.kind)
-                && distance(before.ends[1], run.ends[0]) <= SHORTEST
+                && gap(before, &run) <= SHORTEST
         };
         if goes_on {
-            runs[kept - 1].ends[1] = run.ends[1];
+            let before = &mut runs[kept - 1];
+            let [start, end] = [before.ends[1], run.ends[1]];
+            if distance(before.ends[0], end) > distance(before.ends[0], start) {
+                before.ends[1] = end;
+            }
         } else {
             runs[kept] = run;
             kept += 1;

@@ -79,7 +79,7 @@ impl VisibilityMap<'_> {
     /// If there is not enough memory.
     pub fn edges(&self) -> Result<Vec<EdgeRun>, Error> {
         let faces = self.stock.frame.faces;
-        let (mut all, numbers) = shared(faces)?;
+        let (mut all, numbers) = shared(faces, |face| self.stock.opacity(face) > 0.0)?;
         let starts = self.starts(&all);
         self.collect(&mut all, &numbers, &starts)?;
         let mut views = Views { map: self, sides: Table::default() };
@@ -142,8 +142,8 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// All edges of polygons, and the number of each by face and edge of it.
-fn shared(faces: &Faces) -> Result<(Vec<Shared>, Numbers), Error> {
+/// All edges of faces that are drawn, and the number of each by face and edge of it.
+fn shared(faces: &Faces, is_drawn: impl Fn(u32) -> bool) -> Result<(Vec<Shared>, Numbers), Error> {
     let mut points: Table<[u64; 3], u32> = Table::default();
     let mut point = |corner: usize| -> Result<u32, Error> {
         let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
@@ -154,7 +154,7 @@ fn shared(faces: &Faces) -> Result<(Vec<Shared>, Numbers), Error> {
     let mut by_points: Table<[u32; 2], u32> = Table::default();
     let mut numbers = Numbers::default();
     let mut all: Vec<Shared> = Vec::new();
-    for face in 0..faces.len() as u32 {
+    for face in (0..faces.len() as u32).filter(|&face| is_drawn(face)) {
         let range = faces.corner_range(face);
         for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
             if faces.outline_edge(face, k as u32).is_none() {

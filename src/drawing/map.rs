@@ -33,7 +33,7 @@ use crate::tree::BspTree;
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
     pub(super) stock: Stock<'t>,
-    /// Of the faces of polygons that show.
+    /// Of the faces of polygons that show, and of the items of translucent ones.
     pub(super) rims: Rims<'t>,
     pub(super) leaves: Vec<Leaf>,
 }
@@ -65,7 +65,42 @@ impl<'t> VisibilityMap<'t> {
     ///
     /// If there is not enough memory.
     pub fn of(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
-        Self::new(tree, rays, &Watch::default())
+        Self::new(tree, rays, vec![], &Watch::default())
+    }
+
+    /// As [`of`](Self::of), of polygons with opacities, by their numbers, from 0 to 1: those of less than 1
+    /// hide nothing, and those of 0 are left out. A polygon shows where nothing opaque is before it; so cells
+    /// of translucent polygons lie over those of others.
+    ///
+    /// What is said of a map elsewhere holds for what is seen through translucent polygons as well:
+    /// [`edges`](Self::edges) behind one are visible. The number of cells, and the time, grow with how many
+    /// translucent polygons lie over one another.
+    ///
+    /// # Errors
+    ///
+    /// As for `of`, and if an opacity is not a number from 0 to 1: [`Error::polygon`] tells whose.
+    pub fn with_opacities(
+        tree: &'t BspTree,
+        rays: Rays,
+        opacity: impl Fn(usize) -> f64,
+    ) -> Result<Self, Error> {
+        Self::new(tree, rays, checked(tree, opacity)?, &Watch::default())
+    }
+
+    /// As [`with_opacities`](Self::with_opacities), with `progress` as in
+    /// [`of_with_progress`](Self::of_with_progress).
+    ///
+    /// # Errors
+    ///
+    /// As for `with_opacities`, and [`Error`] if it was cancelled.
+    pub fn with_opacities_and_progress(
+        tree: &'t BspTree,
+        rays: Rays,
+        opacity: impl Fn(usize) -> f64,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<Self, Error> {
+        let progress = one_at_a_time(progress);
+        Self::new(tree, rays, checked(tree, opacity)?, &Watch::new(&progress))
     }
 
     /// As [`of`](Self::of). Now and then `progress` is called with how much of the picture is done, by any
@@ -81,12 +116,17 @@ impl<'t> VisibilityMap<'t> {
         progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
     ) -> Result<Self, Error> {
         let progress = one_at_a_time(progress);
-        Self::new(tree, rays, &Watch::new(&progress))
+        Self::new(tree, rays, vec![], &Watch::new(&progress))
     }
 
-    fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
+    fn new(
+        tree: &'t BspTree,
+        rays: Rays,
+        opacities: Vec<f64>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         let size = rays.size();
-        let stock = Stock::new(tree, rays, watch)?;
+        let stock = Stock::new(tree, rays, opacities, watch)?;
         let (leaves, mut rims) = visible(&stock, Tile::picture(size), watch)?;
         let faces = tree.faces();
         let mut shows: Vec<bool> = collect((0..stock.polygons_end()).map(|_| false))?;
@@ -97,6 +137,12 @@ impl<'t> VisibilityMap<'t> {
             if stock.sees(face) && shows[faces.polygon(face)] {
                 watch.work(LINES)?;
                 rims.outline(&stock, face)?;
+            }
+        }
+        for item in 0..stock.items.len() as u32 {
+            if !stock.is_opaque(item) && shows[stock.polygon(item)] {
+                watch.work(LINES)?;
+                rims.item(&stock, item)?;
             }
         }
         Ok(Self { tree, stock, rims, leaves })
@@ -126,6 +172,17 @@ impl<'t> VisibilityMap<'t> {
             }
         }
         found.into_values().map(|(shown, _)| shown)
+    }
+}
+
+/// The opacities of all polygons; none if all are opaque.
+fn checked(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> Result<Vec<f64>, Error> {
+    let opacities = collect((0..tree.preparation().polygons).map(opacity))?;
+    let is_wrong = |opacity: &f64| !(0.0..=1.0).contains(opacity);
+    match opacities.iter().position(is_wrong) {
+        Some(polygon) => Err(Error::opacity(polygon, opacities[polygon])),
+        None if opacities.iter().all(|&opacity| opacity == 1.0) => Ok(vec![]),
+        None => Ok(opacities),
     }
 }
 

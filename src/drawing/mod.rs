@@ -2,7 +2,8 @@
 //!
 //! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts. A
 //! [`VisibilityMap`] says which polygon shows where, exactly. From it a [`Drawing`] is made: one filled
-//! path for each polygon that shows, in an order to paint them in. [`Drawing::translucent`] hides nothing
+//! path for each polygon that shows, in an order to paint them in. Polygons may be translucent:
+//! [`VisibilityMap::with_opacities`] knows what shows through, and [`Drawing::translucent`] hides nothing
 //! and needs no map.
 //!
 //! | file | |
@@ -23,11 +24,14 @@
 //! | `pairs` | pairs of what is drawn before what |
 //! | `above` | which polygon shows above which |
 //! | `order` | an order of them, and who is in cycles |
+//! | `regions` | where the same polygons show, one behind the other |
 //! | `outline` | outlines of areas in parts |
-//! | `opaque` | the drawing |
+//! | `paths` | drawings: filled outlines in an order |
+//! | `opaque` | drawings of opaque polygons |
 //! | `overlaps` | which pieces overlap, nothing hidden |
 //! | `join` | pieces joined while an order is left |
-//! | `translucent` | the drawing in which nothing is hidden |
+//! | `parts` | parts of polygons that are painted at once |
+//! | `translucent` | drawings of translucent polygons |
 //! | `reaches` | pieces in a part of the picture |
 //! | `edges` | visible and hidden runs of edges |
 //! | `crossings` | lines in which polygons go through one another |
@@ -60,10 +64,13 @@ mod outline;
 mod overlaid;
 mod overlaps;
 mod pairs;
+mod parts;
 mod passes;
+mod paths;
 mod pen;
 mod reaches;
 mod region;
+mod regions;
 mod rims;
 mod sight;
 mod steps;
@@ -75,7 +82,8 @@ mod visible;
 
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
-pub use opaque::{Drawing, Path};
 pub use overlaid::{LineRun, MarkerView};
+pub use paths::{Drawing, Path};
 pub use pen::{Polyline, polylines};
+pub use regions::Region;
 pub use steps::Step;

@@ -89,9 +89,9 @@ impl<'a, 't> Narrow<'a, 't> {
         // Lines are made and looked at only where they may tell more than boxes.
         if reaches_across(region, sides) {
             match rims.across_item(stock, item, sides)? {
-                Across::Inside => list.limit = item,
+                Across::Inside if stock.is_opaque(item) => list.limit = item,
                 Across::Outside => return Ok(true),
-                Across::Maybe => {}
+                Across::Inside | Across::Maybe => {}
             }
         }
         push(&mut list.items, item)?;
@@ -110,6 +110,7 @@ impl<'a, 't> Narrow<'a, 't> {
             let face = stock.face(item);
             // If pieces of it are missing from the list, the others alone may not cover the tile.
             if tried.contains(&face)
+                || !stock.is_opaque(item)
                 || stock.views[face as usize].last > list.limit
                 || !rims.covers(stock, face, &sides)?
             {

@@ -12,9 +12,9 @@ use crate::memory::{collect, push, reserve};
 /// An order of nodes.
 #[derive(Debug)]
 pub(super) struct Ordered {
-    /// All nodes; for each pair, `below` comes first unless it is clipped.
+    /// All nodes; for each pair, `below` comes first unless it is clipped and `above` is opaque.
     pub(super) order: Vec<u32>,
-    /// Nodes that need not come before any other, as only what shows of them is drawn.
+    /// Nodes of which only what shows is drawn: they need not come before any opaque one.
     pub(super) is_clipped: Vec<bool>,
 }
 
@@ -23,6 +23,7 @@ struct Graph<'p> {
     pairs: &'p [Pair],
     starts: Vec<u32>,
     is_clipped: Vec<bool>,
+    is_opaque: &'p dyn Fn(u32) -> bool,
     /// The strongly connected component of each node, among those that are searched.
     component: Vec<u32>,
     search: Search,
@@ -51,7 +52,8 @@ const UNMET: u32 = u32::MAX - 1;
 /// again and again; smaller: more is clipped (and given back one by one).
 const AT_ONCE: usize = 64;
 
-/// Orders nodes by sorted pairs; where these leave a choice, by `rank`.
+/// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle goes through translucent
+/// nodes alone.
 ///
 /// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides, and then
 /// those are given back that close no cycle, so that none is clipped in vain. (To clip as few as
@@ -60,9 +62,10 @@ pub(super) fn order(
     nodes: usize,
     pairs: &[Pair],
     rank: &[u32],
+    is_opaque: &dyn Fn(u32) -> bool,
     watch: &Watch<'_>,
 ) -> Result<Ordered, Error> {
-    let mut graph = Graph::new(nodes, pairs, watch)?;
+    let mut graph = Graph::new(nodes, pairs, is_opaque, watch)?;
     graph.open_cycles()?;
     let order = graph.sorted(rank)?;
     Ok(Ordered { order, is_clipped: graph.is_clipped })
@@ -75,7 +78,7 @@ pub(super) fn cycles(
     pairs: &[Pair],
     watch: &Watch<'_>,
 ) -> Result<Vec<Option<u32>>, Error> {
-    let mut graph = Graph::new(nodes, pairs, watch)?;
+    let mut graph = Graph::new(nodes, pairs, &|_| true, watch)?;
     let all: Vec<u32> = collect(0..nodes as u32)?;
     graph.components(&all)?;
     let number = |&component: &u32| (component != NONE).then_some(component);
@@ -83,7 +86,12 @@ pub(super) fn cycles(
 }
 
 impl<'p> Graph<'p> {
-    fn new(nodes: usize, pairs: &'p [Pair], watch: &'p Watch<'p>) -> Result<Self, Error> {
+    fn new(
+        nodes: usize,
+        pairs: &'p [Pair],
+        is_opaque: &'p dyn Fn(u32) -> bool,
+        watch: &'p Watch<'p>,
+    ) -> Result<Self, Error> {
         let mut starts = filled(nodes + 1, 0)?;
         for pair in pairs {
             starts[pair.below as usize + 1] += 1;
@@ -95,7 +103,7 @@ impl<'p> Graph<'p> {
         let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
         let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
         let search = Search { number, least, is_on_stack, reached, counts: filled(nodes, [0; 2])? };
-        Ok(Self { pairs, starts, is_clipped, component, search, watch })
+        Ok(Self { pairs, starts, is_clipped, is_opaque, component, search, watch })
     }
 }
 
@@ -103,6 +111,11 @@ impl Graph<'_> {
     fn above(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
         let [start, end] = [node, node + 1].map(|node| self.starts[node as usize] as usize);
         self.pairs[start..end].iter().map(|pair| pair.above)
+    }
+
+    /// Whether the order has to keep a pair: what is drawn of a clipped node lies under no opaque one.
+    fn holds(&self, Pair { below, above }: Pair) -> bool {
+        !self.is_clipped[below as usize] || !(self.is_opaque)(above)
     }
 
     /// Clips nodes until there is no cycle.
@@ -114,14 +127,24 @@ impl Graph<'_> {
             let mut open = vec![collect(nodes.iter().copied())?];
             while let Some(mut nodes) = open.pop() {
                 let mut degrees = self.degrees(&nodes)?;
+                degrees.retain(|&(_, node)| !self.is_clipped[node as usize]);
                 degrees.sort_unstable_by_key(|&(product, node)| Reverse((product, Reverse(node))));
+                if degrees.is_empty() {
+                    continue;
+                }
                 degrees.truncate((nodes.len() / AT_ONCE).max(1));
                 for (_, node) in degrees {
                     self.is_clipped[node as usize] = true;
-                    self.component[node as usize] = NONE;
                     push(&mut clipped, node)?;
                 }
-                nodes.retain(|&node| !self.is_clipped[node as usize]);
+                nodes.retain(|&node| {
+                    let is_left =
+                        self.above(node).any(|above| self.holds(Pair { below: node, above }));
+                    if !is_left {
+                        self.component[node as usize] = NONE;
+                    }
+                    is_left
+                });
                 let mut left = self.components(&nodes)?;
                 reserve(&mut open, left.len())?;
                 open.append(&mut left);
@@ -137,7 +160,8 @@ impl Graph<'_> {
         nodes.iter().for_each(|&node| counts[node as usize] = [0; 2]);
         let of = |node: u32| self.component[node as usize];
         for &node in nodes {
-            for above in self.above(node).filter(|&above| of(above) == of(node)) {
+            let above = self.above(node).filter(|&above| of(above) == of(node));
+            for above in above.filter(|&above| self.holds(Pair { below: node, above })) {
                 counts[node as usize][0] += 1;
                 counts[above as usize][1] += 1;
             }
@@ -171,10 +195,13 @@ impl Graph<'_> {
         while let Some(node) = stack.pop() {
             self.watch.work(VISITED)?;
             for above in self.above(node) {
+                if node != start && !self.holds(Pair { below: node, above }) {
+                    continue;
+                }
                 let index = above as usize;
                 is_closed |= above == start;
                 let is_new = reached[index] != start && self.component[index] == component;
-                if is_new && !self.is_clipped[index] {
+                if is_new {
                     reached[index] = start;
                     push(&mut stack, above)?;
                 }
@@ -191,6 +218,7 @@ impl Graph<'_> {
     /// and linear graph algorithms", 1972). Their numbers are left in `component`.
     fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
         let Search { number, least, is_on_stack, .. } = &mut self.search;
+        let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);
         nodes.iter().for_each(|&node| number[node as usize] = UNMET);
         let (mut stack, mut path, mut found) = (Vec::new(), Vec::new(), Vec::new());
         let mut next = 0;
@@ -211,6 +239,9 @@ impl Graph<'_> {
                 let rest = &self.pairs[place as usize..self.starts[v + 1] as usize];
                 let unmet = rest.iter().position(|pair| {
                     let w = pair.above as usize;
+                    if is_clipped[v] && is_opaque(pair.above) {
+                        return false;
+                    }
                     if is_on_stack[w] {
                         least[v] = least[v].min(number[w]);
                     }
@@ -248,9 +279,9 @@ impl Graph<'_> {
     /// large networks", 1962).
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
         let nodes = self.is_clipped.len();
-        let alive = |pair: &&Pair| !self.is_clipped[pair.below as usize];
         let mut waits: Vec<u32> = filled(nodes, 0)?;
-        self.pairs.iter().filter(alive).for_each(|pair| waits[pair.above as usize] += 1);
+        let kept = self.pairs.iter().filter(|&&pair| self.holds(pair));
+        kept.for_each(|pair| waits[pair.above as usize] += 1);
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
         // Each node is in it once at most.
         ready.try_reserve_exact(nodes).map_err(|_| Error::out_of_memory())?;
@@ -260,10 +291,8 @@ impl Graph<'_> {
         reserve(&mut order, nodes)?;
         while let Some(Reverse((_, node))) = ready.pop() {
             order.push(node);
-            if self.is_clipped[node as usize] {
-                continue;
-            }
-            for above in self.above(node) {
+            let above = self.above(node);
+            for above in above.filter(|&above| self.holds(Pair { below: node, above })) {
                 let waits = &mut waits[above as usize];
                 *waits -= 1;
                 if *waits == 0 {

@@ -200,6 +200,10 @@ impl<'l> Entry<'l> {
         let (stock, lines) = (&map.stock, &map.rims.lines);
         for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
             watch.work((1 + self.sights.len() + self.spots.len()) * CUT)?;
+            // What is behind something translucent shows through.
+            if !stock.is_opaque(*item) {
+                continue;
+            }
             let around = cell.region();
             let face = stock.face(*item);
             let mut side = None;

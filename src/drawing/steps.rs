@@ -1,7 +1,7 @@
 //! All that a drawing paints, in order.
 
-use super::opaque::{Drawing, Path};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
+use super::paths::{Drawing, Path};
 
 /// What is painted next.
 #[derive(Clone, Copy, Debug)]

@@ -30,6 +30,8 @@ pub(super) struct View {
     pub(super) region: Region,
     /// Whether the κ of its plane is positive.
     pub(super) is_positive: bool,
+    /// Whether it hides what is behind it.
+    pub(super) is_opaque: bool,
     /// The last of its items, if it has some.
     pub(super) last: u32,
 }
@@ -42,6 +44,8 @@ pub(super) struct Stock<'t> {
     pub(super) items: Vec<Item>,
     /// Of all faces, by their numbers.
     pub(super) views: Vec<View>,
+    /// Of each polygon; none if all are opaque.
+    opacities: Vec<f64>,
 }
 
 /// So many faces, or pieces, are looked at by one thread.
@@ -50,14 +54,20 @@ const SHARE: usize = 1024;
 const LOOKED: usize = 16;
 
 impl<'t> Stock<'t> {
-    /// The pieces of a tree that rays may meet.
-    pub(super) fn new(tree: &'t BspTree, rays: Rays, watch: &Watch<'_>) -> Result<Self, Error> {
+    /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
+    /// are opaque.
+    pub(super) fn new(
+        tree: &'t BspTree,
+        rays: Rays,
+        opacities: Vec<f64>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         let faces = tree.faces();
         let frame = Frame { rays, faces };
         let mut order = Vec::new();
         reserve(&mut order, tree.len())?;
         tree.front_to_back_into(frame.rays.viewpoint(), &mut order);
-        let mut stock = Self { tree, frame, items: vec![], views: vec![] };
+        let mut stock = Self { tree, frame, items: vec![], views: vec![], opacities };
         let all = 0..faces.len() as u32;
         let view = |face: u32| Some(stock.view(face));
         stock.views = shared(&all.collect::<Vec<_>>(), view, watch)?;
@@ -93,7 +103,11 @@ impl<'t> Stock<'t> {
 
     fn view(&self, face: u32) -> View {
         let Frame { rays, faces } = &self.frame;
-        let unseen = View { region: NOWHERE, is_positive: false, last: 0 };
+        let unseen = View { region: NOWHERE, is_positive: false, is_opaque: false, last: 0 };
+        let opacity = self.opacity(face);
+        if opacity == 0.0 {
+            return unseen;
+        }
         let Some(region) = self.region(faces.corners(face)) else { return unseen };
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
@@ -102,7 +116,7 @@ impl<'t> Stock<'t> {
         if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
             return unseen;
         }
-        View { region, is_positive, last: 0 }
+        View { region, is_positive, is_opaque: opacity == 1.0, last: 0 }
     }
 
     /// Whether the picture may show some of a face.
@@ -124,6 +138,22 @@ impl<'t> Stock<'t> {
     /// The face of an item.
     pub(super) fn face(&self, item: u32) -> u32 {
         self.items[item as usize].face
+    }
+
+    /// The opacity of a face.
+    pub(super) fn opacity(&self, face: u32) -> f64 {
+        self.opacities.get(self.frame.faces.polygon(face)).copied().unwrap_or(1.0)
+    }
+
+    /// Whether an item hides what is behind it.
+    pub(super) fn is_opaque(&self, item: u32) -> bool {
+        self.views[self.face(item) as usize].is_opaque
+    }
+
+    /// Whether something shows through a face.
+    pub(super) fn has_translucent(&self) -> bool {
+        let mut faces = 0..self.views.len() as u32;
+        faces.any(|face| self.sees(face) && !self.views[face as usize].is_opaque)
     }
 
     /// The polygon of an item.

@@ -17,7 +17,8 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 
-/// A part of what is visible: all of it in the picture, and none of it shown by another item.
+/// A part of what is visible: all of it in the picture, with nothing opaque before it. Where all items
+/// are opaque, none of it is shown by another.
 #[derive(Clone, Debug)]
 pub(super) struct Visible {
     pub(super) item: u32,
@@ -148,14 +149,18 @@ impl Entry {
                 continue;
             }
             let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
-            let lines = &rims.lines;
+            let (lines, is_opaque) = (&rims.lines, stock.is_opaque(item));
             let mut i = 0;
             while let Some(Open { cell, around }) = open.get(i) {
                 let shown = match are_apart(around, region) {
                     true => None,
-                    false => cell.within(lines, &halves, Some(&mut outside))?,
+                    false => cell.within(lines, &halves, is_opaque.then_some(&mut outside))?,
                 };
                 match shown {
+                    Some(cell) if !is_opaque => {
+                        push(&mut cells, Visible { item, cell })?;
+                        i += 1;
+                    }
                     Some(cell) => {
                         push(&mut cells, Visible { item, cell })?;
                         open.swap_remove(i);

@@ -3,7 +3,7 @@
 use super::support::hard::{self, HardScene};
 use super::support::tally::tally;
 use crate::support::fill::{Score, check};
-use crate::support::layered::{Layers, check_layers};
+use crate::support::layered::{Layers, check_layers, check_mixed};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
@@ -40,6 +40,21 @@ fn layers_of_hard_scenes_are_those_of_the_tree() {
         score.paths > score.polygons + 10 && 2 * score.fragments > 3 * score.paths,
         "{score:?}"
     );
+}
+
+#[test]
+fn layers_of_hard_scenes_end_at_what_is_opaque() {
+    let heuristic = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), heuristic, any::<u64>());
+    let score = tally(file!(), 256, cases, |score: &mut Layers, (scene, heuristic, seed)| {
+        let opacity = |polygon: usize| [1.0, 0.5, 0.25, 1.0, 0.0][polygon * 7 % 11 % 5];
+        for_each_view(&scene, heuristic, seed, |tree, camera, rays| {
+            check_mixed(tree, camera, rays, &opacity, score)
+        })
+        .map_err(TestCaseError::fail)
+    });
+    assert!(score.pixels > 500_000 && score.layers > 50_000, "{score:?}");
+    assert!(score.hidden > 100 && score.small > 10 && score.regions > 1_000, "{score:?}");
 }
 
 fn for_each_view(

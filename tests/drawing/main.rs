@@ -1,17 +1,23 @@
 //! Visibility maps and drawings, against pictures whose every pixel is decided by integers of another
 //! hand, and against rays.
 
+mod areas;
 mod between;
 mod coincidences;
 mod crossings;
+mod extremes;
 mod hidden;
 mod in_front;
 mod lines;
+mod meetings;
+mod mixed;
 mod overlay;
 mod pen;
 mod progress;
+mod same;
 mod scenes;
 mod sightlines;
+mod silhouettes;
 #[path = "../support/mod.rs"]
 mod support;
 mod translucent;

@@ -27,11 +27,18 @@ type Job<'j> = (
 fn jobs_tell_how_far_they_are_and_can_be_cancelled() {
     let (tree, rays) = tree_and_rays();
     let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
-    let jobs: [Job<'_>; 3] = [
+    let mixed = |polygon: usize| if polygon.is_multiple_of(2) { 0.5 } else { 1.0 };
+    let half = VisibilityMap::with_opacities(&tree, rays.clone(), mixed).unwrap();
+    let jobs: [Job<'_>; 5] = [
         ("map", &|progress| {
             VisibilityMap::of_with_progress(&tree, rays.clone(), progress).map(drop)
         }),
         ("drawing", &|progress| map.drawing_with_progress(progress).map(drop)),
+        ("map with opacities", &|progress| {
+            VisibilityMap::with_opacities_and_progress(&tree, rays.clone(), mixed, progress)
+                .map(drop)
+        }),
+        ("mixed drawing", &|progress| half.drawing_with_progress(progress).map(drop)),
         ("translucent", &|progress| {
             Drawing::translucent_with_progress(&tree, rays.clone(), progress).map(drop)
         }),

@@ -6,10 +6,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use binspace::drawing::{Drawing, Shown, VisibilityMap};
+use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::scene::Scene;
-use binspace::view::Camera;
 use binspace::{BspTree, Error};
 use serde::Serialize;
 
@@ -18,12 +17,12 @@ use crate::args::{DrawArgs, DrawFormat};
 use crate::backs::note_backs;
 use crate::colours::Colours;
 use crate::cull::Cull;
-use crate::drawn::{Drawn, Style, filled};
+use crate::drawn::{Drawn, Filled, Style, filled, filled_regions};
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
 use crate::format::{about_output, format};
 use crate::progress::Progress;
-use crate::shading::shaded;
+use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::say;
 use crate::upright::note_z_up;
@@ -51,7 +50,20 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let rays = Rays::new(&camera, tree.faces()).map_err(|error| camera::about(&scene, &error))?;
     let rays = args.cull.cull.rays(rays);
     let colours = Colours::new(&scene, args.colours);
-    let view = View { args, scene: &scene, camera: &camera, colours: &colours };
+    let is_opaque = args.opaque || !colours.are_translucent();
+    if !args.opaque {
+        check_opacities(&scene, &colours)?;
+    }
+    let seams = args.seams.unwrap_or_default();
+    let style = Style {
+        scene: &scene,
+        camera: &camera,
+        colours: &colours,
+        ids: args.ids,
+        is_opaque,
+        seams,
+    };
+    let view = View { args, style };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -60,18 +72,18 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     };
     let start = Instant::now();
     let about = |error| job::about(&scene, &error);
-    // A translucent drawing needs the map for its lines alone.
-    let needs_map = !args.translucent || edges != EdgeChoice::None;
+    // Where nothing is hidden, the map is for lines and regions alone.
+    let needs_map = !args.translucent
+        || format == DrawFormat::Png
+        || seams == Seams::PlusLighter
+        || edges != EdgeChoice::None;
     let map = needs_map.then(|| view.map(&tree, rays.clone())).transpose().map_err(about)?;
-    let shown: Vec<Shown> = map.iter().flat_map(VisibilityMap::polygons).collect();
-    figures.visible = shown.len();
-    if !args.opaque && !args.translucent {
-        refuse_translucent(&scene, &colours, &shown)?;
-    }
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
-        let mut pixels = match args.lines {
-            true => coverage::blank(camera.size()),
-            false => coverage::picture(map, |polygon| view.colour(polygon)),
+        figures.visible = map.polygons().count();
+        let mut pixels = match is_opaque {
+            _ if args.lines => coverage::blank(camera.size()),
+            true => coverage::picture(map, |polygon| style.fill(polygon)),
+            false => coverage::blended(camera.size(), &map.regions().map_err(about)?, &style),
         };
         let strokes = view.strokes(Some(map), edges).map_err(about)?;
         figures.count(&strokes);
@@ -80,10 +92,10 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         let write = |out: &mut dyn Write| png_file::write(out, camera.size(), &pixels);
         figures.bytes = output.write_counted(write)?;
     } else {
-        let drawing = view.drawing(&tree, rays, map.as_ref()).map_err(about)?;
+        let fills = view.fills(&tree, rays, map.as_ref(), &mut figures).map_err(about)?;
         let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        let drawn = view.drawn(drawing.as_ref(), &shown, strokes, &mut figures);
+        let drawn = view.drawn(fills, strokes, &mut figures);
         figures.bytes = output.write_counted(|out| match format {
             DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
             _ => drawn_svg::write(out, &drawn),
@@ -98,41 +110,63 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
 /// What is drawn, and how.
 struct View<'a> {
     args: &'a DrawArgs,
-    scene: &'a Scene,
-    camera: &'a Camera,
-    colours: &'a Colours<'a>,
+    style: Style<'a>,
 }
 
 impl<'a> View<'a> {
-    fn colour(&self, polygon: usize) -> [u8; 3] {
-        shaded(self.colours.rgb(polygon), self.scene.polygon(polygon), self.camera)
-    }
-
     fn min_size(&self) -> f64 {
         self.args.min_size.unwrap_or(MIN_SIZE)
     }
 
     fn map<'t>(&self, tree: &'t BspTree, rays: Rays) -> Result<VisibilityMap<'t>, Error> {
         let bar = Progress::share("finding what shows");
-        VisibilityMap::of_with_progress(tree, rays, |progress| shown_by(&bar, progress))
+        let progress = |progress| shown_by(&bar, progress);
+        let opacity = |polygon| f64::from(self.style.opacity(polygon));
+        VisibilityMap::with_opacities_and_progress(tree, rays, opacity, progress)
     }
 
-    /// The filled paths; `None` if there are to be lines alone.
-    fn drawing(
+    /// The filled paths, counted; none if there are to be lines alone.
+    fn fills(
         &self,
         tree: &BspTree,
         rays: Rays,
         map: Option<&VisibilityMap<'_>>,
-    ) -> Result<Option<Drawing>, Error> {
+        figures: &mut Figures,
+    ) -> Result<Vec<Filled<'a>>, Error> {
+        let Self { args, style } = self;
+        let mut is_small = vec![false; style.scene.len()];
+        for shown in map.iter().flat_map(|map| map.polygons()) {
+            figures.visible += 1;
+            // Areas of specks are rounded, to below 0 as well.
+            is_small[shown.polygon] = shown.area.max(0.0) < self.min_size() * self.min_size();
+        }
+        if args.lines {
+            return Ok(vec![]);
+        }
         let bar = Progress::share("drawing");
         let progress = |progress| shown_by(&bar, progress);
-        match map {
-            _ if self.args.lines => Ok(None),
-            _ if self.args.translucent => {
-                Drawing::translucent_with_progress(tree, rays, progress).map(Some)
+        let drawing = match map {
+            Some(map) if style.seams == Seams::PlusLighter => {
+                let mut regions = map.regions()?;
+                regions.retain(|region| region.area() >= self.min_size() * self.min_size());
+                figures.paths = regions.len();
+                return Ok(filled_regions(&regions, style));
             }
-            map => map.map(|map| map.drawing_with_progress(progress)).transpose(),
+            Some(map) if !args.translucent => map.drawing_with_progress(progress)?,
+            _ => Drawing::translucent_with_progress(tree, rays, progress)?,
+        };
+        let is_drawn = |polygon: usize| match args.translucent {
+            true => style.opacity(polygon) > 0.0,
+            false => !is_small[polygon],
+        };
+        let paths: Vec<_> = drawing.paths().filter(|path| is_drawn(path.polygon())).collect();
+        figures.paths = paths.len();
+        figures.clipped = paths.iter().filter(|path| path.is_clipped()).count();
+        if args.translucent {
+            let drawn = paths.iter().map(|path| path.polygon());
+            figures.visible = drawn.collect::<HashSet<usize>>().len();
         }
+        Ok(filled(&paths, style))
     }
 
     fn strokes(
@@ -155,29 +189,14 @@ impl<'a> View<'a> {
     /// The paths and lines that are written, counted.
     fn drawn(
         &self,
-        drawing: Option<&Drawing>,
-        shown: &[Shown],
+        fills: Vec<Filled<'a>>,
         strokes: Vec<Strokes>,
         figures: &mut Figures,
     ) -> Drawn<'a> {
-        let &Self { args, scene, camera, colours } = self;
-        let mut is_small = vec![false; scene.len()];
-        for shown in shown.iter().filter(|_| !args.translucent) {
-            // Areas of specks are rounded, to below 0 as well.
-            is_small[shown.polygon] = shown.area.max(0.0) < self.min_size() * self.min_size();
-        }
-        let paths = drawing.into_iter().flat_map(Drawing::paths);
-        let paths: Vec<_> = paths.filter(|path| !is_small[path.polygon()]).collect();
-        figures.paths = paths.len();
-        figures.clipped = paths.iter().filter(|path| path.is_clipped()).count();
-        if args.translucent {
-            let drawn = paths.iter().map(|path| path.polygon());
-            figures.visible = drawn.collect::<HashSet<usize>>().len();
-        }
         figures.count(&strokes);
-        let is_translucent = args.translucent;
-        let style = Style { scene, camera, colours, ids: args.ids, is_translucent };
-        Drawn { size: camera.size(), fills: filled(&paths, &style), strokes, ids: args.ids }
+        let Style { camera, ids, seams, .. } = self.style;
+        let are_regions = seams == Seams::PlusLighter && !fills.is_empty();
+        Drawn { size: camera.size(), fills, strokes, ids, are_regions }
     }
 }
 
@@ -229,12 +248,19 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         "with --lines and `--edges none` there is nothing to draw: choose other edges"
     } else if matches!(args.hidden, Some(Hidden::Dashed | Hidden::Layers)) && !has_lines {
         "--hidden is for lines: add --lines, or --edges for lines over the polygons"
-    } else if format == DrawFormat::Png && args.translucent {
-        "a PNG is made of what shows: write .svg or .pdf, or use `binspace render` for a picture of \
-         translucent polygons"
+    } else if args.seams.is_some() && args.lines {
+        "--lines draws no polygons, so that there are no seams: leave out one of the two"
+    } else if args.seams.is_some() && format == DrawFormat::Png {
+        "--seams is for SVG and PDF: pixels of a PNG have no seams"
+    } else if args.seams == Some(Seams::PlusLighter) && format == DrawFormat::Pdf {
+        "a PDF cannot add colours up: give `--seams trap` or none, or write .svg"
     } else if args.translucent && args.lines {
         "--lines draws no polygons, so that none is translucent: leave out one of the two"
-    } else if args.translucent && args.min_size.is_some() && !has_lines {
+    } else if args.translucent
+        && args.min_size.is_some()
+        && !has_lines
+        && args.seams != Some(Seams::PlusLighter)
+    {
         "with --translucent nothing is hidden, so --min-size leaves nothing out"
     } else if format != DrawFormat::Svg && args.ids {
         "--ids is for SVG: other formats have no place for names"
@@ -251,22 +277,15 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
     Err(problem.to_owned())
 }
 
-/// An error if something shows through a polygon that shows.
-///
-/// Where only opaque polygons show, what is behind them does not matter.
-fn refuse_translucent(
-    scene: &Scene,
-    colours: &Colours<'_>,
-    shown: &[Shown],
-) -> Result<(), Failure> {
-    let is_translucent = |shown: &&Shown| colours.opacity(shown.polygon) < 1.0;
-    let Some(&Shown { polygon, .. }) = shown.iter().find(is_translucent) else { return Ok(()) };
+/// An error if the opacity of a polygon is not a number from 0 to 1, as it may be in a saved file.
+fn check_opacities(scene: &Scene, colours: &Colours<'_>) -> Result<(), Failure> {
+    let is_wrong = |&polygon: &usize| !(0.0..=1.0).contains(&colours.opacity(polygon));
+    let Some(polygon) = (0..scene.len()).find(is_wrong) else { return Ok(()) };
     let line = scene.line(polygon).map_or(String::new(), |line| format!(" (line {line})"));
     let problem = format!(
-        "face {polygon}{line}, counted from 0, shows with opacity {}: give `--translucent` to draw \
-         all faces with their opacities, nothing hidden, or `--opaque` to draw them as if they were \
-         opaque",
-        colours.opacity(polygon) + 0.0,
+        "face {polygon}{line}, counted from 0, has opacity {}: expected a number from 0 to 1; \
+         `--opaque` draws all faces as if they were opaque",
+        colours.opacity(polygon),
     );
     Err(Failure::about(scene.name(), problem))
 }

@@ -18,14 +18,19 @@ use strip::{Frame, strip};
 /// A closed outline, in pixels.
 pub(crate) type Outline = Vec<[f64; 2]>;
 
-/// The outlines of paths that are painted one after another, each extended under later neighbours.
+/// The outlines of paths that are painted one after another: opaque ones are extended under later opaque
+/// neighbours, others are as they are.
 ///
 /// What is an edge of just one polygon in the picture stays as it is.
-pub(crate) fn trapped(paths: &[Path<'_>], size: [u32; 2]) -> Vec<Vec<Outline>> {
+pub(crate) fn trapped(
+    paths: &[Path<'_>],
+    size: [u32; 2],
+    is_opaque: impl Fn(usize) -> bool,
+) -> Vec<Vec<Outline>> {
     let corners = paths.iter().flat_map(|path| path.outlines()).map(<[_]>::len).sum();
     let mut grid = Grid::new(size, corners);
     let mut parts: Vec<Outline> = Vec::new();
-    for (number, path) in paths.iter().enumerate() {
+    for (number, path) in paths.iter().enumerate().filter(|&(number, _)| is_opaque(number)) {
         for (part, sides) in parts_of(path) {
             for ends in sides {
                 grid.add(Side { path: number, part: parts.len(), ends });
@@ -35,6 +40,9 @@ pub(crate) fn trapped(paths: &[Path<'_>], size: [u32; 2]) -> Vec<Vec<Outline>> {
     }
     let mut near = Vec::new();
     let mut extended = |(number, path): (usize, &Path<'_>)| {
+        if !is_opaque(number) {
+            return path.outlines().map(<[_]>::to_vec).collect();
+        }
         let turn = path.outlines().map(double_area).sum::<f64>().signum();
         let outlines = path.outlines().map(|outline| {
             let mut ring = Outline::new();

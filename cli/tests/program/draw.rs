@@ -5,7 +5,7 @@ use std::fs;
 use binspace::drawing::{Shown, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::{NONE, Rays};
-use binspace::scene::Builtin;
+use binspace::scene::{Builtin, Material, Scene};
 use binspace::view::Camera;
 use binspace::{BspTree, paint_tree};
 use serde_json::Value;
@@ -264,27 +264,62 @@ fn what_shows_too_little_is_left_out() {
 }
 
 #[test]
-fn a_drawing_is_refused_where_something_would_have_to_shine_through() {
+fn what_is_behind_glass_is_drawn_and_what_is_behind_wood_is_not() {
     let folder = Folder::new("draw_glass");
-    folder.write("m.mtl", "newmtl glass\nKd 0 0 1\nd 0.25\nnewmtl red\nKd 1 0 0\n");
+    let materials = "newmtl glass\nKd 0 0 1\nd 0.25\nnewmtl red\nKd 1 0 0\nnewmtl air\nd 0\n";
+    folder.write("m.mtl", materials);
     let square = |z: i32| format!("v -1 -1 {z}\nv 1 -1 {z}\nv 1 1 {z}\nv -1 1 {z}\n");
-    let faces = "usemtl red\nf 5 6 7 8\nusemtl glass\nf 1 2 3 4\n";
-    folder.write("s.obj", format!("mtllib m.mtl\n{}{}{faces}", square(1), square(0)));
-    let view = |options: &str| folder.run(&format!("draw s.obj -o a.svg --direction={options}"));
-    let message = view("0,0,-1").refused();
-    assert!(
-        message.contains("face 1 (line 13), counted from 0, shows with opacity 0.25"),
-        "{message}"
-    );
-    assert!(message.contains("--opaque") && message.contains("--translucent"), "{message}");
-    assert_eq!(folder.files(), ["m.mtl", "s.obj"]);
-    // From behind, what is opaque hides it.
-    view("0,0,1").good();
-    let fills =
-        || Svg::read(&folder.path("a.svg")).paths.iter().map(|p| p.fill).collect::<Vec<_>>();
-    assert_eq!(fills(), [[255, 0, 0]]);
-    view("0,0,-1 --opaque").good();
-    assert_eq!(fills(), [[0, 0, 255]]);
+    let faces = "usemtl red\nf 5 6 7 8\nusemtl glass\nf 1 2 3 4\nusemtl air\nf 9 10 11 12\n";
+    folder.write("s.obj", format!("mtllib m.mtl\n{}{}{}{faces}", square(1), square(0), square(2)));
+    let (red, blue) = (Some(0), Some(1));
+    for (options, expected) in [
+        ("0,0,-1", vec![red, blue]),
+        ("0,0,1", vec![red]),
+        ("0,0,1 --translucent", vec![blue, red]),
+        ("0,0,-1 --translucent", vec![red, blue]),
+        ("0,0,-1 --opaque", vec![Some(2)]),
+        ("0,0,-1 --seams plus-lighter", vec![None]),
+        ("0,0,1 --seams plus-lighter", vec![red]),
+    ] {
+        folder.run(&format!("draw s.obj -o a.svg --ids --direction={options}")).good();
+        let paths = Svg::read(&folder.path("a.svg")).paths;
+        let found: Vec<Option<usize>> = paths.iter().map(|path| path.polygon).collect();
+        assert_eq!(found, expected, "{options}");
+    }
+    folder.run("draw s.obj -o a.svg --ids --direction=0,0,-1 --seams plus-lighter").good();
+    let text = Svg::read(&folder.path("a.svg")).text;
+    assert!(text.contains("data-polygons=\"1 0\"") && text.contains("#bf0040"), "{text}");
+}
+
+#[test]
+fn opacities_that_are_none_are_refused_or_left_out() {
+    let folder = Folder::new("draw_opacities");
+    folder.write("s.obj", format!("mtllib m.mtl\nusemtl odd\n{CROSSING}"));
+    // When a file is read, what is no number is skipped, and others are brought between 0 and 1.
+    for (opacity, is_drawn) in
+        [("nan", true), ("inf", true), ("-1", false), ("7", true), ("0", false), ("1", true)]
+    {
+        folder.write("m.mtl", format!("newmtl odd\nKd 1 0 0\nd {opacity}\n"));
+        folder.run("draw s.obj -o a.svg").good();
+        let svg = Svg::read(&folder.path("a.svg"));
+        assert_eq!(!svg.paths.is_empty(), is_drawn, "{opacity}");
+        assert!(!svg.text.contains("opacity"), "{opacity}");
+    }
+    // A saved scene has whatever its maker wrote.
+    for wrong in [f32::NAN, 1.5, -0.5] {
+        let mut scene = Scene::new("odd", DVec3::Z);
+        let odd = scene.add_material(Material::new("odd", [1.0; 3]).with_opacity(wrong));
+        scene.push([DVec3::ZERO, DVec3::X, DVec3::Y], odd);
+        let mut saved = Vec::new();
+        BspTree::build(scene.polygons()).unwrap().write(&mut saved).unwrap();
+        scene.write(&mut saved).unwrap();
+        folder.write("b.bsp", saved);
+        for options in ["-o b.svg", "-o b.svg --translucent", "-o b.png"] {
+            let message = folder.run(&format!("draw b.bsp {options}")).refused();
+            assert!(message.contains(&format!("has opacity {wrong}")), "{message}");
+        }
+        folder.run("draw b.bsp -o b.svg --opaque").good();
+    }
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::run::Folder;
 use crate::svg_picture::Svg;
 
 /// Triangles that go through one another, of glass, of smoke and of wood.
-fn write_scene(folder: &Folder, count: usize) {
+pub(crate) fn write_scene(folder: &Folder, count: usize) {
     let materials = "newmtl glass\nKd .1 .3 .9\nd 0.25\nnewmtl smoke\nKd .4 .4 .4\nd 0.625\n\
                      newmtl wood\nKd .8 .5 .2\n";
     folder.write("m.mtl", materials);
@@ -97,11 +97,13 @@ fn options_that_do_not_fit_are_refused() {
     let folder = Folder::new("draw_translucent_options");
     write_scene(&folder, 3);
     for (options, expected) in [
-        ("-o a.png --translucent", "a PNG is made of what shows"),
+        ("-o a.png --seams trap", "pixels of a PNG have no seams"),
+        ("-o a.pdf --seams plus-lighter", "a PDF cannot add colours up"),
+        ("-o a.svg --lines --seams none", "there are no seams"),
+        ("-o a.svg --seams some", "--seams"),
         ("-o a.svg --translucent --lines", "--lines draws no polygons"),
         ("-o a.svg --translucent --min-size 1", "nothing is hidden"),
         ("-o a.svg --translucent --opaque", "cannot be used with"),
-        ("-o a.svg", "--translucent"),
     ] {
         let message = folder.run(&format!("draw s.obj {options}")).refused();
         assert!(message.contains(expected), "{options}: {message}");

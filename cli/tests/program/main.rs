@@ -8,6 +8,7 @@ mod draw_ink;
 mod draw_lines;
 mod draw_pdf;
 mod draw_png;
+mod draw_seams;
 mod draw_translucent;
 mod help;
 mod notes;

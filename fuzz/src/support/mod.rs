@@ -12,6 +12,8 @@ pub(crate) mod hits;
 pub(crate) mod homogeneous;
 #[path = "../../../tests/support/judge.rs"]
 pub(crate) mod judge;
+#[path = "../../../tests/support/layered.rs"]
+pub(crate) mod layered;
 #[path = "../../../tests/support/model.rs"]
 pub(crate) mod model;
 #[path = "../../../tests/support/orders.rs"]

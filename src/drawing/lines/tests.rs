@@ -15,7 +15,7 @@ const SIZE: [u32; 2] = [320, 200];
 /// All lines of all pieces that a camera sees.
 fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
     let rays = Rays::new(camera, tree.faces()).ok()?;
-    let stock = Stock::new(tree, rays, &Watch::default()).unwrap();
+    let stock = Stock::new(tree, rays, vec![], &Watch::default()).unwrap();
     let mut rims = Rims::new(&stock);
     for item in 0..stock.items.len() as u32 {
         rims.item(&stock, item).unwrap();
@@ -113,8 +113,8 @@ fn lines_of_another_list_keep_their_sides() {
     let quads = quads(&mut random, 1.0, DVec3::ZERO);
     let tree = BspTree::build(&quads).unwrap();
     let camera = Camera::perspective(DVec3::splat(2.5), DVec3::ZERO, DVec3::Z, 1.0, SIZE).unwrap();
-    let stock =
-        Stock::new(&tree, Rays::new(&camera, tree.faces()).unwrap(), &Watch::default()).unwrap();
+    let rays = Rays::new(&camera, tree.faces()).unwrap();
+    let stock = Stock::new(&tree, rays, vec![], &Watch::default()).unwrap();
     let count = stock.items.len() as u32;
     assert!(count > 20, "{count}");
     // The one list asks from the front to the back, the other the other way.

@@ -2,6 +2,7 @@
 
 use super::super::decode;
 use super::super::fill::{Score, check};
+use super::super::layered::{Layers, check_mixed};
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
@@ -22,7 +23,12 @@ fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
     for camera in views.into_iter().flatten() {
         // Some cameras are too near to a scene, or too far from it, for its pixels to be told apart.
         let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
-        if let Err(what) = check(&tree, &camera, rays, &mut Score::default()) {
+        // One of four polygons is translucent, another is left out.
+        let opacity = |polygon: usize| [1.0, 0.5, 1.0, 0.0][polygon % 4];
+        let checked = check(&tree, &camera, rays.clone(), &mut Score::default());
+        let checked = checked
+            .and_then(|()| check_mixed(&tree, &camera, rays, &opacity, &mut Layers::default()));
+        if let Err(what) = checked {
             panic!("{what}: {camera:?} {polygons:?}");
         }
     }

@@ -1,0 +1,271 @@
+//! Seams between neighbours in SVG files, as a viewer shows them, against exact samples.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write as _;
+
+use binspace::glam::DVec3;
+use binspace::internals::Line;
+use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::scene::{Builtin, Scene};
+use binspace::view::Camera;
+use binspace::{BspTree, Fragment};
+
+use crate::draw::{View, WHITE, views};
+use crate::draw_translucent::write_scene;
+use crate::png_picture::Picture;
+use crate::run::Folder;
+use crate::svg_picture::Svg;
+
+/// Samples each way in a pixel of the exact picture.
+const SAMPLES: usize = 16;
+
+/// What is seen at samples, blended one over the other.
+struct Sampled {
+    size: [usize; 2],
+    /// The mean colour of each pixel.
+    means: Vec<[f64; 3]>,
+    /// How many lists of polygons, one behind the other, show in each pixel.
+    kinds: Vec<usize>,
+    /// Whether the background alone shows in a part of it.
+    is_open: Vec<bool>,
+    /// How much the colours in it differ, at most.
+    contrasts: Vec<f64>,
+}
+
+/// How polygons look.
+struct Look<'a> {
+    fills: &'a HashMap<usize, [u8; 3]>,
+    opacity: &'a dyn Fn(usize) -> f64,
+}
+
+impl Sampled {
+    fn new(tree: &BspTree, camera: &Camera, look: &Look<'_>) -> Self {
+        let rays = Rays::sampled(camera, tree.faces(), SAMPLES as u32).unwrap();
+        let size = camera.size().map(|side| side as usize);
+        let across = size[0] * SAMPLES;
+        let white = WHITE.map(f32::from);
+        let mut samples: Vec<([f32; 3], u64)> = vec![(white, 0); across * size[1] * SAMPLES];
+        for fragment in tree.back_to_front(camera.viewpoint()) {
+            let polygon = fragment.polygon();
+            let opacity = (look.opacity)(polygon) as f32;
+            // Of what is seen edge-on, and hidden in the drawing, there is no sample.
+            let Some(fill) = look.fills.get(&polygon) else { continue };
+            for_each_sample(tree, &fragment, &rays, |sample| {
+                let (colour, kind) = &mut samples[sample];
+                for (old, &new) in colour.iter_mut().zip(fill) {
+                    *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
+                }
+                let below = if opacity == 1.0 { 0 } else { *kind };
+                *kind = (below ^ (polygon as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            });
+        }
+        let mut sampled =
+            Self { size, means: vec![], kinds: vec![], is_open: vec![], contrasts: vec![] };
+        for pixel in 0..size[0] * size[1] {
+            let start = pixel / size[0] * SAMPLES * across + pixel % size[0] * SAMPLES;
+            let own =
+                (0..SAMPLES * SAMPLES).map(|k| samples[start + k / SAMPLES * across + k % SAMPLES]);
+            let kinds: HashSet<u64> = own.clone().map(|(_, kind)| kind).collect();
+            let span = |i: usize| {
+                let channel = own.clone().map(|(colour, _)| colour[i]);
+                let ends = channel.fold([f32::MAX, f32::MIN], |[l, h], c| [l.min(c), h.max(c)]);
+                f64::from(ends[1] - ends[0])
+            };
+            sampled.contrasts.push((0..3).map(span).fold(0.0, f64::max));
+            let mean = own.fold([0.0; 3], |sum, (colour, _)| {
+                [0, 1, 2].map(|i: usize| sum[i] + f64::from(colour[i]))
+            });
+            sampled.means.push(mean.map(|sum| sum / (SAMPLES * SAMPLES) as f64));
+            sampled.is_open.push(kinds.contains(&0));
+            sampled.kinds.push(kinds.len());
+        }
+        sampled
+    }
+
+    /// The errors of a picture in some pixels.
+    fn errors(&self, picture: &Picture, choose: impl Fn(usize) -> bool) -> Errors {
+        assert_eq!(picture.size.map(|side| side as usize), self.size);
+        let mut errors = Errors::default();
+        for (i, found) in picture.rgb.chunks_exact(3).enumerate().filter(|(i, _)| choose(*i)) {
+            let off = |k: usize| (f64::from(found[k]) - self.means[i][k]).abs();
+            errors.pixels += 1;
+            errors.sum += (0..3).map(off).fold(0.0, f64::max);
+            errors.contrast += self.contrasts[i];
+        }
+        errors
+    }
+
+    /// Where two lists of polygons meet, and nothing else.
+    fn is_edge(&self, pixel: usize) -> bool {
+        self.kinds[pixel] == 2 && !self.is_open[pixel]
+    }
+
+    /// Where one meets the background.
+    fn is_silhouette(&self, pixel: usize) -> bool {
+        self.kinds[pixel] == 2 && self.is_open[pixel]
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Errors {
+    pixels: usize,
+    sum: f64,
+    contrast: f64,
+}
+
+impl Errors {
+    fn add(&mut self, other: Self) {
+        self.pixels += other.pixels;
+        self.sum += other.sum;
+        self.contrast += other.contrast;
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.pixels as f64
+    }
+
+    /// As a share of how much colours differ there.
+    fn share(&self) -> f64 {
+        self.sum / self.contrast
+    }
+}
+
+fn for_each_sample(
+    tree: &BspTree,
+    fragment: &Fragment<'_>,
+    rays: &Rays,
+    mut see: impl FnMut(usize),
+) {
+    let width = rays.size()[0] as usize;
+    let lines: Vec<Line> = fragment.lines().collect();
+    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
+    let outline = match fragment.is_whole() {
+        true => Outline::Whole,
+        false => Outline::Lines { lines: &lines, vertices: &vertices },
+    };
+    let piece = Piece { face: fragment.face(), outline };
+    for_each_run(rays, tree.faces(), piece, |y, columns| {
+        columns.for_each(|x| see(y as usize * width + x as usize));
+    });
+}
+
+/// A ball of wood in a ball of glass, of many faces.
+fn write_balls(folder: &Folder) {
+    let materials = "newmtl glass\nKd .1 .3 .9\nd 0.25\nnewmtl wood\nKd .8 .5 .2\n";
+    folder.write("m.mtl", materials);
+    let ball = Builtin::Sphere.build(Some(300), 1);
+    let mut text = "mtllib m.mtl\n".to_owned();
+    for (material, scale) in [("glass", 1.0), ("wood", 0.5)] {
+        writeln!(text, "usemtl {material}").unwrap();
+        for polygon in ball.polygons() {
+            for corner in polygon.iter().map(|&corner| corner * scale) {
+                writeln!(text, "v {:?} {:?} {:?}", corner.x, corner.y, corner.z).unwrap();
+            }
+            let numbers: String = (1..=polygon.len()).rev().map(|k| format!(" -{k}")).collect();
+            writeln!(text, "f{numbers}").unwrap();
+        }
+    }
+    folder.write("s.obj", text);
+}
+
+/// The fill of each polygon, in a drawing where nothing is hidden.
+fn fills(folder: &Folder, scene: &str) -> HashMap<usize, [u8; 3]> {
+    folder.run(&format!("draw {scene} -o all.svg --ids --translucent")).good();
+    let paths = Svg::read(&folder.path("all.svg")).paths;
+    paths.iter().map(|path| (path.polygon.unwrap(), path.fill)).collect()
+}
+
+/// A scene, and what the exact picture of a view of it is.
+struct Case {
+    arguments: String,
+    sampled: Sampled,
+}
+
+/// A view of an opaque scene.
+fn opaque(folder: &Folder, view: &View) -> Case {
+    let (tree, camera, arguments) = (view.tree(), view.camera(), view.arguments());
+    let fills = fills(folder, &arguments);
+    let sampled = Sampled::new(&tree, &camera, &Look { fills: &fills, opacity: &|_| 1.0 });
+    Case { arguments, sampled }
+}
+
+/// A view of the scene in `s.obj`.
+fn of_file(folder: &Folder) -> Case {
+    let (scene, _) = Scene::read_obj(folder.path("s.obj")).unwrap();
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    let arguments =
+        "s.obj --eye=2.4,-3.1,2.2 --target=.2,.1,.3 --up=z --fov=45 --size 240x180".to_owned();
+    let [eye, target] = [[2.4, -3.1, 2.2], [0.2, 0.1, 0.3]].map(DVec3::from);
+    let camera =
+        Camera::perspective(eye, target, DVec3::Z, 45f64.to_radians(), [240, 180]).unwrap();
+    let fills = fills(folder, &arguments);
+    let opacity = |polygon: usize| f64::from(scene.material(polygon).opacity);
+    let sampled = Sampled::new(&tree, &camera, &Look { fills: &fills, opacity: &opacity });
+    Case { arguments, sampled }
+}
+
+fn drawn(folder: &Folder, case: &Case, seams: &str) -> Picture {
+    let options = format!("-o a.svg --min-size 0 --seams {seams}");
+    folder.run(&format!("draw {} {options}", case.arguments)).good();
+    Svg::read(&folder.path("a.svg")).smooth_picture()
+}
+
+/// Surfaces of one material, opaque and of glass.
+#[test]
+fn regions_that_are_added_up_have_no_seams() {
+    let folder = Folder::new("seams_regions");
+    write_balls(&folder);
+    for (case, floor) in [(opaque(&folder, &views()[2]), 600), (of_file(&folder), 2_000)] {
+        let errors = |seams: &str| {
+            let picture = drawn(&folder, &case, seams);
+            case.sampled.errors(&picture, |pixel| case.sampled.is_edge(pixel))
+        };
+        let [none, added] = ["none", "plus-lighter"].map(errors);
+        let figures = format!("{}: {none:?} {added:?}", case.arguments);
+        assert!(added.pixels > floor && added.mean() < 1.5, "{figures}");
+        assert!(2.0 * added.mean() < none.mean(), "{figures}");
+    }
+}
+
+/// Where colours differ much, viewers round what an edge covers, here on both of its sides, at silhouettes on
+/// one.
+#[test]
+fn regions_of_many_colours_are_as_exact_as_silhouettes() {
+    let folder = Folder::new("seams_colours");
+    let (mut edges, mut silhouettes, mut plain) =
+        (Errors::default(), Errors::default(), Errors::default());
+    let mut cases: Vec<Case> = views().iter().map(|view| opaque(&folder, view)).collect();
+    write_scene(&folder, 40);
+    cases.push(of_file(&folder));
+    for case in &cases {
+        let sampled = &case.sampled;
+        let [none, added] = ["none", "plus-lighter"].map(|seams| drawn(&folder, case, seams));
+        edges.add(sampled.errors(&added, |pixel| sampled.is_edge(pixel)));
+        plain.add(sampled.errors(&none, |pixel| sampled.is_edge(pixel)));
+        silhouettes.add(sampled.errors(&none, |pixel| sampled.is_silhouette(pixel)));
+    }
+    let figures = format!("{edges:?} {silhouettes:?} {plain:?}");
+    assert!(edges.pixels > 3_000 && silhouettes.pixels > 1_500, "{figures}");
+    assert!(edges.share() < 1.42 * silhouettes.share(), "{figures}");
+    assert!(2.0 * edges.share() < plain.share(), "{figures}");
+}
+
+/// Pixels of translucent polygons, by the areas of regions.
+#[test]
+fn pixels_of_translucent_polygons_are_the_means_of_many_samples() {
+    let folder = Folder::new("seams_png");
+    for write in [|folder: &Folder| write_scene(folder, 40), write_balls] {
+        write(&folder);
+        let case = of_file(&folder);
+        for options in ["", "--translucent"] {
+            folder.run(&format!("draw {} -o a.png {options}", case.arguments)).good();
+            let picture = Picture::read(&folder.path("a.png"));
+            let sampled = &case.sampled;
+            let edges = sampled.errors(&picture, |pixel| sampled.kinds[pixel] > 1);
+            let inner = sampled.errors(&picture, |pixel| sampled.kinds[pixel] == 1);
+            let figures = format!("{edges:?} {inner:?}");
+            assert!(edges.pixels > 2_000 && edges.mean() < 1.0, "{figures}");
+            assert!(inner.pixels > 10_000 && inner.mean() < 0.3, "{figures}");
+        }
+    }
+}

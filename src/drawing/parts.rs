@@ -1,0 +1,235 @@
+//! Parts of polygons that are painted at once.
+
+use super::between::NO_PATH;
+use super::cell::Cell;
+use super::halving::CUT;
+use super::join::Groups;
+use super::order::{cycles, order};
+use super::outline::Edge;
+use super::pairs::Pair;
+use super::paths::{Drawing, add_edges, add_sides};
+use super::rims::Rims;
+use super::stock::Stock;
+use super::visible::{Leaf, Visible};
+use crate::Error;
+use crate::build::progress::Watch;
+use crate::memory::{collect, push, reserve};
+
+/// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.
+const NEXT: usize = 16;
+
+/// What is painted at once: items of one polygon.
+pub(super) struct Parts {
+    of_item: Vec<u32>,
+    /// The items of each, one face after another.
+    items: Vec<Vec<u32>>,
+}
+
+impl Parts {
+    /// Parts of which an order is left that keeps the pairs of items that overlap.
+    pub(super) fn new(
+        stock: &Stock<'_>,
+        overlaps: &[Pair],
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let units = units(stock, overlaps)?;
+        let count = units.iter().max().map_or(0, |&most| most as usize + 1);
+        let cycles = cycles(count, &contracted(overlaps, &units)?, watch)?;
+        // Units in no cycle are whole. The pieces of the others start by themselves.
+        let mut nodes: Vec<u32> = Vec::new();
+        for item in 0..units.len() as u32 {
+            if cycles[units[item as usize] as usize].is_some() {
+                push(&mut nodes, item)?;
+            }
+        }
+        // What is further back has a higher number as an item, and a lower one as a node.
+        let cycle = |item: u32| cycles[units[item as usize] as usize];
+        nodes.sort_unstable_by_key(|&item| (cycle(item), std::cmp::Reverse(item)));
+        let mut node_of: Vec<u32> = collect(units.iter().map(|_| u32::MAX))?;
+        for (node, &item) in (0..).zip(&nodes) {
+            node_of[item as usize] = node;
+        }
+        let is_within = |pair: &&Pair| {
+            let [a, b] = [pair.below, pair.above].map(cycle);
+            a.is_some() && a == b
+        };
+        let mut pairs = Vec::new();
+        for &Pair { below, above } in overlaps.iter().filter(is_within) {
+            let [below, above] = [below, above].map(|item| node_of[item as usize]);
+            push(&mut pairs, Pair { below, above })?;
+        }
+        let mut groups = Groups::new(nodes.len(), &pairs)?;
+        for (a, b) in candidates(&nodes, &units)? {
+            groups.join(a, b, watch)?;
+        }
+        // A part for each unit that is whole, and for each group.
+        let mut of_item = units;
+        for (node, &item) in (0..).zip(&nodes) {
+            of_item[item as usize] = count as u32 + groups.group(node);
+        }
+        let mut items: Vec<Vec<u32>> = collect((0..count + nodes.len()).map(|_| Vec::new()))?;
+        for (item, &part) in (0..).zip(&of_item) {
+            push(&mut items[part as usize], item)?;
+        }
+        for items in &mut items {
+            items.sort_by_key(|&item| stock.face(item));
+        }
+        Ok(Self { of_item, items })
+    }
+
+    /// The parts in an order to paint them: it keeps all pairs, and else that of the tree. Where something
+    /// is hidden, `leaves` have what shows. With them the path of each item, or [`NO_PATH`].
+    pub(super) fn drawing(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        pairs: &[Pair],
+        leaves: Option<&[Leaf]>,
+        watch: &Watch<'_>,
+    ) -> Result<(Drawing, Vec<u32>), Error> {
+        let count = stock.items.len() as u32;
+        let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
+        let ranks = collect(self.items.iter().map(rank))?;
+        let is_opaque = |part: u32| {
+            let first = self.items[part as usize].first();
+            leaves.is_some() && first.is_some_and(|&item| stock.is_opaque(item))
+        };
+        let pairs = contracted(pairs, &self.of_item)?;
+        let ordered = order(self.items.len(), &pairs, &ranks, &is_opaque, watch)?;
+        let cells = leaves.map(|leaves| self.cells(leaves)).transpose()?;
+        let mut drawing = Drawing::empty(stock.frame.rays.size());
+        reserve(&mut drawing.paths, ordered.order.len())?;
+        let counts = Counts::of(stock)?;
+        let mut path_of: Vec<u32> = collect(stock.items.iter().map(|_| NO_PATH))?;
+        let mut edges = Vec::new();
+        for part in ordered.order {
+            watch.work(CUT)?;
+            let items = &self.items[part as usize];
+            let shown = cells.as_ref().map(|cells| &cells[part as usize]);
+            let is_clipped = ordered.is_clipped[part as usize];
+            edges.clear();
+            match shown {
+                Some(cells) if cells.is_empty() => continue,
+                Some(cells) if is_clipped => {
+                    for cell in cells {
+                        add_sides(cell, &mut edges)?;
+                    }
+                }
+                _ => counts.add_pieces(stock, rims, items, &mut edges)?,
+            }
+            if !edges.is_empty() {
+                let path = drawing.paths.len() as u32;
+                items.iter().for_each(|&item| path_of[item as usize] = path);
+                let polygon = stock.polygon(items[0]);
+                let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
+                drawing.push(polygon, is_part, &edges)?;
+            }
+        }
+        Ok((drawing, path_of))
+    }
+
+    /// What shows of each.
+    fn cells<'l>(&self, leaves: &'l [Leaf]) -> Result<Vec<Vec<&'l Cell>>, Error> {
+        let mut cells: Vec<Vec<&Cell>> = collect(self.items.iter().map(|_| vec![]))?;
+        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+            push(&mut cells[self.of_item[*item as usize] as usize], cell)?;
+        }
+        Ok(cells)
+    }
+}
+
+/// How many items there are.
+struct Counts {
+    of_face: Vec<u32>,
+    of_polygon: Vec<u32>,
+}
+
+impl Counts {
+    fn of(stock: &Stock<'_>) -> Result<Self, Error> {
+        let mut of_face: Vec<u32> = collect(stock.views.iter().map(|_| 0))?;
+        stock.items.iter().for_each(|item| of_face[item.face as usize] += 1);
+        let count = (0..stock.items.len() as u32).map(|item| stock.polygon(item) + 1).max();
+        let mut of_polygon: Vec<u32> = collect((0..count.unwrap_or(0)).map(|_| 0))?;
+        (0..stock.items.len() as u32).for_each(|item| of_polygon[stock.polygon(item)] += 1);
+        Ok(Self { of_face, of_polygon })
+    }
+
+    /// Adds the edges of items, those of one face after another.
+    fn add_pieces(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        items: &[u32],
+        edges: &mut Vec<Edge>,
+    ) -> Result<(), Error> {
+        for same in items.chunk_by(|&a, &b| stock.face(a) == stock.face(b)) {
+            let face = stock.face(same[0]);
+            // The outline of a face is its own where none of its pieces is missing.
+            if same.len() as u32 == self.of_face[face as usize] {
+                add_edges(&rims.lines, rims.known_outline(face), edges)?;
+                continue;
+            }
+            for &item in same {
+                add_edges(&rims.lines, rims.known_item(stock, item), edges)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
+fn units(stock: &Stock<'_>, overlaps: &[Pair]) -> Result<Vec<u32>, Error> {
+    let polygon = |item: u32| stock.polygon(item);
+    let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
+    let mut is_folded: Vec<bool> = collect((0..count).map(|_| false))?;
+    for pair in overlaps.iter().filter(|pair| polygon(pair.below) == polygon(pair.above)) {
+        is_folded[polygon(pair.below)] = true;
+    }
+    let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) =
+        (collect((0..count).map(|_| None))?, collect(stock.views.iter().map(|_| None))?);
+    let (mut units, mut next) = (Vec::new(), 0);
+    reserve(&mut units, stock.items.len())?;
+    for item in 0..stock.items.len() as u32 {
+        let polygon = polygon(item);
+        let unit = match is_folded[polygon] {
+            true => &mut of_face[stock.face(item) as usize],
+            false => &mut of_polygon[polygon],
+        };
+        let number = *unit.get_or_insert(next);
+        next += u32::from(number == next);
+        units.push(number);
+    }
+    Ok(units)
+}
+
+/// The pairs between what items belong to.
+fn contracted(overlaps: &[Pair], of_item: &[u32]) -> Result<Vec<Pair>, Error> {
+    let mut pairs = Vec::new();
+    for pair in overlaps {
+        let [below, above] = [pair.below, pair.above].map(|item| of_item[item as usize]);
+        if below != above {
+            push(&mut pairs, Pair { below, above })?;
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    Ok(pairs)
+}
+
+/// Nodes of one unit, two at a time, those first that are nearest in the order: they have the fewest
+/// between them. (Which are joined first hardly matters to how many are left.)
+fn candidates(nodes: &[u32], units: &[u32]) -> Result<Vec<(u32, u32)>, Error> {
+    let unit = |node: u32| units[nodes[node as usize] as usize];
+    let mut by_unit: Vec<u32> = collect(0..nodes.len() as u32)?;
+    by_unit.sort_by_key(|&node| unit(node));
+    let mut pairs = Vec::new();
+    for same in by_unit.chunk_by(|&a, &b| unit(a) == unit(b)) {
+        for (i, &a) in same.iter().enumerate() {
+            for &b in same[i + 1..].iter().take(NEXT) {
+                push(&mut pairs, (a, b))?;
+            }
+        }
+    }
+    pairs.sort_unstable_by_key(|&(a, b)| (b - a, a));
+    Ok(pairs)
+}

@@ -1,0 +1,125 @@
+//! Scenes, views and opacities at their limits.
+
+use crate::support::layered::{Layers, check_mixed};
+use binspace::BspTree;
+use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+
+fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+        .map(|[u, v]| DVec3::new(x + u * half, y + v * half, z))
+        .to_vec()
+}
+
+/// A hundred thousand squares behind a wall of ten; a million with `BINSPACE_LONG`, in some 20 seconds.
+#[test]
+fn ten_of_a_million_polygons_show() {
+    let layers = if std::env::var_os("BINSPACE_LONG").is_some() { 100 } else { 10 };
+    let mut polygons: Vec<Vec<DVec3>> = Vec::new();
+    for k in 0..10 {
+        let [x, y] = [f64::from(k % 5) - 2.0, f64::from(k / 5) - 0.5];
+        polygons.push(square([x * 400.0, y * 1000.0], 500.0, 100.0 + f64::from(k)));
+    }
+    for k in 0..layers * 10_000 {
+        let [x, y] = [f64::from(k % 100), f64::from(k / 100 % 100)].map(|c| 2.0 * c - 100.0);
+        polygons.push(square([x, y], 0.75, -f64::from(k / 10_000)));
+    }
+    let tree = BspTree::build(&polygons).unwrap();
+    let eye = DVec3::new(10.0, 20.0, 2000.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [640, 480]).unwrap();
+    let rays = Rays::new(&camera, tree.faces()).unwrap();
+    let all: Vec<usize> = (0..10).collect();
+    let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
+    assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
+    assert_eq!(map.drawing().unwrap().paths().len(), 10);
+    // Nothing shows through the wall either where what is behind is translucent.
+    let glass = |polygon: usize| if polygon < 10 { 1.0 } else { 0.5 };
+    let map = VisibilityMap::with_opacities(&tree, rays, glass).unwrap();
+    assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
+    assert_eq!(map.drawing().unwrap().paths().len(), 10);
+    assert_eq!(map.regions().unwrap().len(), 10);
+}
+
+#[test]
+fn opacities_are_numbers_from_0_to_1() {
+    let tree = BspTree::build([square([0.0; 2], 1.0, 0.0), square([0.0; 2], 1.0, 1.0)]).unwrap();
+    let eye = DVec3::new(0.1, 0.2, 5.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [9, 7]).unwrap();
+    let rays = Rays::new(&camera, tree.faces()).unwrap();
+    for wrong in [f64::NAN, -0.001, 1.001, f64::INFINITY] {
+        let opacity = |polygon: usize| if polygon == 1 { wrong } else { 0.5 };
+        let error = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap_err();
+        assert_eq!(error.polygon(), Some(1));
+        let expected =
+            format!("the opacity of polygon 1 is {wrong}: expected a number from 0 to 1");
+        assert_eq!(error.to_string(), expected);
+    }
+    let shown = |opacities: [f64; 2]| -> Vec<usize> {
+        let opacity = |polygon: usize| opacities[polygon];
+        let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
+        let edges = map.edges().unwrap();
+        let shown: Vec<usize> = map.polygons().map(|shown| shown.polygon).collect();
+        let visible = edges.iter().filter(|run| run.is_visible);
+        let mut with_edges: Vec<usize> = visible.map(|run| run.polygon).collect();
+        with_edges.dedup();
+        // The square in front is larger in the picture, and hides all edges of the other.
+        assert_eq!(with_edges, shown, "{opacities:?}");
+        let drawn: Vec<usize> = map.drawing().unwrap().paths().map(|path| path.polygon()).collect();
+        assert_eq!(drawn, shown, "{opacities:?}");
+        drawn
+    };
+    for (opacities, expected) in [
+        ([1.0, 1.0], vec![1]),
+        ([1.0, 0.5], vec![0, 1]),
+        ([0.5, 1.0], vec![1]),
+        ([0.25, 0.5], vec![0, 1]),
+        ([1.0, 0.0], vec![0]),
+        ([1.0, -0.0], vec![0]),
+        ([0.0, 0.5], vec![1]),
+        ([0.0, 0.0], vec![]),
+        ([f64::MIN_POSITIVE, 1.0f64.next_down()], vec![0, 1]),
+    ] {
+        assert_eq!(shown(opacities), expected, "{opacities:?}");
+    }
+}
+
+/// An eye on a translucent pane, before nothing, and behind all.
+#[test]
+fn eyes_on_panes_and_away_from_all() {
+    let polygons = [
+        square([0.0; 2], 1.0, 0.0),
+        square([0.5, 0.0], 1.0, -1.0),
+        square([0.0, 0.5], 1.0, -2.0),
+        square([0.0; 2], 3.0, -3.0),
+    ];
+    let opacity = |polygon: usize| [0.5, 0.25, 1.0, 1.0][polygon];
+    let tree = BspTree::build(&polygons).unwrap();
+    let mut score = Layers::default();
+    for (eye, target, expected) in [
+        (DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 4),
+        (DVec3::new(0.2, 0.1, 0.0), DVec3::NEG_Z, 3),
+        (DVec3::new(0.2, 0.1, -1.0), DVec3::NEG_Z * 2.0, 2),
+        (DVec3::new(2.5, 0.5, 0.0), DVec3::ZERO, 3),
+        (DVec3::new(0.0, 0.0, -50.0), DVec3::new(0.0, 0.0, -90.0), 0),
+    ] {
+        for size in [[1, 1], [50, 40], [300, 2]] {
+            let camera = Camera::perspective(eye, target, DVec3::Y, 1.2, size).unwrap();
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            check_mixed(&tree, &camera, rays.clone(), &opacity, &mut score).unwrap();
+            let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
+            if size == [50, 40] {
+                assert_eq!(map.polygons().count(), expected, "{eye}");
+            }
+            let all = Drawing::translucent(&tree, rays).unwrap();
+            assert!(all.paths().len() >= map.drawing().unwrap().paths().len());
+        }
+    }
+    assert!(score.polygons > 20, "{score:?}");
+    let none = BspTree::build::<Vec<DVec3>>([]).unwrap();
+    let camera = Camera::perspective(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [9, 9]).unwrap();
+    let rays = Rays::new(&camera, none.faces()).unwrap();
+    let map = VisibilityMap::with_opacities(&none, rays, |_| 0.5).unwrap();
+    assert!(map.regions().unwrap().is_empty() && map.drawing().unwrap().paths().len() == 0);
+}

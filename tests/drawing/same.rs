@@ -1,0 +1,122 @@
+//! The same results on however many threads, for pictures of every size, and for parts of pictures.
+
+use super::scenes::cameras;
+use binspace::BspTree;
+use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::raster::Rays;
+use binspace::scene::{Builtin, Scene};
+use binspace::view::Camera;
+
+/// Every third polygon is translucent.
+fn mixed(polygon: usize) -> f64 {
+    if polygon.is_multiple_of(3) { 0.5 } else { 1.0 }
+}
+
+/// All outlines of a drawing, bit for bit.
+fn bits(drawing: &Drawing) -> Vec<(usize, bool, Vec<[u64; 2]>)> {
+    let path = |path: binspace::drawing::Path<'_>| {
+        let corners = path.outlines().flatten().map(|corner| corner.map(f64::to_bits));
+        (path.polygon(), path.is_clipped(), corners.collect())
+    };
+    drawing.paths().map(path).collect()
+}
+
+#[test]
+fn drawings_do_not_depend_on_threads() {
+    let scene = Builtin::Random.build(Some(400), 3);
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    let mut paths = 0;
+    for camera in &cameras(&scene, 2, [240, 180])[..4] {
+        let rays = Rays::new(camera, tree.faces()).unwrap();
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let opaque = VisibilityMap::of(&tree, rays.clone()).unwrap();
+                let map = VisibilityMap::with_opacities(&tree, rays.clone(), mixed).unwrap();
+                let cell = |cell: binspace::drawing::MapCell<'_>| {
+                    let corners = cell.corners().map(|corner| corner.map(f64::to_bits));
+                    (cell.polygon(), corners.collect::<Vec<_>>())
+                };
+                let cells: Vec<_> = opaque.cells().chain(map.cells()).map(cell).collect();
+                let regions: Vec<_> = map.regions().unwrap();
+                let regions: Vec<_> = regions
+                    .iter()
+                    .map(|region| (region.polygons().to_vec(), region.area().to_bits()))
+                    .collect();
+                let all = [
+                    opaque.drawing().unwrap(),
+                    map.drawing().unwrap(),
+                    Drawing::translucent(&tree, rays.clone()).unwrap(),
+                ];
+                (cells, regions, all.each_ref().map(bits))
+            })
+        };
+        let alone = on(1);
+        paths += alone.2.iter().map(Vec::len).sum::<usize>();
+        for threads in [2, 5] {
+            assert!(on(threads) == alone, "{threads} threads");
+        }
+    }
+    assert!(paths > 2_000, "{paths}");
+}
+
+fn shown(tree: &BspTree, camera: &Camera) -> Vec<(usize, f64)> {
+    let rays = Rays::new(camera, tree.faces()).unwrap();
+    let map = VisibilityMap::with_opacities(tree, rays, mixed).unwrap();
+    map.polygons().map(|shown| (shown.polygon, shown.area)).collect()
+}
+
+/// Scenes in pictures of a pixel and of as many as there can be: the same polygons show, in the same shares.
+#[test]
+fn pictures_of_all_sizes_show_the_same_polygons() {
+    let mut compared = 0;
+    for builtin in [Builtin::City, Builtin::Random, Builtin::Newell] {
+        let size = builtin.default_size().map(|size| size.min(300));
+        let scene: Scene = builtin.build(size, 3);
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        let of_size = |size: u32| -> Vec<Camera> { cameras(&scene, 3, [size; 2]) };
+        for (i, camera) in of_size(128).iter().enumerate() {
+            let expected = shown(&tree, camera);
+            for size in [1, 5, 8192] {
+                let found = shown(&tree, &of_size(size)[i]);
+                assert_eq!(found.len(), expected.len(), "{builtin:?} {size}");
+                let scale = (f64::from(size) / 128.0).powi(2);
+                for (found, expected) in found.iter().zip(&expected) {
+                    let off = (found.1 / scale - expected.1).abs();
+                    assert!(found.0 == expected.0 && off < 1e-5, "{size} {found:?} {expected:?}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 3_000, "{compared}");
+}
+
+/// A picture row by row: lists of pieces, and the tiles in which they are cut, are all others.
+#[test]
+fn rows_show_what_the_picture_shows() {
+    let scene = Builtin::Random.build(Some(300), 3);
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    let mut compared = 0;
+    for camera in cameras(&scene, 2, [60, 45]) {
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let areas = |rays: Rays| {
+            let map = VisibilityMap::with_opacities(&tree, rays, mixed).unwrap();
+            map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
+        };
+        let whole = areas(rays.clone());
+        let mut rows: Vec<(usize, f64)> =
+            (0..45).flat_map(|row| areas(rays.rows(row..row + 1))).collect();
+        rows.sort_by_key(|&(polygon, _)| polygon);
+        let sums: Vec<(usize, f64)> = rows
+            .chunk_by(|a, b| a.0 == b.0)
+            .map(|same| (same[0].0, same.iter().map(|row| row.1).sum()))
+            .collect();
+        assert_eq!(sums.len(), whole.len());
+        for (sum, whole) in sums.iter().zip(&whole) {
+            assert!(sum.0 == whole.0 && (sum.1 - whole.1).abs() < 1e-6, "{sum:?} {whole:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
