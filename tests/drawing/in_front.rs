@@ -97,6 +97,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
                     }
                     // What the edge lies on is not before it, though it may hide the polygon.
                     let mut layers = sightlines.polygons_before(&point).len();
+                    // (So it is of the blocks of a town that stand on its ground, seen from below.)
                     on_walls += usize::from(layers == 0 && !run.is_visible);
                     layers = layers.max(usize::from(!run.is_visible));
                     assert_eq!(run.layers, Some(layers as u32), "{run:?} at {share}, {camera:?}");
@@ -107,5 +108,5 @@ fn edges_have_as_many_layers_as_rays_meet() {
         }
     }
     assert!(judged.iter().all(|&count| count > 500) && most > 5, "{judged:?} {most}");
-    assert!(on_walls * 10 < judged[1], "{on_walls} {judged:?}");
+    assert!(on_walls * 4 < judged[1], "{on_walls} {judged:?}");
 }
