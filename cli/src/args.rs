@@ -222,8 +222,9 @@ pub(crate) struct DrawArgs {
     pub(crate) format: Option<DrawFormat>,
     /// Draw lines alone, without filling polygons: by default the edges of `--edges creases`
     ///
-    /// Polygons hide what lies behind them all the same. Lines are black, a pixel wide, joined where they
-    /// have common ends, and in an order in which a pen travels little between them.
+    /// Polygons hide what lies behind them all the same, but for translucent ones without --opaque. Lines are
+    /// black, a pixel wide, joined where they have common ends, and in an order in which a pen travels
+    /// little between them.
     #[arg(long, conflicts_with = "colours")]
     pub(crate) lines: bool,
     /// Edges to draw as lines, over the filled polygons or, with --lines, alone: none, all,
@@ -269,7 +270,8 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "PX", value_parser = values::length)]
     #[arg(allow_hyphen_values = true)]
     pub(crate) min_size: Option<f64>,
-    /// Write the polygon of each path as `data-polygon="i"`, counted from 0 in the file's order
+    /// Write the polygon of each path as `data-polygon="i"`, counted from 0 in the file's order, and the
+    /// polygons of a region where several show as `data-polygons="i j …"`, front to back
     ///
     /// Paths of one material that follow one another are in a group `<g data-material="NAME">`. Lines have
     /// a path for each part of an edge, with `data-edge="k"`, the number of the polygon's corner where

@@ -24,6 +24,8 @@ struct Graph<'p> {
     starts: Vec<u32>,
     is_clipped: Vec<bool>,
     is_opaque: &'p dyn Fn(u32) -> bool,
+    /// Whether something translucent has to come after each node.
+    is_seen_through: Vec<bool>,
     /// The strongly connected component of each node, among those that are searched.
     component: Vec<u32>,
     search: Search,
@@ -100,10 +102,14 @@ impl<'p> Graph<'p> {
             starts[node + 1] += starts[node];
         }
         let (is_clipped, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
+        let mut is_seen_through = filled(nodes, false)?;
+        for pair in pairs.iter().filter(|pair| !is_opaque(pair.above)) {
+            is_seen_through[pair.below as usize] = true;
+        }
         let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
         let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
         let search = Search { number, least, is_on_stack, reached, counts: filled(nodes, [0; 2])? };
-        Ok(Self { pairs, starts, is_clipped, is_opaque, component, search, watch })
+        Ok(Self { pairs, starts, is_clipped, is_opaque, is_seen_through, component, search, watch })
     }
 }
 
@@ -111,6 +117,11 @@ impl Graph<'_> {
     fn above(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
         let [start, end] = [node, node + 1].map(|node| self.starts[node as usize] as usize);
         self.pairs[start..end].iter().map(|pair| pair.above)
+    }
+
+    /// Whether nothing has to come after a node, as it is clipped.
+    fn is_last(&self, node: u32) -> bool {
+        self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
     }
 
     /// Whether the order has to keep a pair: what is drawn of a clipped node lies under no opaque one.
@@ -137,14 +148,12 @@ impl Graph<'_> {
                     self.is_clipped[node as usize] = true;
                     push(&mut clipped, node)?;
                 }
-                nodes.retain(|&node| {
-                    let is_left =
-                        self.above(node).any(|above| self.holds(Pair { below: node, above }));
-                    if !is_left {
+                for &node in &nodes {
+                    if self.is_last(node) {
                         self.component[node as usize] = NONE;
                     }
-                    is_left
-                });
+                }
+                nodes.retain(|&node| !self.is_last(node));
                 let mut left = self.components(&nodes)?;
                 reserve(&mut open, left.len())?;
                 open.append(&mut left);
@@ -201,7 +210,7 @@ impl Graph<'_> {
                 let index = above as usize;
                 is_closed |= above == start;
                 let is_new = reached[index] != start && self.component[index] == component;
-                if is_new {
+                if is_new && !self.is_last(above) {
                     reached[index] = start;
                     push(&mut stack, above)?;
                 }
@@ -291,6 +300,9 @@ impl Graph<'_> {
         reserve(&mut order, nodes)?;
         while let Some(Reverse((_, node))) = ready.pop() {
             order.push(node);
+            if self.is_last(node) {
+                continue;
+            }
             let above = self.above(node);
             for above in above.filter(|&above| self.holds(Pair { below: node, above })) {
                 let waits = &mut waits[above as usize];

@@ -47,7 +47,8 @@ pub(crate) fn check_layers(
 ) -> Result<(), String> {
     let truth = truth(tree, camera, &rays);
     let drawing = Drawing::translucent(tree, rays).expect("memory");
-    compare(&drawing, &truth, &|_| 0.5, score)?;
+    let is_unsure = vec![false; truth.len()];
+    compare(&drawing, &truth, is_unsure, &|_| 0.5, score)?;
     score.fragments += tree.len();
     Ok(())
 }
@@ -63,8 +64,15 @@ pub(crate) fn check_mixed(
     let truth = truth(tree, camera, &rays);
     let map = VisibilityMap::with_opacities(tree, rays, opacity).expect("memory");
     let drawing = map.drawing().expect("memory");
-    let paths = compare(&drawing, &truth, opacity, score)?;
-    check_regions(&map, &truth, opacity, score)?;
+    // Of needles thinner than that, outlines have nothing.
+    let mut by_cells = Picture::new(map.size());
+    for cell in map.cells() {
+        let corners: Vec<[f64; 2]> = cell.corners().collect();
+        by_cells.fill(cell.polygon(), std::iter::once(&corners[..]));
+    }
+    let is_unsure: Vec<bool> = by_cells.pixels.iter().map(|p| *p == Pixel::Unsure).collect();
+    check_regions(&map, &truth, &is_unsure, opacity, score)?;
+    let paths = compare(&drawing, &truth, is_unsure, opacity, score)?;
     score.fragments += tree.len();
     score.hidden += tree.preparation().polygons - paths.len();
     for (&polygon, [all, parts]) in &paths {
@@ -117,6 +125,7 @@ pub(crate) fn check_sight(
 pub(crate) fn check_regions(
     map: &VisibilityMap<'_>,
     truth: &[Vec<usize>],
+    is_unsure: &[bool],
     opacity: &dyn Fn(usize) -> f64,
     score: &mut Layers,
 ) -> Result<(), String> {
@@ -131,6 +140,7 @@ pub(crate) fn check_regions(
     }
     for (i, pixel) in picture.pixels.iter().enumerate() {
         let found = match pixel {
+            _ if is_unsure[i] => continue,
             Pixel::Unsure => continue,
             Pixel::Nothing => vec![],
             Pixel::Polygon(number) => regions[*number].polygons().iter().rev().copied().collect(),
@@ -169,12 +179,12 @@ fn visible(layers: &[usize], opacity: &dyn Fn(usize) -> f64) -> Vec<usize> {
 fn compare(
     drawing: &Drawing,
     truth: &[Vec<usize>],
+    mut is_unsure: Vec<bool>,
     opacity: &dyn Fn(usize) -> f64,
     score: &mut Layers,
 ) -> Result<HashMap<usize, [usize; 2]>, String> {
     let width = drawing.size()[0] as usize;
     let mut found: Vec<Vec<usize>> = vec![vec![]; truth.len()];
-    let mut is_unsure = vec![false; truth.len()];
     let mut paths: HashMap<usize, [usize; 2]> = HashMap::new();
     for path in drawing.paths() {
         let [all, parts] = paths.entry(path.polygon()).or_default();

@@ -92,9 +92,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         let write = |out: &mut dyn Write| png_file::write(out, camera.size(), &pixels);
         figures.bytes = output.write_counted(write)?;
     } else {
-        let fills = view.fills(&tree, rays, map.as_ref(), &mut figures).map_err(about)?;
         let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
-        figures.draw_seconds = start.elapsed().as_secs_f64();
+        let fills = view.fills(&tree, rays, map.as_ref(), start, &mut figures).map_err(about)?;
         let drawn = view.drawn(fills, strokes, &mut figures);
         figures.bytes = output.write_counted(|out| match format {
             DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
@@ -131,6 +130,7 @@ impl<'a> View<'a> {
         tree: &BspTree,
         rays: Rays,
         map: Option<&VisibilityMap<'_>>,
+        start: Instant,
         figures: &mut Figures,
     ) -> Result<Vec<Filled<'a>>, Error> {
         let Self { args, style } = self;
@@ -140,6 +140,7 @@ impl<'a> View<'a> {
             // Areas of specks are rounded, to below 0 as well.
             is_small[shown.polygon] = shown.area.max(0.0) < self.min_size() * self.min_size();
         }
+        figures.draw_seconds = start.elapsed().as_secs_f64();
         if args.lines {
             return Ok(vec![]);
         }
@@ -150,11 +151,13 @@ impl<'a> View<'a> {
                 let mut regions = map.regions()?;
                 regions.retain(|region| region.area() >= self.min_size() * self.min_size());
                 figures.paths = regions.len();
+                figures.draw_seconds = start.elapsed().as_secs_f64();
                 return Ok(filled_regions(&regions, style));
             }
             Some(map) if !args.translucent => map.drawing_with_progress(progress)?,
             _ => Drawing::translucent_with_progress(tree, rays, progress)?,
         };
+        figures.draw_seconds = start.elapsed().as_secs_f64();
         let is_drawn = |polygon: usize| match args.translucent {
             true => style.opacity(polygon) > 0.0,
             false => !is_small[polygon],
