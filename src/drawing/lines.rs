@@ -5,12 +5,12 @@ mod tests;
 
 use std::cmp::Ordering;
 
+use super::feet::{Feet, Foot};
 use super::frame::{Exact, Frame, is_opposite, is_same_line, meeting, orientation};
 use super::half::{Half, STEP_BITS, STEPS};
+use super::rounded::{ROUNDING, Rounded};
 use super::table::{Table, insert};
 use crate::Error;
-use crate::exact::exact_ray::scaled;
-use crate::exact::lattice::exponent_of;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::memory::push;
 use crate::raster::{Sheet, edge};
@@ -30,64 +30,10 @@ pub(super) enum Key {
     Horizon(u32),
 }
 
-/// A line in floats, scaled so that the longer part of its slope is near 1.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rounded {
-    pub(super) k: [f64; 3],
-    /// The largest error of its values anywhere in the picture, computed as `k[0] + x·k[1] + y·k[2]`; and
-    /// of its slope, times the picture's size.
-    pub(super) error: f64,
-    /// At least the length of its slope.
-    pub(super) slope: f64,
-}
-
-impl Rounded {
-    /// From exact coefficients, for a picture of this size.
-    fn new(exact: &Exact, reach: [f64; 2]) -> Self {
-        let k = exact.each_ref().map(|c| c.to_f64());
-        let sum = k[0].abs() + k[1].abs() * reach[0] + k[2].abs() * reach[1];
-        Self::scaled(k, 8.0 * UNIT * sum)
-    }
-
-    fn scaled(k: [f64; 3], error: f64) -> Self {
-        let size = k[1].abs().max(k[2].abs());
-        // A power of two: nothing is rounded. (A line without slope may have any scale.)
-        let scale = if size > 0.0 { scaled(1.0, -exponent_of(size)) } else { 1.0 };
-        Self { k: k.map(|c| c * scale), error: error * scale, slope: 1.01 * 1.42 * size * scale }
-    }
-
-    /// Whether it is off by so little that the line is not needed in integers to look at it.
-    fn is_fine(&self) -> bool {
-        self.error < FINE
-    }
-
-    /// The value at a point, rounded.
-    #[inline]
-    pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
-        self.k[0] + (self.k[1] * x + self.k[2] * y)
-    }
-}
-
-/// Lines that are further off in floats, in pixels, are computed from integers.
-const FINE: f64 = 1.0 / (1u64 << 32) as f64;
-
 /// The number of no point.
 const NOWHERE: u32 = u32::MAX;
-/// Edges are looked up by where they are in such steps, in pixels and of the cosine, among so many of one
-/// place at most; one that is missed is a line of its own. (A few lie so near to one another in most
-/// pictures, but all in one that shows a scene from very far.)
-const STEP: f64 = 1.0 / (1u64 << 20) as f64;
-const SAME: i64 = 8;
-
-fn step_of(number: f64) -> i64 {
-    (number / STEP).floor() as i64
-}
-
 /// Faces of more corners are not searched for one that a line goes through.
 const FEW: usize = 8;
-
-/// The relative error of one rounding.
-const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// The halves on which another list's lines are positive, by their numbers there.
 pub(super) type Adopted = Table<u32, Half>;
@@ -105,7 +51,7 @@ pub(super) struct Lines<'t> {
     /// The half of each key on which it is positive.
     halves: Table<Key, Half>,
     /// The lines of edges, by where they are.
-    edges: Table<[i64; 4], u32>,
+    edges: Feet,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
     /// The numbers of where corners were moved to.
@@ -125,7 +71,7 @@ impl<'t> Lines<'t> {
             rounded: vec![],
             through: vec![],
             halves: Table::default(),
-            edges: Table::default(),
+            edges: Feet::default(),
             points: Table::default(),
             moved: Table::default(),
             corners: vec![],
@@ -155,40 +101,16 @@ impl<'t> Lines<'t> {
         rounded: Rounded,
         points: [u32; 2],
     ) -> Result<Half, Error> {
-        let ([x, y], angle) = self.foot(&rounded);
-        let near = |number: f64| {
-            let [low, high] = [-STEP / 256.0, STEP / 256.0].map(|off| step_of(number + off));
-            std::iter::once(low).chain((high != low).then_some(high))
-        };
-        for place in near(x).flat_map(|x| near(y).map(move |y| [x, y])) {
-            for angle in near(angle) {
-                for number in 0..SAME {
-                    let found = self.edges.get(&[place[0], place[1], angle, number]);
-                    let Some(&line) = found else { break };
-                    let [exact, other] = [key, self.key(line)].map(|key| self.exact_of(key));
-                    if is_same_line(&exact, &other) {
-                        return Ok(Half::of(line).flipped(is_opposite(&exact, &other)));
-                    }
-                }
+        let foot = Foot::of(&rounded, self.reach);
+        for line in self.edges.near(&foot) {
+            let [exact, other] = [key, self.key(line)].map(|key| self.exact_of(key));
+            if is_same_line(&exact, &other) {
+                return Ok(Half::of(line).flipped(is_opposite(&exact, &other)));
             }
         }
         let line = self.add(key, rounded, points)?;
-        let place = [x, y, angle].map(step_of);
-        let places = (0..SAME).map(|number| [place[0], place[1], place[2], number]);
-        if let Some(free) = places.into_iter().find(|place| !self.edges.contains_key(place)) {
-            insert(&mut self.edges, free, line)?;
-        }
+        self.edges.add(&foot, line)?;
         Ok(Half::of(line))
-    }
-
-    /// The point of a line that is next to the middle of the picture, and the cosine of twice its angle: the
-    /// same for both directions. Of a line that the picture shows, they are off by far less than [`STEP`].
-    fn foot(&self, line: &Rounded) -> ([f64; 2], f64) {
-        let [_, kx, ky] = line.k;
-        let middle = self.reach.map(|size| 0.5 * size);
-        let square = kx * kx + ky * ky;
-        let off = line.at(middle) / square;
-        ([middle[0] - off * kx, middle[1] - off * ky], (kx * kx - ky * ky) / square)
     }
 
     fn add(&mut self, key: Key, rounded: Rounded, through: [u32; 2]) -> Result<u32, Error> {
@@ -351,7 +273,7 @@ impl<'t> Lines<'t> {
                 let (axis, steps) = half.border();
                 let mut k = [-(steps as f64) / STEPS, 0.0, 0.0];
                 k[axis + 1] = 1.0;
-                Rounded { k, error: 4.0 * UNIT * self.reach[axis], slope: 1.0 }
+                Rounded { k, error: 4.0 * ROUNDING * self.reach[axis], slope: 1.0 }
             }
         }
     }
@@ -398,7 +320,7 @@ impl<'t> Lines<'t> {
     pub(super) fn exact_meeting(&self, halves: [Half; 2]) -> ([f64; 2], f64) {
         let exact = halves.map(|half| self.exact(half));
         let at = meeting(exact.each_ref());
-        let radius = 8.0 * UNIT * self.reach[0].max(self.reach[1]);
+        let radius = 8.0 * ROUNDING * self.reach[0].max(self.reach[1]);
         if self.shows(at) { (at, radius) } else { ([0.0; 2], f64::INFINITY) }
     }
 

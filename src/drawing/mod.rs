@@ -11,6 +11,8 @@
 //! | `frame` | lines of the picture in integers |
 //! | `table` | tables by numbers, with a quick hash |
 //! | `half` | lines by their numbers, each with a side |
+//! | `rounded` | lines in floats |
+//! | `feet` | lines found by where they are |
 //! | `lines` | all lines of a picture, by what made them |
 //! | `region` | boxes in the picture |
 //! | `cell` | convex cells, and how a line cuts them |
@@ -49,6 +51,7 @@ mod between;
 mod cell;
 mod crossings;
 mod edges;
+mod feet;
 mod frame;
 mod half;
 mod halving;
@@ -72,6 +75,7 @@ mod reaches;
 mod region;
 mod regions;
 mod rims;
+mod rounded;
 mod sight;
 mod steps;
 mod stock;

@@ -7,8 +7,9 @@ use smallvec::SmallVec;
 use super::cell::{Cell, Corner, side_on_line};
 use super::edges::SHORTEST;
 use super::frame::{Exact, Image, meeting};
-use super::lines::{Lines, Rounded};
+use super::lines::Lines;
 use super::region::{Region, are_apart};
+use super::rounded::Rounded;
 use super::tile::Tile;
 use crate::exact::{Exact as Exactly, Int, Kernel, PlaneId};
 
