@@ -1,12 +1,13 @@
 //! Lines in which polygons go through one another.
 
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
+use super::feet::Feet;
 use super::frame::is_same_line;
-use super::half::{Half, STEPS};
+use super::half::Half;
 use super::lines::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
-use super::table::Table;
+use super::table::{Table, insert};
 use crate::Error;
 use crate::exact::PlaneId;
 use crate::memory::push;
@@ -22,9 +23,6 @@ struct CutSide {
     places: [f64; 2],
     ends: [[f64; 2]; 2],
 }
-
-/// Borders are not further off, in steps.
-const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// Whether two faces go through one another in a line: by the line and the faces.
 type Known = Table<(u32, [u32; 2]), bool>;
@@ -44,7 +42,6 @@ impl VisibilityMap<'_> {
     /// If there is not enough memory.
     pub fn crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         let mut sides = self.cut_sides()?;
-        self.add_borders(&mut sides)?;
         sides
             .sort_unstable_by(|a, b| a.line.cmp(&b.line).then(a.places[0].total_cmp(&b.places[0])));
         let mut runs = Vec::new();
@@ -66,22 +63,52 @@ impl VisibilityMap<'_> {
         Ok(runs)
     }
 
-    /// All sides of cells on lines of cuts.
+    /// All sides of cells on lines of cuts, whatever made them: several planes may have cut along one line, and
+    /// what is beyond a border of a tile or a third polygon's edge was not cut again.
     fn cut_sides(&self) -> Result<Vec<CutSide>, Error> {
         let lines = &self.rims.lines;
+        // The first of the cuts that have the same line, and whether both are positive on the same side.
+        let mut known: Table<u64, Option<(u32, bool)>> = Table::default();
+        let mut cuts = Feet::default();
+        self.for_each_part(|_, cell| {
+            for half in cell.sides.iter().map(|side| side.half) {
+                let Some(line) = half.number() else { continue };
+                if !matches!(lines.key(line), Key::Cut(..)) || known.contains_key(&half.line()) {
+                    continue;
+                }
+                let found = lines.same_line(&cuts, half);
+                if found.is_none() {
+                    cuts.add(&lines.foot(half), line)?;
+                }
+                insert(&mut known, half.line(), Some(found.unwrap_or((line, true))))?;
+            }
+            Ok(())
+        })?;
         let mut found = Vec::new();
         self.for_each_part(|item, cell| {
             let face = self.stock.face(item);
-            let sides = &cell.sides;
+            let (own, sides) = (self.rims.known_outline(face), &cell.sides);
             for (i, side) in sides.iter().enumerate() {
-                let Some(line) = side.half.number() else { continue };
-                if !matches!(lines.key(line), Key::Cut(..)) {
+                let number = side.half.line();
+                let cut = match known.get(&number) {
+                    Some(&cut) => cut,
+                    None => {
+                        let cut = lines.same_line(&cuts, side.half);
+                        insert(&mut known, number, cut)?;
+                        cut
+                    }
+                };
+                // A polygon that ends there does not go through another.
+                let Some((line, is_same)) = cut else { continue };
+                if own.iter().any(|half| half.line() == number) {
                     continue;
                 }
                 let end = &sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
-                let ends = [side.start.at, end.start.at];
-                let is_negative = side.half.is_negative();
-                push(&mut found, self.cut_side(line, face, is_negative, ends))?;
+                let is_negative = side.half.is_negative() == is_same;
+                push(
+                    &mut found,
+                    self.cut_side(line, face, is_negative, [side.start.at, end.start.at]),
+                )?;
             }
             Ok(())
         })?;
@@ -103,50 +130,6 @@ impl VisibilityMap<'_> {
         CutSide { line, face, is_negative, places: ends.map(place), ends }
     }
 
-    /// Adds the sides on borders of tiles that are on one of the lines: what lies beyond such a border was
-    /// not cut by the line.
-    fn add_borders(&self, sides: &mut Vec<CutSide>) -> Result<(), Error> {
-        let lines = &self.rims.lines;
-        // The lines by the borders that they are on, and whether both are positive on the same side.
-        let mut on: Table<u64, Vec<(u32, bool)>> = Table::default();
-        let mut last = None;
-        sides.sort_unstable_by_key(|side| side.line);
-        for line in sides.iter().map(|side| side.line) {
-            if last.replace(line) == Some(line) {
-                continue;
-            }
-            let exact = lines.exact(Half::of(line));
-            let [x, y] = [1, 2].map(|i| exact[i].sign());
-            let (axis, sign) = if y.is_eq() { (0, x) } else { (1, y) };
-            let k = lines.rounded(Half::of(line)).k;
-            let steps = (-k[0] / k[axis + 1] * STEPS).round();
-            if (x.is_ne() && y.is_ne()) || steps.is_nan() || steps.abs() > FURTHEST {
-                continue;
-            }
-            let border = Half::beyond(axis, steps as i64);
-            if is_same_line(&exact, &lines.exact(border)) {
-                on.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                push(on.entry(border.line()).or_default(), (line, sign.is_gt()))?;
-            }
-        }
-        if on.is_empty() {
-            return Ok(());
-        }
-        self.for_each_part(|item, cell| {
-            let face = self.stock.face(item);
-            let around = &cell.sides;
-            for (i, side) in around.iter().enumerate().filter(|(_, s)| s.half.number().is_none()) {
-                let end = &around[if i + 1 == around.len() { 0 } else { i + 1 }];
-                for &(line, is_same) in on.get(&side.half.line()).into_iter().flatten() {
-                    let is_negative = side.half.is_negative() == is_same;
-                    let ends = [side.start.at, end.start.at];
-                    push(sides, self.cut_side(line, face, is_negative, ends))?;
-                }
-            }
-            Ok(())
-        })
-    }
-
     /// Whether two faces go through one another in the line between cells of theirs.
     fn do_cross(&self, a: &CutSide, b: &CutSide, known: &mut Known) -> Result<bool, Error> {
         let (lines, faces) = (&self.rims.lines, self.stock.frame.faces);
@@ -160,7 +143,10 @@ impl VisibilityMap<'_> {
         known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
         Ok(*known.entry((a.line, [one, other])).or_insert_with(|| {
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
-            is_same_line(&one.cut(&other), &lines.exact(Half::of(a.line)))
+            let cut = one.cut(&other);
+            // Faces of one plane have no line in common but all of it.
+            let is_line = cut.iter().any(|c| c.sign().is_ne());
+            is_line && is_same_line(&cut, &lines.exact(Half::of(a.line)))
         }))
     }
 

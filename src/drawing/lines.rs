@@ -232,6 +232,21 @@ impl<'t> Lines<'t> {
         Ok(number)
     }
 
+    /// The foot of a half's line.
+    pub(super) fn foot(&self, half: Half) -> Foot {
+        Foot::of(&self.rounded(half), self.reach)
+    }
+
+    /// That of some lines which is the line of a half, if there is one, and whether both are positive on the same
+    /// side.
+    pub(super) fn same_line(&self, lines: &Feet, half: Half) -> Option<(u32, bool)> {
+        let exact = self.exact(half);
+        lines.near(&self.foot(half)).find_map(|line| {
+            let other = self.exact_of(self.key(line));
+            is_same_line(&exact, &other).then(|| (line, !is_opposite(&exact, &other)))
+        })
+    }
+
     /// The half that another list's half is in this one, to which its line is added if it is new.
     pub(super) fn adopted(
         &mut self,

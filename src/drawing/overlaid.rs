@@ -28,7 +28,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether it shows.
     pub is_visible: bool,
-    /// How many polygons lie in front of it; `None` if they were not counted.
+    /// How many polygons lie in front of it; `None` if they were not counted. Of a visible run that is 0: what it
+    /// is seen through does not count.
     pub layers: Option<u32>,
 }
 

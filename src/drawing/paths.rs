@@ -116,15 +116,25 @@ impl<'d> Path<'d> {
 /// The outlines of what edges go around. A single part is its outline. Those of a folded polygon lie on one
 /// another, and specks are smaller than outlines can be: there each is one of its own.
 pub(super) fn joined(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
-    let is_one = edges.windows(2).all(|pair| pair[0].to == pair[1].from);
+    let is_one =
+        edges.iter().position(|edge| edge.to == edges[0].from) == edges.len().checked_sub(1);
     let joined = if is_one { None } else { outlines(edges) };
     joined.unwrap_or_else(|| apart(edges))
 }
 
 /// The outlines of convex parts, one after another.
 fn apart(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
-    let parts = edges.chunk_by(|before, edge| before.to == edge.from);
-    parts.map(|part| part.iter().map(|edge| edge.from).collect()).collect()
+    let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut is_closed = true;
+    for edge in edges {
+        if is_closed {
+            parts.push(vec![]);
+        }
+        let Some(part) = parts.last_mut() else { continue };
+        part.push(edge.from);
+        is_closed = edge.to == part[0];
+    }
+    parts
 }
 
 pub(super) fn add_sides(cell: &Cell, edges: &mut Vec<Edge>) -> Result<(), Error> {

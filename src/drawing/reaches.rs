@@ -12,7 +12,7 @@ use crate::memory::{place, push, reserve};
 /// A piece, with those of its lines that may cross a part of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
-    /// What the caller gave it: an item's number in `overlaps`, a face's place in the stock in `above`.
+    /// What the caller gave it: the number of an item, or of a face that is taken whole.
     pub(super) number: u32,
     halves: [u32; 2],
 }

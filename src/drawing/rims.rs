@@ -47,7 +47,7 @@ impl<'t> Rims<'t> {
         Ok(self.at(ends))
     }
 
-    /// The same, if it was asked for before; else none.
+    /// The same of an item that was asked for before, or is a whole face whose outline was.
     pub(super) fn known_item(&self, stock: &Stock<'_>, item: u32) -> &[Half] {
         match self.of_items.get(&item) {
             Some(&ends) => self.at(ends),

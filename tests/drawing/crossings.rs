@@ -13,6 +13,75 @@ fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     VisibilityMap::of(tree, rays).unwrap().crossings().unwrap()
 }
 
+/// A third polygon begins on the line in which two cross: its edge cuts what is beyond its ends as well.
+#[test]
+fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
+    let floor = vec![[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [2.0, 2.0, 0.0], [-2.0, 2.0, 0.0]];
+    let wall = vec![[0.0, -2.0, -2.0], [0.0, 2.0, -2.0], [0.0, 2.0, 2.0], [0.0, -2.0, 2.0]];
+    let flap = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.5, 1.0]];
+    let polygons = [floor, wall, flap];
+    let eye = DVec3::new(6.0, -0.5, 5.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
+    let at = |y: f64| camera.project(DVec3::new(0.0, y, 0.0)).unwrap().map(|c| c - 0.5);
+    let distance = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
+        for by in Heuristic::ALL {
+            let options = BuildOptions::DEFAULT.with_heuristic(*by);
+            let tree = options.build(order.map(|i: usize| &polygons[i])).unwrap();
+            let [floor, wall] = [0, 1].map(|i| order.iter().position(|&o| o == i).unwrap());
+            let kind = EdgeKind::Crossing(floor.max(wall));
+            let all = crossings(&tree, &camera);
+            let runs = all.iter().filter(|run| run.polygon == floor.min(wall) && run.kind == kind);
+            let length: f64 = runs.map(|run| distance(run.ends)).sum();
+            let flap = distance([at(0.0), at(1.0)]);
+            let expected = distance([at(-2.0), at(2.0)]) - flap;
+            assert!((length - expected).abs() < 1e-3, "{order:?}, {by:?}: {length}, {expected}");
+            // The flap only touches the others.
+            assert!(all.iter().all(|run| run.polygon == floor.min(wall) && run.kind == kind));
+        }
+    }
+}
+
+/// A pane that lies on a board goes through it nowhere, though a third polygon goes through both there.
+#[test]
+fn polygons_of_one_plane_do_not_cross() {
+    let square = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
+    let fin = [[1.0, 0.2, -1.0], [1.0, 1.8, -1.0], [1.0, 1.8, 1.0], [1.0, 0.2, 1.0]];
+    let eye = DVec3::new(3.0, -2.0, 4.0);
+    let camera = Camera::perspective(eye, DVec3::X + DVec3::Y, DVec3::Z, 0.8, [320, 240]).unwrap();
+    for by in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(*by);
+        let tree = options.build([square, square, fin]).unwrap();
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let opacity = |polygon: usize| if polygon == 1 { 0.5 } else { 1.0 };
+        let map = VisibilityMap::with_opacities(&tree, rays, opacity).unwrap();
+        let runs = map.crossings().unwrap();
+        assert!(!runs.is_empty() && runs.iter().all(|run| run.kind == EdgeKind::Crossing(2)));
+    }
+}
+
+/// Three planes through one line: each pair goes through one another there.
+#[test]
+fn planes_through_one_line_cross_in_it() {
+    let card = |x: f64, y: f64| [[-x, -y, -1.0], [x, y, -1.0], [x, y, 1.0], [-x, -y, 1.0]];
+    let cards = [card(1.0, 0.0), card(0.0, 1.0), card(1.0, 1.0)];
+    let mut seen = 0;
+    for turn in 0..16 {
+        let angle = std::f64::consts::TAU * (f64::from(turn) + 0.3) / 16.0;
+        let eye = DVec3::new(3.0 * angle.cos(), 3.0 * angle.sin(), 0.5);
+        let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
+        for by in Heuristic::ALL {
+            let tree = BuildOptions::DEFAULT.with_heuristic(*by).build(cards).unwrap();
+            let runs = crossings(&tree, &camera);
+            // Two of the cards show at the line, one on each side: of all of it that is in the picture.
+            let pairs: Vec<_> = runs.iter().map(|run| (run.polygon, run.kind)).collect();
+            assert_eq!(pairs.len(), 1, "{turn}, {by:?}: {runs:?}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 16 * Heuristic::ALL.len());
+}
+
 /// Two upright cards that cross, and a bar before the middle of their crossing.
 #[test]
 fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
