@@ -39,6 +39,7 @@ pub(crate) enum Command {
     Render(RenderArgs),
     Draw(DrawArgs),
     Report(ReportArgs),
+    Lecture(LectureArgs),
     /// List the built-in scenes
     Scenes,
 }
@@ -278,6 +279,18 @@ pub(crate) struct DrawArgs {
     pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
+}
+
+/// Show what a course on visibility teaches, measured and judged, as one page
+///
+/// Pictures and graphs with a few sentences each, in the order of a course, in one HTML file that needs no
+/// network. All figures come from the run, which takes a minute or two on two processors.
+#[derive(Args, Debug)]
+#[command(after_help = examples::LECTURE)]
+pub(crate) struct LectureArgs {
+    /// Folder to write index.html into; created if it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "lecture")]
+    pub(crate) output: PathBuf,
 }
 
 /// Measure every way to decide visibility: speed against error

@@ -3,6 +3,7 @@
 mod args;
 mod backs;
 mod camera;
+mod chart;
 mod colours;
 mod commands;
 mod coverage;
@@ -17,6 +18,7 @@ mod fill_order;
 mod format;
 mod framing;
 mod job;
+mod lecture;
 mod measure;
 mod memory;
 mod path_data;
@@ -76,6 +78,7 @@ fn run(cli: &Cli) -> Result<Outcome, Failure> {
         Some(Command::Render(args)) => commands::render::run(args),
         Some(Command::Draw(args)) => commands::draw::run(args),
         Some(Command::Report(args)) => commands::report::run(args),
+        Some(Command::Lecture(args)) => commands::lecture::run(args),
         Some(Command::Scenes) => commands::scenes::run(),
     }
 }
