@@ -38,6 +38,7 @@ pub(crate) enum Command {
     Stats(StatsArgs),
     Render(RenderArgs),
     Draw(DrawArgs),
+    Page(PageArgs),
     Report(ReportArgs),
     Lecture(LectureArgs),
     /// List the built-in scenes
@@ -291,6 +292,27 @@ pub(crate) struct LectureArgs {
     /// Folder to write index.html into; created if it does not exist
     #[arg(short, long, value_name = "DIR", default_value = "lecture")]
     pub(crate) output: PathBuf,
+}
+
+/// Write a page that stands alone, in which people turn the scene
+///
+/// The page has the tree, and paints its fragments in the tree's order, which is that of the library for every
+/// eye. It shows the paint order step by step, the cuts, the depth of nodes and the figures of the
+/// heuristic. It needs a browser, and no network.
+#[derive(Args, Debug)]
+#[command(after_help = examples::PAGE)]
+pub(crate) struct PageArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// File to write, complete or not at all, such as scene.html; - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) up: UpArgs,
+    #[command(flatten)]
+    pub(crate) cull: CullArgs,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
 }
 
 /// Measure every way to decide visibility: speed against error

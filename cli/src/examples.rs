@@ -9,6 +9,7 @@ Examples:
   binspace render scene.obj -o scene.png     a picture of the whole scene
   binspace draw scene.obj -o scene.svg       a drawing of it, one path a polygon
   binspace draw part.obj -o part.pdf --lines its visible edges
+  binspace page scene.obj -o scene.html      a page to turn it in a browser
   binspace report --quick                    every method, its speed against its error
   binspace lecture -o lecture                what a course teaches, as a page
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
@@ -65,6 +66,13 @@ Examples:
   binspace draw room.obj -o room.svg --cull back --ids
   binspace draw scene.obj -o scene.svg --min-size 0.5 --json
   binspace draw - -o - < scene.obj | gzip > scene.svgz";
+
+pub(crate) const PAGE: &str = "\
+Examples:
+  binspace page teapot -o teapot.html
+  binspace page rooms.obj -o rooms.html --up z --cull back
+  binspace page random:500 -o random.html --heuristic fewest-splits
+  binspace page scene.bsp -o - > scene.html";
 
 pub(crate) const REPORT: &str = "\
 Examples:

@@ -33,10 +33,26 @@ pub(crate) fn timed_scene_and_tree(
     scene: &SceneArgs,
     build: &BuildArgs,
 ) -> Result<(Scene, BspTree, f64), Failure> {
+    let Made { scene, tree, seconds, .. } = make(scene, build)?;
+    Ok((scene, tree, seconds))
+}
+
+/// A scene and its tree.
+pub(crate) struct Made {
+    pub(crate) scene: Scene,
+    pub(crate) tree: BspTree,
+    /// What it took to build the tree, or to read its file.
+    pub(crate) seconds: f64,
+    /// How the tree was built; `None` if it was read.
+    pub(crate) heuristic: Option<Heuristic>,
+}
+
+/// The same, with how it was made.
+pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure> {
     let mut begin = Instant::now();
     let Loaded { scene, tree } = scene_arg::load(scene)?;
     let options = build.limits.options(build.heuristic);
-    let is_built = tree.is_some();
+    let is_built = tree.is_none();
     let tree = match tree {
         Some(tree) => {
             refuse_options(&scene, &[build.heuristic], &build.limits)?;
@@ -49,13 +65,13 @@ pub(crate) fn timed_scene_and_tree(
     };
     let seconds = begin.elapsed().as_secs_f64();
     note_preparation(&scene, tree.faces(), tree.preparation());
-    if !is_built {
+    if is_built {
         note_tolerance(&scene, &build.limits, &tree);
     }
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
-    Ok((scene, tree, seconds))
+    Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(build.heuristic) })
 }
 
 /// An error if a tree that is in a file, and so is not built, is to be built in a certain way.

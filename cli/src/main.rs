@@ -21,6 +21,7 @@ mod job;
 mod lecture;
 mod measure;
 mod memory;
+mod page;
 mod path_data;
 mod pictures;
 mod png_file;
@@ -77,6 +78,7 @@ fn run(cli: &Cli) -> Result<Outcome, Failure> {
         Some(Command::Stats(args)) => commands::stats::run(args),
         Some(Command::Render(args)) => commands::render::run(args),
         Some(Command::Draw(args)) => commands::draw::run(args),
+        Some(Command::Page(args)) => commands::page::run(args),
         Some(Command::Report(args)) => commands::report::run(args),
         Some(Command::Lecture(args)) => commands::lecture::run(args),
         Some(Command::Scenes) => commands::scenes::run(),

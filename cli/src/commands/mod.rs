@@ -4,6 +4,7 @@ pub(crate) mod build;
 pub(crate) mod draw;
 pub(crate) mod lecture;
 pub(crate) mod order;
+pub(crate) mod page;
 pub(crate) mod render;
 pub(crate) mod report;
 pub(crate) mod scenes;

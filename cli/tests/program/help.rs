@@ -3,7 +3,7 @@ use crate::run::Folder;
 #[test]
 fn help_has_examples_and_fits() {
     let folder = Folder::new("help");
-    for command in ["", "build", "order", "verify", "stats", "render", "draw", "report"] {
+    for command in ["", "build", "order", "verify", "stats", "render", "draw", "page", "report"] {
         let help = folder.run(&format!("{command} --help")).good();
         assert!(help.contains("Examples:\n  binspace"), "{help}");
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");

@@ -1,6 +1,7 @@
 //! The program as its users run it: the real binary, its files, its exit status.
 
 mod bad_input;
+mod chromium;
 mod cull;
 mod draw;
 mod draw_lines;
@@ -11,6 +12,9 @@ mod help;
 mod notes;
 mod order;
 mod output;
+mod page;
+mod page_orders;
+mod page_pictures;
 mod pipes;
 mod png_picture;
 mod real_scenes;

@@ -193,6 +193,7 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
         "draw s.obj --size 8x6 -o full.svg",
         "draw s.obj --size 8x6 -o full.pdf",
         "draw s.obj --size 8x6 -o full.png",
+        "page s.obj -o /dev/full",
     ] {
         let message = folder.run(command).refused();
         assert!(message.contains("cannot be written: No space left"), "{command}: {message}");

@@ -1,0 +1,66 @@
+//! `binspace page`: a scene as a page of its own, to be turned in a browser.
+
+use super::Outcome;
+use crate::args::PageArgs;
+use crate::backs::note_backs;
+use crate::cull::Cull;
+use crate::failure::Failure;
+use crate::files::Output;
+use crate::job::{self, Made};
+use crate::page::{self, Page};
+use crate::progress::Progress;
+use crate::terminal::note;
+use crate::units::{count, three_digits, time};
+use crate::upright::note_z_up;
+use crate::{camera, format};
+
+/// The shape of the picture for which the first view is chosen.
+const SIZE: [u32; 2] = [1280, 720];
+/// With more fragments than this, a page draws a few pictures a second. Smaller: notes on pages that turn
+/// well; larger: people wait and do not know why.
+const MANY: usize = 200_000;
+
+/// Runs the command.
+pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
+    let output = Output::open(Some(&args.output))?;
+    if output.is_terminal() {
+        let problem = "a page is not for a terminal: pipe it, or name a file";
+        return Err(format::about_output(&args.output, problem));
+    }
+    let made = job::make(&args.scene, &args.build)?;
+    let Made { scene, tree, .. } = &made;
+    note_z_up(scene, &args.up);
+    let camera = camera::whole(scene, args.up.up, camera::FIELD_OF_VIEW, SIZE)?;
+    let culls_backs = args.cull.cull == Cull::Back;
+    if !culls_backs {
+        note_backs(scene, tree, &camera);
+    }
+    if tree.len() > MANY {
+        let fragments = count(tree.len(), "fragment");
+        note(&format!("{}: {fragments}, so the page will turn slowly", scene.name()));
+    }
+    let up = args.up.up.unwrap_or(scene.up());
+    let figures = figures(&made);
+    let _progress = Progress::spinner("writing");
+    let page = Page { scene, tree, camera: &camera, up, culls_backs, figures };
+    output.write(|out| page::write(out, page))?;
+    Ok(Outcome::Done)
+}
+
+/// The figures that the page shows, by name.
+fn figures(made: &Made) -> Vec<(String, String)> {
+    let stats = made.tree.stats();
+    let heuristic = made.heuristic.map_or("from a file".to_owned(), |built| built.to_string());
+    let seconds = if made.heuristic.is_some() { "built in" } else { "read in" };
+    let rows = [
+        ("polygons", stats.polygons.to_string()),
+        ("fragments", stats.fragments.to_string()),
+        ("cuts", stats.splits.to_string()),
+        ("nodes", stats.nodes.to_string()),
+        ("depth", stats.depth_max.to_string()),
+        ("mean depth", three_digits(stats.depth_mean)),
+        ("heuristic", heuristic),
+        (seconds, time(made.seconds)),
+    ];
+    rows.map(|(name, value)| (name.to_owned(), value)).into()
+}

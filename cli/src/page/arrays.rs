@@ -1,0 +1,189 @@
+//! The arrays of a page: the tree, and the outlines of its fragments.
+
+use std::ops::Range;
+
+use binspace::internals::{LATTICE_LIMIT, Line};
+use binspace::{BspTree, Child, Fragment, Node};
+use serde::Serialize;
+
+use super::numbered::Numbered;
+use super::packed::Packed;
+
+/// Kinds of edges, as the script names them.
+const ORIGINAL: u32 = 0;
+const CUT: u32 = 1;
+/// An edge within a polygon that was triangulated.
+const INNER: u32 = 2;
+
+/// The arrays, as the script names them.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Arrays {
+    /// Points of the grid, three numbers each.
+    points: Packed,
+    /// Of each plane three of these points, counter-clockwise seen from its front; or, if it is
+    /// perpendicular to an axis, one point twice, and the axis. The planes of nodes come first.
+    plane_points: Packed,
+    /// Of each node, depth first: its plane, how many fragments are on it and in the leaves beside it,
+    /// and the numbers of the nodes beside it, or 0.
+    node_planes: Packed,
+    own: Packed,
+    front_leaf: Packed,
+    back_leaf: Packed,
+    front_node: Packed,
+    back_node: Packed,
+    /// Of each fragment: its polygon, its plane, and how many corners it has.
+    polygons: Packed,
+    fragment_planes: Packed,
+    corner_counts: Packed,
+    /// Of each of these corners: its vertex, and the kind of the edge from there to the next.
+    corners: Packed,
+    edge_kinds: Packed,
+    /// Three numbers each.
+    vertices: Packed,
+    polygon_materials: Packed,
+}
+
+impl Arrays {
+    /// The arrays, and how many of the planes are those of nodes.
+    pub(super) fn of(tree: &BspTree, polygon_materials: &[u32]) -> (Self, usize) {
+        let mut planes = Planes::default();
+        let nodes = Nodes::of(tree, &mut planes);
+        let node_planes = planes.planes.list().len();
+        let fragments = Fragments::of(tree, &mut planes);
+        // The grid's numbers are below 2⁵³, so they are exact as f64.
+        let points: Vec<f64> =
+            planes.points.list().as_flattened().iter().map(|&c| c as f64).collect();
+        let vertices = fragments.vertices.list().as_flattened().iter();
+        let vertices: Vec<f32> = vertices.map(|&bits| f32::from_bits(bits)).collect();
+        let arrays = Self {
+            points: Packed::double(&points),
+            plane_points: Packed::whole(planes.planes.list().as_flattened()),
+            node_planes: Packed::whole(&nodes.planes),
+            own: Packed::whole(&nodes.own),
+            front_leaf: Packed::whole(&nodes.front.leaves),
+            back_leaf: Packed::whole(&nodes.back.leaves),
+            front_node: Packed::whole(&nodes.front.nodes),
+            back_node: Packed::whole(&nodes.back.nodes),
+            polygons: Packed::whole(&fragments.polygons),
+            fragment_planes: Packed::whole(&fragments.planes),
+            corner_counts: Packed::whole(&fragments.counts),
+            corners: Packed::whole(&fragments.corners),
+            edge_kinds: Packed::whole(&fragments.edges),
+            vertices: Packed::single(&vertices),
+            polygon_materials: Packed::whole(polygon_materials),
+        };
+        (arrays, node_planes)
+    }
+}
+
+/// The planes of a tree, and the grid points that they go through.
+#[derive(Default)]
+struct Planes {
+    points: Numbered<[i64; 3]>,
+    planes: Numbered<[u32; 3]>,
+}
+
+impl Planes {
+    fn through(&mut self, points: [[i64; 3]; 3]) -> u32 {
+        let points = points.map(|point| self.points.number(point));
+        self.planes.number(points)
+    }
+
+    fn of_node(&mut self, node: &Node<'_>) -> u32 {
+        let [point, next, _] = node.grid_points();
+        // The second point of a plane without a polygon is a step along the axis after the plane's.
+        let is_free = node.polygon().is_none();
+        let Some(step) = (0..3).find(|&axis| is_free && next[axis] != point[axis]) else {
+            return self.through(node.grid_points());
+        };
+        let (point, axis) = (self.points.number(point), (step as u32 + 2) % 3);
+        self.planes.number([point, point, axis])
+    }
+}
+
+/// The nodes of a tree, depth first.
+#[derive(Default)]
+struct Nodes {
+    planes: Vec<u32>,
+    own: Vec<u32>,
+    front: Side,
+    back: Side,
+}
+
+/// What is on one side of each node.
+#[derive(Default)]
+struct Side {
+    /// How many fragments, if it is a leaf.
+    leaves: Vec<u32>,
+    /// Its number, if it is a node; else 0, which is the root's.
+    nodes: Vec<u32>,
+}
+
+impl Side {
+    fn push(&mut self, child: &Child<'_>) {
+        let (fragments, node) = match child {
+            Child::Leaf(fragments) => (len(fragments), 0),
+            Child::Node(node) => (0, node.index() as u32),
+        };
+        self.leaves.push(fragments);
+        self.nodes.push(node);
+    }
+}
+
+fn len(fragments: &Range<u32>) -> u32 {
+    fragments.end - fragments.start
+}
+
+impl Nodes {
+    fn of(tree: &BspTree, planes: &mut Planes) -> Self {
+        let mut nodes = Self::default();
+        for node in tree.nodes() {
+            nodes.planes.push(planes.of_node(&node));
+            nodes.own.push(len(&node.on()));
+            nodes.front.push(&node.front());
+            nodes.back.push(&node.back());
+        }
+        nodes
+    }
+}
+
+/// The fragments of a tree in the order of their numbers, in which those of a node come behind those of
+/// all nodes before it: on its plane, in its front leaf, in its back leaf.
+#[derive(Default)]
+struct Fragments {
+    polygons: Vec<u32>,
+    planes: Vec<u32>,
+    counts: Vec<u32>,
+    corners: Vec<u32>,
+    edges: Vec<u32>,
+    /// By the bits of their coordinates.
+    vertices: Numbered<[u32; 3]>,
+}
+
+impl Fragments {
+    fn of(tree: &BspTree, planes: &mut Planes) -> Self {
+        let mut all = Self::default();
+        for fragment in tree.fragments() {
+            all.polygons.push(fragment.polygon() as u32);
+            all.planes.push(planes.through(fragment.grid_points()));
+            all.counts.push(fragment.vertex_count() as u32);
+            all.edges.extend(edge_kinds(&fragment));
+            for vertex in fragment.lattice_vertices() {
+                let bits = vertex.map(|c| ((c / LATTICE_LIMIT) as f32).to_bits());
+                all.corners.push(all.vertices.number(bits));
+            }
+        }
+        all
+    }
+}
+
+/// The kinds of a fragment's edges, from each vertex to the next.
+fn edge_kinds(fragment: &Fragment<'_>) -> impl Iterator<Item = u32> {
+    let kind = |(line, edge): (Line, Option<u32>)| match (line.as_cut(), edge) {
+        (Some(_), _) => CUT,
+        (None, Some(_)) => ORIGINAL,
+        (None, None) => INNER,
+    };
+    fragment.lines().zip(fragment.edges()).map(kind)
+}
