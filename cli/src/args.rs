@@ -41,6 +41,7 @@ pub(crate) enum Command {
     Draw(DrawArgs),
     Page(PageArgs),
     Report(ReportArgs),
+    Lecture(LectureArgs),
     /// List the built-in scenes
     Scenes,
 }
@@ -289,6 +290,18 @@ pub(crate) struct DrawArgs {
     pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
+}
+
+/// Show what a course on visibility teaches, measured and judged, as one page
+///
+/// Pictures and graphs with a few sentences each, in the order of a course, in one HTML file that needs no
+/// network. All figures come from the run, which takes a minute or two on two processors.
+#[derive(Args, Debug)]
+#[command(after_help = examples::LECTURE)]
+pub(crate) struct LectureArgs {
+    /// Folder to write index.html into; created if it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "lecture")]
+    pub(crate) output: PathBuf,
 }
 
 /// Write a page that stands alone, in which people turn the scene

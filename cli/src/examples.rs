@@ -11,6 +11,7 @@ Examples:
   binspace draw part.obj -o part.pdf --lines its visible edges
   binspace page scene.obj -o scene.html      a page to turn it in a browser
   binspace report --quick                    every method, its speed against its error
+  binspace lecture -o lecture                what a course teaches, as a page
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
 
 Exit status: 0 done; 1 an image differs from the depth buffer's; 2 an error: bad usage
@@ -79,3 +80,8 @@ Examples:
   binspace report --quick -o quick
   binspace report scene.obj teapot:16 --seed 7
   binspace report --family gap --family sliver --size 640x480";
+
+pub(crate) const LECTURE: &str = "\
+Examples:
+  binspace lecture
+  binspace lecture -o course && xdg-open course/index.html";

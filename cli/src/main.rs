@@ -3,6 +3,7 @@
 mod args;
 mod backs;
 mod camera;
+mod chart;
 mod colours;
 mod commands;
 mod coverage;
@@ -18,6 +19,7 @@ mod format;
 mod framing;
 mod ink;
 mod job;
+mod lecture;
 mod measure;
 mod memory;
 mod page;
@@ -80,6 +82,7 @@ fn run(cli: &Cli) -> Result<Outcome, Failure> {
         Some(Command::Draw(args)) => commands::draw::run(args),
         Some(Command::Page(args)) => commands::page::run(args),
         Some(Command::Report(args)) => commands::report::run(args),
+        Some(Command::Lecture(args)) => commands::lecture::run(args),
         Some(Command::Scenes) => commands::scenes::run(),
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod build;
 pub(crate) mod draw;
+pub(crate) mod lecture;
 pub(crate) mod order;
 pub(crate) mod page;
 pub(crate) mod render;

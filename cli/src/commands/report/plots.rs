@@ -1,15 +1,12 @@
 //! The plots: what to draw in them.
 
-mod chart;
-mod scale;
-
 use binspace::scene::Builtin;
 use binspace_evidence::Family;
 
-use self::chart::{Chart, Marker, Series, Style};
 use super::figures::{EXACT, Section};
 use super::growth::{Growth, Size};
 use super::summary::{Summary, label};
+use crate::chart::{Chart, Marker, Series, Style};
 use crate::failure::Failure;
 
 /// The methods that plots show, with their looks: trees round and blue, depth buffers with corners

@@ -9,6 +9,7 @@
 //! |---|---|---|
 //! | [`Bsp`] with [`Exact`](binspace::internals::Exact) | the tree of this library | nowhere |
 //! | [`Bsp`] with [`Float`](crate::Float) | the same tree, rounded distances and an epsilon | distances are near the epsilon or the precision |
+//! | [`InputOrder`] | nothing | wherever an earlier face hides a later one |
 //! | [`Centroid`] | one depth a face | faces overlap in depth |
 //! | [`Newell`] | plane tests in `f64`, splits where nothing else helps | distances are near its epsilon |
 //! | [`DepthBuffer`] | the depth in each pixel, in limited precision | depths are nearer than its steps |
@@ -40,6 +41,7 @@ mod depth;
 mod error;
 mod exact_depth;
 mod field;
+mod input_order;
 mod newell;
 mod space;
 #[cfg(test)]
@@ -51,6 +53,7 @@ pub use depth::{DepthBuffer, DepthFormat, Interpolation};
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
 pub use field::{Options, all};
+pub use input_order::InputOrder;
 pub use newell::Newell;
 
 use std::time::Duration;

@@ -1,5 +1,7 @@
 //! A chart with two logarithmic axes, a place for zero, and a legend beside it.
 
+mod scale;
+
 use std::fmt::Display;
 
 use plotters::chart::ChartContext;
@@ -11,7 +13,7 @@ use plotters::prelude::{
     SVGBackend, ShapeStyle, TextStyle, WHITE,
 };
 
-use super::scale::{Scale, label};
+use self::scale::{Scale, label};
 use crate::failure::Failure;
 
 /// The picture, in pixels, and how much of it the legend takes.
@@ -25,7 +27,7 @@ const FONT: &str = "sans-serif";
 
 /// The shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Marker {
+pub(crate) enum Marker {
     Circle,
     Ring,
     Square,
@@ -36,7 +38,7 @@ pub(super) enum Marker {
 
 /// How a series looks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Style {
+pub(crate) struct Style {
     colour: RGBColor,
     marker: Marker,
     /// About half of a marker's width, in pixels.
@@ -44,14 +46,14 @@ pub(super) struct Style {
 }
 
 impl Style {
-    pub(super) const fn new([r, g, b]: [u8; 3], marker: Marker, reach: i32) -> Self {
+    pub(crate) const fn new([r, g, b]: [u8; 3], marker: Marker, reach: i32) -> Self {
         Self { colour: RGBColor(r, g, b), marker, reach }
     }
 }
 
 /// Points of one kind.
 #[derive(Debug)]
-pub(super) struct Series {
+pub(crate) struct Series {
     name: String,
     style: Style,
     points: Vec<(f64, f64)>,
@@ -60,12 +62,12 @@ pub(super) struct Series {
 
 impl Series {
     /// Points that a line joins.
-    pub(super) fn new(name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
+    pub(crate) fn new(name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.to_owned(), style, points, line: true }
     }
 
     /// Points alone, and larger ones, as there are few.
-    pub(super) fn without_line(mut self) -> Self {
+    pub(crate) fn without_line(mut self) -> Self {
         self.style.reach = self.style.reach.max(6);
         Self { line: false, ..self }
     }
@@ -73,18 +75,18 @@ impl Series {
 
 /// What is drawn, and what it is called.
 #[derive(Debug)]
-pub(super) struct Chart<'a> {
-    pub(super) title: &'a str,
-    pub(super) x_label: &'a str,
-    pub(super) y_label: &'a str,
+pub(crate) struct Chart<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) x_label: &'a str,
+    pub(crate) y_label: &'a str,
     /// Ticks of the x axis; decades if there are none.
-    pub(super) ticks: Option<Vec<f64>>,
+    pub(crate) ticks: Option<Vec<f64>>,
     /// Whether the x axis runs from large to small.
-    pub(super) falls: bool,
+    pub(crate) falls: bool,
     /// Whether values may be 0: they are drawn in a lane of their own below the axis, side by
     /// side, so that none hides another.
-    pub(super) zero: bool,
-    pub(super) series: Vec<Series>,
+    pub(crate) zero: bool,
+    pub(crate) series: Vec<Series>,
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -99,7 +101,7 @@ struct Lane {
 
 impl Chart<'_> {
     /// The chart as SVG.
-    pub(super) fn draw(&self) -> Result<String, Failure> {
+    pub(crate) fn draw(&self) -> Result<String, Failure> {
         let mut svg = String::new();
         {
             let all = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
