@@ -35,14 +35,16 @@ pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
     })
 }
 
-/// A camera of the eye of the eight walls.
+/// A camera above the eye of the eight walls, so that no wall hides all of another; the order is
+/// the same from any height.
 ///
 /// # Errors
 ///
 /// If the size is zero or beyond the limits.
 pub fn eye_on_eight(size: [u32; 2]) -> Result<Camera, CameraError> {
     let [x, y] = EYE_OF_EIGHT;
-    Camera::perspective(DVec3::new(x, y, 1.0), DVec3::new(5.0, 8.0, 1.0), DVec3::Z, 1.2, size)
+    let (eye, target) = (DVec3::new(x, y, 8.0), DVec3::new(5.8, 6.5, 0.0));
+    Camera::perspective(eye, target, DVec3::Z, 0.95, size)
 }
 
 /// An order of the fragments of a tree of the eight walls, by letters; pieces of a wall that was cut
