@@ -36,7 +36,7 @@ impl<'a> Shot<'a> {
     pub(super) fn around(scene: &'a Scene, direction: DVec3) -> Result<Self, Failure> {
         let (low, high) = scene.bounds().unwrap_or_default();
         let (centre, reach) = ((low + high) * 0.5, (high - low).length() * 0.5);
-        let eye = centre + direction.normalize() * (2.4 * reach);
+        let eye = centre + direction.normalize() * (2.8 * reach);
         let camera = Camera::perspective_by_slope(eye, centre, scene.up(), 0.34, SIZE);
         Self::new(scene, camera)
     }

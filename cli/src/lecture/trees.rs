@@ -114,7 +114,7 @@ struct Line {
     heuristic: Heuristic,
 }
 
-const LINES: [Line; 7] = [
+const LINES: [Line; 8] = [
     Line {
         name: "sheets",
         style: Style::new([200, 30, 30], Marker::Square, 5),
@@ -131,14 +131,14 @@ const LINES: [Line; 7] = [
     },
     Line {
         name: "walls, own planes",
-        style: Style::new([150, 80, 180], Marker::Diamond, 5),
+        style: Style::new([150, 80, 180], Marker::Diamond, 9),
         scene: |size| Worst::Walls.scene(size),
         sizes: &[10, 20, 40, 100, 200, 400, 1000],
         heuristic: Heuristic::First,
     },
     Line {
         name: "walls, any plane",
-        style: Style::new([150, 80, 180], Marker::Ring, 6),
+        style: Style::new([150, 80, 180], Marker::Ring, 8),
         scene: |size| Worst::Walls.scene(size),
         sizes: &[10, 20, 40, 100, 200, 400, 1000],
         heuristic: Heuristic::Auto,
@@ -161,7 +161,14 @@ const LINES: [Line; 7] = [
         name: "terrain",
         style: Style::new([0, 140, 90], Marker::Circle, 5),
         scene: |size| Builtin::Terrain.build(Some(size), 1),
-        sizes: &[10, 100, 1000, 10_000],
+        sizes: &[20, 200, 2000, 20_000],
+        heuristic: Heuristic::Auto,
+    },
+    Line {
+        name: "teapot",
+        style: Style::new([90, 60, 30], Marker::Square, 4),
+        scene: |size| Builtin::Teapot.build(Some(size), 1),
+        sizes: &[2, 4, 8, 16],
         heuristic: Heuristic::Auto,
     },
 ];
@@ -172,7 +179,7 @@ fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
         "A plane cuts what it has to, so n polygons may have many more pieces. Sheets that all cross one \
          another, each three in a point of their own, have 1 + n + C(n, 2) + C(n, 3) cells between them: a \
          tree of their own planes has n + C(n, 2) + C(n, 3) pieces, whatever the order, so n³/6. Without any \
-         crossing it can still be n²: strips along the lines of a saddle (B. Chazelle, 1984), which M. S. \
+         crossing it can still be n²: walls along the lines of a saddle (B. Chazelle, 1984), which M. S. \
          Paterson and F. F. Yao (\"Efficient binary space partitions for hidden-surface removal and solid \
          modeling\", 1990) show to be the worst for polygons that do not cross. Walls along x above walls \
          along y cut each other (n/2)² times, as long as only their own planes may be used; one plane between \
@@ -219,7 +226,7 @@ fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
     let towards = DVec3::new(0.8, -1.0, 0.9);
     let mut pictures = Vec::new();
     for worst in Worst::ALL {
-        let scene = worst.scene(if worst == Worst::Sheets { 8 } else { 20 });
+        let scene = worst.scene(if worst == Worst::Sheets { 8 } else { 24 });
         let shot = Shot::around(&scene, towards)?;
         let name = format!("{worst}, {} polygons", scene.len());
         pictures.push(shot.by(&Bsp::exact(BuildOptions::DEFAULT), &name)?);

@@ -103,7 +103,7 @@ fn spaces(chapter: &mut Chapter) {
     let row = |space: Space| {
         let of_it = methods.iter().filter(|method| method.space() == space);
         let names: Vec<String> = of_it.map(|method| method.name()).collect();
-        [space.to_string(), names.join(", ")]
+        [space.to_string(), names.join("; ")]
     };
     let spaces = [Space::Neither, Space::Object, Space::Both, Space::Image];
     chapter.table(["decides in", "methods"], spaces.map(row));

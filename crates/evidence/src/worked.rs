@@ -43,8 +43,8 @@ pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
 /// If the size is zero or beyond the limits.
 pub fn eye_on_eight(size: [u32; 2]) -> Result<Camera, CameraError> {
     let [x, y] = EYE_OF_EIGHT;
-    let (eye, target) = (DVec3::new(x, y, 8.0), DVec3::new(5.8, 6.5, 0.0));
-    Camera::perspective(eye, target, DVec3::Z, 0.95, size)
+    let (eye, target) = (DVec3::new(x, y, 9.0), DVec3::new(6.0, 4.3, 0.0));
+    Camera::perspective(eye, target, DVec3::Z, 1.2, size)
 }
 
 /// An order of the fragments of a tree of the eight walls, by letters; pieces of a wall that was cut

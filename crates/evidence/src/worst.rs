@@ -17,8 +17,8 @@ pub enum Worst {
     /// half cuts all of the other that are left, whatever the order: (n/2)² cuts. A plane between
     /// the halves cuts nothing.
     Walls,
-    /// Narrow strips along the two families of lines on the saddle z = xy, the one family a little
-    /// above the other. No plane separates much of them: n² is the least (B. Chazelle, "Convex
+    /// Upright strips along the two families of lines on the saddle z = xy, above the lines of the one
+    /// family, and a little lower below those of the other. No plane separates much of them: n² is the least (B. Chazelle, "Convex
     /// partitions of polyhedra", 1984; M. S. Paterson & F. F. Yao, "Efficient binary space
     /// partitions for hidden-surface removal and solid modeling", 1990).
     Saddle,
@@ -59,19 +59,17 @@ impl Worst {
     }
 
     /// How many fragments a tree of n polygons has that takes its planes from these alone, whatever
-    /// their order; `None` if that depends on the order.
+    /// their order.
     ///
-    /// Of walls, each two that cross as seen from above are cut once: the first whose plane is taken
-    /// cuts the other there. Of sheets, each leaf is one of the cells between them, of which there
-    /// are 1 + n + C(n, 2) + C(n, 3), and each node but the leaves has one fragment.
-    pub fn fragments(self, count: u32) -> Option<u64> {
-        let n = u64::from(count);
+    /// Of walls and strips, each two that cross as seen from above are cut once: the first whose plane
+    /// is taken cuts the other there. Of sheets, each leaf is one of the cells between them, of which
+    /// there are 1 + n + C(n, 2) + C(n, 3), and each node has one fragment.
+    pub fn fragments(self, count: u32) -> u64 {
+        let (n, half) = (u64::from(count), u64::from(count / 2));
+        let pairs = n * n.saturating_sub(1) / 2;
         match self {
-            Self::Walls => Some(2 * (n / 2) + (n / 2) * (n / 2)),
-            Self::Saddle => None,
-            Self::Sheets => Some(
-                n + n * n.saturating_sub(1) / 2 + n * n.saturating_sub(1) * n.saturating_sub(2) / 6,
-            ),
+            Self::Walls | Self::Saddle => 2 * half + half * half,
+            Self::Sheets => n + pairs + pairs * n.saturating_sub(2) / 3,
         }
     }
 }
@@ -97,17 +95,20 @@ fn walls(half: u32) -> impl Iterator<Item = [DVec3; 4]> {
 }
 
 fn strips(half: u32) -> impl Iterator<Item = [DVec3; 4]> {
-    /// How far the one family is above the other. The saddle rises by 1 more from line to line.
+    /// How tall the strips are, and how far the one family is above the other: the saddle rises by
+    /// four times that from line to line.
+    const HEIGHT: f64 = 0.5;
     const GAP: f64 = 0.25;
-    // So narrow that no strip reaches the other family.
-    let width = GAP / (8.0 * f64::from(half.next_power_of_two()));
-    let (begin, end) = (-0.5, f64::from(half) - 0.5);
+    // A power of two, so that the saddle is about as high as wide.
+    let flat = f64::from(half.next_power_of_two());
+    let reach = 0.5 * f64::from(half);
     let strip = move |i: u32, is_upper: bool| {
-        let at = f64::from(i);
-        let corners = [(begin, -width), (end, -width), (end, width), (begin, width)];
-        corners.map(|(along, aside)| {
-            let (aside, z) = (at + aside, at * along);
-            if is_upper { DVec3::new(along, aside, z + GAP) } else { DVec3::new(aside, along, z) }
+        let at = f64::from(i) + 0.5 - reach;
+        let [low, high] = if is_upper { [GAP / flat, GAP / flat + HEIGHT] } else { [-HEIGHT, 0.0] };
+        let corners = [(-reach, low), (reach, low), (reach, high), (-reach, high)];
+        corners.map(|(along, above)| {
+            let z = at * along / flat + above;
+            if is_upper { DVec3::new(along, at, z) } else { DVec3::new(at, along, z) }
         })
     };
     [true, false].into_iter().flat_map(move |is_upper| (0..half).map(move |i| strip(i, is_upper)))

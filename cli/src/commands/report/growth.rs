@@ -115,7 +115,7 @@ impl Subject {
 fn cases(quick: bool) -> Vec<Case> {
     let large: &[u32] =
         if quick { &[300, 1000, 3000] } else { &[300, 1000, 3000, 10_000, 30_000, 100_000] };
-    let small: &[u32] = if quick { &[10, 30, 100] } else { &[10, 30, 100, 300, 1000] };
+    let small: &[u32] = if quick { &[10, 20, 50] } else { &[10, 20, 50, 100, 300, 1000] };
     let mut cases = Vec::new();
     for subject in Subject::ALL {
         let sizes = if matches!(subject, Subject::Builtin(_)) { large } else { small };

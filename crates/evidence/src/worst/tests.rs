@@ -1,9 +1,10 @@
 //! Fragments counted against the formulas, and against growth by a factor.
 
 use binspace::internals::Faces;
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 
 use super::Worst;
+use crate::Hiding;
 
 /// The heuristics that take the polygons' own planes only.
 const OWN: [Heuristic; 6] = [
@@ -41,9 +42,11 @@ fn nothing_is_rounded_and_all_is_flat() {
 #[test]
 fn every_tree_of_own_planes_has_the_fragments_of_the_formula() {
     let mut counted = 0;
-    for (worst, counts) in [(Worst::Walls, [2, 10, 60]), (Worst::Sheets, [3, 9, 24])] {
+    for (worst, counts) in
+        [(Worst::Walls, [2, 10, 60]), (Worst::Saddle, [2, 10, 60]), (Worst::Sheets, [3, 9, 24])]
+    {
         for count in counts {
-            let expected = worst.fragments(count).unwrap();
+            let expected = worst.fragments(count);
             for heuristic in OWN {
                 let found = tree(worst, count, heuristic).len() as u64;
                 assert_eq!(found, expected, "{worst} {count} {heuristic}");
@@ -51,7 +54,7 @@ fn every_tree_of_own_planes_has_the_fragments_of_the_formula() {
             }
         }
     }
-    assert_eq!(counted, 36);
+    assert_eq!(counted, 54);
 }
 
 /// Sheets by another count: of cells, as runs of signs. Each region between the sheets has its own
@@ -74,7 +77,7 @@ fn sheets_have_as_many_cells_as_rows_of_signs() {
                 }
             }
         }
-        let leaves = Worst::Sheets.fragments(count).unwrap() + 1;
+        let leaves = Worst::Sheets.fragments(count) + 1;
         assert_eq!(rows.len() as u64, leaves, "{count}");
     }
 }
@@ -93,5 +96,17 @@ fn strips_on_a_saddle_grow_by_the_square_whatever_the_planes() {
 fn a_plane_between_the_walls_saves_all_cuts() {
     for heuristic in [Heuristic::Auto, Heuristic::FreePlanes] {
         assert_eq!(tree(Worst::Walls, 60, heuristic).len(), 60, "{heuristic}");
+    }
+}
+
+#[test]
+fn sheets_all_cross_and_nothing_else_does() {
+    for direction in [[0.2, 0.3, -1.0], [-1.0, 0.4, -0.7], [0.9, 1.0, 0.6]] {
+        let mutual = |worst: Worst| {
+            let (faces, _) = Faces::new(worst.scene(12).polygons(), Some(0.0)).unwrap();
+            Hiding::of(&faces, Viewpoint::direction(direction)).mutual()
+        };
+        assert_eq!([Worst::Walls, Worst::Saddle].map(mutual), [0, 0]);
+        assert_eq!(mutual(Worst::Sheets), 12 * 11 / 2);
     }
 }
