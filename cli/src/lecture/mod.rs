@@ -4,7 +4,12 @@
 //! evidence crate, with its tests.
 
 mod chapter;
+mod newell;
 mod page;
+mod painter;
+mod plan;
+mod shot;
+mod trees;
 mod why;
 
 pub(crate) use chapter::Chapter;
@@ -16,7 +21,12 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 1] = [("Why order at all", why::fill)];
+const CHAPTERS: [(&str, Make); 4] = [
+    ("Why order at all", why::fill),
+    ("The painter's algorithm and who hides whom", painter::fill),
+    ("Newell, Newell and Sancha", newell::fill),
+    ("Binary space partition trees", trees::fill),
+];
 
 /// How many chapters there are.
 pub(crate) const COUNT: usize = CHAPTERS.len();

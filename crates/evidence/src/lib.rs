@@ -3,15 +3,26 @@
 //! library do not compile this crate.
 
 mod accuracy;
+mod facing;
 mod family;
+mod hiding;
 pub mod measure;
 pub mod method;
 mod place;
 mod residue;
 mod rounded;
 mod tree;
+mod worked;
+mod worst;
 
 pub use accuracy::{Accuracy, accuracy};
+pub use facing::Facing;
 pub use family::{Family, FamilyError};
+pub use hiding::{Hiding, overlaps_in_depth};
 pub use rounded::{Float, FloatSplitter, FloatVertex, Precision};
 pub use tree::KernelTree;
+pub use worked::{
+    EIGHT_ORDER, EYE_OF_EIGHT, GRID_OF_SIX, eight, eye_on_eight, letters, six_by_six,
+    six_by_six_camera,
+};
+pub use worst::Worst;

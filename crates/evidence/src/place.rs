@@ -4,9 +4,9 @@
 //! of segments and by Cramer's rule. It takes over the input: the corners on the lattice, which of
 //! them define a face's plane, and the names of planes and vertices.
 
-use binspace::internals::{Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
+use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
 use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 
 /// The points x with normal · x = offset; in front the left side is larger.
 #[derive(Clone, Debug)]
@@ -24,11 +24,13 @@ impl Plane {
                 normal[axis] = BigInt::one();
                 Self { normal, offset: integer(faces.corner(corner)[axis]) }
             }
-            PlaneKind::Face(face) => {
-                let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
-                Self::through(triangle)
-            }
+            PlaneKind::Face(face) => Self::of_face(faces, face),
         }
+    }
+
+    /// The plane of a face.
+    pub(crate) fn of_face(faces: &Faces, face: u32) -> Self {
+        Self::through(faces.reference_triangle(face).map(|c| faces.corner(c)))
     }
 
     /// The plane through three lattice points, by Newell's sums over their edges: below 2¹⁰⁷.
@@ -47,6 +49,14 @@ impl Plane {
     /// The distance of a place times the length of the normal and the place's weight.
     pub(crate) fn at(&self, place: &Place) -> BigInt {
         dot(&self.normal, &place.coordinates) - &self.offset * &place.weight
+    }
+
+    /// The side of an eye in homogeneous coordinates, larger in front: Ax + By + Cz + D, or, of a
+    /// direction, Ax + By + Cz.
+    pub(crate) fn at_eye(&self, eye: &[BigInt; 4]) -> BigInt {
+        let [x, y, z, w] = eye;
+        let [a, b, c] = &self.normal;
+        a * x + b * y + c * z - &self.offset * w
     }
 
     /// The normal and the offset, each number rounded once.
@@ -134,6 +144,12 @@ impl Place {
         Self { coordinates: self.coordinates.map(|c| -c), weight: -self.weight }
     }
 
+    /// The coordinates and the weight.
+    pub(crate) fn homogeneous(&self) -> [BigInt; 4] {
+        let [x, y, z] = self.coordinates.clone();
+        [x, y, z, self.weight.clone()]
+    }
+
     /// What a distance from a plane is multiplied by in [`Plane::at`].
     pub(crate) fn weight(&self) -> &BigInt {
         &self.weight
@@ -166,6 +182,15 @@ impl Place {
         };
         (0..3).map(off).fold(0.0, f64::max)
     }
+}
+
+/// An eye in homogeneous coordinates: the point and 1, or the direction towards it and 0.
+pub(crate) fn eye(eye: &Eye) -> [BigInt; 4] {
+    let ([x, y, z], weight) = eye.homogeneous();
+    // Of a direction, fractions of 52 bits; of a point, whole numbers of any size.
+    let unit = if weight == 0.0 { 2f64.powi(52) } else { 1.0 };
+    let whole = |c: f64| BigInt::from_f64(c * unit).unwrap_or_default();
+    [whole(x), whole(y), whole(z), whole(weight)]
 }
 
 /// Rounded kernels make vertices anywhere; further off than 256 scenes is as bad as infinitely far.

@@ -32,6 +32,7 @@ struct Errors<'a> {
     area_error_worst: Option<String>,
     area_error_total: Option<String>,
     pieces: Option<usize>,
+    decides_in: String,
     failure: Option<&'a str>,
 }
 
@@ -70,6 +71,7 @@ pub(super) fn errors(sections: &[Section]) -> Result<String, Failure> {
             subject,
             difficulty: row.difficulty.map(number),
             method: &row.method,
+            decides_in: row.space.to_string(),
             faces: row.faces,
             views: row.views,
             ..Errors::default()
@@ -131,7 +133,7 @@ pub(super) fn growth(rows: &[Growth]) -> Result<String, Failure> {
     table(rows.iter().map(|row| {
         let size = row.found.as_ref().ok();
         Size {
-            scene: row.scene.name(),
+            scene: &row.scene,
             polygons: row.polygons,
             method: row.method,
             fragments: size.map(|s| s.fragments),
@@ -174,6 +176,7 @@ fn number(value: f64) -> String {
 mod tests {
     use super::{errors, times};
     use crate::commands::report::figures::{Row, Section, Subject};
+    use binspace_evidence::method::Space;
 
     #[test]
     fn a_failure_fills_as_many_columns_as_figures() {
@@ -184,6 +187,7 @@ mod tests {
             faces: 1,
             views: 2,
             method: "newell".into(),
+            space: Space::Both,
             found: Err(failure.into()),
         });
         let sections = [section];

@@ -6,6 +6,7 @@ use std::ops::Add;
 use binspace_evidence::Accuracy;
 use binspace_evidence::Family;
 use binspace_evidence::measure::{AreaError, PictureError};
+use binspace_evidence::method::Space;
 
 /// The name of the method whose errors must all be 0.
 pub(super) const EXACT: &str = "bsp exact";
@@ -43,6 +44,8 @@ pub(super) struct Row {
     pub(super) faces: usize,
     pub(super) views: usize,
     pub(super) method: String,
+    /// Where the method decides what is visible.
+    pub(super) space: Space,
     /// The figures, or why there are none.
     pub(super) found: Result<Figures, String>,
 }

@@ -3,9 +3,9 @@
 use std::time::Instant;
 
 use binspace::internals::{Exact, Faces, Kernel};
-use binspace::scene::Builtin;
-use binspace::{BuildOptions, Viewpoint};
-use binspace_evidence::{Float, KernelTree};
+use binspace::scene::{Builtin, Scene};
+use binspace::{BuildOptions, Heuristic, Viewpoint};
+use binspace_evidence::{Float, KernelTree, Worst};
 
 use super::figures::EXACT;
 use crate::args::ReportArgs;
@@ -21,7 +21,8 @@ const SHORT: f64 = 1.0;
 
 /// A tree of one size.
 pub(super) struct Growth {
-    pub(super) scene: Builtin,
+    /// The name of the scene, without its size.
+    pub(super) scene: String,
     pub(super) polygons: usize,
     pub(super) method: &'static str,
     /// The figures, or why there are none.
@@ -38,39 +39,94 @@ pub(super) struct Size {
     pub(super) order: f64,
 }
 
-/// Measures growth, and hands over one tree after another.
+/// Measures growth, of the named scenes one size each, and hands over one tree after another.
 pub(super) fn run(
     args: &ReportArgs,
+    scenes: &[Scene],
     mut add: impl FnMut(Growth) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let cases = cases(args.quick);
-    let progress = Progress::steps("growth: tree", 2 * cases.len() as u64);
-    for (scene, size) in cases {
-        let polygons = scene.build(Some(size), args.seed);
-        let mut each = |method, found| {
+    let progress = Progress::steps("growth: tree", 2 * (cases.len() + scenes.len()) as u64);
+    let mut each = |name: &str, heuristic, polygons: &Scene| {
+        let mut add = |method, found| {
             progress.step();
-            add(Growth { scene, polygons: polygons.len(), method, found })
+            add(Growth { scene: name.to_owned(), polygons: polygons.len(), method, found })
         };
-        each(EXACT, measure(Exact, &polygons))?;
-        each(ROUNDED, measure(Float::<f64>::new(1e-6), &polygons))?;
+        add(EXACT, measure(Exact, polygons, heuristic))?;
+        add(ROUNDED, measure(Float::<f64>::new(1e-6), polygons, heuristic))
+    };
+    for Case { subject, size } in cases {
+        let polygons = match subject {
+            Subject::Builtin(scene) => scene.build(Some(size), args.seed),
+            Subject::Worst(worst) => worst.scene(size),
+        };
+        each(subject.name(), subject.heuristic(), &polygons)?;
     }
-    Ok(())
+    scenes.iter().try_for_each(|scene| each(scene.name(), Heuristic::Auto, scene))
 }
 
-fn cases(quick: bool) -> Vec<(Builtin, u32)> {
-    let sizes: &[u32] =
+/// A scene of a size.
+struct Case {
+    subject: Subject,
+    size: u32,
+}
+
+/// What grows.
+#[derive(Clone, Copy, PartialEq)]
+enum Subject {
+    Builtin(Builtin),
+    Worst(Worst),
+}
+
+impl Subject {
+    const ALL: [Self; 7] = [
+        Self::Builtin(Builtin::Terrain),
+        Self::Builtin(Builtin::City),
+        Self::Builtin(Builtin::Sphere),
+        Self::Builtin(Builtin::Random),
+        Self::Worst(Worst::Walls),
+        Self::Worst(Worst::Saddle),
+        Self::Worst(Worst::Sheets),
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Builtin(scene) => scene.name(),
+            Self::Worst(worst) => worst.name(),
+        }
+    }
+
+    /// One plane that is no wall's own would divide the walls.
+    fn heuristic(self) -> Heuristic {
+        if self == Self::Worst(Worst::Walls) { Heuristic::First } else { Heuristic::Auto }
+    }
+
+    /// The largest scene. More, and the fragments, which are n² or n³ in the end, take minutes.
+    fn most(self) -> u32 {
+        match self {
+            Self::Builtin(Builtin::Random) => 3000,
+            Self::Builtin(_) => u32::MAX,
+            Self::Worst(Worst::Walls | Worst::Saddle) => 1000,
+            Self::Worst(Worst::Sheets) => 100,
+        }
+    }
+}
+
+fn cases(quick: bool) -> Vec<Case> {
+    let large: &[u32] =
         if quick { &[300, 1000, 3000] } else { &[300, 1000, 3000, 10_000, 30_000, 100_000] };
+    let small: &[u32] = if quick { &[10, 20, 50] } else { &[10, 20, 50, 100, 300, 1000] };
     let mut cases = Vec::new();
-    for scene in [Builtin::Terrain, Builtin::City, Builtin::Sphere, Builtin::Random] {
-        // Of triangles that all cross there are n² pieces in the end, or more.
-        let most = if scene == Builtin::Random { 3000 } else { u32::MAX };
-        cases.extend(sizes.iter().filter(|&&size| size <= most).map(|&size| (scene, size)));
+    for subject in Subject::ALL {
+        let sizes = if matches!(subject, Subject::Builtin(_)) { large } else { small };
+        let sizes = sizes.iter().filter(|&&size| size <= subject.most());
+        cases.extend(sizes.map(|&size| Case { subject, size }));
     }
     cases
 }
 
-fn measure<K: Kernel>(kernel: K, scene: &binspace::scene::Scene) -> Result<Size, String> {
-    let options = BuildOptions::DEFAULT.with_max_fragments(MAX_FRAGMENTS);
+fn measure<K: Kernel>(kernel: K, scene: &Scene, heuristic: Heuristic) -> Result<Size, String> {
+    let options = BuildOptions::DEFAULT.with_max_fragments(MAX_FRAGMENTS).with_heuristic(heuristic);
     let build = || {
         let start = Instant::now();
         let faces = Faces::new(scene.polygons(), None).map(|(faces, _)| faces);

@@ -80,6 +80,9 @@ const METHODS: &str = "
 
 - *bsp exact*: the tree, by the exact kernel. *bsp f64 1e-9*, *bsp f32 1e-4*: the same builder by
   rounded numbers and an epsilon, in units of half the extent.
+- *input order*: nothing is removed; *fronts, input order*: only faces whose fronts are seen, which is
+  exact for a convex body and wrong where backs can be seen. *Decides in* follows Sutherland, Sproull
+  and Schumacker (1974): among the polygons (object space), in each pixel (image space), or both.
 - *centroid*: painted by the depth of the faces' centroids. *newell*: the algorithm of Newell, Newell
   and Sancha in f64, with an epsilon of 1e-10 of half the extent and budgets for pieces and
   comparisons.
@@ -142,7 +145,7 @@ fn growth(rows: &[Growth]) -> String {
         "memory",
     ]);
     for row in rows {
-        let mut cells = vec![row.scene.to_string(), grouped(row.polygons), row.method.to_owned()];
+        let mut cells = vec![row.scene.clone(), grouped(row.polygons), row.method.to_owned()];
         match &row.found {
             Ok(size) => cells.extend([
                 grouped(size.fragments),

@@ -101,7 +101,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
         }
     }
     if args.family.is_empty() {
-        growth::run(args, |growth| {
+        growth::run(args, &scenes, |growth| {
             report.growth.push(growth);
             report.write()
         })?;

@@ -1,6 +1,5 @@
 //! The plots: what to draw in them.
 
-use binspace::scene::Builtin;
 use binspace_evidence::Family;
 
 use super::figures::{EXACT, Section};
@@ -97,6 +96,30 @@ pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
     })
 }
 
+/// The colours of scenes, from the first; as many as can be told apart.
+const COLOURS: [[u8; 3]; 9] = [
+    [0, 140, 90],
+    [30, 110, 220],
+    [215, 60, 20],
+    [150, 80, 180],
+    [200, 150, 0],
+    [0, 0, 0],
+    [215, 80, 150],
+    [120, 120, 120],
+    [110, 70, 30],
+];
+
+/// The names of the scenes, each once.
+fn scenes(rows: &[Growth]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for row in rows {
+        if !names.contains(&row.scene.as_str()) {
+            names.push(&row.scene);
+        }
+    }
+    names
+}
+
 fn growth(
     rows: &[Growth],
     title: &str,
@@ -104,14 +127,9 @@ fn growth(
     zero: bool,
     value: impl Fn(&Size, usize) -> f64,
 ) -> Result<String, Failure> {
-    let scenes = [
-        (Builtin::Terrain, [0, 140, 90]),
-        (Builtin::City, [30, 110, 220]),
-        (Builtin::Sphere, [215, 60, 20]),
-        (Builtin::Random, [150, 80, 180]),
-    ];
     let mut series = Vec::new();
-    for (scene, colour) in scenes {
+    for (number, scene) in scenes(rows).into_iter().enumerate() {
+        let colour = COLOURS[number % COLOURS.len()];
         // One within the other where both are the same.
         for (is_exact, marker, reach) in [(true, Marker::Ring, 7), (false, Marker::Cross, 3)] {
             let of_it = |row: &&Growth| row.scene == scene && (row.method == EXACT) == is_exact;

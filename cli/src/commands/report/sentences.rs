@@ -164,6 +164,7 @@ fn worst(section: &Section, others: &[&str]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use binspace_evidence::measure::PictureError;
+    use binspace_evidence::method::Space;
 
     use super::{names, sentence};
     use crate::commands::report::figures::{Figures, Row, Section, Subject};
@@ -185,7 +186,8 @@ mod tests {
             }
         };
         let found = wrong.map(figures).ok_or_else(|| "over budget".to_owned());
-        Row { difficulty, faces: 1, views: 1, method: method.to_owned(), found }
+        let (method, space) = (method.to_owned(), Space::Object);
+        Row { difficulty, faces: 1, views: 1, method, space, found }
     }
 
     fn said(rows: Vec<Row>) -> String {

@@ -1,5 +1,7 @@
 //! All families together: one line a method.
 
+use binspace_evidence::method::Space;
+
 use super::figures::{EXACT, Row, Section, Subject};
 use super::tables::{Table, exponent, grouped, share};
 use crate::units::{bytes, time};
@@ -25,6 +27,8 @@ pub(super) struct Summary<'a> {
     build: f64,
     picture: f64,
     bytes: usize,
+    /// Where it decides; `None` of no trials.
+    space: Option<Space>,
 }
 
 impl<'a> Summary<'a> {
@@ -73,6 +77,7 @@ impl<'a> Summary<'a> {
             build: 0.0,
             picture: 0.0,
             bytes: 0,
+            space: None,
         };
         for family in families {
             let before = summary.wrong;
@@ -84,6 +89,7 @@ impl<'a> Summary<'a> {
     }
 
     fn add(&mut self, row: &Row) {
+        self.space = Some(row.space);
         let Ok(figures) = &row.found else {
             self.failed += 1;
             return;
@@ -182,11 +188,14 @@ fn six(summaries: Vec<Summary<'_>>) -> Table {
 /// The table of all methods.
 pub(super) fn everything(sections: &[Section]) -> Table {
     let mut columns = COLUMNS.to_vec();
-    columns.push("most memory");
+    columns.extend(["most memory", "decides in"]);
     let mut table = Table::new(&columns);
     for summary in Summary::of_families(sections) {
         let mut cells = summary.cells();
-        cells.push(bytes(summary.bytes));
+        cells.extend([
+            bytes(summary.bytes),
+            summary.space.map_or_else(String::new, |space| space.to_string()),
+        ]);
         table.push(cells);
     }
     table

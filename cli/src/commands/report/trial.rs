@@ -83,6 +83,7 @@ impl Trial {
             faces: self.faces.len(),
             views: self.views.len(),
             method: method.name(),
+            space: method.space(),
             found: self.figures(method).map_err(|error| error.to_string()),
         };
         methods.iter().map(|method| row(&**method)).collect()

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Method, MethodError, Painted, Prepared};
+use super::{Method, MethodError, Painted, Prepared, Space};
 use crate::{Accuracy, Float, KernelTree, accuracy};
 use binspace::internals::{Exact, Faces, Kernel, Tuning, paint_order, tree_of};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
@@ -61,6 +61,10 @@ impl Bsp<Float<f32>> {
 impl<K: Kernel> Method for Bsp<K> {
     fn name(&self) -> String {
         self.name.clone()
+    }
+
+    fn space(&self) -> Space {
+        Space::Object
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
+use super::front_faces::shown;
 use super::space::CameraSpace;
-use super::{Method, MethodError, Painted, Prepared};
+use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
@@ -20,6 +21,10 @@ pub struct Centroid;
 impl Method for Centroid {
     fn name(&self) -> String {
         "centroid".into()
+    }
+
+    fn space(&self) -> Space {
+        Space::Both
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
@@ -46,8 +51,9 @@ impl Prepared for Ready<'_> {
         let begin = Instant::now();
         let space = CameraSpace::new(camera, self.faces.lattice());
         self.keys.clear();
+        let is_shown = shown(rays, self.faces);
         let depths = self.centroids.iter().map(|&centroid| space.place(centroid).z);
-        self.keys.extend(depths.zip(0..));
+        self.keys.extend(depths.zip(0..).filter(|&(_, face)| is_shown(face)));
         self.keys.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let order = begin.elapsed();
         let mut painter = Painter::new(rays, self.faces, Order::BackToFront);

@@ -13,7 +13,7 @@ use self::format::Scale;
 use self::frame::Frame;
 use self::pass::Pass;
 use super::space::CameraSpace;
-use super::{Method, MethodError, Painted, Prepared};
+use super::{Method, MethodError, Painted, Prepared, Space};
 use crate::Precision;
 use binspace::internals::Faces;
 use binspace::raster::Rays;
@@ -89,6 +89,10 @@ impl Method for DepthBuffer {
             }
         }
         name
+    }
+
+    fn space(&self) -> Space {
+        Space::Image
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Method, MethodError, Painted, Prepared};
+use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
 use binspace::raster::{Rays, zbuffer};
 use binspace::view::Camera;
@@ -15,6 +15,10 @@ pub struct ExactDepth;
 impl Method for ExactDepth {
     fn name(&self) -> String {
         "z f64".into()
+    }
+
+    fn space(&self) -> Space {
+        Space::Image
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {

@@ -1,6 +1,9 @@
 //! The field of competitors.
 
-use super::{Bsp, Centroid, DepthBuffer, DepthFormat, ExactDepth, Interpolation, Method, Newell};
+use super::{
+    Bsp, Centroid, DepthBuffer, DepthFormat, ExactDepth, FrontFaces, InputOrder, Interpolation,
+    Method, Newell,
+};
 use binspace::BuildOptions;
 
 /// Options of the methods that [`all`] makes.
@@ -57,6 +60,8 @@ pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     for epsilon in [1e-6, 1e-5, 1e-4, 1e-3] {
         methods.push(Box::new(Bsp::single(build, epsilon)));
     }
+    methods.push(Box::new(InputOrder));
+    methods.push(Box::new(FrontFaces(InputOrder)));
     methods.push(Box::new(Centroid));
     methods.push(Box::new(options.newell));
     let buffer =

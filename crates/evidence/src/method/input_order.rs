@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Method, MethodError, Painted, Prepared};
+use super::front_faces::shown;
+use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
@@ -14,6 +15,10 @@ pub struct InputOrder;
 impl Method for InputOrder {
     fn name(&self) -> String {
         "input order".into()
+    }
+
+    fn space(&self) -> Space {
+        Space::Neither
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
@@ -29,10 +34,12 @@ impl Prepared for Ready<'_> {
     fn paint(&mut self, _: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
         let begin = Instant::now();
         let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
-        for face in 0..self.faces.len() as u32 {
+        let (is_shown, mut pieces) = (shown(rays, self.faces), 0);
+        for face in (0..self.faces.len() as u32).filter(|&face| is_shown(face)) {
             painter.draw(Piece { face, outline: Outline::Whole });
+            pieces += 1;
         }
-        let (image, pieces) = (painter.finish(), self.faces.len());
+        let image = painter.finish();
         Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces })
     }
 

@@ -10,6 +10,7 @@
 //! | [`Bsp`] with [`Exact`](binspace::internals::Exact) | the tree of this library | nowhere |
 //! | [`Bsp`] with [`Float`](crate::Float) | the same tree, rounded distances and an epsilon | distances are near the epsilon or the precision |
 //! | [`InputOrder`] | nothing | wherever an earlier face hides a later one |
+//! | [`FrontFaces`] before another | the side that a face turns to the eye | backs can be seen |
 //! | [`Centroid`] | one depth a face | faces overlap in depth |
 //! | [`Newell`] | plane tests in `f64`, splits where nothing else helps | distances are near its epsilon |
 //! | [`DepthBuffer`] | the depth in each pixel, in limited precision | depths are nearer than its steps |
@@ -37,10 +38,12 @@
 mod bsp;
 mod centroid;
 mod clip;
+mod decides_in;
 mod depth;
 mod error;
 mod exact_depth;
 mod field;
+mod front_faces;
 mod input_order;
 mod newell;
 mod space;
@@ -49,12 +52,14 @@ mod tests;
 
 pub use bsp::Bsp;
 pub use centroid::Centroid;
+pub use decides_in::Space;
 pub use depth::{DepthBuffer, DepthFormat, Interpolation};
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
 pub use field::{Options, all};
+pub use front_faces::FrontFaces;
 pub use input_order::InputOrder;
-pub use newell::Newell;
+pub use newell::{Decisions, Newell};
 
 use std::time::Duration;
 
@@ -68,6 +73,9 @@ pub trait Method: Send + Sync {
     /// A short name, different from those of all other methods and options: "newell",
     /// "bsp f64 1e-6", "z 24".
     fn name(&self) -> String;
+
+    /// Where it decides what is visible.
+    fn space(&self) -> Space;
 
     /// Does all work that does not depend on the viewpoint.
     ///

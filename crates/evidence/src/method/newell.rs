@@ -1,6 +1,7 @@
 //! The algorithm of Newell, Newell & Sancha.
 
 mod compare;
+mod decisions;
 mod options;
 mod pieces;
 mod sort;
@@ -10,13 +11,14 @@ use std::time::Instant;
 
 use self::pieces::Pieces;
 use self::sort::Sorter;
-use super::clip::{Clipper, Range};
+use super::front_faces::shown;
 use super::space::CameraSpace;
-use super::{Method, MethodError, Painted, Prepared};
+use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 
+pub use self::decisions::Decisions;
 pub use self::options::Newell;
 
 impl Method for Newell {
@@ -28,8 +30,27 @@ impl Method for Newell {
         }
     }
 
+    fn space(&self) -> Space {
+        Space::Both
+    }
+
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
         Ok(Box::new(Ready { method: self, faces, pieces: Pieces::default() }))
+    }
+}
+
+impl Newell {
+    /// Sorts the faces that a camera sees, and counts what decided.
+    ///
+    /// # Errors
+    ///
+    /// If a budget runs out.
+    pub fn decisions(&self, faces: &Faces, camera: &Camera) -> Result<Decisions, MethodError> {
+        let space = CameraSpace::new(camera, faces.lattice());
+        let mut pieces = Pieces::default();
+        pieces.take(&space, faces, |_| true);
+        let (_, decisions) = Sorter::new(self, &space, &mut pieces)?.sort()?;
+        Ok(decisions)
     }
 }
 
@@ -44,15 +65,9 @@ impl Prepared for Ready<'_> {
     fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
         let begin = Instant::now();
         let space = CameraSpace::new(camera, self.faces.lattice());
-        self.pieces.clear();
-        if let Some(range) = Range::ahead(&space, self.faces) {
-            let mut clipper = Clipper::new(&space, range);
-            for face in 0..self.faces.len() as u32 {
-                let outline = clipper.clip_face(&space, self.faces, face);
-                self.pieces.add_face(&space, self.faces, face, outline);
-            }
-        }
-        let sorted = Sorter::new(self.method, &space, &mut self.pieces)?.sort()?;
+        let is_shown = shown(rays, self.faces);
+        self.pieces.take(&space, self.faces, is_shown);
+        let (sorted, _) = Sorter::new(self.method, &space, &mut self.pieces)?.sort()?;
         let order = begin.elapsed();
         let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
         let mut vertices = Vec::new();

@@ -6,18 +6,36 @@ use super::pieces::Pieces;
 /// of slivers are overlooked; smaller, and neighbours in a mesh are compared in vain.
 pub(super) const TOUCH: f64 = 1e-6;
 
-/// Whether P may hide part of Q: none of the five tests says that it does not.
+/// What says that P does not hide Q.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Reason {
+    /// They are pieces of one face.
+    OneFace,
+    /// One of the five tests, by its number from 0.
+    Test(usize),
+}
+
+/// The first reason why P does not hide Q; `None` if it may hide a part of it.
 #[inline]
-pub(super) fn may_hide(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> bool {
+pub(super) fn why_not_hidden(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> Option<Reason> {
     let (a, b) = (pieces.get(p), pieces.get(q));
     let apart =
         |axis: usize| a.high[axis] <= b.low[axis] + TOUCH || b.high[axis] <= a.low[axis] + TOUCH;
-    !(apart(0)
-        || apart(1)
-        || a.face == b.face
-        || is_behind(pieces, p, q, epsilon)
-        || is_in_front(pieces, q, p, epsilon)
-        || are_apart(pieces.flat(p), pieces.flat(q)))
+    if apart(0) {
+        Some(Reason::Test(0))
+    } else if apart(1) {
+        Some(Reason::Test(1))
+    } else if a.face == b.face {
+        Some(Reason::OneFace)
+    } else if is_behind(pieces, p, q, epsilon) {
+        Some(Reason::Test(2))
+    } else if is_in_front(pieces, q, p, epsilon) {
+        Some(Reason::Test(3))
+    } else if are_apart(pieces.flat(p), pieces.flat(q)) {
+        Some(Reason::Test(4))
+    } else {
+        None
+    }
 }
 
 /// Whether nothing of P is in front of Q's plane.

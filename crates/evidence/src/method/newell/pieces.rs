@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::super::clip::{Clipper, Range};
 use super::super::space::{CameraSpace, Vertex};
 use binspace::internals::Faces;
 
@@ -58,7 +59,23 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    pub(super) fn clear(&mut self) {
+    /// Takes over what a camera sees of the faces that are shown, in place of what there was.
+    pub(super) fn take(
+        &mut self,
+        space: &CameraSpace,
+        faces: &Faces,
+        is_shown: impl Fn(u32) -> bool,
+    ) {
+        self.clear();
+        let Some(range) = Range::ahead(space, faces) else { return };
+        let mut clipper = Clipper::new(space, range);
+        for face in 0..faces.len() as u32 {
+            let outline = if is_shown(face) { clipper.clip_face(space, faces, face) } else { &[] };
+            self.add_face(space, faces, face, outline);
+        }
+    }
+
+    fn clear(&mut self) {
         self.pieces.clear();
         self.vertices.clear();
         self.flat.clear();
@@ -66,13 +83,7 @@ impl Pieces {
     }
 
     /// Adds what is seen of the next face, if anything is.
-    pub(super) fn add_face(
-        &mut self,
-        space: &CameraSpace,
-        faces: &Faces,
-        face: u32,
-        outline: &[Vertex],
-    ) {
+    fn add_face(&mut self, space: &CameraSpace, faces: &Faces, face: u32, outline: &[Vertex]) {
         if outline.is_empty() {
             self.planes.push(EyePlane::default());
         } else {

@@ -2,7 +2,8 @@
 
 use super::super::MethodError;
 use super::super::space::CameraSpace;
-use super::compare::{is_behind, is_in_front, may_hide};
+use super::compare::{is_behind, is_in_front, why_not_hidden};
+use super::decisions::Decisions;
 use super::options::Newell;
 use super::pieces::Pieces;
 use super::split::{Halves, by_outline, by_plane};
@@ -37,6 +38,7 @@ pub(super) struct Sorter<'a> {
     /// How many of the list are gone.
     gone: usize,
     comparisons: u64,
+    decisions: Decisions,
 }
 
 impl<'a> Sorter<'a> {
@@ -51,7 +53,9 @@ impl<'a> Sorter<'a> {
         list.sort_unstable_by(|&a, &b| far(a).total_cmp(&far(b)).then(b.cmp(&a)));
         let state = vec![State::Waiting; list.len()];
         let (chain, gone, comparisons) = (Vec::new(), 0, 0);
-        let sorter = Self { method, space, pieces, list, state, chain, gone, comparisons };
+        let decisions = Decisions { begun: list.len(), ..Decisions::default() };
+        let sorter =
+            Self { method, space, pieces, list, state, chain, gone, comparisons, decisions };
         sorter.check_pieces()?;
         Ok(sorter)
     }
@@ -61,8 +65,8 @@ impl<'a> Sorter<'a> {
         if self.pieces.len() > limit { Err(MethodError::pieces(limit)) } else { Ok(()) }
     }
 
-    /// All pieces, the furthest first.
-    pub(super) fn sort(mut self) -> Result<Vec<u32>, MethodError> {
+    /// All pieces, the furthest first, and what decided.
+    pub(super) fn sort(mut self) -> Result<(Vec<u32>, Decisions), MethodError> {
         let mut order = Vec::with_capacity(self.list.len());
         while let Some(candidate) = self.next() {
             let Some(q) = self.hidden_by(candidate)? else {
@@ -74,12 +78,17 @@ impl<'a> Sorter<'a> {
             let marked = self.state[q as usize] == State::Marked;
             if !marked && self.may_precede(q, candidate.piece) {
                 self.mark(q);
+                self.decisions.moved += 1;
             } else if let Some((piece, halves)) = self.cut_for(q) {
                 self.replace(piece, &halves)?;
+                self.decisions.cuts += 1;
+            } else {
+                // All is within the epsilon: the search goes on past the pair.
+                self.decisions.passed += 1;
             }
-            // Otherwise all is within the epsilon: the search goes on past the pair.
         }
-        Ok(order)
+        self.decisions.painted = order.len();
+        Ok((order, self.decisions))
     }
 
     /// The piece to look at: that of the chain's end, or the furthest that is left.
@@ -122,8 +131,10 @@ impl<'a> Sorter<'a> {
             }
             self.comparisons += 1;
             let there = q != p && self.state[q as usize] != State::Gone;
-            if there && may_hide(self.pieces, p, q, self.method.epsilon) {
-                found = Some(q);
+            if there {
+                let reason = why_not_hidden(self.pieces, p, q, self.method.epsilon);
+                self.decisions.add(reason);
+                found = reason.is_none().then_some(q);
             }
         }
         if let Some(last) = self.chain.last_mut() {

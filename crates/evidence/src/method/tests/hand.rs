@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::{Polygons, faces, show};
 use crate::method::{
-    Centroid, DepthBuffer, DepthFormat, Interpolation, Method, Newell, Options, all,
+    Centroid, DepthBuffer, DepthFormat, FrontFaces, InputOrder, Interpolation, Method, Newell,
+    Options, all,
 };
 use binspace::raster::NONE;
 use binspace::view::Camera;
@@ -48,14 +49,23 @@ fn the_nearer_of_two_triangles_wins_pixel_by_pixel() {
     let swapped = NEARER_WINS.replace('A', "x").replace('B', "A").replace('x', "B");
     for method in all(&Options::DEFAULT) {
         let name = method.name();
-        if name == "centroid" {
+        if name == "centroid" || name.ends_with("input order") {
             continue;
         }
         assert_eq!(drawn(&*method, &there, &camera()), NEARER_WINS, "{name}");
         assert_eq!(drawn(&*method, &back, &camera()), swapped, "{name}, the other order");
     }
+    // What comes last is on top, wherever it is; with its back to the eye it is not there.
+    let all_a = "AAAAAA ".repeat(6);
+    let b_on_top = "BBBBBA BBBBAA BBBAAA BBAAAA BAAAAA AAAAAA";
+    assert_eq!(drawn(&InputOrder, &there, &camera()), b_on_top);
+    assert_eq!(drawn(&InputOrder, &back, &camera()), all_a.trim().replace('A', "B"));
+    assert_eq!(drawn(&FrontFaces(InputOrder), &there, &camera()), b_on_top);
+    let mut turned = there.clone();
+    turned[1].reverse();
+    assert_eq!(drawn(&FrontFaces(InputOrder), &turned, &camera()), all_a.trim());
     // B's centroid is at depth 6, A's at 5: A is painted over all of B.
-    assert_eq!(drawn(&Centroid, &there, &camera()), "AAAAAA ".repeat(6).trim());
+    assert_eq!(drawn(&Centroid, &there, &camera()), all_a.trim());
 }
 
 #[test]

@@ -263,3 +263,57 @@ fn a_long_chain_of_swaps_needs_no_stack() {
     };
     std::thread::Builder::new().stack_size(1 << 17).spawn(paint).unwrap().join().unwrap();
 }
+
+/// Two squares, or what stands in for them, of which the further, P, is the first: one test decides.
+#[test]
+fn each_test_decides_the_pair_that_it_is_for() {
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 12.0, [120, 120]).unwrap();
+    let points = |corners: &[[f64; 3]]| -> Vec<DVec3> {
+        corners.iter().map(|&c| DVec3::from_array(c)).collect()
+    };
+    // P reaches from depth 2 down to depth 5, at z = −2 and −5.
+    let p = [[0.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 2.0, -5.0], [0.0, 2.0, -5.0]];
+    let moved = |x: f64, y: f64, z: f64| p.map(|[a, b, c]| [a + x, b + y, c + z]);
+    let counts = |other: &[[f64; 3]]| {
+        let faces = faces(&vec![points(&p), points(other)], Some(0.0));
+        Newell::DEFAULT.decisions(&faces, &camera).unwrap()
+    };
+    // To the right; above; just in front of P's plane; a triangle that P is behind but that is not
+    // in front of P; one that only its box overlaps.
+    let right = counts(&moved(3.0, 0.0, 0.5));
+    assert_eq!((right.compared, right.by_test), (1, [1, 0, 0, 0, 0]));
+    let above = counts(&moved(0.0, 3.0, 0.5));
+    assert_eq!((above.compared, above.by_test), (1, [0, 1, 0, 0, 0]));
+    let over = counts(&moved(0.0, 0.0, 0.5));
+    assert_eq!((over.compared, over.by_test), (1, [0, 0, 1, 0, 0]));
+    // Its plane z = −4.5 + x cuts P, but all of it is in front of P's.
+    let steep = counts(&[[0.5, 1.5, -4.0], [1.5, 1.5, -3.0], [1.5, 1.9, -3.0], [0.5, 1.9, -4.0]]);
+    assert_eq!((steep.compared, steep.by_test), (1, [0, 0, 0, 1, 0]));
+    // Beside a corner of P, with a plane that cuts P, and on both sides of P's.
+    let beside = counts(&[[1.5, 2.6, -4.5], [2.6, 1.5, -4.5], [2.6, 2.6, -3.0]]);
+    assert_eq!((beside.compared, beside.by_test), (1, [0, 0, 0, 0, 1]));
+    // Behind P, though nearer than its furthest vertex: it takes P's place.
+    let below = counts(&[[0.5, 0.2, -4.5], [1.5, 0.2, -4.5], [1.5, 0.6, -4.5], [0.5, 0.6, -4.5]]);
+    assert_eq!((below.moved, below.cuts, below.painted), (1, 0, 2));
+    // Through P.
+    let through = counts(&[[0.5, 0.2, -3.5], [1.5, 0.2, -3.5], [1.5, 1.8, -3.5], [0.5, 1.8, -3.5]]);
+    assert_eq!((through.cuts, through.begun, through.painted), (1, 2, 3));
+}
+
+#[test]
+fn all_that_is_compared_is_decided_moved_cut_or_passed() {
+    let mut compared = 0;
+    for scene in [scene::newell_bars(), scene::crossing(6), scene::random_triangles(60, 5)] {
+        let polygons = polygons_of(&scene);
+        let faces = faces(&polygons, Some(0.0));
+        for camera in cameras(&polygons, [48, 36], 7) {
+            let found = Newell::DEFAULT.decisions(&faces, &camera).unwrap();
+            let decided = found.of_one_face + found.by_test.iter().sum::<u64>();
+            assert_eq!(found.compared, decided + found.moved + found.cuts + found.passed);
+            assert_eq!(found.painted, found.begun + found.cuts as usize);
+            assert_eq!(found.painted, show(&Newell::DEFAULT, &faces, &camera).pieces);
+            compared += found.compared;
+        }
+    }
+    assert!(compared > 1000, "{compared}");
+}

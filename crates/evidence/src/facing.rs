@@ -1,0 +1,44 @@
+//! Which sides of faces a viewpoint sees: back-face detection.
+
+#[cfg(test)]
+mod tests;
+
+use num_bigint::Sign;
+
+use binspace::Viewpoint;
+use binspace::internals::{Eye, Faces};
+
+use crate::place::{self, Plane};
+
+/// How many faces show which side to a viewpoint, by the sign of Ax + By + Cz + D at the eye, in
+/// big integers. For parallel rays along the z axis that is the sign of C.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Facing {
+    /// Faces that show their front.
+    pub front: usize,
+    /// Faces that show their back.
+    pub back: usize,
+    /// Faces whose plane goes through the eye: they cover no pixel.
+    pub edge_on: usize,
+}
+
+impl Facing {
+    /// Counts the faces of a scene.
+    pub fn of(faces: &Faces, viewpoint: Viewpoint) -> Self {
+        let eye = place::eye(&Eye::new(viewpoint, faces.lattice()));
+        let mut facing = Self::default();
+        for face in 0..faces.len() as u32 {
+            match Plane::of_face(faces, face).at_eye(&eye).sign() {
+                Sign::Plus => facing.front += 1,
+                Sign::Minus => facing.back += 1,
+                Sign::NoSign => facing.edge_on += 1,
+            }
+        }
+        facing
+    }
+
+    /// The faces that need not be drawn: all but those that show their front.
+    pub fn removed(&self) -> usize {
+        self.back + self.edge_on
+    }
+}

@@ -1,0 +1,122 @@
+//! Who hides whom: the partial order that a painter has to keep to, exactly.
+
+mod components;
+mod cone;
+#[cfg(test)]
+mod tests;
+
+use binspace::Viewpoint;
+use binspace::glam::DVec3;
+use binspace::internals::{Eye, Faces};
+
+use self::components::{components, fewest_removed};
+use self::cone::Seen;
+use crate::place;
+
+/// Which faces hide parts of which from a viewpoint, whatever the direction of view, in big
+/// integers. For small scenes: every pair is looked at, O(n²).
+///
+/// A face hides another if a ray from the eye goes through the inside of both and meets it first.
+/// Faces that go through each other may hide parts of each other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hiding {
+    /// For each face, those that it hides parts of, in ascending order.
+    hidden: Vec<Vec<u32>>,
+}
+
+impl Hiding {
+    /// Looks at all pairs of faces.
+    pub fn of(faces: &Faces, viewpoint: Viewpoint) -> Self {
+        let eye = place::eye(&Eye::new(viewpoint, faces.lattice()));
+        let all = 0..faces.len() as u32;
+        let seen: Vec<Option<Seen>> =
+            all.clone().map(|face| Seen::new(faces, face, &eye)).collect();
+        let mut hidden = vec![Vec::new(); faces.len()];
+        for a in all.clone() {
+            for b in all.clone().skip(a as usize + 1) {
+                let (Some(p), Some(q)) = (&seen[a as usize], &seen[b as usize]) else { continue };
+                let [near, far] = p.against(q);
+                if near {
+                    hidden[a as usize].push(b);
+                }
+                if far {
+                    hidden[b as usize].push(a);
+                }
+            }
+        }
+        hidden.iter_mut().for_each(|list| list.sort_unstable());
+        Self { hidden }
+    }
+
+    /// Whether a face hides a part of another.
+    pub fn hides(&self, face: u32, other: u32) -> bool {
+        self.hidden[face as usize].binary_search(&other).is_ok()
+    }
+
+    /// How many pairs there are of which one face hides a part of the other.
+    pub fn pairs(&self) -> usize {
+        self.hidden.iter().map(Vec::len).sum::<usize>() - self.mutual()
+    }
+
+    /// How many pairs hide parts of each other: these go through each other.
+    pub fn mutual(&self) -> usize {
+        let both = |a: u32| {
+            let back = self.hidden[a as usize].iter().filter(move |&&b| b > a && self.hides(b, a));
+            back.count()
+        };
+        (0..self.hidden.len() as u32).map(both).sum()
+    }
+
+    /// The faces on cycles of hiding: each list is of faces that all hide each other, directly or
+    /// by way of others.
+    pub fn cycles(&self) -> Vec<Vec<u32>> {
+        components(&self.hidden)
+    }
+
+    /// An order in which whole faces can be painted, each after all that it hides parts of; `None`
+    /// if there is a cycle. Of several faces that may come next it is the first.
+    pub fn paint_order(&self) -> Option<Vec<u32>> {
+        let mut waits_for: Vec<usize> = self.hidden.iter().map(Vec::len).collect();
+        let mut order = Vec::with_capacity(waits_for.len());
+        let mut is_done = vec![false; waits_for.len()];
+        while order.len() < waits_for.len() {
+            let next = (0..waits_for.len()).find(|&f| waits_for[f] == 0 && !is_done[f])?;
+            is_done[next] = true;
+            order.push(next as u32);
+            for (face, hidden) in self.hidden.iter().enumerate() {
+                waits_for[face] -= usize::from(hidden.contains(&(next as u32)));
+            }
+        }
+        Some(order)
+    }
+
+    /// The fewest faces that have to be cut, whoever cuts them: each cycle has one of them. `None`
+    /// if more than [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another, as all
+    /// their subsets are tried.
+    pub fn fewest_cut(&self) -> Option<usize> {
+        self.cycles().iter().map(|cycle| fewest_removed(&self.hidden, cycle)).sum()
+    }
+
+    /// The most faces of which all subsets are tried.
+    pub const SEARCHED: usize = 22;
+}
+
+/// How many pairs of faces overlap in depth along a direction of view: those whose order a sort by
+/// depth leaves open. Exact, but for the direction, which is rounded to 2⁻⁴⁰.
+pub fn overlaps_in_depth(faces: &Faces, forward: DVec3) -> usize {
+    let direction = forward.to_array().map(|c| (c * 2f64.powi(40)).round() as i128);
+    let extent = |face: u32| {
+        let depth = |corner: &[f64; 3]| (0..3).map(|i| direction[i] * corner[i] as i128).sum();
+        let depths = faces.corners(face).iter().map(depth);
+        depths.fold([i128::MAX, i128::MIN], |[low, high], d: i128| [low.min(d), high.max(d)])
+    };
+    let mut extents: Vec<[i128; 2]> = (0..faces.len() as u32).map(extent).collect();
+    extents.sort_unstable();
+    let overlaps = |i: usize| {
+        let [low, high] = extents[i];
+        let later = extents[i + 1..].iter().take_while(move |other| other[0] < high);
+        // Not one that is as near as the other begins and has no depth.
+        later.filter(move |other| other[1] > low).count()
+    };
+    (0..extents.len()).map(overlaps).sum()
+}

@@ -1,0 +1,63 @@
+//! Cycles of a graph, and what has to go so that there are none.
+
+use super::Hiding;
+
+/// The sets of two or more vertices that all lead to each other: by the closure of "leads to", a row
+/// of bits for each vertex (S. Warshall, "A theorem on Boolean matrices", 1962). O(n³ / 64).
+pub(super) fn components(next: &[Vec<u32>]) -> Vec<Vec<u32>> {
+    let (count, words) = (next.len(), next.len().div_ceil(64));
+    let mut reach = vec![vec![0u64; words]; count];
+    for (from, list) in next.iter().enumerate() {
+        list.iter().for_each(|&to| reach[from][to as usize / 64] |= 1 << (to % 64));
+    }
+    let leads = |reach: &[Vec<u64>], a: usize, b: usize| reach[a][b / 64] >> (b % 64) & 1 == 1;
+    for by in 0..count {
+        let row = reach[by].clone();
+        for from in 0..count {
+            if leads(&reach, from, by) {
+                reach[from].iter_mut().zip(&row).for_each(|(word, more)| *word |= more);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for a in 0..count {
+        let all: Vec<u32> = (0..count)
+            .filter(|&b| leads(&reach, a, b) && leads(&reach, b, a))
+            .map(|b| b as u32)
+            .collect();
+        if all.first() == Some(&(a as u32)) {
+            found.push(all);
+        }
+    }
+    found
+}
+
+/// The fewest of these vertices without which there is no cycle among them, by all subsets. `None` of
+/// too many vertices.
+pub(super) fn fewest_removed(next: &[Vec<u32>], vertices: &[u32]) -> Option<usize> {
+    if vertices.len() > Hiding::SEARCHED {
+        return None;
+    }
+    let place = |vertex: &u32| vertices.iter().position(|v| v == vertex);
+    let mask = |&vertex: &u32| {
+        let leads = next[vertex as usize].iter().filter_map(place);
+        leads.fold(0u32, |mask, place| mask | 1 << place)
+    };
+    let leads: Vec<u32> = vertices.iter().map(mask).collect();
+    let all = (1u32 << vertices.len()) - 1;
+    let enough = |removed: &u32| !has_cycle(&leads, all & !removed);
+    (0..=all).filter(enough).map(|removed| removed.count_ones() as usize).min()
+}
+
+/// Whether these vertices, a bit each, have a cycle among them: those that lead to none of the
+/// others are taken away until there are none.
+fn has_cycle(leads: &[u32], mut left: u32) -> bool {
+    loop {
+        let ends = (0..leads.len()).filter(|&v| left >> v & 1 == 1 && leads[v] & left == 0);
+        let ends = ends.fold(0u32, |mask, v| mask | 1 << v);
+        if ends == 0 {
+            return left != 0;
+        }
+        left &= !ends;
+    }
+}

@@ -1,0 +1,109 @@
+//! What an eye sees of a face: the cone of rays through it.
+
+use binspace::internals::{Faces, PlaneId, Symbol};
+use num_bigint::BigInt;
+use num_traits::{Signed, Zero};
+
+use crate::place::{Place, Plane};
+
+/// A point over a weight that is not negative, or a plane: what is in front has a positive product.
+type Quad = [BigInt; 4];
+
+/// A face as an eye sees it.
+#[derive(Clone, Debug)]
+pub(super) struct Seen {
+    corners: Vec<Quad>,
+    /// The face's plane, with the eye in front.
+    plane: Quad,
+    /// The planes through the eye and each edge, with the face in front. Inside of them all is the
+    /// cone of the eye's rays through the face, and nothing behind the eye: the cone comes to a
+    /// point there.
+    sides: Vec<Quad>,
+}
+
+impl Seen {
+    /// `None` of a face that the eye sees edge-on: no ray goes through its inside.
+    pub(super) fn new(faces: &Faces, face: u32, eye: &Quad) -> Option<Self> {
+        let plane = Plane::of(faces, PlaneId::face(face));
+        let count = faces.corners(face).len() as u32;
+        let corners: Vec<Quad> = (0..count)
+            .filter_map(|k| Place::of(faces, face, &plane, Symbol::corner(k)))
+            .map(|place| place.homogeneous())
+            .collect();
+        let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
+        let [p, q, r] = triangle.map(|[x, y, z]| [x, y, z, 1.0].map(|c| BigInt::from(c as i64)));
+        let plane = through(&p, &q, &r);
+        let side = product(&plane, eye);
+        if side.is_zero() {
+            return None;
+        }
+        let plane = if side.is_negative() { negative(plane) } else { plane };
+        let sides = (0..corners.len()).map(|k| {
+            let next = &corners[(k + 1) % corners.len()];
+            let side = through(&corners[k], next, eye);
+            let behind = corners.iter().any(|corner| product(&side, corner).is_negative());
+            if behind { negative(side) } else { side }
+        });
+        let sides = sides.collect();
+        Some(Self { corners, plane, sides })
+    }
+
+    /// Whether this face hides a part of another, and whether the other hides a part of this one.
+    pub(super) fn against(&self, other: &Self) -> [bool; 2] {
+        let part = self.within(other);
+        let sides = || part.iter().map(|vertex| product(&other.plane, vertex));
+        [sides().any(|d| d.is_positive()), sides().any(|d| d.is_negative())]
+    }
+
+    /// The vertices of the part of this face that is seen through another; none if that has no
+    /// inside.
+    pub(super) fn within(&self, other: &Self) -> Vec<Quad> {
+        let mut part = self.corners.clone();
+        for side in &other.sides {
+            let at: Vec<BigInt> = part.iter().map(|vertex| product(side, vertex)).collect();
+            // A convex polygon with a corner inside has an area there.
+            if !at.iter().any(Signed::is_positive) {
+                return Vec::new();
+            }
+            if at.iter().any(Signed::is_negative) {
+                part = front(&part, &at);
+            }
+        }
+        part
+    }
+}
+
+/// The part of a polygon in front of a plane, given the plane's product with each vertex.
+fn front(polygon: &[Quad], at: &[BigInt]) -> Vec<Quad> {
+    let mut kept = Vec::new();
+    for (i, here) in polygon.iter().enumerate() {
+        let k = (i + 1) % polygon.len();
+        if !at[i].is_negative() {
+            kept.push(here.clone());
+        }
+        if at[i].is_positive() && at[k].is_negative() || at[i].is_negative() && at[k].is_positive()
+        {
+            let (a, b) = (at[i].abs(), at[k].abs());
+            kept.push(std::array::from_fn(|c| &here[c] * &b + &polygon[k][c] * &a));
+        }
+    }
+    kept
+}
+
+/// The plane through three points.
+pub(super) fn through(p: &Quad, q: &Quad, r: &Quad) -> Quad {
+    // The determinant of the three and a fourth point, by the fourth.
+    let minor = |[a, b, c]: [usize; 3]| {
+        let pair = |i: usize, j: usize| &q[i] * &r[j] - &q[j] * &r[i];
+        &p[a] * pair(b, c) + &p[b] * pair(c, a) + &p[c] * pair(a, b)
+    };
+    [-minor([1, 2, 3]), minor([0, 2, 3]), -minor([0, 1, 3]), minor([0, 1, 2])]
+}
+
+pub(super) fn product(plane: &Quad, point: &Quad) -> BigInt {
+    plane.iter().zip(point).map(|(a, b)| a * b).sum()
+}
+
+fn negative(plane: Quad) -> Quad {
+    plane.map(|c| -c)
+}

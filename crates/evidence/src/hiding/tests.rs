@@ -1,0 +1,265 @@
+//! Who hides whom against rays, permutations and pictures.
+
+use binspace::glam::DVec3;
+use binspace::internals::{Eye, Faces, SplitMix64};
+use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, zbuffer};
+use binspace::scene::{self, Scene};
+use binspace::view::Camera;
+use binspace::{BspTree, Viewpoint};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::cone::Seen;
+use super::{Hiding, overlaps_in_depth};
+use crate::method::Newell;
+use crate::{Family, place};
+
+fn faces(scene: &Scene) -> Faces {
+    Faces::new(scene.polygons(), Some(0.0)).unwrap().0
+}
+
+fn camera(scene: &Scene, from: DVec3) -> Camera {
+    let (low, high) = scene.bounds().unwrap();
+    let (centre, reach) = ((low + high) * 0.5, (high - low).max_element());
+    let eye = centre + from.normalize() * 2.5 * reach;
+    Camera::perspective(eye, centre, DVec3::new(0.1, 0.2, 1.0), 0.9, [160, 120]).unwrap()
+}
+
+type Vector = [BigRational; 3];
+
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
+
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn dot(a: &Vector, b: &Vector) -> BigRational {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+/// How far along a ray a face is met inside of its edges, in rationals: the plane by the cross
+/// product of two edges, each edge by the point's side of it in the plane.
+fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<BigRational> {
+    let exact =
+        |c: &[f64; 3]| -> Vector { c.map(|c| BigRational::from_integer(BigInt::from(c as i64))) };
+    let corners: Vec<Vector> = faces.corners(face).iter().map(exact).collect();
+    let triangle = faces.reference_triangle(face).map(|c| exact(&faces.corner(c)));
+    let normal = cross(&minus(&triangle[1], &triangle[0]), &minus(&triangle[2], &triangle[0]));
+    let speed = dot(&normal, along);
+    if speed.is_zero() {
+        return None;
+    }
+    let t = dot(&normal, &minus(&triangle[0], from)) / speed;
+    let at: Vector = std::array::from_fn(|i| &from[i] + &along[i] * &t);
+    let inside = (0..corners.len()).all(|k| {
+        let (a, b) = (&corners[k], &corners[(k + 1) % corners.len()]);
+        dot(&cross(&minus(b, a), &minus(&at, a)), &normal).is_positive()
+    });
+    (inside && t.is_positive()).then_some(t)
+}
+
+/// Every pair that is found has a ray that says so: the one through the middle of the part where
+/// the one is in front, by rationals.
+fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
+    let viewpoint = Viewpoint::eye(eye);
+    let hiding = Hiding::of(faces, viewpoint);
+    let quad = place::eye(&Eye::new(viewpoint, faces.lattice()));
+    let from: Vector = std::array::from_fn(|i| BigRational::from_integer(quad[i].clone()));
+    let mut checked = 0;
+    for a in 0..faces.len() as u32 {
+        for b in (0..faces.len() as u32).filter(|&b| b != a) {
+            let [p, q] = [a, b].map(|f| Seen::new(faces, f, &quad).unwrap());
+            let part = p.within(&q);
+            assert_eq!(part.is_empty(), q.within(&p).is_empty());
+            if part.is_empty() {
+                assert!(!hiding.hides(a, b));
+                continue;
+            }
+            // Rays through the middle, and near each vertex: one in 2³⁰ of the way from it.
+            let points: Vec<Vector> = part
+                .iter()
+                .map(|v| std::array::from_fn(|i| BigRational::new(v[i].clone(), v[3].clone())))
+                .collect();
+            let count = BigRational::from_integer(BigInt::from(points.len()));
+            let middle: Vector = std::array::from_fn(|i| {
+                points.iter().map(|p| p[i].clone()).sum::<BigRational>() / &count
+            });
+            let share = BigRational::new(BigInt::one(), BigInt::one() << 30);
+            let near = |p: &Vector| -> Vector {
+                std::array::from_fn(|i| &p[i] + (&middle[i] - &p[i]) * &share)
+            };
+            let first = points.iter().map(near).chain([middle.clone()]).any(|target| {
+                let along = minus(&target, &from);
+                let [t, u] = [a, b].map(|face| met(faces, face, &from, &along).unwrap());
+                t < u
+            });
+            assert_eq!(hiding.hides(a, b), first, "{a} {b}");
+            checked += usize::from(first);
+        }
+    }
+    assert!(checked >= hiding.pairs());
+    checked
+}
+
+#[test]
+fn who_hides_whom_is_what_single_rays_say() {
+    let mut checked = 0;
+    for seed in 1..4 {
+        checked += check_by_witnesses(
+            &faces(&Family::Penetration.scene(14.0, seed)),
+            DVec3::new(9.0, 5.0, 7.0),
+        );
+    }
+    checked += check_by_witnesses(&faces(&Family::Cycle.scene(5.0, 1)), DVec3::new(2.0, 1.0, 3.0));
+    assert!(checked > 200, "{checked}");
+}
+
+/// Rays through the centres of pixels, by the judge's picture and what it looks like without what it
+/// shows: in each pixel, the first face hides the second.
+#[test]
+fn nothing_that_hides_in_a_picture_is_overlooked() {
+    let scene = Family::Penetration.scene(12.0, 5);
+    let faces = faces(&scene);
+    let camera = camera(&scene, DVec3::new(1.0, 2.0, 3.0));
+    let hiding = Hiding::of(&faces, camera.viewpoint());
+    let rays = Rays::new(&camera, &faces).unwrap();
+    let truth = zbuffer(&rays, &faces);
+    let mut found = 0;
+    for a in 0..faces.len() as u32 {
+        for b in 0..faces.len() as u32 {
+            let draw = |only: &[u32]| {
+                let mut painter = Painter::new(&rays, &faces, Order::BackToFront);
+                only.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
+                painter.finish()
+            };
+            // Where both are, and what shows there in truth is A.
+            let (one, other) = (draw(&[a]), draw(&[b]));
+            let pixels = one.faces().iter().zip(other.faces()).zip(truth.image().faces());
+            let hides = pixels.filter(|((p, q), t)| **p == a && **q == b && **t == a).count();
+            if a != b && hides > 0 {
+                assert!(hiding.hides(a, b), "{a} {b}");
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 20, "{found}");
+}
+
+fn wrong(rays: &Rays, faces: &Faces, order: &[u32]) -> usize {
+    let mut painter = Painter::new(rays, faces, Order::BackToFront);
+    order.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
+    compare(rays, faces, &painter.finish(), zbuffer(rays, faces).image()).wrong()
+}
+
+/// All orders of so many faces.
+fn orders(count: u32) -> Vec<Vec<u32>> {
+    let mut all = vec![vec![]];
+    for face in 0..count {
+        let with = |order: &Vec<u32>| -> Vec<Vec<u32>> {
+            let insert = |at: usize| {
+                let mut longer = order.clone();
+                longer.insert(at, face);
+                longer
+            };
+            (0..=order.len()).map(insert).collect()
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    all
+}
+
+#[test]
+fn scenes_without_cycles_are_painted_whole_and_those_with_one_in_no_order() {
+    let (mut with, mut without) = (0, 0);
+    for seed in 1..40 {
+        let mut random = SplitMix64::new(seed);
+        let mut scene = Scene::new("few", DVec3::Z);
+        let material = scene.add_material(scene::Material::new("one", [1.0; 3]));
+        for _ in 0..5 {
+            let centre = random.point(-0.6, 0.6);
+            scene.push(
+                (0..3).map(|_| centre + random.point(-0.6, 0.6)).collect::<Vec<_>>(),
+                material,
+            );
+        }
+        let faces = faces(&scene);
+        let camera = camera(&scene, random.point(-1.0, 1.0));
+        let rays = Rays::new(&camera, &faces).unwrap();
+        let hiding = Hiding::of(&faces, camera.viewpoint());
+        let is_kept = |order: &[u32]| {
+            let place = |face: u32| order.iter().position(|&f| f == face);
+            (0..5).all(|a| (0..5).all(|b| !hiding.hides(a, b) || place(b) < place(a)))
+        };
+        let kept = orders(5).into_iter().filter(|order| is_kept(order)).count();
+        match hiding.paint_order() {
+            Some(order) => {
+                without += 1;
+                assert!(kept > 0 && is_kept(&order));
+                assert_eq!(wrong(&rays, &faces, &order), 0);
+                assert_eq!((hiding.cycles().len(), hiding.fewest_cut()), (0, Some(0)));
+            }
+            None => {
+                with += 1;
+                assert_eq!(kept, 0);
+                assert!(!hiding.cycles().is_empty() && hiding.fewest_cut() > Some(0));
+            }
+        }
+    }
+    assert!(with >= 5 && without >= 5, "{with} {without}");
+}
+
+#[test]
+fn bars_in_a_cycle_need_one_cut_and_no_order_is_right() {
+    let scene = Family::Cycle.scene(5.0, 1);
+    // Flat but for rounding: without a tolerance, a bar would be two triangles.
+    let (faces, _) = Faces::new(scene.polygons(), None).unwrap();
+    let camera = Family::Cycle.cameras(5.0, 1, [160, 120]).unwrap().remove(0);
+    let hiding = Hiding::of(&faces, camera.viewpoint());
+    assert_eq!((hiding.pairs(), hiding.mutual(), hiding.paint_order()), (5, 0, None));
+    assert_eq!(hiding.cycles(), [[0, 1, 2, 3, 4]]);
+    assert_eq!(hiding.fewest_cut(), Some(1));
+    let rays = Rays::new(&camera, &faces).unwrap();
+    assert!(orders(5).iter().all(|order| wrong(&rays, &faces, order) > 0));
+}
+
+#[test]
+fn neither_newell_nor_the_tree_cuts_fewer_than_needed() {
+    let mut needed = 0;
+    for seed in 1..12 {
+        let scene = Family::Penetration.scene(10.0, seed);
+        let (faces, camera) = (faces(&scene), camera(&scene, DVec3::new(3.0, 1.0, 2.0)));
+        let fewest = Hiding::of(&faces, camera.viewpoint()).fewest_cut().unwrap();
+        let newell = Newell::DEFAULT.decisions(&faces, &camera).unwrap();
+        assert!(newell.cuts >= fewest as u64, "{seed}: {newell:?} {fewest}");
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        assert!(tree.len() - tree.face_count() >= fewest);
+        needed += fewest;
+    }
+    assert!(needed > 10, "{needed}");
+}
+
+#[test]
+fn overlaps_in_depth_are_those_of_all_pairs() {
+    let scene = scene::random_triangles(60, 2);
+    let faces = faces(&scene);
+    let forward = DVec3::new(0.0, 0.0, 1.0);
+    let extent = |face: u32| {
+        let depths = faces.corners(face).iter().map(|c| c[2]);
+        depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)))
+    };
+    let mut pairs = 0;
+    for a in 0..60 {
+        for b in 0..a {
+            let ((l, h), (m, i)) = (extent(a), extent(b));
+            pairs += usize::from(l < i && m < h);
+        }
+    }
+    assert_eq!(overlaps_in_depth(&faces, forward), pairs);
+    assert!(pairs > 50);
+}

@@ -1,0 +1,28 @@
+//! Where methods decide.
+
+use std::fmt;
+
+/// Where a method decides what is visible: I. E. Sutherland, R. F. Sproull & R. A. Schumacker, "A
+/// characterization of ten hidden-surface algorithms" (1974).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Space {
+    /// Among the polygons of the scene, whatever the picture's resolution.
+    Object,
+    /// In each pixel.
+    Image,
+    /// Priorities among the polygons, what overlaps in the picture.
+    Both,
+    /// It does not decide.
+    Neither,
+}
+
+impl fmt::Display for Space {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Object => "object space",
+            Self::Image => "image space",
+            Self::Both => "both",
+            Self::Neither => "neither",
+        })
+    }
+}

@@ -1,0 +1,67 @@
+//! Back-face detection as a step before a method.
+
+use std::cmp::Ordering;
+
+use super::{Method, MethodError, Painted, Prepared, Space};
+use crate::Accuracy;
+use binspace::internals::{Exact, Eye, Faces, Kernel, PlaneId};
+use binspace::raster::Rays;
+use binspace::view::Camera;
+
+/// Another method, shown only the faces that turn their fronts to the eye.
+///
+/// Of a convex body these are all that can be seen, and none of them hides another: there the step
+/// alone, before [`InputOrder`](super::InputOrder), gives the exact picture. Of other closed bodies
+/// it removes about half of the faces ahead of the method. Surfaces that are not closed lose what
+/// they show of their backs.
+///
+/// The side of the eye is decided exactly.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FrontFaces<M>(pub M);
+
+impl<M: Method> Method for FrontFaces<M> {
+    fn name(&self) -> String {
+        format!("fronts, {}", self.0.name())
+    }
+
+    /// Faces are removed whole, in object space.
+    fn space(&self) -> Space {
+        match self.0.space() {
+            Space::Neither | Space::Object => Space::Object,
+            Space::Image | Space::Both => Space::Both,
+        }
+    }
+
+    fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
+        Ok(Box::new(Ready(self.0.prepare(faces)?)))
+    }
+}
+
+struct Ready<'a>(Box<dyn Prepared + 'a>);
+
+impl Prepared for Ready<'_> {
+    fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
+        self.0.paint(camera, &rays.clone().with_front_faces_only())
+    }
+
+    fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
+    fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
+        self.0.for_each_piece(visit);
+    }
+
+    fn accuracy(&self) -> Option<Accuracy> {
+        self.0.accuracy()
+    }
+}
+
+/// The faces that a method has to look at: all, or, of rays that meet only fronts, those that show
+/// theirs.
+pub(super) fn shown<'a>(rays: &Rays, faces: &'a Faces) -> impl Fn(u32) -> bool + use<'a> {
+    let eye = rays.is_front_only().then(|| Eye::new(rays.viewpoint(), faces.lattice()));
+    move |face| {
+        eye.is_none_or(|eye| Exact.eye_side(faces, PlaneId::face(face), &eye) == Ordering::Greater)
+    }
+}
