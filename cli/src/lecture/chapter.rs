@@ -69,6 +69,11 @@ impl Chapter {
         Ok(())
     }
 
+    /// Adds a drawing, as SVG.
+    pub(super) fn svg(&mut self, svg: String) {
+        self.parts.push(Part::Graph(svg));
+    }
+
     /// Adds a table.
     pub(super) fn table<const N: usize>(
         &mut self,

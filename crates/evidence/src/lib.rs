@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod family;
+pub mod fighting;
 pub mod measure;
 pub mod method;
 mod place;

@@ -4,6 +4,7 @@ mod format;
 mod frame;
 mod gradient;
 mod pass;
+mod precision;
 mod range;
 mod scanline;
 
@@ -20,6 +21,7 @@ use binspace::raster::Rays;
 use binspace::view::Camera;
 
 pub use self::format::{DepthFormat, Interpolation};
+pub use self::precision::Stored;
 
 /// The depth buffer (Catmull 1974) with depths of limited precision.
 ///

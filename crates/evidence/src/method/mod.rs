@@ -49,7 +49,7 @@ mod tests;
 
 pub use bsp::Bsp;
 pub use centroid::Centroid;
-pub use depth::{DepthBuffer, DepthFormat, Interpolation};
+pub use depth::{DepthBuffer, DepthFormat, Interpolation, Stored};
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
 pub use field::{Options, all};

@@ -104,6 +104,17 @@ impl<P: Precision> Scale<P> {
         Self { format, range, perspective, a, b, steps, precision: PhantomData }
     }
 
+    /// How many steps an integer format has.
+    pub(super) fn steps(&self) -> f64 {
+        self.steps
+    }
+
+    /// What is interpolated of a depth w, which is rounded already.
+    pub(super) fn value(&self, w: f64) -> f64 {
+        let value = P::round(P::round(self.a * w) + self.b);
+        if self.perspective { P::round(value / w) } else { value }
+    }
+
     /// A vertex on the picture with what is interpolated.
     pub(super) fn sample(&self, space: &CameraSpace, at: DVec3) -> Sample {
         let [x, y, w] = at.to_array().map(P::round);
@@ -111,9 +122,7 @@ impl<P: Precision> Scale<P> {
         let unit = if self.perspective { P::round(w * pixel) } else { pixel };
         let [width, height] = space.size.map(f64::from);
         let position = |c: f64, side: f64| P::round(P::round(c / unit) + 0.5 * side);
-        let value = P::round(P::round(self.a * w) + self.b);
-        let value = if self.perspective { P::round(value / w) } else { value };
-        Sample { x: position(x, width), y: position(y, height), value }
+        Sample { x: position(x, width), y: position(y, height), value: self.value(w) }
     }
 
     /// What is stored of an interpolated value: the smaller, the nearer.
