@@ -28,7 +28,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
 
 fn style(format: DepthFormat) -> [u8; 3] {
     match format {
-        Integer(16) => [200, 60, 40],
+        Integer(4 | 16) => [200, 60, 40],
         Integer(_) => [230, 150, 20],
         Float => [120, 80, 180],
         FloatReversed => [40, 130, 70],
@@ -46,7 +46,7 @@ fn values(chapter: &mut Chapter) -> Result<(), Failure> {
         points: depths.clone().map(|w| (w, format.store(PLANES, w).value)).collect(),
     };
     let curves = vec![
-        curve(Integer(8), "z in 8 bits"),
+        curve(Integer(4), "z in 4 bits"),
         curve(Integer(24), "z in 24 bits"),
         curve(FloatReversed, "1 - z as f32"),
         curve(LinearInteger(16), "w in 16 bits"),
