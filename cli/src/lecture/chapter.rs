@@ -86,6 +86,11 @@ impl Chapter {
     }
 }
 
+/// Any error, as one of a chapter.
+pub(super) fn failure(error: impl Display) -> Failure {
+    Failure::about("the lecture", error)
+}
+
 /// A share, as people read it: 0, or three digits of a percentage.
 pub(super) fn percent(part: impl Into<f64>, whole: impl Into<f64>) -> impl Display {
     let share = 100.0 * part.into() / whole.into();

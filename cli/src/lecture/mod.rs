@@ -5,6 +5,8 @@
 
 mod chapter;
 mod curve;
+mod curved;
+mod depth;
 mod page;
 mod precision;
 mod why;
@@ -18,8 +20,11 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 2] =
-    [("Why order at all", why::fill), ("Precision", precision::fill)];
+const CHAPTERS: [(&str, Make); 3] = [
+    ("Why order at all", why::fill),
+    ("Depth buffers", depth::fill),
+    ("Precision", precision::fill),
+];
 
 /// How many chapters there are.
 pub(crate) const COUNT: usize = CHAPTERS.len();

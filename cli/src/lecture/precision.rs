@@ -5,7 +5,7 @@ use binspace::{BuildOptions, Faces};
 use binspace_evidence::fighting::{Fight, PLANES, Sheets};
 use binspace_evidence::method::{Bsp, DepthFormat};
 
-use super::chapter::{Chapter, Picture};
+use super::chapter::{Chapter, Picture, failure};
 use super::curve::{Curve, Graph};
 use crate::chart::{Chart, Marker, Series, Style};
 use crate::failure::Failure;
@@ -200,8 +200,4 @@ fn colours(sheets: &Sheets, fight: &Fight) -> Result<Vec<u8>, Failure> {
     debug_assert!(!fight.image.faces().contains(&NONE));
     let colour = |polygon: usize| if polygon < 2 { [255, 150, 30] } else { [60, 100, 190] };
     Ok(picture(&rays, &faces, &fight.image, colour, [255; 3]))
-}
-
-fn failure(error: impl std::fmt::Display) -> Failure {
-    Failure::about("a chapter", error)
 }

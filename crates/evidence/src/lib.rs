@@ -3,6 +3,7 @@
 //! library do not compile this crate.
 
 mod accuracy;
+pub mod curved;
 mod family;
 pub mod fighting;
 pub mod measure;

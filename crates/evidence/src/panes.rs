@@ -12,7 +12,7 @@ pub fn panes(count: usize, seed: u64) -> (Vec<Vec<Corner>>, Vec<bool>) {
     };
     let pane = |_| {
         let [x, y, z] = integers(1.0 * 256.0);
-        let ([a, b], depth) = ([integers(640.0), integers(640.0)], 2048 + 3 * z);
+        let ([a, b], depth) = ([integers(400.0), integers(400.0)], 2048 + 3 * z);
         let centre = [x * depth / 640, y * depth / 900, -depth];
         let corner = |s: i64, t: i64| std::array::from_fn(|i| centre[i] + s * a[i] + t * b[i]);
         vec![corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)]

@@ -44,6 +44,11 @@ impl Depth {
         (self.over * other.under).cmp(&(other.over * self.under))
     }
 
+    /// As a multiple of a ray, a fraction.
+    pub(crate) fn along(&self, ray: [i128; 3]) -> [i128; 2] {
+        [self.over, self.under * -ray[2]]
+    }
+
     /// The depth along the view, in world units, rounded.
     pub fn to_f64(self) -> f64 {
         self.over as f64 / self.under as f64 / UNITS

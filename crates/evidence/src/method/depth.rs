@@ -139,7 +139,7 @@ impl Method for DepthBuffer {
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
-        Ok(Box::new(Ready { method: self, faces, keys: Vec::new() }))
+        Ok(Box::new(Ready { method: self, faces, keys: Vec::new(), bytes: 0 }))
     }
 }
 
@@ -148,6 +148,7 @@ struct Ready<'a> {
     faces: &'a Faces,
     /// The stored depths of each thread; the next picture reuses their memory.
     keys: Vec<Vec<u32>>,
+    bytes: usize,
 }
 
 impl Prepared for Ready<'_> {
@@ -160,8 +161,7 @@ impl Prepared for Ready<'_> {
     }
 
     fn bytes(&self) -> usize {
-        // A depth and a face.
-        self.keys.iter().map(|keys| keys.len() * 2 * size_of::<u32>()).sum()
+        self.bytes
     }
 }
 
@@ -179,6 +179,9 @@ impl Ready<'_> {
         if let Some(range) = range::of([self.method.near, self.method.far], &space, self.faces)? {
             let picture = Whole { method: self.method, space, range, faces: self.faces, rays };
             (pieces, drawn) = picture.draw::<P>(&mut faces, &mut self.keys);
+            // A depth and a face for each pixel of the largest section, for each thread.
+            let rows = self.method.sections.map_or(height, |s| s.rows.clamp(1, height));
+            self.bytes = self.keys.len() * (width * rows) as usize * 2 * size_of::<u32>();
         }
         let image = Image::from_faces(space.size, faces, drawn);
         Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces })
