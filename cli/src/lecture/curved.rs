@@ -9,7 +9,7 @@ use binspace_evidence::plain::PlainView;
 use super::chapter::{Chapter, Picture, failure};
 use crate::failure::Failure;
 
-const SIZE: [u32; 2] = [240, 180];
+const SIZE: [u32; 2] = [200, 150];
 const WHITE: [u8; 3] = [255; 3];
 
 /// The part of a chapter on curved surfaces.
@@ -23,19 +23,16 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let rays = Rays::new(&view.camera(), &faces).map_err(failure)?;
     let mut picture = Shared::new(&rays, &faces);
     surfaces.draw(&view, &mut picture);
-    let truth: Vec<Option<u32>> = (0..SIZE[0] * SIZE[1])
-        .map(|i| nearest(&surfaces, &view, [i % SIZE[0], i / SIZE[0]]))
-        .collect();
+    let truth = certain(&surfaces, &view);
     let judged = truth.iter().flatten().count();
     let wrong = differing(&truth, picture.shown());
     let mut pictures = vec![Picture::new(SIZE, shaded(&picture), "one depth buffer")];
     let mut rows = vec![["own routines".into(), "-".into(), "-".into(), wrong.to_string()]];
+    // Trees do without the sphere: one of radius 0 is met by no ray.
+    let no_sphere = Sphere { radius: 0, ..sphere };
+    let truth = certain(&Surfaces { sphere: no_sphere, ..surfaces }, &view);
     for tolerance in [4.0, 0.5, 0.05] {
         let (shown, cut) = by_tree(&surfaces, &view, tolerance)?;
-        let without = Surfaces { sphere: Sphere { centre: [0, 0, -1], radius: 0 }, ..surfaces };
-        let truth: Vec<Option<u32>> = (0..SIZE[0] * SIZE[1])
-            .map(|i| nearest(&without, &view, [i % SIZE[0], i / SIZE[0]]))
-            .collect();
         let [triangles, fragments] = cut.map(|n| n.to_string());
         let wrong = differing(&truth, &shown.surfaces).to_string();
         rows.push([format!("{tolerance} pixels"), triangles, fragments, wrong]);
@@ -63,6 +60,12 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         SIZE[0] * SIZE[1]
     ));
     Ok(())
+}
+
+/// What is surely nearest in each pixel.
+fn certain(surfaces: &Surfaces<'_>, view: &PlainView) -> Vec<Option<u32>> {
+    let pixels = (0..SIZE[0] * SIZE[1]).map(|i| [i % SIZE[0], i / SIZE[0]]);
+    pixels.map(|pixel| nearest(surfaces, view, pixel)).collect()
 }
 
 /// Certain pixels that show something else.

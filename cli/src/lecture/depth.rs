@@ -1,18 +1,17 @@
 //! The depth buffer: its conventions, what it needs, and how it is filled.
 
-use binspace::raster::{Image, Rays, colour_of, compare, depth_map, difference, picture, zbuffer};
-use binspace::scene;
+use binspace::BspTree;
+use binspace::raster::{Image, Rays, colour_of, compare, depth_map, picture, zbuffer};
 use binspace::view::Camera;
-use binspace::{BspTree, Faces};
 use binspace_evidence::method::{
-    Across, Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, Interpolation, Layered, Layers,
-    Method, Nearer, paint_attributes,
+    Across, Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, Layered, Layers, Method,
+    Nearer, paint_attributes,
 };
 use binspace_evidence::panes::{panes, world_polygons};
 use binspace_evidence::plain::{Corner, PlainView};
 
 use super::chapter::{Chapter, Picture, failure};
-use super::curved;
+use super::{curved, filling};
 use crate::failure::Failure;
 use crate::pictures::Bright;
 
@@ -31,9 +30,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     conventions(chapter, &room)?;
     depth_maps(chapter, &room);
     translucent(chapter, &room)?;
-    let body = Body::new()?;
-    walks(chapter, &body)?;
-    sections(chapter, &body)?;
+    filling::fill(chapter)?;
     attributes(chapter, &room)?;
     curved::fill(chapter)
 }
@@ -67,30 +64,8 @@ impl Room {
     }
 }
 
-/// A curved body of many small triangles.
-struct Body {
-    faces: Faces,
-    camera: Camera,
-    rays: Rays,
-    truth: Image,
-}
-
-impl Body {
-    fn new() -> Result<Self, Failure> {
-        let scene = scene::teapot(14);
-        let (faces, _) = Faces::new(scene.polygons(), None).map_err(failure)?;
-        let ends = scene.bounds().ok_or_else(|| failure("an empty scene"))?;
-        let (centre, extent) = ((ends.0 + ends.1) * 0.5, (ends.1 - ends.0).max_element());
-        let eye = centre + binspace::glam::DVec3::new(0.5, -1.2, 0.7) * extent;
-        let camera = Camera::perspective(eye, centre, scene.up(), 0.45, SIZE).map_err(failure)?;
-        let rays = Rays::new(&camera, &faces).map_err(failure)?;
-        let truth = zbuffer(&rays, &faces).into_image();
-        Ok(Self { faces, camera, rays, truth })
-    }
-}
-
-/// Which end is near, the test, and what the buffer is cleared to.
-fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
+/// Rules by their names: which end is nearer, the test, the clear value, whether depths are written.
+fn sets_of_rules() -> [(&'static str, &'static str, &'static str, &'static str, DepthRules); 7] {
     let smaller = DepthRules::DEFAULT.with_clear(Clear::Largest);
     let larger = DepthRules {
         nearer: Nearer::Larger,
@@ -98,7 +73,7 @@ fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         clear: Clear::Smallest,
         writes: true,
     };
-    let cases = [
+    [
         ("smaller", "LESS", "1", "yes", smaller),
         ("smaller", "LEQUAL", "1", "yes", smaller.with_test(DepthTest::LessOrEqual)),
         ("larger", "GREATER", "0", "yes", larger),
@@ -112,16 +87,20 @@ fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         ),
         ("smaller", "LESS", "1", "no", DepthRules { writes: false, ..smaller }),
         ("smaller", "LESS", "0", "yes", smaller.with_clear(Clear::Smallest)),
-    ];
+    ]
+}
+
+/// Which end is near, the test, and what the buffer is cleared to.
+fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let truth = zbuffer(&room.rays, room.tree.faces()).into_image();
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
-    for (number, (nearer, test, clear, writes, rules)) in (0..).zip(cases) {
+    for (number, (nearer, test, clear, writes, rules)) in (0..).zip(sets_of_rules()) {
         let image = room.painted(&DepthBuffer::new(DepthFormat::Integer(24)).with_rules(rules))?;
         let found = compare(&room.rays, room.tree.faces(), &image, &truth);
         let cells = [nearer, test, clear, writes].map(str::to_owned);
         let [a, b, c, d] = cells.clone();
         rows.push([a, b, c, d, found.wrong().to_string()]);
-        if number == 0 || number > 3 {
+        if [0, 4, 5].contains(&number) {
             let caption = format!(
                 "{nearer} is nearer, {test}, cleared to {clear}{}",
                 if writes == "no" { ", writes off" } else { "" }
@@ -238,102 +217,25 @@ fn blended(room: &Room, layers: &Layers) -> Vec<u8> {
     layers.iter().flat_map(|layers| colour(layers).map(|c| c.round() as u8)).collect()
 }
 
-/// Ways to find a face's pixels and their depths.
-fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
-    let names = ["edge functions", "edge table, sums", "trapezoids", "integer edges"];
-    let (mut rows, mut pictures) = (Vec::new(), Vec::new());
-    for format in [DepthFormat::Integer(24), DepthFormat::Float] {
-        for (name, how) in names.into_iter().zip(Interpolation::ALL) {
-            let method = DepthBuffer::new(format).with_interpolation(how);
-            let mut ready = method.prepare(&body.faces).map_err(failure)?;
-            let image = ready.paint(&body.camera, &body.rays).map_err(failure)?.image;
-            let found = compare(&body.rays, &body.faces, &image, &body.truth);
-            let counts = [found.wrong_order, found.holes, found.spills].map(|n| n.to_string());
-            let [order, holes, spills] = counts;
-            rows.push([name.to_owned(), format.to_string(), order, holes, spills]);
-            if format == DepthFormat::Float && how != Interpolation::EdgeFunctions {
-                let shown = picture(&body.rays, &body.faces, &image, colour_of, WHITE);
-                let marked = difference(&found, &shown);
-                pictures.push(Picture::new(SIZE, marked, format!("{name}, {format}")));
-            }
-        }
-    }
-    let covered = body.truth.covered();
-    chapter.heading("Scan conversion");
-    chapter.text(
-        "Which pixels a polygon covers, and its depth there. Edge functions decide each pixel by itself. The \
-         others walk: along an edge x grows by 1/m from one scanline to the next, and from pixel to pixel z \
-         grows by -A/C. Trapezoids, between the heights of two vertices, have one edge on the left, along \
-         which z grows by (A/m + B)/C, or by B/C if it is vertical. Integer edges keep x as pixels and a \
-         remainder, as Bresenham (1965) walks along lines, from vertices rounded to 1/256 of a pixel.",
-    );
-    chapter.pictures(pictures);
-    chapter.table(["walk", "stored", "wrong order", "holes", "spills"], rows);
-    chapter.text(format!(
-        "Against the exact picture of a teapot that covers {covered} pixels. Sums of rounded steps are off by \
-         a hundred-thousandth of a pixel or so: only a centre that is as near to an edge goes to the wrong \
-         triangle (red), is left out (yellow) or spills over the outline (magenta). Vertices rounded to 1/256 \
-         are off by more, so more pixels differ; but each edge is then walked exactly, so that triangles which \
-         share one still meet without a gap.",
-    ));
-    Ok(())
-}
-
-/// A section of the picture at a time.
-fn sections(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
-    let whole = DepthBuffer::new(DepthFormat::Integer(24));
-    let mut rows = Vec::new();
-    let mut first: Option<Image> = None;
-    for (height, threads) in [(SIZE[1], 1), (45, 1), (16, 1), (16, 2), (4, 2), (1, 1)] {
-        let method = whole.with_sections(height, threads);
-        let mut ready = method.prepare(&body.faces).map_err(failure)?;
-        let image = ready.paint(&body.camera, &body.rays).map_err(failure)?.image;
-        let first = first.get_or_insert_with(|| image.clone());
-        let pairs = image.faces().iter().zip(first.faces());
-        let differ = pairs.filter(|(a, b)| a != b).count();
-        let numbers = [height as usize, threads, ready.bytes(), differ];
-        rows.push(numbers.map(|n| n.to_string()));
-    }
-    chapter.heading("A section of the picture at a time");
-    chapter.text(
-        "Where memory is short, the buffer holds some rows only, and the polygons are drawn once for each \
-         section. As no section knows of another, threads can share them. Depths come from each plane's \
-         equation, not from sums that begin elsewhere, so the picture is the same, bit for bit.",
-    );
-    chapter.table(
-        ["rows a section", "threads", "bytes of depths and faces", "pixels that differ"],
-        rows,
-    );
-    Ok(())
-}
-
 /// Texture coordinates through cuts.
 fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let corners = [[0, 0], [6, 0], [6, 6], [0, 6]];
     let all = vec![corners.map(|uv| uv.map(f64::from)).to_vec(); room.integers.len()];
     let (mut pictures, mut rows) = (Vec::new(), Vec::new());
-    let cases = [(Across::Polygon, "1/w interpolated"), (Across::Picture, "linear on the picture")];
+    let cases =
+        [(Across::Polygon, "attribute / w and 1 / w"), (Across::Picture, "linear on the picture")];
     for (across, name) in cases {
         let shown = paint_attributes(&room.tree, &room.camera, &room.rays, &all, across);
         let (mut judged, mut wrong, mut largest) = (0, 0, 0.0f64);
-        let mut rgb = Vec::new();
         for (i, uv) in (0..).zip(&shown) {
-            let pixel = [i % SIZE[0], i / SIZE[0]];
-            let layers = room.view.layers(&room.integers, pixel).unwrap_or_default();
-            if let (Some(uv), Some(&(polygon, _))) = (uv, layers.first()) {
-                let [a, b, _, d] = room.integers[polygon as usize][..] else { continue };
-                let exact = [0, 1].map(|n| {
-                    let values = [corners[0], corners[1], corners[3]].map(|uv| i64::from(uv[n]));
-                    room.view.interpolate([a, b, d], values, pixel)
-                });
-                let off = (uv[0] - exact[0]).abs().max((uv[1] - exact[1]).abs());
-                largest = largest.max(off);
-                wrong += usize::from(is_dark(*uv) != is_dark(exact));
-                judged += 1;
-            }
-            let colour = |uv| if is_dark(uv) { [40, 60, 90] } else { [235, 225, 200] };
-            rgb.extend(uv.map_or(WHITE, colour));
+            let exact = exact_place(room, [i % SIZE[0], i / SIZE[0]], &corners);
+            let (Some(uv), Some(exact)) = (uv, exact) else { continue };
+            largest = largest.max((uv[0] - exact[0]).abs()).max((uv[1] - exact[1]).abs());
+            wrong += usize::from(is_dark(*uv) != is_dark(exact));
+            judged += 1;
         }
+        let colour = |uv| if is_dark(uv) { [40, 60, 90] } else { [235, 225, 200] };
+        let rgb = shown.iter().flat_map(|uv| uv.map_or(WHITE, colour)).collect();
         pictures.push(Picture::new(SIZE, rgb, name));
         rows.push([name.into(), judged.to_string(), wrong.to_string(), format!("{largest:.1e}")]);
     }
@@ -353,6 +255,14 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         "Judged at the centres of pixels, by fractions of integers. A polygon's sides are 6 long.",
     );
     Ok(())
+}
+
+/// The texture coordinates in a pixel, by fractions of integers, given those of the corners.
+fn exact_place(room: &Room, pixel: [u32; 2], corners: &[[i32; 2]; 4]) -> Option<[f64; 2]> {
+    let layers = room.view.layers(&room.integers, pixel)?;
+    let [a, b, _, d] = room.integers[layers.first()?.0 as usize][..] else { return None };
+    let values = |n: usize| [corners[0], corners[1], corners[3]].map(|uv| i64::from(uv[n]));
+    Some([0, 1].map(|n| room.view.interpolate([a, b, d], values(n), pixel)))
 }
 
 fn is_dark(uv: [f64; 2]) -> bool {

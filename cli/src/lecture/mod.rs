@@ -7,6 +7,7 @@ mod chapter;
 mod curve;
 mod curved;
 mod depth;
+mod filling;
 mod page;
 mod precision;
 mod why;

@@ -5,7 +5,7 @@ use binspace::{BuildOptions, Faces};
 use binspace_evidence::fighting::{Fight, PLANES, Sheets};
 use binspace_evidence::method::{Bsp, DepthFormat};
 
-use super::chapter::{Chapter, Picture, failure};
+use super::chapter::{Chapter, Picture, failure, percent};
 use super::curve::{Curve, Graph};
 use crate::chart::{Chart, Marker, Series, Style};
 use crate::failure::Failure;
@@ -66,10 +66,10 @@ fn values(chapter: &mut Chapter) -> Result<(), Failure> {
     );
     chapter.text(format!(
         "Read from our own buffers. At twice the near plane, depth {}, z is already {half:.3}: half of all \
-         numbers are spent on the first {:.1} % of the range. At depth 50 z is {:.3}. A buffer of w spends \
+         numbers are spent on the first {} of the range. At depth 50 z is {:.3}. A buffer of w spends \
          its numbers evenly.",
         2.0 * near,
-        100.0 * near / (far - near),
+        percent(near, far - near),
         Integer(24).store(PLANES, 50.0).value,
     ));
     Ok(())

@@ -24,7 +24,7 @@ type Vertex = ([f64; 2], DVec3);
 /// their own, and a strip joins them to the edges.
 pub fn mesh(patch: &Patch, view: &PlainView, tolerance: f64) -> Vec<Triangle> {
     let net = &patch.0;
-    let turned: [[Corner; 4]; 4] = std::array::from_fn(|i| std::array::from_fn(|j| net[j][i]));
+    let turned = turned(net);
     let count = grid_count(net, view, tolerance);
     let (rows, columns) = (count, count);
     let at = |i: u32, j: u32| -> Vertex {
@@ -105,17 +105,18 @@ fn edge_count(line: &[Corner; 4], view: &PlainView, tolerance: f64) -> u32 {
     chords(4.0 * bend, line.iter(), view, tolerance)
 }
 
+fn turned(net: &[[Corner; 4]; 4]) -> [[Corner; 4]; 4] {
+    std::array::from_fn(|i| std::array::from_fn(|j| net[j][i]))
+}
+
 /// How many rows and columns of a grid a patch needs: the largest second derivatives, the mixed one
 /// twice, make up for an eighth of the error (Filip, Magedson & Markot 1986).
 fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
-    let (mut bends, three, two) = ([0.0f64; 3], 0..3usize, 0..2usize);
-    for i in 0..4 {
-        for k in two.clone() {
-            let line = |k: usize| net[i][k];
-            bends[0] = bends[0].max(6.0 * second(line(k), line(k + 1), line(k + 2)));
-            let line = |k: usize| net[k][i];
-            bends[1] = bends[1].max(6.0 * second(line(k), line(k + 1), line(k + 2)));
-        }
+    let (mut bends, three) = ([0.0f64; 3], 0..3usize);
+    for (bend, lines) in bends.iter_mut().zip([*net, turned(net)]) {
+        let along =
+            |line: [Corner; 4]| (0..2).map(move |k| second(line[k], line[k + 1], line[k + 2]));
+        *bend = lines.into_iter().flat_map(along).fold(0.0, |most, c| most.max(6.0 * c));
     }
     for (i, j) in three.clone().flat_map(|i| three.clone().map(move |j| (i, j))) {
         let twist: [i64; 3] = std::array::from_fn(|n| {
