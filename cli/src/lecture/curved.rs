@@ -46,8 +46,8 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
          patches share one, each drawn by a routine of its own: the sphere by the lesser root of a quadratic \
          equation, the patches by halving until parts are smaller than a pixel (Catmull 1974). A tree takes \
          planes alone, so patches are cut to triangles first, as many as the picture needs (Filip, Magedson & \
-         Markot 1986). How an edge is cut depends on that edge alone: both patches get the same points along \
-         the one that they share, and no crack opens.",
+         Markot 1986). An edge is cut as the finer of its two patches needs, and by its own curve alone: both get \
+         the same points along the one that they share, and no crack opens.",
     );
     chapter.pictures(pictures);
     chapter.table(["patches by", "triangles", "fragments of the tree", "wrong pixels"], rows);
@@ -102,8 +102,8 @@ fn by_tree(
     let mut polygons = world_polygons(surfaces.polygons);
     let flat = polygons.len();
     let mut numbers: Vec<u32> = (0..flat as u32).collect();
-    for (number, patch) in (flat as u32 + 1..).zip(surfaces.patches) {
-        let triangles = mesh(patch, view, tolerance);
+    let meshes = mesh(surfaces.patches, view, tolerance);
+    for (number, triangles) in (flat as u32 + 1..).zip(meshes) {
         numbers.extend(triangles.iter().map(|_| number));
         polygons.extend(triangles.iter().map(|triangle| triangle.corners.to_vec()));
     }

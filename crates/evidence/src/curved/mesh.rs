@@ -1,5 +1,7 @@
 //! Patches cut to triangles without cracks.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::patch::Patch;
@@ -17,15 +19,32 @@ pub struct Triangle {
 /// A corner's parameters and its place.
 type Vertex = ([f64; 2], DVec3);
 
-/// Cuts a patch to triangles that are off by no more than about `tolerance` pixels.
+/// Cuts patches to triangles that are off by no more than `tolerance` pixels; a list for each patch.
 ///
-/// The number of points along an edge of the patch, and these points, depend on the edge's own curve
-/// alone, whichever way it runs: patches that share it fit together. Within, points are on a grid of
-/// their own, and a strip joins them to the edges.
-pub fn mesh(patch: &Patch, view: &PlainView, tolerance: f64) -> Vec<Triangle> {
+/// Each patch has a grid of its own. An edge has as many points as the finer of the patches that share
+/// it needs, and these points depend on its curve alone, whichever way it runs: so patches fit together.
+/// A strip joins a patch's grid to its edges.
+pub fn mesh(patches: &[Patch], view: &PlainView, tolerance: f64) -> Vec<Vec<Triangle>> {
+    let mut counts = Counts::new();
+    for patch in patches {
+        let count = grid_count(&patch.0, view, tolerance);
+        let across = turned(&patch.0);
+        for line in [patch.0[0], patch.0[3], across[0], across[3]] {
+            let most = counts.entry(directed(line).0).or_default();
+            *most = count.max(*most);
+        }
+    }
+    let cut = |patch| triangles_of(patch, grid_count(&patch.0, view, tolerance), &counts);
+    patches.iter().map(cut).collect()
+}
+
+/// The number of chords of each edge, by its control points.
+type Counts = BTreeMap<[Corner; 4], u32>;
+
+/// The triangles of a patch with a grid of `count` rows and columns.
+fn triangles_of(patch: &Patch, count: u32, counts: &Counts) -> Vec<Triangle> {
     let net = &patch.0;
     let turned = turned(net);
-    let count = grid_count(net, view, tolerance);
     let (rows, columns) = (count, count);
     let at = |i: u32, j: u32| -> Vertex {
         let [u, v] = [f64::from(i) / f64::from(rows), f64::from(j) / f64::from(columns)];
@@ -39,7 +58,7 @@ pub fn mesh(patch: &Patch, view: &PlainView, tolerance: f64) -> Vec<Triangle> {
     let inner_row = |i: u32| (1..columns).map(|j| at(i, j)).collect::<Vec<_>>();
     let inner_column = |j: u32| (1..rows).map(|i| at(i, j)).collect::<Vec<_>>();
     let edge = |line: [Corner; 4], place: &dyn Fn(f64) -> [f64; 2]| {
-        edge_points(&line, view, tolerance).into_iter().map(|(t, p)| (place(t), p)).collect()
+        edge_points(line, counts).into_iter().map(|(t, p)| (place(t), p)).collect()
     };
     let sides: [(Vec<Vertex>, Vec<Vertex>, usize); 4] = [
         (edge(net[0], &|t| [0.0, t]), inner_row(1), 1),
@@ -74,17 +93,22 @@ fn triangle(vertices: [Vertex; 3]) -> Triangle {
     Triangle { parameters: vertices.map(|v| v.0), corners: vertices.map(|v| v.1) }
 }
 
-/// Points along an edge of a patch, with their parameters: the same whichever way it runs.
-fn edge_points(line: &[Corner; 4], view: &PlainView, tolerance: f64) -> Vec<(f64, DVec3)> {
-    let mut forward = *line;
+/// An edge in the one of its two directions that stands for both, and whether that is the other one.
+fn directed(mut line: [Corner; 4]) -> ([Corner; 4], bool) {
     let flips = line[3] < line[0];
     if flips {
-        forward.reverse();
+        line.reverse();
     }
-    let count = edge_count(&forward, view, tolerance);
+    (line, flips)
+}
+
+/// Points along an edge of a patch, with their parameters: the same whichever way it runs.
+fn edge_points(line: [Corner; 4], counts: &Counts) -> Vec<(f64, DVec3)> {
+    let (line, flips) = directed(line);
+    let count = counts[&line];
     let points = (0..=count).map(|k| {
         let t = f64::from(k) / f64::from(count);
-        (t, DVec3::from_array(on_curve(&forward, t)))
+        (t, DVec3::from_array(on_curve(&line, t)))
     });
     if flips { points.rev().map(|(t, p)| (1.0 - t, p)).collect() } else { points.collect() }
 }
@@ -97,20 +121,12 @@ fn on_curve(line: &[Corner; 4], t: f64) -> [f64; 3] {
     })
 }
 
-/// How many chords an edge needs to be within a quarter of a tolerance, in pixels, as the
-/// strip along it errs as well: an eighth of the largest
-/// second derivative over the square of their number.
-fn edge_count(line: &[Corner; 4], view: &PlainView, tolerance: f64) -> u32 {
-    let bend = (0..2).map(|k| 6.0 * second(line[k], line[k + 1], line[k + 2])).fold(0.0, f64::max);
-    chords(4.0 * bend, line.iter(), view, tolerance)
-}
-
 fn turned(net: &[[Corner; 4]; 4]) -> [[Corner; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| net[j][i]))
 }
 
-/// How many rows and columns of a grid a patch needs: the largest second derivatives, the mixed one
-/// twice, make up for an eighth of the error (Filip, Magedson & Markot 1986).
+/// How many rows and columns a patch needs: triangles whose parameters differ by 1 / n are off by the
+/// largest second derivatives, the mixed one twice, over 8 n² (Filip, Magedson & Markot 1986).
 fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
     let (mut bends, three) = ([0.0f64; 3], 0..3usize);
     for (bend, lines) in bends.iter_mut().zip([*net, turned(net)]) {
