@@ -12,6 +12,7 @@ use crate::camera::ViewArgs;
 use crate::colours::Colouring;
 use crate::cull::CullArgs;
 use crate::examples;
+use crate::pictures::Bright;
 use crate::samples;
 use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden};
@@ -369,9 +370,10 @@ pub(crate) struct KindArgs {
     /// Draw where the painter's and the depth buffer's pictures differ; exit status 1 if they do
     #[arg(long)]
     pub(crate) difference: bool,
-    /// Draw the depth of every pixel: the nearer, the brighter
-    #[arg(long)]
-    pub(crate) depth: bool,
+    /// Draw the depth of every pixel: the nearer, the brighter; or, with --depth=far, the further
+    #[arg(long, value_name = "BRIGHT", value_enum, require_equals = true)]
+    #[arg(num_args = 0..=1, default_missing_value = "near")]
+    pub(crate) depth: Option<Bright>,
 }
 
 /// The format of a drawing.

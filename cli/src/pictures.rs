@@ -3,6 +3,7 @@
 use binspace::raster::{Rays, depth_map, difference, picture, zbuffer};
 use binspace::view::{Camera, CameraError};
 use binspace::{BspTree, Verification, paint_tree, paint_tree_in_colour, verify, verify_fronts};
+use clap::ValueEnum;
 
 use crate::args::KindArgs;
 use crate::colours::{BACKGROUND, Colours};
@@ -24,7 +25,26 @@ pub(crate) enum Kind {
     /// Where the two differ.
     Difference,
     /// The depth of every pixel.
-    Depth,
+    Depth(Bright),
+}
+
+/// What is bright where depths are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Bright {
+    /// The nearer, the brighter
+    Near,
+    /// The further, the brighter
+    Far,
+}
+
+impl Bright {
+    /// The greys of what is nearest and of what is furthest; both differ from nothing, which is black.
+    pub(crate) fn greys(self) -> [u8; 2] {
+        match self {
+            Self::Near => [255, 40],
+            Self::Far => [40, 255],
+        }
+    }
 }
 
 /// A picture to draw.
@@ -40,14 +60,15 @@ pub(crate) struct Drawing<'a> {
 
 impl Kind {
     /// All, in the order in which to write them.
-    pub(crate) const ALL: [Self; 4] = [Self::Painter, Self::ZBuffer, Self::Difference, Self::Depth];
+    pub(crate) const ALL: [Self; 4] =
+        [Self::Painter, Self::ZBuffer, Self::Difference, Self::Depth(Bright::Near)];
 
     /// The kind that options ask for.
     pub(crate) fn asked(args: &KindArgs) -> Self {
         match (args.z_buffer, args.difference, args.depth) {
             (true, ..) => Self::ZBuffer,
             (_, true, _) => Self::Difference,
-            (.., true) => Self::Depth,
+            (.., Some(bright)) => Self::Depth(bright),
             _ => Self::Painter,
         }
     }
@@ -58,7 +79,7 @@ impl Kind {
             Self::Painter => "painter",
             Self::ZBuffer => "z-buffer",
             Self::Difference => "difference",
-            Self::Depth => "depth",
+            Self::Depth(_) => "depth",
         }
     }
 }
@@ -69,9 +90,9 @@ impl Drawing<'_> {
     pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), CameraError> {
         match kind {
             Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),
-            Kind::Depth => {
+            Kind::Depth(bright) => {
                 let rays = self.cull.rays(Rays::new(self.camera, self.tree.faces())?);
-                Ok((depth_map(&zbuffer(&rays, self.tree.faces())), None))
+                Ok((depth_map(&zbuffer(&rays, self.tree.faces()), bright.greys()), None))
             }
             Kind::Difference => {
                 let verify = if self.cull == Cull::Back { verify_fronts } else { verify };

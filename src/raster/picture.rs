@@ -62,9 +62,10 @@ pub(super) fn shaded(colour: [u8; 3], normal: DVec3, direction: DVec3) -> [u8; 3
     colour.map(|c| (f64::from(c) * share).round() as u8)
 }
 
-/// The depths as grey: near is bright, far is dark, and black is nothing. The scale is linear in
-/// depth between the nearest and the furthest hundredth of the pixels.
-pub fn depth_map(depth: &DepthImage) -> Vec<u8> {
+/// The depths as grey, from that of the nearest pixels to that of the furthest, `[255, 40]` or
+/// `[40, 255]`; black is nothing. The scale is linear in depth between the nearest and the furthest
+/// hundredth of the pixels.
+pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
     let depths: Vec<f64> = depth.depths().collect();
     let mut sorted: Vec<f64> = depths.iter().copied().filter(|d| d.is_finite()).collect();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -72,12 +73,13 @@ pub fn depth_map(depth: &DepthImage) -> Vec<u8> {
     let (Some(near), Some(far)) = (at(0.01), at(0.99)) else {
         return vec![0; depths.len() * 3];
     };
+    let [nearest, furthest] = greys.map(f64::from);
     let grey = |depth: f64| {
         if depth.is_infinite() {
             return 0;
         }
         let share = if far > near { ((depth - near) / (far - near)).clamp(0.0, 1.0) } else { 0.0 };
-        (255.0 - 215.0 * share) as u8
+        (nearest + (furthest - nearest) * share) as u8
     };
     depths.into_iter().flat_map(|depth| [grey(depth); 3]).collect()
 }

@@ -69,6 +69,11 @@ impl Chapter {
         Ok(())
     }
 
+    /// Adds a drawing, as SVG.
+    pub(super) fn svg(&mut self, svg: String) {
+        self.parts.push(Part::Graph(svg));
+    }
+
     /// Adds a table.
     pub(super) fn table<const N: usize>(
         &mut self,
@@ -79,6 +84,11 @@ impl Chapter {
         let rows = rows.into_iter().map(|row| row.map(|cell| cell.to_string()).to_vec());
         self.parts.push(Part::Table(head, rows.collect()));
     }
+}
+
+/// Any error, as one of a chapter.
+pub(super) fn failure(error: impl Display) -> Failure {
+    Failure::about("the lecture", error)
 }
 
 /// A share, as people read it: 0, or three digits of a percentage.

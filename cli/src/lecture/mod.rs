@@ -4,10 +4,15 @@
 //! evidence crate, with its tests.
 
 mod chapter;
+mod curve;
+mod curved;
+mod depth;
+mod filling;
 mod newell;
 mod page;
 mod painter;
 mod plan;
+mod precision;
 mod shot;
 mod trees;
 mod why;
@@ -21,11 +26,13 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 4] = [
+const CHAPTERS: [(&str, Make); 6] = [
     ("Why order at all", why::fill),
     ("The painter's algorithm and who hides whom", painter::fill),
     ("Newell, Newell and Sancha", newell::fill),
     ("Binary space partition trees", trees::fill),
+    ("Depth buffers", depth::fill),
+    ("Precision", precision::fill),
 ];
 
 /// How many chapters there are.

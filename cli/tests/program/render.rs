@@ -47,6 +47,12 @@ fn the_kinds_of_picture_differ_and_the_first_two_do_not() {
     let depth = picture(&folder, "--depth");
     assert!(depth.rgb.chunks_exact(3).all(|p| p[0] == p[1] && p[1] == p[2]));
     assert_eq!(depth.count([0; 3]), painter.count(WHITE));
+    assert_eq!(picture(&folder, "--depth=near"), depth);
+    // The other way round, with nothing as dark as before.
+    let far = picture(&folder, "--depth=far");
+    let sums = depth.rgb.iter().zip(&far.rgb).map(|(&a, &b)| u32::from(a) + u32::from(b));
+    assert!(sums.clone().all(|sum| sum == 0 || (294..=295).contains(&sum)));
+    assert!(depth != far && far.count([0; 3]) == painter.count(WHITE));
 }
 
 #[test]

@@ -3,12 +3,16 @@
 //! library do not compile this crate.
 
 mod accuracy;
+pub mod curved;
 mod facing;
 mod family;
+pub mod fighting;
 mod hiding;
 pub mod measure;
 pub mod method;
+pub mod panes;
 mod place;
+pub mod plain;
 mod residue;
 mod rounded;
 mod tree;

@@ -149,12 +149,14 @@ fn backs_are_left_out_on_request() {
 }
 
 #[test]
-fn near_is_bright_in_a_depth_map() {
+fn near_is_bright_in_a_depth_map_or_far() {
     let scene =
         faces(&[square([0.0; 2], [3.0, 6.0], 1.0), square([3.0, 0.0], [5.0, 6.0], 0.0)], None);
-    let map = depth_map(&zbuffer(&rays(&scene), &scene));
-    let grey = |x: usize| map[3 * x];
-    assert!(grey(0) == 255 && grey(3) == 40 && grey(5) == 0, "{:?}", &map[..18]);
+    let depth = zbuffer(&rays(&scene), &scene);
+    for [near, far] in [[255, 40], [40, 255]] {
+        let map = depth_map(&depth, [near, far]);
+        assert_eq!([0, 3, 5].map(|x| map[3 * x]), [near, far, 0], "{:?}", &map[..18]);
+    }
 }
 
 #[test]

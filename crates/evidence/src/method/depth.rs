@@ -2,29 +2,38 @@
 
 mod format;
 mod frame;
-mod gradient;
+pub(super) mod gradient;
+mod integer_edges;
+mod layered;
 mod pass;
+mod precision;
 mod range;
+mod rules;
 mod scanline;
+mod trapezoids;
+mod walk;
+mod whole;
 
 use std::time::{Duration, Instant};
 
-use self::format::Scale;
-use self::frame::Frame;
-use self::pass::Pass;
+use self::whole::Whole;
 use super::space::CameraSpace;
 use super::{Method, MethodError, Painted, Prepared, Space};
 use crate::Precision;
 use binspace::internals::Faces;
-use binspace::raster::Rays;
+use binspace::raster::{Image, NONE, Rays};
 use binspace::view::Camera;
 
 pub use self::format::{DepthFormat, Interpolation};
+pub use self::layered::{Layered, Layers};
+pub use self::precision::Stored;
+pub use self::rules::{Clear, DepthRules, DepthTest, Nearer};
 
 /// The depth buffer (Catmull 1974) with depths of limited precision.
 ///
 /// A pixel shows the face of the least stored depth. Of equal stored depths the *earlier* face's
-/// counts (the test `LESS` of graphics libraries); a pixel without a face is beyond any depth.
+/// counts (the test `LESS` of graphics libraries); a pixel without a face is beyond any depth. Other
+/// [rules](DepthRules) can be given.
 ///
 /// # What is rounded
 ///
@@ -56,12 +65,33 @@ pub struct DepthBuffer {
     pub near: Option<f64>,
     /// The largest depth that is shown. Default: `None`, the largest that the picture shows.
     pub far: Option<f64>,
+    /// What the buffer begins with, compares and keeps.
+    pub rules: DepthRules,
+    /// The sections of the picture that are drawn one after another. Default: `None`, all of it at
+    /// once.
+    pub sections: Option<Sections>,
+}
+
+/// How a picture is drawn in sections, so that the depths of all of it are never kept at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sections {
+    /// How many rows a section has; at least 1.
+    pub rows: u32,
+    /// How many sections are drawn at the same time; at least 1.
+    pub threads: usize,
 }
 
 impl DepthBuffer {
     /// A buffer of this format with edge functions and the scene's own range.
     pub const fn new(format: DepthFormat) -> Self {
-        Self { format, interpolation: Interpolation::EdgeFunctions, near: None, far: None }
+        Self {
+            format,
+            interpolation: Interpolation::EdgeFunctions,
+            near: None,
+            far: None,
+            rules: DepthRules::DEFAULT,
+            sections: None,
+        }
     }
 
     /// With another way to interpolate.
@@ -77,12 +107,29 @@ impl DepthBuffer {
     }
 }
 
+impl DepthBuffer {
+    /// With other rules.
+    #[must_use]
+    pub const fn with_rules(self, rules: DepthRules) -> Self {
+        Self { rules, ..self }
+    }
+
+    /// Drawn in sections of so many rows, by so many threads.
+    #[must_use]
+    pub const fn with_sections(self, rows: u32, threads: usize) -> Self {
+        Self { sections: Some(Sections { rows, threads }), ..self }
+    }
+}
+
 impl Method for DepthBuffer {
     fn name(&self) -> String {
         let mut name = self.format.to_string();
-        if self.interpolation == Interpolation::Incremental {
-            name += " incremental";
-        }
+        name += match self.interpolation {
+            Interpolation::EdgeFunctions => "",
+            Interpolation::Incremental => " incremental",
+            Interpolation::Trapezoids => " trapezoids",
+            Interpolation::IntegerEdges => " integer edges",
+        };
         for (label, value) in [("near", self.near), ("far", self.far)] {
             if let Some(value) = value {
                 name += &format!(" {label} {value:e}");
@@ -96,15 +143,16 @@ impl Method for DepthBuffer {
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
-        Ok(Box::new(Ready { method: self, faces, keys: Vec::new() }))
+        Ok(Box::new(Ready { method: self, faces, keys: Vec::new(), bytes: 0 }))
     }
 }
 
 struct Ready<'a> {
     method: &'a DepthBuffer,
     faces: &'a Faces,
-    /// The stored depths; the next picture reuses their memory.
-    keys: Vec<u32>,
+    /// The stored depths of each thread; the next picture reuses their memory.
+    keys: Vec<Vec<u32>>,
+    bytes: usize,
 }
 
 impl Prepared for Ready<'_> {
@@ -117,8 +165,7 @@ impl Prepared for Ready<'_> {
     }
 
     fn bytes(&self) -> usize {
-        // A depth and a face.
-        self.keys.len() * 2 * size_of::<u32>()
+        self.bytes
     }
 }
 
@@ -130,19 +177,17 @@ impl Ready<'_> {
     ) -> Result<Painted, MethodError> {
         let begin = Instant::now();
         let space = CameraSpace::new(camera, self.faces.lattice());
-        let mut frame = Frame::new(space.size, std::mem::take(&mut self.keys));
-        let mut pieces = 0;
+        let [width, height] = space.size;
+        let mut faces = vec![NONE; width as usize * height as usize];
+        let (mut pieces, mut drawn) = (0, 0);
         if let Some(range) = range::of([self.method.near, self.method.far], &space, self.faces)? {
-            let scale = Scale::<P>::new(self.method.format, range, space.perspective);
-            let mut pass = Pass { space, range, scale, faces: self.faces, rays, frame };
-            pieces = match self.method.interpolation {
-                Interpolation::EdgeFunctions => pass.by_edge_functions(),
-                Interpolation::Incremental => scanline::draw(&mut pass),
-            };
-            frame = pass.frame;
+            let picture = Whole { method: self.method, space, range, faces: self.faces, rays };
+            (pieces, drawn) = picture.draw::<P>(&mut faces, &mut self.keys);
+            // A depth and a face for each pixel of the largest section, for each thread.
+            let rows = self.method.sections.map_or(height, |s| s.rows.clamp(1, height));
+            self.bytes = self.keys.len() * (width * rows) as usize * 2 * size_of::<u32>();
         }
-        let (image, keys) = frame.finish();
-        self.keys = keys;
+        let image = Image::from_faces(space.size, faces, drawn);
         Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces })
     }
 }

@@ -35,6 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod attributes;
 mod bsp;
 mod centroid;
 mod clip;
@@ -50,10 +51,14 @@ mod space;
 #[cfg(test)]
 mod tests;
 
+pub use attributes::{Across, paint_attributes};
 pub use bsp::Bsp;
 pub use centroid::Centroid;
 pub use decides_in::Space;
-pub use depth::{DepthBuffer, DepthFormat, Interpolation};
+pub use depth::{
+    Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, Interpolation, Layered, Layers, Nearer,
+    Sections, Stored,
+};
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
 pub use field::{Options, all};

@@ -68,6 +68,22 @@ pub enum Interpolation {
     /// one scanline to the next, and z by −A/C from one pixel to the next. What a face covers comes
     /// out of the same sums, so pixels at its edges may be missing, or too many.
     Incremental,
+    /// Trapezoid by trapezoid: between the heights of two vertices a convex face has one edge on the
+    /// left and one on the right. With 1/m the slope of the left one, from one scanline to the next x
+    /// grows by 1/m and z by −(A/m + B)/C, by −B/C if it is vertical; and z by −A/C from pixel to pixel.
+    /// (With y upwards and scanlines taken from above, as textbooks have it: x − 1/m, and
+    /// z + (A/m + B)/C.) Sums begin anew in each trapezoid, from the edges' ends.
+    Trapezoids,
+    /// Edges in integers, as Bresenham (1965) walks along lines: vertices are rounded to 1/256 of a
+    /// pixel, and from there on it is exact which pixels' centres are between two edges. z is that
+    /// of the plane's equation at the first pixel of a scanline, and grows by −A/C from there.
+    IntegerEdges,
+}
+
+impl Interpolation {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::EdgeFunctions, Self::Incremental, Self::Trapezoids, Self::IntegerEdges];
 }
 
 /// From depths to what is interpolated, and from there to what is stored.
@@ -104,6 +120,29 @@ impl<P: Precision> Scale<P> {
         Self { format, range, perspective, a, b, steps, precision: PhantomData }
     }
 
+    /// How many steps an integer format has.
+    pub(super) fn steps(&self) -> f64 {
+        self.steps
+    }
+
+    /// The least and the largest key: those of the near and the far plane.
+    pub(super) fn ends(&self) -> [u32; 2] {
+        let Range { near, far } = self.range;
+        match self.format {
+            DepthFormat::Integer(_) | DepthFormat::LinearInteger(_) => [0, self.steps as u32],
+            DepthFormat::Float => [bits(0.0), bits(1.0)],
+            DepthFormat::FloatReversed => [!bits(1.0), !bits(0.0)],
+            DepthFormat::LinearFloat if self.perspective => [bits(near), bits(far)],
+            DepthFormat::LinearFloat => [bits(0.0), bits(1.0)],
+        }
+    }
+
+    /// What is interpolated of a depth w, which is rounded already.
+    pub(super) fn value(&self, w: f64) -> f64 {
+        let value = P::round(P::round(self.a * w) + self.b);
+        if self.perspective { P::round(value / w) } else { value }
+    }
+
     /// A vertex on the picture with what is interpolated.
     pub(super) fn sample(&self, space: &CameraSpace, at: DVec3) -> Sample {
         let [x, y, w] = at.to_array().map(P::round);
@@ -111,9 +150,7 @@ impl<P: Precision> Scale<P> {
         let unit = if self.perspective { P::round(w * pixel) } else { pixel };
         let [width, height] = space.size.map(f64::from);
         let position = |c: f64, side: f64| P::round(P::round(c / unit) + 0.5 * side);
-        let value = P::round(P::round(self.a * w) + self.b);
-        let value = if self.perspective { P::round(value / w) } else { value };
-        Sample { x: position(x, width), y: position(y, height), value }
+        Sample { x: position(x, width), y: position(y, height), value: self.value(w) }
     }
 
     /// What is stored of an interpolated value: the smaller, the nearer.

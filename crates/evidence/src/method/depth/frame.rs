@@ -2,31 +2,59 @@
 
 use std::ops::Range;
 
-use binspace::raster::{Image, NONE};
+use super::rules::Comparison;
+use binspace::raster::NONE;
 
+/// A section of the picture: some of its rows, at all their columns.
 #[derive(Debug)]
 pub(super) struct Frame {
-    size: [u32; 2],
+    width: u32,
+    /// The rows of the picture that are drawn; what is put into others is left out.
+    rows: Range<u32>,
+    comparison: Comparison,
     keys: Vec<u32>,
     faces: Vec<u32>,
     drawn: u64,
 }
 
 impl Frame {
-    /// An empty picture; the memory of another one's depths is used again.
-    pub(super) fn new(size: [u32; 2], mut keys: Vec<u32>) -> Self {
-        let pixels = size[0] as usize * size[1] as usize;
+    /// An empty section; the memory of another one's depths is used again.
+    pub(super) fn new(
+        width: u32,
+        rows: Range<u32>,
+        comparison: Comparison,
+        mut keys: Vec<u32>,
+    ) -> Self {
+        let pixels = width as usize * rows.len();
         keys.clear();
-        keys.resize(pixels, u32::MAX);
-        Self { size, keys, faces: vec![NONE; pixels], drawn: 0 }
+        keys.resize(pixels, comparison.cleared);
+        Self { width, rows, comparison, keys, faces: vec![NONE; pixels], drawn: 0 }
     }
 
-    pub(super) fn size(&self) -> [u32; 2] {
-        self.size
+    /// The picture's width, and the rows that are drawn.
+    pub(super) fn width(&self) -> u32 {
+        self.width
     }
 
-    /// Shows a face in those pixels of a run where it is nearer than what is there. What is as far
-    /// loses. Of a pixel that is to be left alone the key is `None`.
+    /// The rows of the picture that are drawn.
+    pub(super) fn rows(&self) -> Range<u32> {
+        self.rows.clone()
+    }
+
+    /// The face in each pixel so far.
+    pub(super) fn faces(&self) -> &[u32] {
+        &self.faces
+    }
+
+    /// Where a run's pixels are, if they are in this section.
+    fn pixels(&self, y: u32, columns: &Range<u32>) -> Option<Range<usize>> {
+        let row = self.rows.contains(&y).then(|| y - self.rows.start)?;
+        let start = row as usize * self.width as usize;
+        Some(start + columns.start as usize..start + columns.end as usize)
+    }
+
+    /// Shows a face in those pixels of a run where it passes the test. Of a pixel that is to be left
+    /// alone the key is `None`.
     #[inline]
     pub(super) fn put(
         &mut self,
@@ -35,20 +63,48 @@ impl Frame {
         face: u32,
         mut key_at: impl FnMut(u32) -> Option<u32>,
     ) {
-        let start = y as usize * self.size[0] as usize;
-        let pixels = start + columns.start as usize..start + columns.end as usize;
+        let Some(pixels) = self.pixels(y, &columns) else { return };
+        let comparison = self.comparison;
         let keys = self.keys[pixels.clone()].iter_mut();
         for ((x, stored), shown) in columns.zip(keys).zip(&mut self.faces[pixels]) {
             let Some(key) = key_at(x) else { continue };
             self.drawn += 1;
-            if key < *stored || *shown == NONE {
-                (*stored, *shown) = (key, face);
+            let key = comparison.stored(key);
+            if comparison.passes(key, *stored) || comparison.is_open && *shown == NONE {
+                *shown = face;
+                if comparison.writes {
+                    *stored = key;
+                }
             }
         }
     }
 
-    /// The picture, and the memory of the depths.
-    pub(super) fn finish(self) -> (Image, Vec<u32>) {
-        (Image::from_faces(self.size, self.faces, self.drawn), self.keys)
+    /// Calls `visit` with the columns of a run whose depths pass the test; their depths are kept if
+    /// `writes`.
+    pub(super) fn test(
+        &mut self,
+        y: u32,
+        columns: Range<u32>,
+        writes: bool,
+        mut key_at: impl FnMut(u32) -> Option<u32>,
+        mut visit: impl FnMut(u32),
+    ) {
+        let Some(pixels) = self.pixels(y, &columns) else { return };
+        for (x, i) in columns.zip(pixels) {
+            let Some(key) = key_at(x) else { continue };
+            let key = self.comparison.stored(key);
+            let is_open = self.comparison.is_open && self.faces[i] == NONE;
+            if self.comparison.passes(key, self.keys[i]) || is_open {
+                visit(x);
+                if writes {
+                    self.keys[i] = key;
+                }
+            }
+        }
+    }
+
+    /// The faces, how many pixels were drawn, and the memory of the depths.
+    pub(super) fn finish(self) -> (Vec<u32>, u64, Vec<u32>) {
+        (self.faces, self.drawn, self.keys)
     }
 }

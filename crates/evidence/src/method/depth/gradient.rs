@@ -6,25 +6,25 @@ use crate::Precision;
 
 /// A position on the picture, in pixels, and the value of what is interpolated there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sample {
-    pub(super) x: f64,
-    pub(super) y: f64,
-    pub(super) value: f64,
+pub(in crate::method) struct Sample {
+    pub(in crate::method) x: f64,
+    pub(in crate::method) y: f64,
+    pub(in crate::method) value: f64,
 }
 
 /// A value at one point and its slopes; every operation is rounded to `P`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gradient<P> {
+pub(in crate::method) struct Gradient<P> {
     origin: Sample,
     pub(super) along_x: f64,
-    along_y: f64,
+    pub(super) along_y: f64,
     precision: PhantomData<P>,
 }
 
 impl<P: Precision> Gradient<P> {
     /// Through the first sample and two neighbours that span the most with it. Where they span
     /// nothing the value is that of the first everywhere.
-    pub(super) fn new(samples: &[Sample]) -> Self {
+    pub(in crate::method) fn new(samples: &[Sample]) -> Self {
         let precision = PhantomData;
         let Some((&origin, rest)) = samples.split_first() else {
             let origin = Sample { x: 0.0, y: 0.0, value: 0.0 };
@@ -48,15 +48,21 @@ impl<P: Precision> Gradient<P> {
 
     /// What the values of a row begin with: that on the row's centre, at the x of the first sample.
     #[inline]
-    pub(super) fn row(&self, y: u32) -> f64 {
+    pub(in crate::method) fn row(&self, y: u32) -> f64 {
         let dy = P::round(f64::from(y) + 0.5 - self.origin.y);
         P::round(self.origin.value + P::round(dy * self.along_y))
     }
 
     /// The value at the centre of a row's pixel.
     #[inline]
-    pub(super) fn at(&self, row: f64, x: u32) -> f64 {
-        let dx = P::round(f64::from(x) + 0.5 - self.origin.x);
+    pub(in crate::method) fn at(&self, row: f64, x: u32) -> f64 {
+        self.at_x(row, f64::from(x) + 0.5)
+    }
+
+    /// The value at any x of a row.
+    #[inline]
+    pub(super) fn at_x(&self, row: f64, x: f64) -> f64 {
+        let dx = P::round(x - self.origin.x);
         P::round(row + P::round(dx * self.along_x))
     }
 }

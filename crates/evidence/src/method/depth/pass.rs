@@ -1,6 +1,8 @@
 //! One picture of a depth buffer, and its faces drawn with exact coverage.
 
-use super::super::clip::{Clipper, Range};
+use std::ops::Range;
+
+use super::super::clip::{Clipper, Range as DepthRange};
 use super::super::space::{CameraSpace, Vertex};
 use super::format::Scale;
 use super::frame::Frame;
@@ -12,35 +14,30 @@ use binspace::raster::{Outline, Piece, Rays, for_each_run};
 /// One picture in the making.
 pub(super) struct Pass<'a, P> {
     pub(super) space: CameraSpace,
-    pub(super) range: Range,
+    pub(super) range: DepthRange,
     pub(super) scale: Scale<P>,
     pub(super) faces: &'a Faces,
+    /// The rays of the section that is drawn.
     pub(super) rays: &'a Rays,
     pub(super) frame: Frame,
 }
 
 impl<P: Precision> Pass<'_, P> {
-    /// Draws all faces with exact coverage, and gives back how many there are to see.
-    pub(super) fn by_edge_functions(&mut self) -> usize {
+    /// Draws faces with exact coverage, and returns the number of visible ones.
+    pub(super) fn by_edge_functions(&mut self, faces: impl IntoIterator<Item = u32>) -> usize {
         let mut clipper = Clipper::new(&self.space, self.range);
-        let mut samples: Vec<Sample> = Vec::new();
         let mut drawn = 0;
-        for face in 0..self.faces.len() as u32 {
-            let outline = clipper.clip_face(&self.space, self.faces, face);
-            if outline.is_empty() {
-                continue;
-            }
+        for face in faces {
+            let Some(depths) = self.depths(&mut clipper, face) else { continue };
             drawn += 1;
-            samples.clear();
-            samples.extend(outline.iter().map(|v| self.scale.sample(&self.space, v.at)));
-            let gradient = Gradient::<P>::new(&samples);
-            let limits = self.limits(face, outline);
             let (scale, frame) = (&self.scale, &mut self.frame);
             let piece = Piece { face, outline: Outline::Whole };
+            let above = frame.rows().start;
             for_each_run(self.rays, self.faces, piece, |y, columns| {
-                let row = gradient.row(y);
-                let key = |x| scale.key(gradient.at(row, x));
-                match limits {
+                let y = above + y;
+                let row = depths.gradient.row(y);
+                let key = |x| scale.key(depths.gradient.at(row, x));
+                match depths.limits {
                     None => frame.put(y, columns, face, |x| Some(key(x))),
                     Some(limits) => {
                         frame.put(y, columns, face, |x| limits.allow(x, y).then(|| key(x)));
@@ -49,6 +46,56 @@ impl<P: Precision> Pass<'_, P> {
             });
         }
         drawn
+    }
+
+    /// Calls `visit` with the pixels of a piece that pass the depth test; their depths are kept if
+    /// `writes`.
+    pub(super) fn test(
+        &mut self,
+        clipper: &mut Clipper,
+        piece: Piece<'_>,
+        writes: bool,
+        mut visit: impl FnMut(u32, u32),
+    ) {
+        let Some(depths) = self.depths(clipper, piece.face) else { return };
+        let (scale, frame) = (&self.scale, &mut self.frame);
+        let above = frame.rows().start;
+        for_each_run(self.rays, self.faces, piece, |y, columns| {
+            let y = above + y;
+            let row = depths.gradient.row(y);
+            let allows = |x| depths.limits.is_none_or(|limits| limits.allow(x, y));
+            let key = |x| allows(x).then(|| scale.key(depths.gradient.at(row, x)));
+            frame.test(y, columns, writes, key, |x| visit(x, y));
+        });
+    }
+
+    /// Shows a face in a run, with a value that grows by a constant from pixel to pixel.
+    pub(super) fn put_run(
+        &mut self,
+        y: u32,
+        columns: Range<u32>,
+        face: u32,
+        mut value: f64,
+        slope: f64,
+    ) {
+        let columns = columns.start..columns.end.max(columns.start);
+        let scale = &self.scale;
+        self.frame.put(y, columns, face, |_| {
+            let key = scale.key(value);
+            value = P::round(value + slope);
+            Some(key)
+        });
+    }
+
+    /// What is interpolated over a face, if it is to be seen at all.
+    fn depths(&self, clipper: &mut Clipper, face: u32) -> Option<Depths<P>> {
+        let outline = clipper.clip_face(&self.space, self.faces, face);
+        if outline.is_empty() {
+            return None;
+        }
+        let sample = |vertex: &Vertex| self.scale.sample(&self.space, vertex.at);
+        let samples: Vec<Sample> = outline.iter().map(sample).collect();
+        Some(Depths { gradient: Gradient::new(&samples), limits: self.limits(face, outline) })
     }
 
     /// What cuts a face off in each pixel, if it reaches out of the range of depths.
@@ -75,6 +122,13 @@ impl<P: Precision> Pass<'_, P> {
         };
         Some(Limits { linear: Gradient::new(&samples), allowed })
     }
+}
+
+/// The depths of a face on the picture, and what cuts it off.
+#[derive(Clone, Copy, Debug)]
+struct Depths<P> {
+    gradient: Gradient<P>,
+    limits: Option<Limits>,
 }
 
 /// What is let through beyond the near and the far plane, for the rounding of depths.

@@ -1,5 +1,6 @@
 //! Methods by hand, against brute force, against each other, and against the judge.
 
+mod attributes;
 mod depth;
 mod field;
 mod hand;
@@ -7,6 +8,7 @@ mod kernels;
 mod nasty;
 mod newell;
 mod oracle;
+mod rules;
 
 use glam::DVec3;
 

@@ -1,0 +1,195 @@
+//! Two sheets so near each other that depth buffers cannot tell them apart: they show through each
+//! other in patches, which is called z-fighting.
+
+use glam::DVec3;
+
+use crate::method::{DepthBuffer, DepthFormat, Method, MethodError};
+use binspace::internals::Faces;
+use binspace::raster::{Image, Rays, zbuffer};
+use binspace::view::Camera;
+
+/// A sheet that fills the picture and recedes from 20 to 190 units, and another behind it whose
+/// distance from the eye is larger by a share `gap` along every ray. The further comes first, so that
+/// it shows wherever a buffer stores the same of both.
+#[derive(Debug)]
+pub struct Sheets {
+    gap: f64,
+    faces: Faces,
+    camera: Camera,
+    rays: Rays,
+    truth: Image,
+    /// The depth of the nearer sheet in each pixel.
+    depths: Vec<f64>,
+}
+
+/// The near and the far plane.
+pub const PLANES: [f64; 2] = [1.0, 200.0];
+/// The reciprocals of the depths at the lower left of the picture and at the upper right.
+const ENDS: [f64; 2] = [1.0 / 20.0, 1.0 / 190.0];
+/// The tangent of half of the field of view.
+const HALF_HEIGHT: f64 = 0.5;
+
+/// What a buffer makes of two sheets.
+#[derive(Clone, Debug)]
+pub struct Fight {
+    /// The picture: faces 0 and 1 are the further sheet.
+    pub image: Image,
+    /// Wrong pixels.
+    pub wrong: usize,
+    /// The depth of the nearest wrong pixel and of the furthest.
+    pub seen: Option<[f64; 2]>,
+}
+
+/// What the steps of a format predict.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    /// The nearest and the furthest depth at which the sheets are less than a step apart.
+    pub begin: Option<[f64; 2]>,
+    /// How many pixels are wrong: sheets that are a share s of a step apart are stored as the same in
+    /// 1 − s of all places.
+    pub wrong: f64,
+}
+
+impl Sheets {
+    /// The sheets, and a picture of them of this size, 4 to 3.
+    ///
+    /// # Panics
+    ///
+    /// If `gap` is not a small positive number.
+    pub fn new(gap: f64, size: [u32; 2]) -> Self {
+        let camera =
+            Camera::perspective_by_slope(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, HALF_HEIGHT, size)
+                .expect("a camera");
+        let sheets: Vec<_> = [1.0 + gap, 1.0].into_iter().flat_map(sheet).collect();
+        let (faces, _) = Faces::new(&sheets, Some(0.0)).expect("a scene");
+        let rays = Rays::new(&camera, &faces).expect("rays");
+        let truth = zbuffer(&rays, &faces);
+        let depths = truth.depths().collect();
+        Self { gap, faces, camera, rays, truth: truth.into_image(), depths }
+    }
+
+    /// The four triangles: two of the further sheet, two of the nearer.
+    pub fn polygons(&self) -> Vec<[DVec3; 3]> {
+        [1.0 + self.gap, 1.0].into_iter().flat_map(sheet).collect()
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// What a method shows.
+    ///
+    /// # Errors
+    ///
+    /// Those of the method.
+    pub fn shown_by(&self, method: &dyn Method) -> Result<Fight, MethodError> {
+        let painted = method.prepare(&self.faces)?.paint(&self.camera, &self.rays)?;
+        let image = painted.image;
+        // Both sheets are two triangles each: another one of the same sheet is not wrong.
+        let mut wrong: Vec<f64> = Vec::new();
+        for (i, (&shown, &nearest)) in image.faces().iter().zip(self.truth.faces()).enumerate() {
+            if shown / 2 != nearest / 2 {
+                wrong.push(self.depths[i]);
+            }
+        }
+        let ends = wrong
+            .iter()
+            .fold([f64::INFINITY, 0.0f64], |[low, high], &depth| [low.min(depth), high.max(depth)]);
+        Ok(Fight { image, wrong: wrong.len(), seen: (!wrong.is_empty()).then_some(ends) })
+    }
+
+    /// What a depth buffer shows.
+    ///
+    /// # Errors
+    ///
+    /// None is known.
+    pub fn in_format(&self, format: DepthFormat) -> Result<Fight, MethodError> {
+        self.shown_by(&DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]))
+    }
+
+    /// What the steps of a format predict, by the formula of [`DepthFormat::step`].
+    pub fn predicted(&self, format: DepthFormat) -> Prediction {
+        let mut prediction = Prediction { begin: None, wrong: 0.0 };
+        for &depth in &self.depths {
+            // Of 1 / w, from which z comes, the sheets differ by gap / (1 + gap), of w by gap.
+            let share = if is_linear(format) { self.gap } else { self.gap / (1.0 + self.gap) };
+            let apart = share * depth / format.step(PLANES, depth);
+            if apart < 1.0 {
+                prediction.wrong += 1.0 - apart;
+                let [low, high] = prediction.begin.unwrap_or([f64::INFINITY, 0.0]);
+                prediction.begin = Some([low.min(depth), high.max(depth)]);
+            }
+        }
+        prediction
+    }
+}
+
+fn is_linear(format: DepthFormat) -> bool {
+    matches!(format, DepthFormat::LinearInteger(_) | DepthFormat::LinearFloat)
+}
+
+/// A sheet as two triangles, `times` as far away.
+fn sheet(times: f64) -> [[DVec3; 3]; 2] {
+    let [near, far] = ENDS;
+    // A little beyond the picture's corners. 1 / w is linear there, as it is on every plane.
+    let corner = |x: f64, y: f64| {
+        let share = 0.5 + 0.47 * y + 0.03 * x;
+        let depth = times / (near + share * (far - near));
+        DVec3::new(x * 1.34 * HALF_HEIGHT * depth, y * 1.01 * HALF_HEIGHT * depth, -depth)
+    };
+    let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    [[a, b, c], [a, c, d]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sheets;
+    use crate::method::Bsp;
+    use crate::method::DepthFormat::{Float, FloatReversed, Integer, LinearInteger};
+    use binspace::BuildOptions;
+
+    const SIZE: [u32; 2] = [160, 120];
+
+    #[test]
+    fn integers_fight_where_predicted_and_as_much() {
+        let cases = [
+            (Integer(16), 6e-4),
+            (Integer(16), 3e-4),
+            (Integer(16), 1e-3),
+            (Integer(24), 2.4e-6),
+            (Integer(24), 4e-6),
+            (LinearInteger(16), 5e-5),
+            (LinearInteger(16), 8e-5),
+        ];
+        for (format, gap) in cases {
+            let sheets = Sheets::new(gap, SIZE);
+            let (fight, predicted) = (sheets.in_format(format).unwrap(), sheets.predicted(format));
+            let ([first, last], [begin, end]) = (fight.seen.unwrap(), predicted.begin.unwrap());
+            // Nothing is wrong where the sheets are a step apart: that is certain. That something is
+            // soon after is likely.
+            assert!(first >= begin * (1.0 - 1e-9) && last <= end * (1.0 + 1e-9), "{format} {gap}");
+            assert!(first <= begin * 1.05 && last >= end * 0.95, "{format} {gap}: {first} {begin}");
+            let share = fight.wrong as f64 / predicted.wrong;
+            assert!((0.95..1.05).contains(&share), "{format} {gap}: {share} {fight:?}");
+        }
+    }
+
+    #[test]
+    fn an_f32_fights_like_24_bits_and_reversed_much_later() {
+        let sheets = Sheets::new(2.4e-6, SIZE);
+        let wrong = [Integer(24), Float, FloatReversed]
+            .map(|format| sheets.in_format(format).unwrap().wrong as f64);
+        assert!(wrong[1] > 0.5 * wrong[0] && wrong[0] > 1000.0, "{wrong:?}");
+        assert_eq!(wrong[2], 0.0);
+    }
+
+    #[test]
+    fn the_tree_knows_no_distance_at_which_it_begins() {
+        for gap in [6e-4, 2.4e-6, 1e-9] {
+            let sheets = Sheets::new(gap, SIZE);
+            let tree = Bsp::exact(BuildOptions::DEFAULT.with_tolerance(0.0));
+            assert_eq!(sheets.shown_by(&tree).unwrap().wrong, 0, "{gap}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What a depth buffer begins with, compares and keeps.
+
+/// The state that graphics libraries leave to their users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthRules {
+    /// Which of two stored numbers is nearer.
+    pub nearer: Nearer,
+    /// What a depth must be to show.
+    pub test: DepthTest,
+    /// What the buffer is cleared to.
+    pub clear: Clear,
+    /// Whether what shows also leaves its depth. Translucent polygons must not: what is behind one
+    /// of them is still seen.
+    pub writes: bool,
+}
+
+/// Which of two stored numbers is nearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nearer {
+    /// The smaller: what is stored runs from 0 at the near plane to the format's largest number at
+    /// the far one.
+    Smaller,
+    /// The larger: what is stored runs the other way.
+    Larger,
+}
+
+/// The test that a depth must pass to show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthTest {
+    /// Its number is smaller than the stored one.
+    Less,
+    /// It is not larger.
+    LessOrEqual,
+    /// It is larger.
+    Greater,
+    /// It is not smaller.
+    GreaterOrEqual,
+}
+
+/// What a buffer is cleared to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clear {
+    /// To nothing: any depth passes where no face is yet.
+    Nothing,
+    /// To the smallest number that can be stored.
+    Smallest,
+    /// To the largest number that can be stored.
+    Largest,
+}
+
+impl DepthRules {
+    /// Smaller is nearer, `LESS`, cleared to nothing, writing.
+    pub const DEFAULT: Self = Self {
+        nearer: Nearer::Smaller,
+        test: DepthTest::Less,
+        clear: Clear::Nothing,
+        writes: true,
+    };
+
+    /// With another test.
+    #[must_use]
+    pub const fn with_test(self, test: DepthTest) -> Self {
+        Self { test, ..self }
+    }
+
+    /// Cleared to something else.
+    #[must_use]
+    pub const fn with_clear(self, clear: Clear) -> Self {
+        Self { clear, ..self }
+    }
+
+    /// With the larger number nearer, or the smaller.
+    #[must_use]
+    pub const fn with_nearer(self, nearer: Nearer) -> Self {
+        Self { nearer, ..self }
+    }
+}
+
+/// Rules as a comparison of integers, given the keys of a format's ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Comparison {
+    /// A stored number is kept as its key, the smaller, the nearer, with these bits flipped: none, or
+    /// all if the test asks for the further.
+    flip: u32,
+    or_equal: bool,
+    /// What the buffer is cleared to, flipped.
+    pub(super) cleared: u32,
+    /// Whether any depth passes where no face is yet.
+    pub(super) is_open: bool,
+    pub(super) writes: bool,
+}
+
+impl Comparison {
+    pub(super) fn new(rules: DepthRules, [first, last]: [u32; 2]) -> Self {
+        let asks_smaller = matches!(rules.test, DepthTest::Less | DepthTest::LessOrEqual);
+        let smaller_is_nearer = rules.nearer == Nearer::Smaller;
+        // A test that asks for the end that is not the nearer shows what is furthest.
+        let flip = if asks_smaller == smaller_is_nearer { 0 } else { u32::MAX };
+        let cleared = match (rules.clear, smaller_is_nearer) {
+            (Clear::Nothing, _) => u32::MAX ^ flip,
+            (Clear::Smallest, true) | (Clear::Largest, false) => first,
+            _ => last,
+        };
+        let or_equal = matches!(rules.test, DepthTest::LessOrEqual | DepthTest::GreaterOrEqual);
+        let is_open = rules.clear == Clear::Nothing;
+        Self { flip, or_equal, cleared: cleared ^ flip, is_open, writes: rules.writes }
+    }
+
+    /// A key as it is stored.
+    #[inline]
+    pub(super) fn stored(&self, key: u32) -> u32 {
+        key ^ self.flip
+    }
+
+    /// Whether what is to be stored shows before what is stored.
+    #[inline]
+    pub(super) fn passes(&self, new: u32, stored: u32) -> bool {
+        new < stored || self.or_equal && new == stored
+    }
+}
