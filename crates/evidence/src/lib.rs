@@ -4,11 +4,15 @@
 
 mod accuracy;
 mod family;
+pub mod layers;
 pub mod measure;
 pub mod method;
+pub mod overdraw;
+mod pieces;
 mod place;
 mod residue;
 mod rounded;
+pub mod translucent;
 mod tree;
 
 pub use accuracy::{Accuracy, accuracy};

@@ -48,7 +48,7 @@ mod space;
 mod tests;
 
 pub use bsp::Bsp;
-pub use centroid::Centroid;
+pub use centroid::{Centroid, centroid_order};
 pub use depth::{DepthBuffer, DepthFormat, Interpolation};
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
