@@ -3,13 +3,16 @@
 //! library do not compile this crate.
 
 mod accuracy;
+pub mod culling;
 mod family;
+pub mod interior;
 pub mod layers;
 pub mod measure;
 pub mod method;
 pub mod overdraw;
 mod pieces;
 mod place;
+pub mod portals;
 mod residue;
 mod rounded;
 pub mod translucent;
