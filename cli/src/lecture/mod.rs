@@ -4,7 +4,9 @@
 //! evidence crate, with its tests.
 
 mod chapter;
+mod culling;
 mod page;
+mod translucent;
 mod why;
 
 pub(crate) use chapter::Chapter;
@@ -16,7 +18,11 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 1] = [("Why order at all", why::fill)];
+const CHAPTERS: [(&str, Make); 3] = [
+    ("Why order at all", why::fill),
+    ("What need not be drawn", culling::fill),
+    ("Translucent surfaces", translucent::fill),
+];
 
 /// How many chapters there are.
 pub(crate) const COUNT: usize = CHAPTERS.len();

@@ -1,0 +1,75 @@
+//! Pixels painted in vain.
+
+use binspace::BspTree;
+use binspace::raster::Rays;
+use binspace::scene;
+use binspace::view::{Camera, views};
+use binspace_evidence::layers::Layers;
+use binspace_evidence::method::centroid_order;
+use binspace_evidence::overdraw::{Overdraw, depth_buffer, front_to_back, heat, painter};
+
+use crate::failure::Failure;
+use crate::lecture::chapter::{Chapter, Picture};
+
+const SIZE: [u32; 2] = [320, 240];
+
+pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
+    chapter.heading("Overdraw");
+    chapter.text(
+        "Overdraw is the number of pixels that are written, divided by those that show. A painter writes \
+         each pixel once for every surface in it. A depth buffer writes a pixel whenever something \
+         nearer comes than all before, so its overdraw depends on the order in which polygons come: 1 + \
+         1/2 + … + 1/n for n layers in random order, n from back to front, 1 from front to back. A \
+         tree walked from front to back with a mask of covered pixels writes each pixel once; and what \
+         the mask hides as a whole is not even looked at.",
+    );
+    let city = scene::city(1500, 1);
+    let terrain = scene::terrain(3000, 1);
+    let failure = |error| Failure::about("a view", error);
+    let (eye, target) = ((-40.0, 20.0, 30.0), (260.0, 250.0, 20.0));
+    let low_view = Camera::perspective(eye.into(), target.into(), city.up(), 0.9, SIZE);
+    let Some((low, high)) = terrain.bounds() else { return Ok(()) };
+    let terrain_view = views([low, high], terrain.up(), 1, SIZE, 4).map_err(failure)?;
+    let scenes = [(&city, low_view.map_err(failure)?), (&terrain, terrain_view[0].clone())];
+    let mut rows = Vec::new();
+    for (k, (scene, camera)) in scenes.into_iter().enumerate() {
+        let tree =
+            BspTree::build(scene.polygons()).map_err(|error| Failure::about("a tree", error))?;
+        let ways = ways(&tree, &camera)?;
+        rows.extend(ways.iter().map(|(name, found)| row(scene.name(), name, found)));
+        if k == 0 {
+            let most = ways[0].1.written.iter().copied().max().unwrap_or(1);
+            chapter.pictures([0, 3, 1].map(|way| {
+                let (name, found) = &ways[way];
+                let rgb = heat(&found.written, most);
+                Picture::new(SIZE, rgb, format!("{name}: blue is one write, red is {most}"))
+            }));
+        }
+    }
+    chapter.table(["scene", "way", "pixels tested", "pixels written", "shown", "overdraw"], rows);
+    Ok(())
+}
+
+/// The ways to fill a picture, each with its work.
+fn ways(tree: &BspTree, camera: &Camera) -> Result<[(&'static str, Overdraw); 5], Failure> {
+    let faces = tree.faces();
+    let rays = Rays::new(camera, faces).map_err(|error| Failure::about("a view", error))?;
+    let layers = Layers::new(&rays, faces);
+    let far_first = centroid_order(faces, camera);
+    let near_first = far_first.iter().rev().copied();
+    let once = front_to_back(tree, &rays).map_err(|error| Failure::about("a mask", error))?;
+    Ok([
+        ("painter", painter(tree, &rays)),
+        ("front to back with a mask", once),
+        ("depth buffer, near first", depth_buffer(faces, &rays, &layers, near_first)),
+        ("depth buffer, input order", depth_buffer(faces, &rays, &layers, 0..faces.len() as u32)),
+        ("depth buffer, far first", depth_buffer(faces, &rays, &layers, far_first.iter().copied())),
+    ])
+}
+
+fn row(scene: &str, way: &str, found: &Overdraw) -> [String; 6] {
+    let ([tested, written], shown) = (found.sums(), found.shown());
+    let overdraw = format!("{:.2}", written as f64 / shown.max(1) as f64);
+    let [tested, written, shown] = [tested, written, shown].map(|count| count.to_string());
+    [scene.to_owned(), way.to_owned(), tested, written, shown, overdraw]
+}
