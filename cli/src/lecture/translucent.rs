@@ -32,7 +32,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
          centroids, as most programs do, is compared with it in the same way.",
     );
     let mut rows = Vec::new();
-    let scenes = [scene::random_triangles(40, 3), scene::crossing(9), scene::newell_bars()];
+    let scenes = [scene::random_triangles(200, 3), scene::crossing(9), scene::newell_bars()];
     for (k, scene) in scenes.iter().enumerate() {
         let tree = tree_of(scene)?;
         let Some((low, high)) = scene.bounds() else { continue };
@@ -78,7 +78,7 @@ fn glass(chapter: &mut Chapter) -> Result<(), Failure> {
         panes.push([at(a, -0.6), at(b, -0.6), at(b, 0.6), at(a, 0.6)], 0);
     }
     let tree = tree_of(&panes)?;
-    let eye = dvec3(1.3, -3.0, 1.1);
+    let eye = dvec3(-3.0, -1.4, 1.3);
     let camera = Camera::perspective(eye, dvec3(0.0, 0.0, 0.0), dvec3(0.0, 0.0, 1.0), 0.6, SIZE)
         .map_err(|error| Failure::about("a view", error))?;
     let found = blend(&tree, &camera)?;

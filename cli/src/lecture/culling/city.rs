@@ -25,9 +25,9 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let scene = scene::city(POLYGONS, 1);
     let tree = BspTree::build(scene.polygons()).map_err(|error| Failure::about("a tree", error))?;
     let bounds = tree.bounds().map_err(|error| Failure::about("boxes", error))?;
-    // Over a crossing of two streets.
-    let eye = dvec3(2400.0, 2400.0, 45.0);
-    let target = eye + dvec3(1.0, 0.8, -0.12);
+    // Over a crossing of two streets, above the highest roof.
+    let eye = dvec3(2400.0, 2400.0, 130.0);
+    let target = eye + dvec3(1.0, 0.8, -0.3);
     let camera = Camera::perspective(eye, target, scene.up(), 1.0, SIZE).map_err(failure)?;
     let rays = Rays::new(&camera, tree.faces()).map_err(failure)?;
     let truth = zbuffer(&rays, tree.faces());
@@ -49,7 +49,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     }
     chapter.text(format!(
         "Most of a large scene need not be drawn: what is outside of the view volume, the backs of closed \
-         bodies, and what is hidden. Here are a city of {} polygons and an eye over its streets. Each \
+         bodies, and what is hidden. Here are a city of {} polygons and an eye above its roofs. Each \
          step leaves out what the steps before it leave out and some more. The tree does it by boxes \
          of whole subtrees, so the time goes with what is left, not with what there is. Every picture \
          is compared with that of an exact depth buffer that gets all polygons: none differs. What \

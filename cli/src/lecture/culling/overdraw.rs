@@ -24,13 +24,13 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
          the mask hides as a whole is not even looked at.",
     );
     let city = scene::city(1500, 1);
-    let terrain = scene::terrain(3000, 1);
+    let random = scene::random_triangles(300, 1);
     let failure = |error| Failure::about("a view", error);
     let (eye, target) = ((-40.0, 20.0, 30.0), (260.0, 250.0, 20.0));
     let low_view = Camera::perspective(eye.into(), target.into(), city.up(), 0.9, SIZE);
-    let Some((low, high)) = terrain.bounds() else { return Ok(()) };
-    let terrain_view = views([low, high], terrain.up(), 1, SIZE, 4).map_err(failure)?;
-    let scenes = [(&city, low_view.map_err(failure)?), (&terrain, terrain_view[0].clone())];
+    let Some((low, high)) = random.bounds() else { return Ok(()) };
+    let random_view = views([low, high], random.up(), 1, SIZE, 4).map_err(failure)?;
+    let scenes = [(&city, low_view.map_err(failure)?), (&random, random_view[0].clone())];
     let mut rows = Vec::new();
     for (k, (scene, camera)) in scenes.into_iter().enumerate() {
         let tree =
