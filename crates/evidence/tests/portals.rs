@@ -1,5 +1,7 @@
 //! Portals of real levels, in the folder that `BINSPACE_SCENES` names.
 
+#![allow(clippy::print_stderr, reason = "the figures are shown on request")]
+
 #[path = "../../../tests/support/real_scenes.rs"]
 mod real_scenes;
 
@@ -65,6 +67,6 @@ fn nothing_that_owns_a_pixel_of_a_level_is_left_out() {
         }
         assert!(eyes > 50 && owned > 1500, "{name}: {owned} from {eyes} eyes");
         assert!(kept < 2 * owned, "{name}: {kept} kept, {owned} own a pixel");
-        println!("{name}: {eyes} eyes, {owned} own a pixel, {kept} kept");
+        eprintln!("{name}: {eyes} eyes, {owned} own a pixel, {kept} kept");
     }
 }

@@ -1,6 +1,8 @@
 //! Pixels painted in vain.
 
 use binspace::BspTree;
+use binspace::glam::{DVec3, dvec3};
+use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene;
 use binspace::view::{Camera, views};
@@ -8,10 +10,13 @@ use binspace_evidence::layers::Layers;
 use binspace_evidence::method::centroid_order;
 use binspace_evidence::overdraw::{Overdraw, depth_buffer, front_to_back, heat, painter};
 
+use crate::chart::{Chart, Marker, Series, Style};
 use crate::failure::Failure;
 use crate::lecture::chapter::{Chapter, Picture};
 
 const SIZE: [u32; 2] = [320, 240];
+/// Random orders of the graph.
+const SHUFFLES: u32 = 200;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Overdraw");
@@ -30,7 +35,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let low_view = Camera::perspective(eye.into(), target.into(), city.up(), 0.9, SIZE);
     let Some((low, high)) = random.bounds() else { return Ok(()) };
     let random_view = views([low, high], random.up(), 1, SIZE, 4).map_err(failure)?;
-    let scenes = [(&city, low_view.map_err(failure)?), (&random, random_view[0].clone())];
+    let scenes = [(&city, low_view.map_err(failure)?), (&random, random_view[0])];
     let mut rows = Vec::new();
     for (k, (scene, camera)) in scenes.into_iter().enumerate() {
         let tree =
@@ -47,7 +52,59 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         }
     }
     chapter.table(["scene", "way", "pixels tested", "pixels written", "shown", "overdraw"], rows);
-    Ok(())
+    stack(chapter)
+}
+
+/// How overdraw grows with the layers of a pixel.
+fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
+    let [mut painted, mut buffered, mut masked] = [vec![], vec![], vec![]];
+    let mut random = SplitMix64::new(2);
+    for layers in [1_u32, 2, 5, 10, 20, 50, 100] {
+        let square =
+            |z: f64| [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| [x, y, z]);
+        let tree = BspTree::build((0..layers).map(|layer| square(f64::from(layer))))
+            .map_err(|error| Failure::about("a tree", error))?;
+        let middle = dvec3(0.5, 0.5, 0.0);
+        let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, middle, 1.5, [12, 12])
+            .map_err(|error| Failure::about("a view", error))?;
+        let faces = tree.faces();
+        let rays = Rays::new(&camera, faces).map_err(|error| Failure::about("a view", error))?;
+        let sorted = Layers::new(&rays, faces);
+        let overdraw = |found: Overdraw| found.sums()[1] as f64 / found.shown() as f64;
+        let once = front_to_back(&tree, &rays).map_err(|error| Failure::about("a mask", error))?;
+        let mut sum = 0.0;
+        for _ in 0..SHUFFLES {
+            let mut order: Vec<(u64, u32)> =
+                (0..layers).map(|face| (random.next(), face)).collect();
+            order.sort_unstable();
+            let order = order.into_iter().map(|(_, face)| face);
+            sum += overdraw(depth_buffer(faces, &rays, &sorted, order));
+        }
+        painted.push((f64::from(layers), overdraw(painter(&tree, &rays))));
+        buffered.push((f64::from(layers), sum / f64::from(SHUFFLES)));
+        masked.push((f64::from(layers), overdraw(once)));
+    }
+    let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.1);
+    chapter.text(format!(
+        "Squares one over another, the depth buffer in {SHUFFLES} random orders: with 100 layers it \
+         writes each pixel {:.2} times in the mean (1 + 1/2 + … + 1/100 = 5.19), the painter {} times.",
+        last(&buffered),
+        last(&painted),
+    ));
+    let series = [
+        Series::new("painter", Style::new([200, 60, 50], Marker::Circle, 5), painted),
+        Series::new("depth buffer", Style::new([50, 110, 200], Marker::Square, 5), buffered),
+        Series::new("mask", Style::new([50, 150, 80], Marker::Triangle, 5), masked),
+    ];
+    chapter.graph(&Chart {
+        title: "Overdraw",
+        x_label: "layers of each pixel",
+        y_label: "writes of each pixel",
+        ticks: None,
+        falls: false,
+        zero: false,
+        series: series.into(),
+    })
 }
 
 /// The ways to fill a picture, each with its work.
@@ -61,9 +118,12 @@ fn ways(tree: &BspTree, camera: &Camera) -> Result<[(&'static str, Overdraw); 5]
     Ok([
         ("painter", painter(tree, &rays)),
         ("front to back with a mask", once),
-        ("depth buffer, near first", depth_buffer(faces, &rays, &layers, near_first)),
+        ("depth buffer, nearest centroid first", depth_buffer(faces, &rays, &layers, near_first)),
         ("depth buffer, input order", depth_buffer(faces, &rays, &layers, 0..faces.len() as u32)),
-        ("depth buffer, far first", depth_buffer(faces, &rays, &layers, far_first.iter().copied())),
+        (
+            "depth buffer, furthest centroid first",
+            depth_buffer(faces, &rays, &layers, far_first.iter().copied()),
+        ),
     ])
 }
 

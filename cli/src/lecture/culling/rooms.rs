@@ -128,7 +128,7 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
     for _ in 0..EYES {
         let mut at = || random.range(0.3, WIDTH - 0.3);
         let eye = dvec3(at(), at(), 1.6);
-        let turn = random.range(0.0, 6.28);
+        let turn = random.range(0.0, std::f64::consts::TAU);
         let set = level.set_of(eye);
         let mut all = BTreeSet::new();
         for quarter in 0..4 {
