@@ -16,7 +16,7 @@ use crate::lecture::chapter::{Chapter, Picture};
 
 const SIZE: [u32; 2] = [320, 240];
 /// Random orders of the graph.
-const SHUFFLES: u32 = 200;
+const SHUFFLES: u32 = 2000;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Overdraw");
@@ -58,31 +58,12 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
 /// How overdraw grows with the layers of a pixel.
 fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     let [mut painted, mut buffered, mut masked] = [vec![], vec![], vec![]];
-    let mut random = SplitMix64::new(2);
-    for layers in [1_u32, 2, 5, 10, 20, 50, 100] {
-        let square =
-            |z: f64| [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| [x, y, z]);
-        let tree = BspTree::build((0..layers).map(|layer| square(f64::from(layer))))
-            .map_err(|error| Failure::about("a tree", error))?;
-        let middle = dvec3(0.5, 0.5, 0.0);
-        let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, middle, 1.5, [12, 12])
-            .map_err(|error| Failure::about("a view", error))?;
-        let faces = tree.faces();
-        let rays = Rays::new(&camera, faces).map_err(|error| Failure::about("a view", error))?;
-        let sorted = Layers::new(&rays, faces);
-        let overdraw = |found: Overdraw| found.sums()[1] as f64 / found.shown() as f64;
-        let once = front_to_back(&tree, &rays).map_err(|error| Failure::about("a mask", error))?;
-        let mut sum = 0.0;
-        for _ in 0..SHUFFLES {
-            let mut order: Vec<(u64, u32)> =
-                (0..layers).map(|face| (random.next(), face)).collect();
-            order.sort_unstable();
-            let order = order.into_iter().map(|(_, face)| face);
-            sum += overdraw(depth_buffer(faces, &rays, &sorted, order));
+    for layers in [1, 2, 5, 10, 20, 50, 100] {
+        let found = overdraw_of_stack(layers)?;
+        for (points, overdraw) in [&mut painted, &mut buffered, &mut masked].into_iter().zip(found)
+        {
+            points.push((f64::from(layers), overdraw));
         }
-        painted.push((f64::from(layers), overdraw(painter(&tree, &rays))));
-        buffered.push((f64::from(layers), sum / f64::from(SHUFFLES)));
-        masked.push((f64::from(layers), overdraw(once)));
     }
     let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.1);
     chapter.text(format!(
@@ -105,6 +86,30 @@ fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
         zero: false,
         series: series.into(),
     })
+}
+
+/// The overdraw of squares one over another: of a painter, of depth buffers that get them in random
+/// orders, and of a mask.
+fn overdraw_of_stack(layers: u32) -> Result<[f64; 3], Failure> {
+    let failure = |error| Failure::about("a view", error);
+    let square = |z: f64| [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| [x, y, z]);
+    let tree = BspTree::build((0..layers).map(|layer| square(f64::from(layer))))
+        .map_err(|error| Failure::about("a tree", error))?;
+    let middle = dvec3(0.5, 0.5, 0.0);
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, middle, 1.5, [4, 4]).map_err(failure)?;
+    let faces = tree.faces();
+    let rays = Rays::new(&camera, faces).map_err(failure)?;
+    let sorted = Layers::new(&rays, faces);
+    let overdraw = |found: Overdraw| found.sums()[1] as f64 / found.shown() as f64;
+    let mut random = SplitMix64::new(u64::from(layers));
+    let mut shuffled = || {
+        let mut order: Vec<(u64, u32)> = (0..layers).map(|face| (random.next(), face)).collect();
+        order.sort_unstable();
+        overdraw(depth_buffer(faces, &rays, &sorted, order.into_iter().map(|(_, face)| face)))
+    };
+    let buffered = (0..SHUFFLES).map(|_| shuffled()).sum::<f64>() / f64::from(SHUFFLES);
+    let once = front_to_back(&tree, &rays).map_err(|error| Failure::about("a mask", error))?;
+    Ok([overdraw(painter(&tree, &rays)), buffered, overdraw(once)])
 }
 
 /// The ways to fill a picture, each with its work.
