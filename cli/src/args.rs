@@ -196,7 +196,7 @@ pub(crate) struct RenderArgs {
     pub(crate) build: BuildArgs,
 }
 
-/// Draw a view as SVG or PDF with one path for each polygon that shows, or as lines
+/// Draw a view as SVG, PDF or PNG with one path for each polygon that shows, or as lines
 ///
 /// Each polygon is drawn whole, before those that show in front of it; the few that cannot be put in
 /// order, as each hides some of another, are cut to what shows of them. What is hidden is not in the
@@ -209,8 +209,7 @@ pub(crate) struct RenderArgs {
 /// each by the exact area that it has of the pixel, and blended by their numbers as SVG viewers do; lines are
 /// drawn over them by the area that they cover.
 ///
-/// Where a polygon shows that is translucent, say how to draw it: as such, with all that is behind it, or
-/// as if it were opaque.
+/// Translucent polygons are painted over what shows behind them.
 #[derive(Args, Debug)]
 #[command(after_help = examples::DRAW)]
 pub(crate) struct DrawArgs {

@@ -207,6 +207,21 @@ impl Rays {
         self.viewpoint
     }
 
+    /// Where the ray of a pixel starts and its direction, in lattice units, for judges of other
+    /// arithmetic. The ray of a parallel camera goes on backwards.
+    #[doc(hidden)]
+    pub fn ray(&self, x: u32, y: u32) -> [[i128; 3]; 2] {
+        let wide = |v: [i64; 3]| v.map(i128::from);
+        match (self.pencil, self.pixel(x, y)) {
+            (Pencil::From { eye, shift }, Given::Point(v) | Given::Step(v)) => {
+                [wide(eye).map(|c| c << shift), wide(v)]
+            }
+            (Pencil::Along { direction }, Given::Point(v) | Given::Step(v)) => {
+                [wide(v), wide(direction)]
+            }
+        }
+    }
+
     /// Whether the rays start at an eye.
     pub(crate) fn is_perspective(&self) -> bool {
         matches!(self.pencil, Pencil::From { .. })

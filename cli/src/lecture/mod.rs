@@ -4,6 +4,7 @@
 //! evidence crate, with its tests.
 
 mod chapter;
+mod culling;
 mod curve;
 mod curved;
 mod depth;
@@ -14,6 +15,7 @@ mod painter;
 mod plan;
 mod precision;
 mod shot;
+mod translucent;
 mod trees;
 mod why;
 
@@ -26,13 +28,15 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 6] = [
+const CHAPTERS: [(&str, Make); 8] = [
     ("Why order at all", why::fill),
     ("The painter's algorithm and who hides whom", painter::fill),
     ("Newell, Newell and Sancha", newell::fill),
     ("Binary space partition trees", trees::fill),
     ("Depth buffers", depth::fill),
     ("Precision", precision::fill),
+    ("What need not be drawn", culling::fill),
+    ("Translucent surfaces", translucent::fill),
 ];
 
 /// How many chapters there are.

@@ -3,18 +3,25 @@
 //! library do not compile this crate.
 
 mod accuracy;
+pub mod culling;
 pub mod curved;
 mod facing;
 mod family;
 pub mod fighting;
 mod hiding;
+pub mod interior;
+pub mod layers;
 pub mod measure;
 pub mod method;
+pub mod overdraw;
 pub mod panes;
+mod pieces;
 mod place;
 pub mod plain;
+pub mod portals;
 mod residue;
 mod rounded;
+pub mod translucent;
 mod tree;
 mod worked;
 mod worst;

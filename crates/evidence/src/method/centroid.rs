@@ -28,15 +28,36 @@ impl Method for Centroid {
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
-        let centroid = |face| {
-            let corners = faces.corners(face);
-            std::array::from_fn(|i| {
-                corners.iter().map(|c| c[i]).sum::<f64>() / corners.len() as f64
-            })
-        };
-        let centroids = (0..faces.len() as u32).map(centroid).collect();
-        Ok(Box::new(Ready { faces, centroids, keys: Vec::new() }))
+        Ok(Box::new(Ready { faces, centroids: centroids(faces), keys: Vec::new() }))
     }
+}
+
+/// All faces in the order that [`Centroid`] paints them in.
+pub fn centroid_order(faces: &Faces, camera: &Camera) -> Vec<u32> {
+    let mut keys = Vec::new();
+    sort(&centroids(faces), &CameraSpace::new(camera, faces.lattice()), &|_| true, &mut keys);
+    keys.into_iter().map(|(_, face)| face).collect()
+}
+
+fn centroids(faces: &Faces) -> Vec<[f64; 3]> {
+    let centroid = |face| {
+        let corners = faces.corners(face);
+        std::array::from_fn(|i| corners.iter().map(|c| c[i]).sum::<f64>() / corners.len() as f64)
+    };
+    (0..faces.len() as u32).map(centroid).collect()
+}
+
+/// Puts faces that are shown in order with their depths, the furthest first.
+fn sort(
+    centroids: &[[f64; 3]],
+    space: &CameraSpace,
+    is_shown: &dyn Fn(u32) -> bool,
+    keys: &mut Vec<(f64, u32)>,
+) {
+    keys.clear();
+    let depths = centroids.iter().map(|&centroid| space.place(centroid).z);
+    keys.extend(depths.zip(0..).filter(|&(_, face)| is_shown(face)));
+    keys.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
 }
 
 struct Ready<'a> {
@@ -50,11 +71,7 @@ impl Prepared for Ready<'_> {
     fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
         let begin = Instant::now();
         let space = CameraSpace::new(camera, self.faces.lattice());
-        self.keys.clear();
-        let is_shown = shown(rays, self.faces);
-        let depths = self.centroids.iter().map(|&centroid| space.place(centroid).z);
-        self.keys.extend(depths.zip(0..).filter(|&(_, face)| is_shown(face)));
-        self.keys.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        sort(&self.centroids, &space, &shown(rays, self.faces), &mut self.keys);
         let order = begin.elapsed();
         let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
         for &(_, face) in &self.keys {

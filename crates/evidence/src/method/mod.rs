@@ -53,7 +53,7 @@ mod tests;
 
 pub use attributes::{Across, paint_attributes};
 pub use bsp::Bsp;
-pub use centroid::Centroid;
+pub use centroid::{Centroid, centroid_order};
 pub use decides_in::Space;
 pub use depth::{
     Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, Interpolation, Layered, Layers, Nearer,

@@ -1,0 +1,127 @@
+//! All faces along the ray of each pixel, sorted exactly.
+
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+use num_traits::Signed;
+
+use binspace::internals::Faces;
+use binspace::raster::{Outline, Piece, Rays, for_each_run};
+
+/// The faces that each pixel's ray meets, the nearest first; of faces met at the same point that of
+/// the later polygon first, as it is painted later.
+///
+/// Where the ray meets a plane is a fraction of two integers, and fractions are compared by
+/// multiplication, so no order is ever in doubt.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    pixels: Vec<Vec<u32>>,
+}
+
+/// Where a ray meets a face: at start/slope times its direction, slope above 0.
+#[derive(Debug)]
+struct Meeting {
+    face: u32,
+    start: BigInt,
+    slope: BigInt,
+}
+
+/// The plane of a face: normal · point = offset.
+struct Plane {
+    normal: [BigInt; 3],
+    offset: BigInt,
+}
+
+impl Plane {
+    fn of(faces: &Faces, face: u32) -> Self {
+        let triangle = faces.reference_triangle(face);
+        // Lattice points are integers.
+        let [p, q, r] = triangle.map(|k| faces.corner(k).map(|c| BigInt::from(c as i64)));
+        let arm = |to: &[BigInt; 3]| [0, 1, 2].map(|i| &to[i] - &p[i]);
+        let [u, v] = [arm(&q), arm(&r)];
+        let normal = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &u[i] * &v[j] - &u[j] * &v[i]);
+        let offset = (0..3).map(|i| &normal[i] * &p[i]).sum();
+        Self { normal, offset }
+    }
+
+    fn dot(&self, vector: [i128; 3]) -> BigInt {
+        (0..3).map(|i| &self.normal[i] * vector[i]).sum()
+    }
+
+    fn meet(&self, face: u32, [start, direction]: [[i128; 3]; 2]) -> Meeting {
+        let (start, slope) = (&self.offset - self.dot(start), self.dot(direction));
+        match slope.is_negative() {
+            true => Meeting { face, start: -start, slope: -slope },
+            false => Meeting { face, start, slope },
+        }
+    }
+}
+
+impl Meeting {
+    fn compare(&self, other: &Self, faces: &Faces) -> Ordering {
+        let rank = |meeting: &Self| (faces.polygon(meeting.face), meeting.face);
+        let depth = (&self.start * &other.slope).cmp(&(&other.start * &self.slope));
+        depth.then(rank(other).cmp(&rank(self)))
+    }
+}
+
+impl Layers {
+    /// The layers of a picture. Which pixels a face covers is what painters draw; in which order
+    /// is found here.
+    pub fn new(rays: &Rays, faces: &Faces) -> Self {
+        let [width, height] = rays.size().map(|side| side as usize);
+        let mut met: Vec<Vec<Meeting>> = Vec::new();
+        met.resize_with(width * height, Vec::new);
+        for face in 0..faces.len() as u32 {
+            let plane = Plane::of(faces, face);
+            for_each_run(rays, faces, Piece { face, outline: Outline::Whole }, |y, columns| {
+                for x in columns {
+                    let pixel = y as usize * width + x as usize;
+                    met[pixel].push(plane.meet(face, rays.ray(x, y)));
+                }
+            });
+        }
+        let sorted = |mut met: Vec<Meeting>| {
+            met.sort_unstable_by(|a, b| a.compare(b, faces));
+            met.into_iter().map(|meeting| meeting.face).collect()
+        };
+        Self { pixels: met.into_iter().map(sorted).collect() }
+    }
+
+    /// The faces of each pixel, row by row from the top left, each the nearest first.
+    pub fn pixels(&self) -> impl ExactSizeIterator<Item = &[u32]> + Clone {
+        self.pixels.iter().map(Vec::as_slice)
+    }
+
+    /// How many layers the deepest pixel has.
+    pub fn deepest(&self) -> usize {
+        self.pixels().map(<[u32]>::len).max().unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use binspace::raster::{NONE, zbuffer};
+    use binspace::scene;
+    use binspace::view;
+
+    #[test]
+    fn the_first_layer_is_that_of_the_depth_buffer() {
+        let mut pixels = 0;
+        for scene in [scene::random_triangles(80, 3), scene::crossing(7), scene::newell_bars()] {
+            let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+            let (low, high) = scene.bounds().unwrap();
+            for camera in view::views([low, high], scene.up(), 3, [64, 48], 5).unwrap() {
+                let rays = Rays::new(&camera, &faces).unwrap();
+                let truth = zbuffer(&rays, &faces);
+                let layers = Layers::new(&rays, &faces);
+                for (layers, &nearest) in layers.pixels().zip(truth.image().faces()) {
+                    assert_eq!(layers.first().copied().unwrap_or(NONE), nearest);
+                    pixels += usize::from(nearest != NONE);
+                }
+            }
+        }
+        assert!(pixels > 2000, "{pixels}");
+    }
+}
