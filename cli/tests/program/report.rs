@@ -89,3 +89,26 @@ fn a_folder_in_which_nothing_can_be_made_is_refused_before_anything_is_measured(
     let message = folder.run("report -o /proc").refused();
     assert!(message.contains("/proc/report.md: cannot be written"), "{message}");
 }
+
+/// Drawings join the report where no family is named.
+#[test]
+fn drawings_stand_beside_the_list_of_fragments() {
+    let folder = Folder::new("report_drawings");
+    folder.write("scene.obj", CROSSING);
+    folder.run("report --quick --size 64x48 -o out scene.obj").good();
+    let rows = rows(&folder, "out/drawings.csv");
+    assert_eq!(rows.len(), 7);
+    let number =
+        |row: &HashMap<String, String>, column: &str| row[column].parse::<usize>().unwrap();
+    for row in &rows {
+        assert_eq!((&row["wrong"][..], &row["failure"][..]), ("0", ""), "{row:?}");
+        assert_eq!(row["paths"], row["visible"], "{row:?}");
+        assert!(number(row, "compared") > 100, "{row:?}");
+        assert!(number(row, "without_reach_bytes") <= number(row, "drawing_bytes"), "{row:?}");
+    }
+    let random = rows.iter().find(|row| row["scene"].starts_with("random")).unwrap();
+    assert!(number(random, "drawing_bytes") * 3 < number(random, "list_bytes"), "{random:?}");
+    assert!(number(random, "clipped") > 0, "{random:?}");
+    let text = fs::read_to_string(folder.path("out/report.md")).unwrap();
+    assert!(text.contains("## Drawings of one view"), "{text}");
+}

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::drawings::Drawings;
 use super::figures::{Figures, Row, Section};
 use super::growth::Growth;
 use crate::failure::Failure;
@@ -147,6 +148,47 @@ pub(super) fn growth(rows: &[Growth]) -> Result<String, Failure> {
 }
 
 /// All rows with what they are about.
+#[derive(Serialize)]
+struct DrawingRow<'a> {
+    scene: &'a str,
+    polygons: usize,
+    fragments: Option<usize>,
+    visible: Option<usize>,
+    paths: Option<usize>,
+    clipped: Option<usize>,
+    drawing_bytes: Option<u64>,
+    without_reach_bytes: Option<u64>,
+    list_bytes: Option<u64>,
+    build_seconds: Option<f64>,
+    draw_seconds: Option<f64>,
+    compared: Option<usize>,
+    wrong: Option<usize>,
+    failure: &'a str,
+}
+
+/// The figures of drawings.
+pub(super) fn drawings(rows: &[Drawings]) -> Result<String, Failure> {
+    table(rows.iter().map(|Drawings { scene, polygons, found }| {
+        let of = found.as_ref().ok();
+        DrawingRow {
+            scene,
+            polygons: *polygons,
+            fragments: of.map(|found| found.fragments),
+            visible: of.map(|found| found.visible),
+            paths: of.map(|found| found.paths),
+            clipped: of.map(|found| found.clipped),
+            drawing_bytes: of.map(|found| found.bytes[0]),
+            without_reach_bytes: of.map(|found| found.bytes[1]),
+            list_bytes: of.map(|found| found.bytes[2]),
+            build_seconds: of.map(|found| found.seconds[0]),
+            draw_seconds: of.map(|found| found.seconds[1]),
+            compared: of.map(|found| found.error.compared),
+            wrong: of.map(|found| found.error.wrong),
+            failure: found.as_ref().err().map_or("", String::as_str),
+        }
+    }))
+}
+
 fn each_row(sections: &[Section]) -> impl Iterator<Item = (&str, &Row)> {
     sections
         .iter()

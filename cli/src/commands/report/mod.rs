@@ -1,6 +1,7 @@
 //! `binspace report`: every way to decide visibility, its speed against its error.
 
 mod csv;
+mod drawings;
 mod figures;
 mod growth;
 mod machine;
@@ -22,6 +23,7 @@ use binspace::scene::Scene;
 use binspace_evidence::Family;
 use binspace_evidence::method::{Method, Newell, Options, all};
 
+use self::drawings::Drawings;
 use self::figures::{Row, Section, Subject};
 use self::growth::Growth;
 use self::trial::Trial;
@@ -48,6 +50,8 @@ const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Build times, fragments and the figures of both.
 const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
+/// The figures of drawings.
+const DRAWINGS: &str = "drawings.csv";
 /// What every report has.
 const FILES: [&str; 4] = ["report.md", "speed.svg", "errors.csv", "times.csv"];
 /// Views of scenes that are files.
@@ -59,6 +63,7 @@ pub(super) struct Report<'a> {
     size: [u32; 2],
     sections: Vec<Section>,
     growth: Vec<Growth>,
+    drawings: Vec<Drawings>,
     /// Scenes that could not be measured.
     failed: Vec<String>,
     /// Whether it contains everything that was asked for.
@@ -80,6 +85,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
         size,
         sections: Vec::new(),
         growth: Vec::new(),
+        drawings: Vec::new(),
         failed: Vec::new(),
         complete: false,
     };
@@ -101,6 +107,10 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
         }
     }
     if args.family.is_empty() {
+        drawings::run(args, &scenes, size, |drawings| {
+            report.drawings.push(drawings);
+            report.write()
+        })?;
         growth::run(args, &scenes, |growth| {
             report.growth.push(growth);
             report.write()
@@ -212,6 +222,11 @@ impl Report<'_> {
         }
         write(folder, "errors.csv", &csv::errors(&self.sections)?)?;
         write(folder, "times.csv", &csv::times(&self.sections)?)?;
+        if self.drawings.is_empty() {
+            remove(folder, DRAWINGS)?;
+        } else {
+            write(folder, DRAWINGS, &csv::drawings(&self.drawings)?)?;
+        }
         write(folder, "report.md", &markdown::report(self))
     }
 
@@ -237,7 +252,11 @@ impl Report<'_> {
 /// what cannot be kept should not cost minutes.
 fn try_to_write(folder: &Path) -> Result<(), Failure> {
     let plots = Family::ALL.map(error_plot);
-    let names = FILES.into_iter().chain(GROWTH_FILES).chain(plots.iter().map(String::as_str));
+    let names = FILES
+        .into_iter()
+        .chain(GROWTH_FILES)
+        .chain([DRAWINGS])
+        .chain(plots.iter().map(String::as_str));
     // A file that is not written to is removed again.
     names.into_iter().try_for_each(|name| NewFile::create(&folder.join(name)).map(drop))
 }
