@@ -3,6 +3,7 @@
 //! A chapter is a function that computes all it shows; `page` writes the chapters. What is computed is in the
 //! evidence crate, with its tests.
 
+mod antialias;
 mod chapter;
 mod culling;
 mod page;
@@ -18,10 +19,11 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 3] = [
+const CHAPTERS: [(&str, Make); 4] = [
     ("Why order at all", why::fill),
     ("What need not be drawn", culling::fill),
     ("Translucent surfaces", translucent::fill),
+    ("Anti-aliasing", antialias::fill),
 ];
 
 /// How many chapters there are.

@@ -3,6 +3,7 @@
 //! library do not compile this crate.
 
 mod accuracy;
+pub mod antialias;
 pub mod culling;
 mod family;
 pub mod interior;
