@@ -11,11 +11,14 @@ pub mod layers;
 pub mod measure;
 pub mod method;
 pub mod overdraw;
+pub mod patches;
 mod pieces;
 mod place;
 pub mod portals;
 mod residue;
+pub mod room;
 mod rounded;
+pub mod shadows;
 pub mod translucent;
 mod tree;
 
