@@ -7,6 +7,8 @@ mod antialias;
 mod chapter;
 mod culling;
 mod page;
+mod radiosity;
+mod shadows;
 mod translucent;
 mod why;
 
@@ -19,11 +21,12 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 4] = [
+const CHAPTERS: [(&str, Make); 5] = [
     ("Why order at all", why::fill),
     ("What need not be drawn", culling::fill),
     ("Translucent surfaces", translucent::fill),
     ("Anti-aliasing", antialias::fill),
+    ("Shadows", shadows::fill),
 ];
 
 /// How many chapters there are.
