@@ -3,6 +3,7 @@
 //! A chapter is a function that computes all it shows; `page` writes the chapters. What is computed is in the
 //! evidence crate, with its tests.
 
+mod antialias;
 mod chapter;
 mod culling;
 mod curve;
@@ -14,6 +15,8 @@ mod page;
 mod painter;
 mod plan;
 mod precision;
+mod radiosity;
+mod shadows;
 mod shot;
 mod translucent;
 mod trees;
@@ -28,7 +31,7 @@ use crate::failure::Failure;
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.
-const CHAPTERS: [(&str, Make); 8] = [
+const CHAPTERS: [(&str, Make); 10] = [
     ("Why order at all", why::fill),
     ("The painter's algorithm and who hides whom", painter::fill),
     ("Newell, Newell and Sancha", newell::fill),
@@ -37,6 +40,8 @@ const CHAPTERS: [(&str, Make); 8] = [
     ("Precision", precision::fill),
     ("What need not be drawn", culling::fill),
     ("Translucent surfaces", translucent::fill),
+    ("Anti-aliasing", antialias::fill),
+    ("Shadows", shadows::fill),
 ];
 
 /// How many chapters there are.

@@ -11,6 +11,7 @@ mod draw_png;
 mod draw_seams;
 mod draw_translucent;
 mod help;
+mod lecture;
 mod notes;
 mod order;
 mod output;

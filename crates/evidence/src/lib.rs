@@ -3,6 +3,7 @@
 //! library do not compile this crate.
 
 mod accuracy;
+pub mod antialias;
 pub mod culling;
 pub mod curved;
 mod facing;
@@ -15,12 +16,15 @@ pub mod measure;
 pub mod method;
 pub mod overdraw;
 pub mod panes;
+pub mod patches;
 mod pieces;
 mod place;
 pub mod plain;
 pub mod portals;
 mod residue;
+pub mod room;
 mod rounded;
+pub mod shadows;
 pub mod translucent;
 mod tree;
 mod worked;

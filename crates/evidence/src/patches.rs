@@ -1,0 +1,258 @@
+//! Patches of surfaces that light one another: form factors by exact sight lines.
+//!
+//! C. Goral, K. Torrance, D. Greenberg and B. Battaile, "Modeling the interaction of light between
+//! diffuse surfaces", 1984. What a point sees of a patch is known in closed form; sight lines say how much
+//! of that is free (D. Baum, H. Rushmeier and J. Winget, "Improving radiosity solutions through the use of
+//! analytically determined form-factors", 1989).
+
+use std::f64::consts::PI;
+
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::{Bounds, BspTree, Ray};
+
+/// Sight lines end this share of their length before the surfaces that they join, as points of surfaces
+/// are rounded. What is nearer to an end does not block.
+pub const RIM: f64 = 1e-6;
+
+/// A quad that is lit evenly; its front is the side from which its corners run counter-clockwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Patch {
+    /// The corners.
+    pub corners: [DVec3; 4],
+    /// Of the quad that it is a part of.
+    pub quad: usize,
+}
+
+impl Patch {
+    fn at(&self, u: f64, v: f64) -> DVec3 {
+        let [a, b, c, d] = self.corners;
+        a.lerp(b, u).lerp(d.lerp(c, u), v)
+    }
+
+    /// The normal, as long as the area.
+    fn area_vector(&self) -> DVec3 {
+        let [a, b, c, d] = self.corners;
+        0.5 * (c - a).cross(d - b)
+    }
+
+    fn normal(&self) -> DVec3 {
+        self.area_vector().normalize_or_zero()
+    }
+
+    /// Whether some of it is in front of another's plane.
+    fn is_ahead_of(&self, other: &Self) -> bool {
+        let normal = other.normal();
+        self.corners.iter().any(|&p| normal.dot(p - other.corners[0]) > 0.0)
+    }
+
+    /// Its area.
+    pub fn area(&self) -> f64 {
+        self.area_vector().length()
+    }
+}
+
+/// Quads in patches whose sides are not much longer than a length.
+pub fn patches(quads: &[[DVec3; 4]], length: f64) -> Vec<Patch> {
+    let mut all = Vec::new();
+    for (quad, &corners) in quads.iter().enumerate() {
+        let whole = Patch { corners, quad };
+        let parts =
+            |a: usize, b: usize| (corners[a].distance(corners[b]) / length).round().max(1.0);
+        let (across, along) = (parts(0, 1), parts(1, 2));
+        for k in 0..(across * along) as usize {
+            let (i, j) = ((k % across as usize) as f64, (k / across as usize) as f64);
+            let at = |di: f64, dj: f64| whole.at((i + di) / across, (j + dj) / along);
+            let corners = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+            all.push(Patch { corners, quad });
+        }
+    }
+    all
+}
+
+/// Form factors of all pairs of patches: of the light that leaves one evenly, the share that arrives at
+/// another.
+#[derive(Clone, Debug)]
+pub struct FormFactors {
+    /// From each patch to each, row by row.
+    factors: Vec<f64>,
+    patches: usize,
+    /// Sight lines that were asked for.
+    pub sight_lines: usize,
+}
+
+impl FormFactors {
+    /// From `side` by `side` points of each patch to as many of each other, each to one: the mean of what
+    /// the points see of the other patch if nothing hides it, times the share of the sight lines that are
+    /// free, each weighted by the light that it carries. Points are at random in equal parts
+    /// of the patch.
+    pub fn new(tree: &BspTree, bounds: &Bounds, patches: &[Patch], side: u32, seed: u64) -> Self {
+        let n = patches.len();
+        let mut found = Self { factors: vec![0.0; n * n], patches: n, sight_lines: 0 };
+        let mut random = SplitMix64::new(seed);
+        for i in 0..n {
+            for j in 0..i {
+                let pair = [&patches[i], &patches[j]];
+                let [there, back] = found.between(tree, bounds, pair, side, &mut random);
+                found.factors[i * n + j] = there;
+                found.factors[j * n + i] = back;
+            }
+        }
+        found
+    }
+
+    /// The form factors of two patches, there and back.
+    fn between(
+        &mut self,
+        tree: &BspTree,
+        bounds: &Bounds,
+        [a, b]: [&Patch; 2],
+        side: u32,
+        random: &mut SplitMix64,
+    ) -> [f64; 2] {
+        if !a.is_ahead_of(b) || !b.is_ahead_of(a) {
+            return [0.0; 2];
+        }
+        let count = side * side;
+        // Part k of one is joined to part k + shift of the other.
+        let shift = (random.next() % u64::from(count)) as u32;
+        let (mut sums, mut free, mut all) = ([0.0; 2], 0.0, 0.0);
+        for k in 0..count {
+            let [p, q] = [(a, k), (b, (k + shift) % count)].map(|(patch, k)| {
+                let [u, v] = [k % side, k / side]
+                    .map(|part| (f64::from(part) + unit(random)) / f64::from(side));
+                patch.at(u, v)
+            });
+            sums[0] += seen(p, a.normal(), b);
+            sums[1] += seen(q, b.normal(), a);
+            let way = q - p;
+            let slopes = [a.normal().dot(way), -b.normal().dot(way)].map(|slope| slope.max(0.0));
+            let weight = slopes[0] * slopes[1] / way.length_squared().powi(2);
+            if weight > 0.0 {
+                self.sight_lines += 1;
+                all += weight;
+                free += if is_free(tree, bounds, p, q) { weight } else { 0.0 };
+            }
+        }
+        let share = if all > 0.0 { free / all } else { 0.0 };
+        sums.map(|sum| share * sum / f64::from(count))
+    }
+
+    /// The share of the light of one patch that arrives at another.
+    pub fn factor(&self, from: usize, to: usize) -> f64 {
+        self.factors[from * self.patches + to]
+    }
+
+    /// The share of the light of a patch that arrives anywhere: 1 in a closed room.
+    pub fn sum(&self, from: usize) -> f64 {
+        (0..self.patches).map(|to| self.factor(from, to)).sum()
+    }
+
+    /// What arrives at each patch, for each unit of area, if `leaving` is what leaves them.
+    pub fn arriving(&self, leaving: &[f64]) -> Vec<f64> {
+        let n = self.patches;
+        let at = |to: usize| (0..n).map(|from| self.factor(to, from) * leaving[from]).sum();
+        (0..n).map(at).collect()
+    }
+}
+
+/// The share of the light of a point of a surface that goes towards a patch's front, if nothing hides it
+/// (J. Lambert, "Photometria", 1760): a sum over the edges of what is above the horizon.
+fn seen(point: DVec3, normal: DVec3, patch: &Patch) -> f64 {
+    if patch.normal().dot(point - patch.corners[0]) <= 0.0 {
+        return 0.0;
+    }
+    let mut above = Vec::with_capacity(5);
+    for (k, &corner) in patch.corners.iter().enumerate() {
+        let [p, q] = [corner, patch.corners[(k + 1) % 4]].map(|c| c - point);
+        let [at_p, at_q] = [p, q].map(|c| normal.dot(c));
+        if at_p >= 0.0 {
+            above.push(p);
+        }
+        if at_p * at_q < 0.0 {
+            above.push(p.lerp(q, at_p / (at_p - at_q)));
+        }
+    }
+    let edge = |k: usize| {
+        let (p, q) = (above[k], above[(k + 1) % above.len()]);
+        let cross = p.cross(q);
+        let angle = cross.length().atan2(p.dot(q));
+        angle * normal.dot(cross.normalize_or_zero())
+    };
+    ((0..above.len()).map(edge).sum::<f64>() / (2.0 * PI)).abs()
+}
+
+/// Whether one point of a surface sees another.
+fn is_free(tree: &BspTree, bounds: &Bounds, p: DVec3, q: DVec3) -> bool {
+    !bounds.is_blocked(tree, Ray::between(p.lerp(q, RIM), q.lerp(p, RIM)))
+}
+
+/// A number from 0 to 1.
+fn unit(random: &mut SplitMix64) -> f64 {
+    (random.next() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use binspace::glam::dvec3;
+    use binspace::internals::cuboid;
+
+    /// A room of 4 by 4 by 4, seen from inside, and a body in it.
+    fn room(with_body: bool) -> Vec<[DVec3; 4]> {
+        let inwards = |[a, b, c, d]: [DVec3; 4]| [d, c, b, a];
+        let walls = cuboid(DVec3::ZERO, DVec3::splat(4.0)).map(inwards);
+        let body = cuboid(dvec3(1.0, 1.5, 1.0), dvec3(2.5, 2.5, 3.0));
+        walls.into_iter().chain(body.into_iter().filter(|_| with_body)).collect()
+    }
+
+    fn factors(quads: &[[DVec3; 4]], length: f64, side: u32) -> (Vec<Patch>, FormFactors) {
+        let tree = BspTree::build(quads.iter().copied()).unwrap();
+        let patches = patches(quads, length);
+        let found = FormFactors::new(&tree, &tree.bounds().unwrap(), &patches, side, 1);
+        (patches, found)
+    }
+
+    #[test]
+    fn form_factors_of_a_cube_are_those_of_the_closed_formula() {
+        let (patches, found) = factors(&room(false), 1.0, 6);
+        // J. Howell's catalogue, C-11: opposite squares at the distance of a side.
+        let opposite = 2.0 / PI
+            * ((4.0f64 / 3.0).ln() / 2.0 + 2.0 * 2.0f64.sqrt() * (0.5f64.sqrt()).atan()
+                - 2.0 * (1.0f64).atan());
+        for quad in 0..6 {
+            let wall = |to: usize| {
+                let pairs = (0..256).map(|k| found.factor(16 * quad + k / 16, 16 * to + k % 16));
+                pairs.sum::<f64>() / 16.0
+            };
+            // The walls beside share what is left; with 0.20004 it is nearly as much.
+            let beside = (1.0 - opposite) / 4.0;
+            for to in 0..6 {
+                let truth = match to {
+                    _ if to == quad => 0.0,
+                    _ if to / 2 == quad / 2 => opposite,
+                    _ => beside,
+                };
+                assert!((wall(to) - truth).abs() < 0.01, "{quad} {to}: {} for {truth}", wall(to));
+            }
+        }
+        assert_eq!(patches.len(), 96);
+    }
+
+    #[test]
+    fn light_in_a_closed_room_is_conserved_within_a_bound_that_falls() {
+        let mut one_way = Vec::new();
+        let off = [1, 3, 9].map(|side| {
+            let (patches, found) = factors(&room(true), 1.0, side);
+            let n = patches.len();
+            // In both directions the same light.
+            let light = |i: usize, j: usize| found.factor(i, j) * patches[i].area();
+            let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+            let off = all.map(|(i, j)| (light(i, j) - light(j, i)).abs()).sum::<f64>();
+            one_way.push(off / patches.iter().map(Patch::area).sum::<f64>());
+            (0..n).map(|i| (found.sum(i) - 1.0).abs()).sum::<f64>() / n as f64
+        });
+        assert!(off[1] < 0.5 * off[0] && off[2] < 0.5 * off[1] && off[2] < 0.02, "{off:?}");
+        assert!(one_way[2] < 0.3 * one_way[0] && one_way[2] < 0.05, "{one_way:?}");
+    }
+}

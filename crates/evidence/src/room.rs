@@ -1,0 +1,153 @@
+//! The Cornell box in patches, lit by its lamp: direct light and one bounce.
+
+use std::ops::Range;
+
+use binspace::glam::{DVec3, dvec3};
+use binspace::scene::{Scene, cornell_box};
+use binspace::{BspTree, Error};
+
+use crate::patches::{FormFactors, Patch, patches};
+
+/// Numbers of the scene's polygons.
+const CEILING: usize = 1;
+const LAMP: usize = 2;
+/// The lamp sends this out for each unit of area.
+const LAMP_LIGHT: f64 = 1.0;
+
+/// The room with light in it.
+#[derive(Debug)]
+pub struct Room {
+    /// Parts of the surfaces.
+    pub patches: Vec<Patch>,
+    /// What they send to one another.
+    pub factors: FormFactors,
+    /// What each reflects of red, green and blue.
+    reflected: Vec<[f64; 3]>,
+    light: Vec<f64>,
+    /// The patches of the wall that closes the room, black.
+    closing: Range<usize>,
+}
+
+/// Where light went, in shares of what the lamp sends out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    /// What arrived at the surfaces straight from the lamp.
+    pub arrived: f64,
+    /// What left through the open side straight from the lamp.
+    pub escaped: f64,
+}
+
+impl Room {
+    /// The room in patches about as long as `length`, with `side`² sight lines a pair of patches.
+    ///
+    /// The ceiling is around the lamp, not also above it, and the open side is closed by a black wall, so
+    /// that light that leaves is counted.
+    ///
+    /// # Errors
+    ///
+    /// As for [`BspTree::build`].
+    pub fn new(length: f64, side: u32) -> Result<Self, Error> {
+        let scene = cornell_box();
+        let (quads, colours) = surfaces(&scene);
+        let tree = BspTree::build(quads.iter().copied())?;
+        let bounds = tree.bounds()?;
+        let patches = patches(&quads, length);
+        let factors = FormFactors::new(&tree, &bounds, &patches, side, 1);
+        let reflected = patches.iter().map(|patch| colours[patch.quad]).collect();
+        let is_lamp = |patch: &Patch| patch.quad == quads.len() - 2;
+        let light = patches.iter().map(|p| if is_lamp(p) { LAMP_LIGHT } else { 0.0 }).collect();
+        let last = patches.iter().filter(|patch| patch.quad == quads.len() - 1).count();
+        let closing = patches.len() - last..patches.len();
+        Ok(Self { patches, factors, reflected, light, closing })
+    }
+
+    /// How many of the patches, the first ones, are surfaces of the scene; the rest closes the room.
+    pub fn surfaces(&self) -> usize {
+        self.closing.start
+    }
+
+    /// What leaves each patch: its own light, what it reflects of that of the lamp, and after `bounces`
+    /// what it reflects of what others reflect.
+    pub fn leaving(&self, bounces: u32) -> Vec<[f64; 3]> {
+        let channels = [0, 1, 2].map(|channel| {
+            let (mut step, mut sum) = (self.light.clone(), self.light.clone());
+            for _ in 0..=bounces {
+                step = self.factors.arriving(&step);
+                for (k, light) in step.iter_mut().enumerate() {
+                    *light *= self.reflected[k][channel];
+                    sum[k] += *light;
+                }
+            }
+            sum
+        });
+        (0..self.patches.len()).map(|k| [0, 1, 2].map(|c| channels[c][k])).collect()
+    }
+
+    /// Where the lamp's light went.
+    pub fn balance(&self) -> Balance {
+        let sent: f64 =
+            self.patches.iter().zip(&self.light).map(|(p, light)| p.area() * light).sum();
+        let arriving = self.factors.arriving(&self.light);
+        let share = |range: Range<usize>| {
+            range.map(|k| arriving[k] * self.patches[k].area()).sum::<f64>() / sent
+        };
+        Balance { arrived: share(0..self.closing.start), escaped: share(self.closing.clone()) }
+    }
+}
+
+/// The quads and what they reflect: those of the scene, the ceiling in four parts around the lamp; then
+/// the lamp, and the wall that closes the room.
+fn surfaces(scene: &Scene) -> (Vec<[DVec3; 4]>, Vec<[f64; 3]>) {
+    let quad = |k: usize| -> [DVec3; 4] { std::array::from_fn(|i| scene.polygon(k)[i]) };
+    let colour = |k: usize| scene.material(k).color.map(|c| f64::from(c).powi(2));
+    let others = (0..scene.len()).filter(|&k| k != CEILING && k != LAMP);
+    let mut all: Vec<_> = others.map(|k| (quad(k), colour(k))).collect();
+    let (lamp, ceiling) = (quad(LAMP), quad(CEILING));
+    let ends = |quad: [DVec3; 4]| {
+        quad.into_iter().fold((quad[0], quad[0]), |(a, b), p| (a.min(p), b.max(p)))
+    };
+    let ((low, high), (inner, outer)) = (ends(ceiling), ends(lamp));
+    // Fronts face down.
+    let part = |[x0, x1]: [f64; 2], [z0, z1]: [f64; 2]| {
+        [[x1, z0], [x1, z1], [x0, z1], [x0, z0]].map(|[x, z]| dvec3(x, low.y, z))
+    };
+    for (x, z) in [
+        ([low.x, high.x], [low.z, inner.z]),
+        ([low.x, high.x], [outer.z, high.z]),
+        ([low.x, inner.x], [inner.z, outer.z]),
+        ([outer.x, high.x], [inner.z, outer.z]),
+    ] {
+        all.push((part(x, z), colour(CEILING)));
+    }
+    all.push((part([inner.x, outer.x], [inner.z, outer.z]), colour(LAMP)));
+    let floor = quad(0);
+    all.push(([floor[1], floor[0], ceiling[0], ceiling[3]], [0.0; 3]));
+    all.into_iter().unzip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lamps_light_arrives_or_escapes() {
+        let off = [1, 4].map(|side| {
+            let room = Room::new(180.0, side).unwrap();
+            let Balance { arrived, escaped } = room.balance();
+            assert!(escaped > 0.05 && escaped < 0.3, "{escaped}");
+            (arrived + escaped - 1.0).abs()
+        });
+        assert!(off[0] < 0.1 && off[1] < 0.02, "{off:?}");
+    }
+
+    #[test]
+    fn a_bounce_adds_less_than_the_one_before_and_colours_the_blocks() {
+        let room = Room::new(180.0, 2).unwrap();
+        let [none, one, two] = [0, 1, 2].map(|bounces| {
+            let leaving = room.leaving(bounces);
+            let areas = room.patches.iter().map(Patch::area);
+            areas.zip(leaving).map(|(area, light)| area * light[0]).sum::<f64>()
+        });
+        assert!(none < one && one < two && two - one < one - none, "{none} {one} {two}");
+    }
+}
