@@ -98,7 +98,7 @@ impl Hiding {
     }
 
     /// The most faces of which all subsets are tried.
-    pub const SEARCHED: usize = 22;
+    pub const SEARCHED: usize = components::SEARCHED;
 }
 
 /// How many pairs of faces overlap in depth along a direction of view: those whose order a sort by

@@ -1,6 +1,7 @@
 //! Cycles of a graph, and what has to go so that there are none.
 
-use super::Hiding;
+/// The most vertices of which all subsets are tried.
+pub(super) const SEARCHED: usize = 22;
 
 /// The sets of two or more vertices that all lead to each other: by the closure of "leads to", a row
 /// of bits for each vertex (S. Warshall, "A theorem on Boolean matrices", 1962). O(n³ / 64).
@@ -35,7 +36,7 @@ pub(super) fn components(next: &[Vec<u32>]) -> Vec<Vec<u32>> {
 /// The fewest of these vertices without which there is no cycle among them, by all subsets. `None` of
 /// too many vertices.
 pub(super) fn fewest_removed(next: &[Vec<u32>], vertices: &[u32]) -> Option<usize> {
-    if vertices.len() > Hiding::SEARCHED {
+    if vertices.len() > SEARCHED {
         return None;
     }
     let place = |vertex: &u32| vertices.iter().position(|v| v == vertex);
