@@ -267,7 +267,8 @@ pub(crate) struct DrawArgs {
     ///
     /// What is drawn behind them shows in their place, else the background: surfaces of such polygons
     /// vanish. Through cracks between the faces of a mesh some of those behind show, far narrower than
-    /// any pixel, which the default leaves out. With 0, all that show are drawn.
+    /// any pixel, which the default leaves out. With 0, all that show are drawn. With --seams plus-lighter,
+    /// regions so small are left out, and the background shows in their place.
     #[arg(long, value_name = "PX", value_parser = values::length)]
     #[arg(allow_hyphen_values = true)]
     pub(crate) min_size: Option<f64>,

@@ -148,7 +148,7 @@ impl<'a> View<'a> {
         let drawing = match map {
             Some(map) if style.seams == Seams::PlusLighter => {
                 let mut regions = map.regions()?;
-                regions.retain(|region| region.area() >= MIN_SIZE * MIN_SIZE);
+                regions.retain(|region| region.area() >= self.min_size() * self.min_size());
                 figures.paths = regions.len();
                 figures.draw_seconds = start.elapsed().as_secs_f64();
                 return Ok(filled_regions(&regions, style));
@@ -258,9 +258,11 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         "a PDF cannot add colours up: give `--seams trap` or none, or write .svg"
     } else if args.translucent && args.lines {
         "--lines draws no polygons, so that none is translucent: leave out one of the two"
-    } else if args.seams == Some(Seams::PlusLighter) && args.min_size.is_some() && !has_lines {
-        "--seams plus-lighter writes a path for each region, of small polygons too: leave out --min-size"
-    } else if args.translucent && args.min_size.is_some() && !has_lines {
+    } else if args.translucent
+        && args.min_size.is_some()
+        && !has_lines
+        && args.seams != Some(Seams::PlusLighter)
+    {
         "with --translucent nothing is hidden, so --min-size leaves nothing out"
     } else if format != DrawFormat::Svg && args.ids {
         "--ids is for SVG: other formats have no place for names"
