@@ -22,7 +22,7 @@ struct World {
 
 impl World {
     fn of(faces: &Faces, scene: &HardScene) -> Self {
-        let step = rational::exact(faces.lattice().length_to_world(1.0));
+        let step = rational::step(faces.lattice());
         let (half, zero) = (rational::exact(0.5), rational::exact(0.0));
         let origin = std::array::from_fn(|axis| {
             let corners = || scene.polygons.iter().flatten();

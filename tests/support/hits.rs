@@ -92,7 +92,7 @@ impl<'t> Oracle<'t> {
             bounds: tree.bounds().expect("memory"),
             faces: (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect(),
             rough: (0..faces.len() as u32).map(rough).collect(),
-            step: rational::exact(lattice.length_to_world(1.0)),
+            step: rational::step(lattice),
             origin: rational::point(lattice.to_world([0.0; 3])),
         }
     }

@@ -1,6 +1,7 @@
 //! Points and planes in exact rationals.
 
 use binspace::glam::DVec3;
+use binspace::internals::Lattice;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
@@ -23,6 +24,17 @@ pub(crate) fn integer(value: f64) -> BigInt {
 /// The exact value of a point.
 pub(crate) fn point(p: impl Into<DVec3>) -> Point {
     p.into().to_array().map(exact)
+}
+
+/// The length of a lattice step in the world: a power of two, which may be too small for `f64`.
+pub(crate) fn step(lattice: &Lattice) -> Rational {
+    /// So many steps are an `f64`, and exact.
+    const MANY: f64 = (1u128 << 100) as f64;
+    let one = lattice.length_to_world(1.0);
+    if one >= 1.0 {
+        return exact(one);
+    }
+    exact(lattice.length_to_world(MANY)) / exact(MANY)
 }
 
 pub(crate) fn difference(a: &Point, b: &Point) -> Point {

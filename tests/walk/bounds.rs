@@ -14,7 +14,7 @@ fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {
     let faces = tree.faces();
     let lattice = faces.lattice();
     // A power of two, and a whole number of these: both exact.
-    let step = rational::exact(lattice.length_to_world(1.0));
+    let step = rational::step(lattice);
     let origin = rational::point(lattice.to_world([0.0; 3]));
     let world = |p: Point| -> Point { std::array::from_fn(|i| &p[i] * &step + &origin[i]) };
     let all: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
