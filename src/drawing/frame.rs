@@ -87,8 +87,8 @@ impl Frame<'_> {
         }
     }
 
-    /// The edge from one lattice point to another. In the picture it leads along (k₂, −k₁). Of a face whose front is seen, the inside is where
-    /// its edges are negative.
+    /// The edge from one lattice point to another. In the picture it leads along (k₂, −k₁). Of a face whose
+    /// front is seen, the inside is where its edges are negative.
     pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> Exact {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let integer = |p: [f64; 3]| p.map(|c| c as i64);
@@ -125,12 +125,6 @@ impl Sheet {
             let behind: Int<6> = other.kappa.times(&self.phi[i]);
             ahead - behind
         })
-    }
-
-    /// The line of rays that run along the plane. Rays from an eye that meet it ahead have the other
-    /// sign than its κ.
-    pub(super) fn horizon(&self) -> Exact {
-        self.phi.map(|c| c.resize())
     }
 }
 

@@ -26,8 +26,6 @@ pub(super) enum Key {
     Upright(u32, u32),
     /// The cut of a face by a plane: of two faces' planes, of the lower by the higher.
     Cut(u32, PlaneId),
-    /// The rays along a face's plane.
-    Horizon(u32),
 }
 
 /// The number of no point.
@@ -204,11 +202,6 @@ impl<'t> Lines<'t> {
         Ok(found)
     }
 
-    /// The half of the picture in which rays meet a face's plane ahead of the eye.
-    pub(super) fn ahead(&mut self, face: u32, is_positive: bool) -> Result<Half, Error> {
-        Ok(self.half(Key::Horizon(face), [NOWHERE; 2])?.flipped(is_positive))
-    }
-
     fn point(&mut self, corner: u32) -> Result<u32, Error> {
         let place = self.frame.faces.corner(corner).map(|c| (c + 0.0).to_bits());
         if let Some(&number) = self.points.get(&place) {
@@ -357,7 +350,6 @@ impl<'t> Lines<'t> {
                 sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))
             }
             Key::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
-            Key::Horizon(face) => sheet(PlaneId::face(face)).horizon(),
         };
         // The picture may end half a pixel beyond the pixels that the error is for, and its lists reach a
         // pixel further.
@@ -375,7 +367,6 @@ impl<'t> Lines<'t> {
                 frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
             }
             Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
-            Key::Horizon(face) => frame.sheet(PlaneId::face(face)).horizon(),
         }
     }
 

@@ -30,7 +30,10 @@ impl<'t> Rims<'t> {
         Self { lines, halves: vec![], of_faces: Table::default(), of_items: Table::default() }
     }
 
-    /// The halves that bound a whole face: its edges, one after another, and what else bounds it.
+    /// The halves that bound a whole face: its edges, one after another.
+    ///
+    /// No ray from an eye is in all of them that meets the face's plane behind the eye: the point where it
+    /// does would be outside of every edge of a bounded convex polygon. Nor is one along the plane.
     pub(super) fn outline(&mut self, stock: &Stock<'_>, face: u32) -> Result<&[Half], Error> {
         let ends = self.outline_place(stock, face)?;
         Ok(self.at(ends))
@@ -51,7 +54,10 @@ impl<'t> Rims<'t> {
     pub(super) fn known_item(&self, stock: &Stock<'_>, item: u32) -> &[Half] {
         match self.of_items.get(&item) {
             Some(&ends) => self.at(ends),
-            None => self.known_outline(stock.face(item)),
+            None => {
+                debug_assert!(stock.fragment(item).is_whole(), "item {item} was not asked for");
+                self.known_outline(stock.face(item))
+            }
         }
     }
 
@@ -124,15 +130,9 @@ impl<'t> Rims<'t> {
         }
         let Self { lines, halves, .. } = self;
         let View { is_positive, .. } = stock.views[face as usize];
-        let (rays, faces) = (&stock.frame.rays, stock.frame.faces);
         let start = place(halves.len())?;
-        for k in 0..faces.corners(face).len() as u32 {
+        for k in 0..stock.frame.faces.corners(face).len() as u32 {
             push(halves, lines.edge(face, k, is_positive)?)?;
-        }
-        // Edges in a plane bound a cone, all of it ahead of the eye; others may bound its image
-        // behind the eye as well.
-        if rays.is_perspective() && faces.upright_axis(face).is_some() {
-            push(halves, lines.ahead(face, is_positive)?)?;
         }
         let ends = [start, place(halves.len())?];
         insert(&mut self.of_faces, face, ends)?;
