@@ -7,7 +7,8 @@ mod rooms;
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, CoverageMask, Culling, Flow, Frustum, Part, Sides};
+use binspace::{Bounds, BspTree, Culling, Frustum, Sides};
+use binspace_evidence::culling::unhidden;
 use rooms::{HEIGHT, ROOM};
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, time};
@@ -96,21 +97,11 @@ fn what_is_left(tree: &BspTree, bounds: &Bounds, camera: &Camera, side: usize) -
     }
     let begin = Instant::now();
     let rays = Rays::new(camera, tree.faces()).expect("a picture");
-    let (mut mask, mut seen) = (CoverageMask::new(tree, &rays, 1), 0);
-    let _ = tree.walk_front_to_back(viewpoint, |part| {
-        match part {
-            Part::Subtree(node) => {
-                let region = bounds.of(node);
-                if !frustum.meets(region) || mask.hides(region) {
-                    return Flow::Skip;
-                }
-            }
-            Part::Fragment(fragment) => seen += usize::from(mask.cover(&fragment)),
-        }
-        if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
-    });
+    let mut seen = Vec::new();
+    unhidden(tree, bounds, camera, &rays, |_| true, &mut seen);
     times[2] = begin.elapsed();
     let [in_view, of_fronts] = lists.map(|list| list.len());
+    let seen = seen.len();
     assert!(seen <= in_view && of_fronts <= in_view && seen > 0);
     [
         (side * side).to_string(),

@@ -1,6 +1,6 @@
 //! Lines and points between translucent polygons, against rays in rationals.
 
-use super::overlay::{between, hard_shapes, origin, place_in, project, square, triangles};
+use super::overlay::{between, for_each_crowd, hard_shapes, origin, place_in, project, square};
 use super::sightlines::Sightlines;
 use super::support::dice::Dice;
 use super::support::hard;
@@ -8,7 +8,6 @@ use super::support::rational::{self, Point};
 use super::support::tally::tally;
 use binspace::drawing::{Drawing, LineRun, Path, Step, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Overlay, Shapes};
@@ -228,24 +227,10 @@ fn lines_come_between_hard_polygons() {
 
 #[test]
 fn lines_come_between_triangles() {
-    let (mut random, mut dice, mut score) = (SplitMix64::new(6), Dice(6), Score::default());
-    for (count, edge) in [(30, 0.8), (150, 0.3), (300, 0.1)] {
-        let triangles = triangles(&mut random, count, edge);
-        let options = BuildOptions::DEFAULT.with_tolerance(0.0);
-        let options = options.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
-        let tree = options.build(&triangles).unwrap();
-        let lattice = tree.faces().lattice();
-        for far in [4.0, 0.5] {
-            let eye = random.point(-1.0, 1.0).normalize() * far;
-            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
-            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
-            let mut lines: Vec<Vec<DVec3>> =
-                (0..20).map(|_| (0..4).map(|_| random.point(-2.0, 2.0)).collect()).collect();
-            lines.extend(hard_shapes(&triangles, eye, &mut dice).0);
-            let points: Vec<DVec3> = (0..40).map(|_| random.point(-1.0, 1.0)).collect();
-            check(&tree, &camera, &lines, &points, (&mut dice, 30), &mut score).unwrap();
-        }
-    }
+    let mut score = Score::default();
+    for_each_crowd(6, |tree, camera, lines, points, dice| {
+        check(tree, camera, lines, points, (dice, 30), &mut score).unwrap();
+    });
     assert!(score.below > 1000 && score.above > 2000, "{score:?}");
     assert!(score.marker_below > 20 && score.marker_above > 40, "{score:?}");
     // Most segments pass several triangles, and are cut more seldom.

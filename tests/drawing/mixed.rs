@@ -1,10 +1,10 @@
 //! Drawings of scenes in which some polygons are translucent and some are not.
 
 use super::scenes::cameras;
+use super::translucent::crossing_triangles;
 use crate::support::layered::{Layers, check_mixed, check_sight};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
@@ -45,16 +45,8 @@ fn layers_of_whole_scenes_end_at_what_is_opaque() {
 /// Polygons that cross: opaque ones are clipped, translucent ones in parts.
 #[test]
 fn layers_of_crossing_triangles_end_at_what_is_opaque() {
-    let mut random = SplitMix64::new(1);
     let mut score = Layers::default();
-    for (count, edge) in [(300, 0.1), (300, 0.5), (60, 1.0)] {
-        let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
-        for _ in 0..count {
-            let centre = random.point(0.0, 1.0);
-            scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge), 0);
-        }
-        check_scene(&scene, &mut score);
-    }
+    crossing_triangles().for_each(|scene| check_scene(&scene, &mut score));
     assert!(score.clipped > 50 && score.paths > score.polygons, "{score:?}");
 }
 

@@ -351,9 +351,13 @@ pub(crate) fn triangles(random: &mut SplitMix64, count: usize, edge: f64) -> Vec
     (0..count).map(triangle).collect()
 }
 
-#[test]
-fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
-    let (mut random, mut dice, mut score) = (SplitMix64::new(5), Dice(5), Score::default());
+/// Calls a function with trees of random triangles, a camera before and one among these, and lines and
+/// points, half of them hard ones.
+pub(crate) fn for_each_crowd(
+    seed: u64,
+    mut check: impl FnMut(&BspTree, &Camera, &[Vec<DVec3>], &[DVec3], &mut Dice),
+) {
+    let (mut random, mut dice) = (SplitMix64::new(seed), Dice(seed));
     for (count, edge) in [(40, 0.8), (150, 0.3), (300, 0.1)] {
         let triangles = triangles(&mut random, count, edge);
         let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
@@ -368,8 +372,16 @@ fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
                 (0..20).map(|_| (0..4).map(|_| random.point(-2.0, 2.0)).collect()).collect();
             lines.extend(hard_shapes(&triangles, eye, &mut dice).0);
             let points: Vec<DVec3> = (0..40).map(|_| random.point(-1.0, 1.0)).collect();
-            check(&tree, &camera, &lines, &points, (&mut dice, 20), &mut score).unwrap();
+            check(&tree, &camera, &lines, &points, &mut dice);
         }
     }
+}
+
+#[test]
+fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
+    let mut score = Score::default();
+    for_each_crowd(5, |tree, camera, lines, points, dice| {
+        check(tree, camera, lines, points, (dice, 20), &mut score).unwrap();
+    });
     assert!(score.visible > 2000 && score.hidden > 1000 && score.deeper > 300, "{score:?}");
 }

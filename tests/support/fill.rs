@@ -1,10 +1,9 @@
 //! Fills outlines at the centres of pixels, in floats: what is too near to tell is left out.
 
 use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::internals::Line;
-use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, Fragment, Hit, Viewpoint, paint_tree};
+use binspace::{BspTree, Hit, Viewpoint, paint_tree};
 
 /// What covers the centre of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -212,24 +211,4 @@ pub(crate) fn ray(camera: &Camera, [x, y]: [f64; 2]) -> binspace::Ray {
             binspace::Ray::new(start, direction)
         }
     }
-}
-
-/// Calls a function with the number of each pixel whose centre a fragment covers: by integers.
-pub(crate) fn for_each_pixel(
-    tree: &BspTree,
-    fragment: &Fragment<'_>,
-    rays: &Rays,
-    mut see: impl FnMut(usize),
-) {
-    let width = rays.size()[0] as usize;
-    let lines: Vec<Line> = fragment.lines().collect();
-    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-    let outline = match fragment.is_whole() {
-        true => Outline::Whole,
-        false => Outline::Lines { lines: &lines, vertices: &vertices },
-    };
-    let piece = Piece { face: fragment.face(), outline };
-    for_each_run(rays, tree.faces(), piece, |y, columns| {
-        columns.for_each(|x| see(y as usize * width + x as usize));
-    });
 }

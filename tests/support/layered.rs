@@ -4,7 +4,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::fill::{Picture, Pixel, for_each_pixel, ray};
+use super::fill::{Picture, Pixel, ray};
+use super::fragment_pixels::for_each_pixel;
 use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::raster::Rays;

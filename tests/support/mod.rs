@@ -7,6 +7,8 @@ pub(crate) mod decode;
 pub(crate) mod dice;
 #[cfg(feature = "drawing")]
 pub(crate) mod fill;
+#[cfg(feature = "drawing")]
+pub(crate) mod fragment_pixels;
 pub(crate) mod hard;
 pub(crate) mod hits;
 pub(crate) mod homogeneous;

@@ -12,6 +12,8 @@ mod translucent;
 
 #[path = "../../../tests/support/fill.rs"]
 mod fill;
+#[path = "../../../tests/support/fragment_pixels.rs"]
+mod fragment_pixels;
 
 use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};

@@ -1,6 +1,7 @@
 //! Drawings in which nothing is hidden: pieces a polygon.
 
-use super::fill::{Picture, Pixel, for_each_pixel};
+use super::fill::{Picture, Pixel};
+use super::fragment_pixels::for_each_pixel;
 use super::{Goal, cpu_time, maybe_against};
 use binspace::BspTree;
 use binspace::drawing::Drawing;

@@ -3,15 +3,15 @@
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
+use binspace::BspTree;
 use binspace::glam::DVec3;
-use binspace::internals::Line;
-use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
-use binspace::{BspTree, Fragment};
 
 use crate::draw::{View, WHITE, views};
 use crate::draw_translucent::write_scene;
+use crate::fragment_pixels::for_each_pixel;
 use crate::png_picture::Picture;
 use crate::run::Folder;
 use crate::svg_picture::Svg;
@@ -50,7 +50,7 @@ impl Sampled {
             let opacity = (look.opacity)(polygon) as f32;
             // Of what is seen edge-on, and hidden in the drawing, there is no sample.
             let Some(fill) = look.fills.get(&polygon) else { continue };
-            for_each_sample(tree, &fragment, &rays, |sample| {
+            for_each_pixel(tree, &fragment, &rays, |sample| {
                 let (colour, kind) = &mut samples[sample];
                 for (old, &new) in colour.iter_mut().zip(fill) {
                     *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
@@ -128,25 +128,6 @@ impl Errors {
     fn share(&self) -> f64 {
         self.sum / self.contrast
     }
-}
-
-fn for_each_sample(
-    tree: &BspTree,
-    fragment: &Fragment<'_>,
-    rays: &Rays,
-    mut see: impl FnMut(usize),
-) {
-    let width = rays.size()[0] as usize;
-    let lines: Vec<Line> = fragment.lines().collect();
-    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-    let outline = match fragment.is_whole() {
-        true => Outline::Whole,
-        false => Outline::Lines { lines: &lines, vertices: &vertices },
-    };
-    let piece = Piece { face: fragment.face(), outline };
-    for_each_run(rays, tree.faces(), piece, |y, columns| {
-        columns.for_each(|x| see(y as usize * width + x as usize));
-    });
 }
 
 /// A ball of wood in a ball of glass, of many faces.

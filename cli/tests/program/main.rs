@@ -10,6 +10,8 @@ mod draw_pdf;
 mod draw_png;
 mod draw_seams;
 mod draw_translucent;
+#[path = "../../../tests/support/fragment_pixels.rs"]
+mod fragment_pixels;
 mod help;
 mod lecture;
 mod notes;

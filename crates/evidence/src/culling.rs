@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, CoverageMask, Culling, Flow, Part, Sides};
+use binspace::{Bounds, BspTree, CoverageMask, Culling, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
 #[derive(Clone, Debug)]
@@ -39,12 +39,25 @@ pub fn steps(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) -> V
         step("and seen from behind", &|left| {
             tree.culled_back_to_front_into(viewpoint, &fronts, left);
         }),
-        step("and hidden", &|left| unhidden(tree, bounds, camera, rays, left)),
+        step("and hidden", &|left| {
+            let is_front = |fragment: &Fragment<'_>| fragment.facing(viewpoint).is_gt();
+            unhidden(tree, bounds, camera, rays, is_front, left);
+        }),
     ]
 }
 
-/// The fragments that own a pixel, back to front, of those whose fronts are seen.
-fn unhidden(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays, left: &mut Vec<u32>) {
+/// The fragments that own a pixel, back to front, of those that are wanted.
+///
+/// One walk from front to back finds them: it skips subtrees that are out of view or hidden by what it
+/// met before.
+pub fn unhidden(
+    tree: &BspTree,
+    bounds: &Bounds,
+    camera: &Camera,
+    rays: &Rays,
+    is_wanted: impl Fn(&Fragment<'_>) -> bool,
+    left: &mut Vec<u32>,
+) {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let mut mask = CoverageMask::new(tree, rays, 1);
     let _ = tree.walk_front_to_back(viewpoint, |part| {
@@ -55,7 +68,7 @@ fn unhidden(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays, left:
                     return Flow::Skip;
                 }
             }
-            Part::Fragment(fragment) if fragment.facing(viewpoint).is_gt() => {
+            Part::Fragment(fragment) if is_wanted(&fragment) => {
                 if mask.cover(&fragment) {
                     left.push(fragment.index());
                 }
