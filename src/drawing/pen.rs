@@ -4,8 +4,8 @@ use super::near::{Ends, distance};
 use crate::Error;
 use crate::memory::{push, reserve};
 
-/// Ends are rounded to a grid of this step, in pixels, and are common if they fall on one place. Smaller: corners that two projections rounded apart tear
-/// lines; larger: lines of a very fine mesh lose their shape.
+/// Ends are rounded to a grid of this step, in pixels, and are common if they fall on one place. Smaller:
+/// corners that two projections rounded apart tear lines; larger: lines of a very fine mesh lose their shape.
 const GRID: f64 = 1.0 / 1024.0;
 /// Of how many segments at a corner the straightest is taken. Larger: time at corners of many; smaller:
 /// lines turn where they could go on.

@@ -20,13 +20,16 @@ pub(super) fn insert<K: Eq + Hash, V>(
     Ok(())
 }
 
+/// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
+const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+
 /// Mixes the numbers of a key.
 #[derive(Debug, Default)]
 pub(super) struct Mixer(u64);
 
 impl Hasher for Mixer {
     fn finish(&self) -> u64 {
-        self.0
+        mix(self.0)
     }
 
     fn write(&mut self, bytes: &[u8]) {
@@ -54,6 +57,6 @@ impl Hasher for Mixer {
     }
 
     fn write_u64(&mut self, number: u64) {
-        self.0 = mix(self.0 ^ number);
+        self.0 = (self.0.rotate_left(23) ^ number).wrapping_mul(FACTOR);
     }
 }
