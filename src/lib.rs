@@ -96,7 +96,8 @@ pub use tree::{
 };
 #[cfg(feature = "raster")]
 pub use verify::{
-    OrderFault, Verification, check_orders, paint_tree, paint_tree_in_colour, verify, verify_fronts,
+    OrderFault, Verification, check_orders, for_each_painted, paint_tree, paint_tree_in_colour,
+    verify, verify_fronts,
 };
 pub use viewpoint::Viewpoint;
 
