@@ -299,12 +299,13 @@ impl fmt::Display for Error {
                  {expected}: make the mesh of this tree"
             ),
             Kind::Bounds => f.write_str(
-                "a corner of the bounds (`with_bounds`) has a coordinate that is NaN or infinite",
+                "a corner of the bounds (`with_bounds`), or of a partition's extent, has a coordinate that \
+                 is NaN or infinite",
             ),
             Kind::OffGrid { shape, number } => write!(
                 f,
                 "{shape} {number} reaches beyond the tree's grid: build the tree with bounds that \
-                 hold all that will move (`with_bounds`)"
+                 hold all that will move (`with_bounds`), or cells of an extent that holds all"
             ),
             Kind::OverlaidTree => f.write_str(
                 "the tree is not the one that the overlay was made for: make an overlay for it",

@@ -9,6 +9,7 @@
 //! | [`Overlay`], [`Shapes`], [`Shape`], [`Overlaid`] | polygons that move, lines and points, in one order with a tree that stays |
 //! | [`Segment`], [`Marker`] | what lines and points become there |
 //! | [`Polygon`], [`Point`] | what it is built from |
+//! | [`Partition`], [`Extent`] | scenes too large for one tree: cells, each with a tree of its own |
 //! | [`Viewpoint`] | what it is ordered for |
 //! | [`Fragment`], [`Node`] | what it consists of |
 //! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
@@ -54,6 +55,7 @@ mod memory;
 mod occlusion;
 mod overlay;
 mod parallel_map;
+mod partition;
 mod query;
 mod random;
 #[cfg(feature = "raster")]
@@ -83,6 +85,7 @@ pub use input::{MAX_CORNERS, Point, Polygon};
 #[cfg(feature = "raster")]
 pub use occlusion::CoverageMask;
 pub use overlay::{Marker, Overlaid, Overlay, Segment, Shape, Shapes};
+pub use partition::{Extent, Partition};
 pub use query::{FragmentsIn, Hit, Hits, Location};
 pub use ray::Ray;
 #[cfg(feature = "save")]
@@ -93,7 +96,8 @@ pub use tree::{
 };
 #[cfg(feature = "raster")]
 pub use verify::{
-    OrderFault, Verification, check_orders, paint_tree, paint_tree_in_colour, verify, verify_fronts,
+    OrderFault, Verification, check_orders, for_each_painted, paint_tree, paint_tree_in_colour,
+    verify, verify_fronts,
 };
 pub use viewpoint::Viewpoint;
 

@@ -75,9 +75,18 @@ pub(crate) struct BuildFileArgs {
     pub(crate) scene: SceneArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
-    /// File to write, complete or not at all, such as scene.bsp; - for standard output
+    /// File to write, complete or not at all, such as scene.bsp; - for standard output. With --cells, a
+    /// new folder
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
+    /// Divide the scene into N cells, and build a tree of each, one after the other: for scenes too large
+    /// for memory
+    ///
+    /// In memory are the vertices of the file, and then one cell. The folder has a file for each cell;
+    /// `render`, `order` and `stats` take it in place of a scene, with one cell in memory at a time. It
+    /// keeps no texture coordinates, normals or line numbers.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=500))]
+    pub(crate) cells: Option<u32>,
 }
 
 /// Write a scene's fragments in paint order, one JSON object per line

@@ -22,11 +22,18 @@ pub(crate) enum Colouring {
 pub(crate) struct Colours<'a> {
     scene: &'a Scene,
     by: Colouring,
+    /// The numbers of its polygons in a scene that it is a part of.
+    numbers: Option<&'a [usize]>,
 }
 
 impl<'a> Colours<'a> {
     pub(crate) fn new(scene: &'a Scene, by: Colouring) -> Self {
-        Self { scene, by }
+        Self { scene, by, numbers: None }
+    }
+
+    /// The same for a part of a scene, in which its polygons have these numbers.
+    pub(crate) fn numbered(self, numbers: &'a [usize]) -> Self {
+        Self { numbers: Some(numbers), ..self }
     }
 
     /// Red, green and blue.
@@ -36,7 +43,9 @@ impl<'a> Colours<'a> {
                 let colour = self.scene.material(polygon).color;
                 colour.map(|channel| (channel * 255.0).round() as u8)
             }
-            Colouring::Polygon => colour_of(polygon),
+            Colouring::Polygon => {
+                colour_of(self.numbers.map_or(polygon, |numbers| numbers[polygon]))
+            }
         }
     }
 

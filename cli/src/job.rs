@@ -1,5 +1,6 @@
 //! The first step of most commands: loads a scene and builds its tree.
 
+use std::fmt::Display;
 use std::time::Instant;
 
 use binspace::internals::Faces;
@@ -80,6 +81,15 @@ pub(crate) fn refuse_options(
     heuristics: &[Heuristic],
     limits: &LimitArgs,
 ) -> Result<(), Failure> {
+    refuse_options_of(&scene.name(), heuristics, limits)
+}
+
+/// The same for trees of what is called `name`.
+pub(crate) fn refuse_options_of(
+    name: &dyn Display,
+    heuristics: &[Heuristic],
+    limits: &LimitArgs,
+) -> Result<(), Failure> {
     let is_default = heuristics == [Heuristic::default()]
         && limits.tolerance.is_none()
         && limits.max_fragments == BuildOptions::DEFAULT.max_fragments;
@@ -88,7 +98,7 @@ pub(crate) fn refuse_options(
     }
     let problem = "its tree is built already: leave out --heuristic, --tolerance and \
                    --max-fragments, or give the scene that it was built of";
-    Err(Failure::about(scene.name(), problem))
+    Err(Failure::about(name, problem))
 }
 
 /// A failure to build a scene's tree. It names the program's options, not those of the library.

@@ -3,6 +3,7 @@
 mod args;
 mod backs;
 mod camera;
+mod cells;
 mod chart;
 mod colours;
 mod commands;

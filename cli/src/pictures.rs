@@ -84,6 +84,12 @@ impl Kind {
     }
 }
 
+/// How many rows of samples are drawn at once, of a picture of so many columns and rows of them.
+pub(crate) fn rows_at_once([columns, rows]: [u32; 2], samples: u32) -> u32 {
+    let at_once = (AT_ONCE / (u64::from(columns) * u64::from(samples))).max(1);
+    at_once.min(u64::from(rows)) as u32 * samples
+}
+
 impl Drawing<'_> {
     /// Its pixels. Transparency shows only in the painter's picture. A difference comes with the
     /// figures of what differs.
@@ -113,8 +119,7 @@ impl Drawing<'_> {
     fn in_parts(&self, kind: Kind) -> Result<Vec<u8>, CameraError> {
         let rays = self.cull.rays(Rays::sampled(self.camera, self.tree.faces(), self.samples)?);
         let ([columns, rows], [width, _]) = (rays.size(), self.camera.size());
-        let at_once = (AT_ONCE / (u64::from(columns) * u64::from(self.samples))).max(1);
-        let step = at_once.min(u64::from(rows)) as u32 * self.samples;
+        let step = rows_at_once([columns, rows], self.samples);
         let mut rgb = Vec::new();
         let progress = Progress::steps("drawing: part", rows.div_ceil(step).into());
         for start in (0..rows).step_by(step as usize) {

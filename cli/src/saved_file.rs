@@ -42,15 +42,26 @@ pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
 
 /// Reads a file; `name` is what messages call it.
 pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
+    let (scene, tree) = read_pair(name, &mut input)?;
+    let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;
+    if more > 0 {
+        let problem = if tree.is_of_cell() {
+            "it is a cell of a scene: name the folder that it is in"
+        } else {
+            "more follows behind its scene: write it again"
+        };
+        return Err(Failure::about(name, problem));
+    }
+    Ok((scene, tree))
+}
+
+/// Reads a tree and its scene, with something else behind.
+pub(crate) fn read_pair(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
     let about = |error: LoadError| Failure::about(name, error);
     let tree = BspTree::read(&mut input).map_err(about)?;
     let scene = Scene::read(&mut input).map_err(|error| {
         Failure::about(name, format!("behind the tree, where its scene must be: {error}"))
     })?;
-    let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;
-    if more > 0 {
-        return Err(Failure::about(name, "more follows behind its scene: write it again"));
-    }
     if !belong_together(&tree, &scene) {
         return Err(Failure::about(name, "its tree is not one of its scene: write it again"));
     }

@@ -36,7 +36,7 @@ impl From<(Scene, BspTree)> for Loaded {
 
 /// The scene that a name means.
 #[derive(Debug, PartialEq)]
-enum Source {
+pub(crate) enum Source {
     StandardInput,
     File(PathBuf),
     Builtin(BuiltinSpec),
@@ -51,6 +51,11 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Loaded, Failure> {
             memory::check(&name, spec.polygons())?;
             let _progress = Progress::spinner(format!("generating {name}"));
             Ok(spec.build(args.seed).into())
+        }
+        Source::File(path) if path.is_dir() => {
+            let problem = "a folder: of those of `binspace build --cells`, `render`, `order` and `stats` \
+                           can be made; for all else, name the scene that it was built of";
+            Err(Failure::about(name, problem))
         }
         Source::File(path) if saved_file::is_saved(&path) => Ok(saved_file::open(&path)?.into()),
         Source::File(path) => {
@@ -72,7 +77,7 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Loaded, Failure> {
     }
 }
 
-fn source(name: &OsStr) -> Result<Source, Failure> {
+pub(crate) fn source(name: &OsStr) -> Result<Source, Failure> {
     if name == STANDARD {
         return Ok(Source::StandardInput);
     }

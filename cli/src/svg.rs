@@ -15,8 +15,23 @@ const OUTLINE: f64 = 0.6;
 
 /// Writes the fragments of a scene's tree as a camera sees them, back to front.
 pub(crate) fn write(out: &mut dyn Write, drawing: &Drawing<'_>, scene: &Scene) -> io::Result<()> {
+    begin(out, drawing.camera.size())?;
+    write_fragments(out, drawing, scene)?;
+    end(out)
+}
+
+/// Writes the end of a picture.
+pub(crate) fn end(out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "</svg>")
+}
+
+/// Writes the fragments alone.
+pub(crate) fn write_fragments(
+    out: &mut dyn Write,
+    drawing: &Drawing<'_>,
+    scene: &Scene,
+) -> io::Result<()> {
     let Drawing { tree, camera, colours, cull, .. } = *drawing;
-    begin(out, camera.size())?;
     writeln!(out, "<g stroke-width=\"{OUTLINE}\" stroke-linejoin=\"round\">")?;
     let mut corners = Vec::new();
     for fragment in tree.back_to_front(camera.viewpoint()) {
@@ -41,7 +56,7 @@ pub(crate) fn write(out: &mut dyn Write, drawing: &Drawing<'_>, scene: &Scene) -
         };
         writeln!(out, "<path {paint} d=\"{}\"/>", path(&outline))?;
     }
-    writeln!(out, "</g>\n</svg>")
+    writeln!(out, "</g>")
 }
 
 /// Writes the beginning of a picture, with its background.

@@ -32,12 +32,44 @@ pub(crate) fn place(
         // Best effort: the content is what matters.
         let _ = file.set_permissions(permissions);
     }
+    signals::hold_back(|| persist(&mut file, folder, target, permissions))
+}
+
+fn persist(
+    file: &mut File,
+    folder: &Path,
+    target: &Path,
+    permissions: Option<Permissions>,
+) -> io::Result<()> {
+    let part = match named(file, folder) {
+        Ok(part) => part,
+        Err(_) => copied(file, folder, permissions)?,
+    };
+    part.persist(target).map_err(|error| error.error)
+}
+
+/// Puts complete files, made in a folder, into a new folder there, with their names; all or none of them.
+pub(crate) fn place_all(
+    files: Vec<(String, File)>,
+    folder: &Path,
+    target: &Path,
+) -> io::Result<()> {
+    let mut builder = builder();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(Permissions::from_mode(0o777));
+    }
     signals::hold_back(|| {
-        let part = match named(&file, folder) {
-            Ok(part) => part,
-            Err(_) => copied(&mut file, folder, permissions)?,
-        };
-        part.persist(target).map_err(|error| error.error)
+        // Removed with all that is in it, unless it becomes the target.
+        let part = builder.tempdir_in(folder)?;
+        for (name, mut file) in files {
+            persist(&mut file, part.path(), &part.path().join(name), None)?;
+        }
+        std::fs::rename(part.path(), target)?;
+        // Nothing is left under its first name.
+        let _ = part.keep();
+        Ok(())
     })
 }
 

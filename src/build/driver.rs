@@ -11,10 +11,11 @@ use super::live::Live;
 use super::options::BuildOptions;
 use super::progress::{AT_ONCE, Progress, Watch, one_at_a_time};
 use crate::error::Error;
-use crate::exact::{Exact, Faces, Kernel};
+use crate::exact::cell::Clipper;
+use crate::exact::{Exact, ExactVertex, Faces, Kernel};
 use crate::faces::{Listener, Preparation, Preparer};
 use crate::input::Polygon;
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
 use crate::tree::BspTree;
 use crate::tree::node_record::Sizes;
 use crate::tree::parts::{Parts, RawNode};
@@ -97,17 +98,50 @@ fn tree<P: Polygon>(
     tree_of_faces(options, faces, preparation, watch)
 }
 
-/// Builds a tree of prepared faces.
+/// Builds a tree of prepared faces, of what is in their cell if they have one.
 pub(super) fn tree_of_faces(
     options: &BuildOptions,
-    faces: Faces,
-    preparation: Preparation,
+    mut faces: Faces,
+    mut preparation: Preparation,
     watch: &Watch<'_>,
 ) -> Result<BspTree, Error> {
     watch.expect(faces.len())?;
-    let parts = watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?;
+    let parts = if faces.corners_of_cell() == 0 {
+        watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?
+    } else {
+        let job = pieces_in_cell(&mut faces, watch)?;
+        preparation.dropped = faces.dropped(preparation.polygons).count();
+        watch.expect(faces.len())?;
+        let shared = Shared::new(Exact, &faces, options, &Tuning::DEFAULT, watch)?;
+        jobs::run(&shared, job, &mut Memory::default())?
+    };
     watch.end()?;
     BspTree::new(faces, preparation, parts)
+}
+
+/// Cuts faces to their cell, and removes those that nothing is left of.
+fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job<ExactVertex>, Error> {
+    let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut clipper, count) = (Clipper::new(faces), faces.len() as u32);
+    for start in (0..count).step_by(AT_ONCE) {
+        let some = start..count.min(start + AT_ONCE as u32);
+        watch.work(some.len())?;
+        for face in some {
+            let Some(outline) = clipper.clip(face) else { continue };
+            let mut piece = Live::whole(faces, face);
+            if !outline.is_empty() {
+                piece = Live::cut::<Exact>(&piece, outline, arena.len());
+                reserve(&mut arena, outline.len())?;
+                arena.extend_from_slice(outline);
+            }
+            piece.face = kept.len() as u32;
+            push(&mut pieces, piece)?;
+            push(&mut kept, face)?;
+        }
+    }
+    faces.keep(&kept);
+    faces.shrink_to_fit();
+    Ok(Job { pieces, arena, depth: 0 })
 }
 
 /// Prepares polygons. What that needs is freed before the faces are divided.

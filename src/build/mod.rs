@@ -4,6 +4,7 @@ mod assemble;
 mod budget;
 mod builder;
 pub(crate) mod cell;
+mod cells;
 pub(crate) mod choose;
 pub(crate) mod driver;
 mod extend;

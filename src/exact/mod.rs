@@ -11,6 +11,7 @@
 //! | `edge` | what an edge of a face is |
 //! | `flatten` | where corners off their face's plane are moved |
 //! | `split` | how a piece is cut |
+//! | `cell` | which part of a face is in a cell of a larger scene |
 //! | `convex` | whether an outline is convex |
 //! | `along` | in which order points of one line come |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
@@ -19,6 +20,7 @@
 
 pub(crate) mod along;
 mod barycentric;
+pub(crate) mod cell;
 mod convex;
 mod edge;
 pub(crate) mod exact_kernel;

@@ -6,5 +6,5 @@ mod prepare;
 mod triangulate;
 
 pub(crate) use listener::Listener;
-pub(crate) use prepare::Preparer;
 pub use prepare::{DEFAULT_TOLERANCE, Preparation, Tolerance};
+pub(crate) use prepare::{Preparer, empty_faces};

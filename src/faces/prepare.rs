@@ -16,6 +16,7 @@ use glam::DVec3;
 use builder::Builder;
 use collect::Collected;
 use default_tolerance::Ground;
+pub(crate) use default_tolerance::empty_faces;
 pub use default_tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub use preparation::Preparation;
 

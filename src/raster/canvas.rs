@@ -8,43 +8,33 @@ use super::piece::Piece;
 use super::rays::Rays;
 use crate::exact::Faces;
 
-/// A picture on which pieces are painted one over the other, from back to front.
-#[derive(Debug)]
-pub(crate) struct Canvas<'a> {
-    rays: &'a Rays,
-    faces: &'a Faces,
-    pixels: Vec<[f32; 3]>,
+/// Paints a colour over that of a pixel, as every picture in colours of this library does. Amounts of
+/// red, green and blue are from 0 to 255. An opacity of 1 hides what is behind; 0 is invisible.
+///
+/// Rounded, so that the order counts: pixels painted elsewhere come out the same, bit for bit, only if
+/// the same colours are painted over the same ground one by one.
+pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
+    for (old, new) in pixel.iter_mut().zip(colour) {
+        *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
+    }
 }
 
-impl<'a> Canvas<'a> {
-    /// An empty picture.
-    pub(crate) fn new(rays: &'a Rays, faces: &'a Faces, background: [u8; 3]) -> Self {
-        let [width, height] = rays.size().map(|side| side as usize);
-        Self { rays, faces, pixels: vec![background.map(f32::from); width * height] }
-    }
-
-    /// Paints a piece over the picture so far, shaded as by [`picture`](super::picture): darker the
-    /// more obliquely it is seen. An opacity of 1 hides everything behind it; with 0 it is
-    /// invisible.
-    pub(crate) fn draw(&mut self, piece: Piece<'_>, colour: [u8; 3], opacity: f32) {
-        let Some(coverage) = Coverage::new(self.rays, self.faces, piece.face, piece.outline) else {
-            return;
-        };
-        let normal: DVec3 = flat_normal(self.faces, piece.face);
-        let width = self.rays.size()[0] as usize;
-        coverage.for_each_run(&mut |y, columns| {
-            for x in columns {
-                let new = shaded(colour, normal, self.rays.direction(x, y));
-                let pixel = &mut self.pixels[y as usize * width + x as usize];
-                for (old, new) in pixel.iter_mut().zip(new) {
-                    *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
-                }
-            }
-        });
-    }
-
-    /// The picture: RGB, 8 bits each, row by row from the top left.
-    pub(crate) fn finish(self) -> Vec<u8> {
-        self.pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
-    }
+/// Calls `paint` with each pixel that a piece covers, by its number, row by row from the top left, and
+/// with the colour there: shaded as by [`picture`](super::picture), darker the more obliquely the piece is
+/// seen.
+pub(crate) fn for_each_shaded(
+    rays: &Rays,
+    faces: &Faces,
+    piece: Piece<'_>,
+    colour: [u8; 3],
+    mut paint: impl FnMut(usize, [u8; 3]),
+) {
+    let Some(coverage) = Coverage::new(rays, faces, piece.face, piece.outline) else { return };
+    let normal: DVec3 = flat_normal(faces, piece.face);
+    let width = rays.size()[0] as usize;
+    coverage.for_each_run(&mut |y, columns| {
+        for x in columns {
+            paint(y as usize * width + x as usize, shaded(colour, normal, rays.direction(x, y)));
+        }
+    });
 }

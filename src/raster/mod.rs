@@ -33,7 +33,8 @@ mod sheet;
 pub(crate) mod tests;
 mod zbuffer;
 
-pub(crate) use canvas::Canvas;
+pub use canvas::blend;
+pub(crate) use canvas::for_each_shaded;
 pub(crate) use compare_pictures::is_open;
 pub use compare_pictures::{Comparison, Verdict, compare};
 pub use depth_error::{DepthError, depth_error};

@@ -38,7 +38,7 @@ pub use layers::layers;
 pub use material::Material;
 pub use newell::newell_bars;
 #[cfg(feature = "obj")]
-pub use obj::{ObjError, ObjReport};
+pub use obj::{ObjError, ObjReport, ObjStream};
 pub use random::random_triangles;
 pub use sphere::sphere;
 pub use teapot::teapot;

@@ -6,10 +6,12 @@ mod error;
 mod lines;
 mod material;
 mod report;
+mod stream;
 mod text;
 
 pub use error::ObjError;
 pub use report::ObjReport;
+pub use stream::ObjStream;
 
 use super::{Material, Scene};
 use error::Kind;

@@ -338,6 +338,11 @@ impl BspTree {
         &self.faces
     }
 
+    /// Whether it is the tree of a cell of a [`Partition`](crate::Partition), not of whole polygons.
+    pub fn is_of_cell(&self) -> bool {
+        self.faces.corners_of_cell() > 0
+    }
+
     /// How many polygons were dropped, triangulated, or found twice before the tree was built.
     pub fn preparation(&self) -> &Preparation {
         &self.preparation

@@ -19,6 +19,8 @@ use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
 const KIND: Kind = Kind { name: *b"tree", version: 2 };
 /// Set in the flags of a tree for one view.
 const FOR_ONE_VIEW: u32 = 1;
+/// Set in the flags of a tree of a cell.
+const OF_CELL: u32 = 2;
 /// Trees with more fragments are checked by two threads. Smaller: waking one takes longer than what it
 /// does; larger: some wait for one thread while the other is idle.
 const WORTH_A_THREAD: usize = 4096;
@@ -49,11 +51,11 @@ impl BspTree {
     ///
     /// | part | what |
     /// |---|---|
-    /// | head | the bytes `binspacetree`, the version as `u32`, flags as `u32`: 1 for a tree of a `FrameBuilder` |
+    /// | head | the bytes `binspacetree`, the version as `u32`, flags as `u32`, added up: 1 for a tree of a `FrameBuilder`, 2 for a tree of a cell |
     /// | grid | the exponent e of 2 as `i32`, the origin o and the far coordinates f as three `f64` each: a point x is the grid's point (x − f) · 2ᵉ − o |
     /// | tolerance | `f64`, in steps of the grid |
     /// | faces | a list: polygon, number of corners, frame, as `u32`. The frame is the numbers of the second (bits 15 to 29) and third corner (0 to 14) of the triangle that spans the plane, and the axis along which corners were moved (30 and 31; 3 for none) |
-    /// | corners | of all faces: three `i64` each |
+    /// | corners | of the cell, if it is of one: the lower and the upper; then of all faces: three `i64` each. Sides of a cell that have no plane are at 2⁵¹ + 2⁴⁴, with a minus the lower ones |
     /// | numbered faces | a list: faces, as `u32`, whose corners are not the first of their polygon |
     /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is none of the polygon |
     /// | moved corners | a list: the corner as `u32`, and where it was given, three `i64` |
@@ -74,7 +76,8 @@ impl BspTree {
     /// Those of the writer. What it has taken until then is no file.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
-        file.u32(if self.schedule.is_none() { FOR_ONE_VIEW } else { 0 })?;
+        let of_cell = if self.faces.corners_of_cell() > 0 { OF_CELL } else { 0 };
+        file.u32(of_cell + if self.schedule.is_none() { FOR_ONE_VIEW } else { 0 })?;
         self.faces.write(&mut file)?;
         self.write_preparation(&mut file)?;
         file.u64(self.cuts as u64)?;
@@ -126,7 +129,7 @@ impl BspTree {
     pub fn read(input: impl Read) -> Result<Self, LoadError> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;
-        let faces = Faces::read(&mut file)?;
+        let faces = Faces::read(&mut file, if flags & OF_CELL > 0 { 2 } else { 0 })?;
         let (mut preparation, dropped) = read_preparation(&mut file)?;
         let cuts = file.count("cuts", MOST_FRAGMENTS)?;
         let pair = |bytes: &[u8; 8]| [u32_at(bytes, 0), u32_at(bytes, 4)];
@@ -147,12 +150,12 @@ impl BspTree {
         })?;
         file.finish()?;
         // Only now is it known that nothing is damaged: what is wrong from here on was written so.
-        if flags > FOR_ONE_VIEW {
+        if flags > FOR_ONE_VIEW + OF_CELL {
             return Err(LoadError::of("flags", "are unknown"));
         }
         // Faces and nodes need nothing of each other. Of two faults, the same is found first on any
         // number of threads.
-        let (for_one_view, known) = (flags == FOR_ONE_VIEW, faces.known());
+        let (for_one_view, known) = (flags & FOR_ONE_VIEW > 0, faces.known());
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
             let nodes = nodes::read(&nodes, &records, known)?;

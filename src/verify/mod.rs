@@ -7,7 +7,8 @@ mod pieces;
 mod tests;
 
 use crate::raster::{
-    Canvas, Comparison, DepthImage, Image, Layers, Order, Painter, Rays, compare, zbuffer_layers,
+    Comparison, DepthImage, Image, Layers, Order, Painter, Rays, blend, compare, for_each_shaded,
+    zbuffer_layers,
 };
 use crate::tree::BspTree;
 use crate::view::{Camera, CameraError};
@@ -167,14 +168,32 @@ pub fn paint_tree_in_colour(
     look: impl Fn(usize) -> ([u8; 3], f32),
     background: [u8; 3],
 ) -> Vec<u8> {
-    let mut canvas = Canvas::new(rays, tree.faces(), background);
+    let [width, height] = rays.size().map(|side| side as usize);
+    let mut pixels = vec![background.map(f32::from); width * height];
+    for_each_painted(tree, viewpoint, rays, look, |pixel, colour, opacity| {
+        blend(&mut pixels[pixel], colour, opacity);
+    });
+    pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
+}
+
+/// Calls `paint` with each pixel that each fragment covers, back to front: the pixel's number, row by row
+/// from the top left, and the colour and the opacity there. [`blend`] makes of them the
+/// picture of [`paint_tree_in_colour`], of one tree or of those of several cells one after the other.
+pub fn for_each_painted(
+    tree: &BspTree,
+    viewpoint: Viewpoint,
+    rays: &Rays,
+    look: impl Fn(usize) -> ([u8; 3], f32),
+    mut paint: impl FnMut(usize, [u8; 3], f32),
+) {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     let mut buffers = Buffers::default();
     for index in order {
         let fragment = tree.fragment(index);
         let (colour, opacity) = look(fragment.polygon());
-        canvas.draw(buffers.piece(&fragment), colour, opacity);
+        for_each_shaded(rays, tree.faces(), buffers.piece(&fragment), colour, |pixel, colour| {
+            paint(pixel, colour, opacity);
+        });
     }
-    canvas.finish()
 }

@@ -31,8 +31,9 @@ const GROUND: [&str; 10] = [
 const LAYERS: &[(&str, &[&str])] = &[
     ("exact", &[]),
     ("faces", &["exact"]),
+    ("partition", &["exact", "faces"]),
     ("tree", &["exact", "faces"]),
-    ("build", &["exact", "faces", "tree"]),
+    ("build", &["exact", "faces", "partition", "tree"]),
     ("layers", &["faces", "tree", "build"]),
     ("overlay", &["exact", "faces", "tree", "build"]),
     ("query", &["exact", "tree"]),

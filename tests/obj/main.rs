@@ -10,6 +10,7 @@ mod precision;
 mod real;
 #[path = "../support/real_scenes.rs"]
 mod real_scenes;
+mod stream;
 
 use binspace::scene::{ObjError, ObjReport, Scene};
 use std::path::Path;

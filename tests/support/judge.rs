@@ -47,6 +47,31 @@ pub(crate) fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     judge.weights(polygons)
 }
 
+/// Every check of this file that holds for a tree of a cell: all but that faces are there as a whole.
+pub(crate) fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
+    tree.validate().map_err(|invalid| invalid.to_string())?;
+    let judge = Judge::new(tree);
+    judge.outlines()?;
+    judge.sides()?;
+    judge.weights(polygons)
+}
+
+/// What is there of a face: its area, as a residue, and the runs along each of its edges, from 0 to 1.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cover {
+    area: u128,
+    runs: Vec<Vec<[Rational; 2]>>,
+}
+
+impl Cover {
+    /// Adds what is elsewhere of the same face.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.area = homogeneous::add(self.area, other.area);
+        self.runs.resize(other.runs.len().max(self.runs.len()), Vec::new());
+        self.runs.iter_mut().zip(&other.runs).for_each(|(own, other)| own.extend_from_slice(other));
+    }
+}
+
 impl<'t> Judge<'t> {
     pub(crate) fn new(tree: &'t BspTree) -> Self {
         let faces: Vec<Face> =
@@ -104,33 +129,42 @@ impl<'t> Judge<'t> {
 
     /// The fragments of a face have its area, exactly, and tile each of its edges from end to end.
     fn coverage(&self) -> Verdict {
-        let mut areas = vec![0; self.faces.len()];
-        let mut runs: Vec<Vec<Vec<[Rational; 2]>>> =
-            self.faces.iter().map(|face| vec![Vec::new(); face.corners.len()]).collect();
+        let mut covers = self.covers();
+        covers.iter_mut().enumerate().try_for_each(|(face, cover)| self.is_covered(face, cover))
+    }
+
+    /// What is there of each face.
+    pub(crate) fn covers(&self) -> Vec<Cover> {
+        let empty = |face: &Face| Cover { area: 0, runs: vec![Vec::new(); face.corners.len()] };
+        let mut covers: Vec<Cover> = self.faces.iter().map(empty).collect();
         for (fragment, face, piece) in self.with_pieces() {
-            let id = fragment.face() as usize;
+            let cover = &mut covers[fragment.face() as usize];
             let axis = model::main_axis(&face.plane);
-            areas[id] = homogeneous::add(areas[id], homogeneous::area(&piece.flat, axis));
+            cover.area = homogeneous::add(cover.area, homogeneous::area(&piece.flat, axis));
             for (i, line) in piece.lines.iter().enumerate() {
                 let Some(edge) = line.as_edge() else { continue };
                 let ends = [i, (i + 1) % piece.points.len()].map(|k| &piece.points[k]);
-                runs[id][edge as usize].push(ends.map(|end| along(face, edge as usize, end)));
+                cover.runs[edge as usize].push(ends.map(|end| along(face, edge as usize, end)));
             }
         }
-        for (id, face) in self.faces.iter().enumerate() {
-            let axis = model::main_axis(&face.plane);
-            let corners: Vec<_> = face.corners.iter().map(Homogeneous::new).collect();
-            let area = homogeneous::area(&corners, axis);
-            ensure(areas[id] == area, || format!("the pieces of face {id} miss its area"))?;
-            for (edge, runs) in runs[id].iter_mut().enumerate() {
-                runs.sort();
-                let end = runs.iter().try_fold(Rational::zero(), |end, [from, to]| {
-                    (*from == end && to > from).then(|| to.clone())
-                });
-                ensure(end.is_some_and(|end| end.is_one()), || {
-                    format!("edge {edge} of face {id} is not tiled: {runs:?}")
-                })?;
-            }
+        covers
+    }
+
+    /// Whether a face is covered once by what is there of it.
+    pub(crate) fn is_covered(&self, id: usize, cover: &mut Cover) -> Verdict {
+        let face = &self.faces[id];
+        let axis = model::main_axis(&face.plane);
+        let corners: Vec<_> = face.corners.iter().map(Homogeneous::new).collect();
+        let area = homogeneous::area(&corners, axis);
+        ensure(cover.area == area, || format!("the pieces of face {id} miss its area"))?;
+        for (edge, runs) in cover.runs.iter_mut().enumerate() {
+            runs.sort();
+            let end = runs.iter().try_fold(Rational::zero(), |end, [from, to]| {
+                (*from == end && to > from).then(|| to.clone())
+            });
+            ensure(end.is_some_and(|end| end.is_one()), || {
+                format!("edge {edge} of face {id} is not tiled: {runs:?}")
+            })?;
         }
         Ok(())
     }

@@ -55,19 +55,36 @@ impl Plane {
 }
 
 /// A plane at a ray: its value at the origin, and how that changes along the ray.
-struct AtRay {
+pub(crate) struct AtRay {
     start: BigInt,
     slope: BigInt,
 }
 
 /// A ray from a point, or, with `endless`, the whole line.
-struct Ray {
+pub(crate) struct Ray {
     origin: Vector,
     direction: Vector,
     endless: bool,
 }
 
 impl Ray {
+    /// The line of sight through a point in lattice units, unless the eye is there.
+    pub(crate) fn through(target: DVec3, view: &View) -> Option<Self> {
+        let (origin, direction) = view.ray_to(target);
+        let is_ray = !direction.iter().all(Zero::is_zero);
+        is_ray.then(|| Self { origin, direction, endless: view.is_parallel() })
+    }
+
+    /// Where it meets a hit, rounded, and where it begins, if it has a beginning.
+    pub(crate) fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
+        let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().unwrap_or(0.0)));
+        let at = |i: usize| {
+            let sum = &self.origin[i] * &hit.face.slope - &self.direction[i] * &hit.face.start;
+            (sum / &hit.face.slope).to_f64().unwrap_or(f64::INFINITY)
+        };
+        (DVec3::new(at(0), at(1), at(2)), (!self.endless).then(|| float(&self.origin)))
+    }
+
     fn plane(&self, plane: &Plane) -> AtRay {
         let start = scalar(&plane.normal, &self.origin) - &plane.offset;
         AtRay { start, slope: scalar(&plane.normal, &self.direction) }
@@ -75,13 +92,13 @@ impl Ray {
 }
 
 /// Where a ray goes through a fragment: at −start/slope of its face's plane, slope above 0.
-struct Hit {
-    fragment: u32,
+pub(crate) struct Hit {
+    pub(crate) fragment: u32,
     face: AtRay,
 }
 
 impl Hit {
-    fn depth_order(&self, other: &Self) -> Ordering {
+    pub(crate) fn depth_order(&self, other: &Self) -> Ordering {
         (-&self.face.start * &other.face.slope).cmp(&(-&other.face.start * &self.face.slope))
     }
 
@@ -149,11 +166,7 @@ impl<'t> Rays<'t> {
         order.iter().enumerate().for_each(|(at, &id)| place[id as usize] = at);
         for _ in 0..rays {
             let target = self.some_point(dice);
-            let ray = view.ray_to(target);
-            let ray = Ray { origin: ray.0, direction: ray.1, endless: view.is_parallel() };
-            if ray.direction.iter().all(Zero::is_zero) {
-                continue;
-            }
+            let Some(ray) = Ray::through(target, view) else { continue };
             let mut hits = self.hits(&ray);
             let reach = if hits.len() > MANY { 1 } else { hits.len() };
             hits.sort_by_key(|hit| place[hit.fragment as usize]);
@@ -178,7 +191,8 @@ impl<'t> Rays<'t> {
         sum / total
     }
 
-    fn hits(&self, ray: &Ray) -> Vec<Hit> {
+    /// What a ray goes through, inside of its outline.
+    pub(crate) fn hits(&self, ray: &Ray) -> Vec<Hit> {
         let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
         let hit = |(id, (own, bounds)): (usize, &Outline)| {
             let own = &at[*own];
@@ -194,7 +208,8 @@ impl<'t> Rays<'t> {
         self.fragments.iter().enumerate().filter_map(hit).collect()
     }
 
-    fn compare(&mut self, ray: &Ray, a: &Hit, b: &Hit, place: &[usize]) -> Verdict {
+    /// Holds two hits of a ray against the places of their fragments in an order.
+    pub(crate) fn compare(&mut self, ray: &Ray, a: &Hit, b: &Hit, place: &[usize]) -> Verdict {
         self.pairs += 1;
         let [p, q] = [a, b].map(|hit| place[hit.fragment as usize]);
         let depth = a.depth_order(b);

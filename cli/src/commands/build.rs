@@ -5,10 +5,14 @@ use crate::args::BuildFileArgs;
 use crate::failure::Failure;
 use crate::files::Output;
 use crate::progress::Progress;
-use crate::{job, saved_file};
+use crate::{cells, job, saved_file};
 
 /// Runs the command.
 pub(crate) fn run(args: &BuildFileArgs) -> Result<Outcome, Failure> {
+    if let Some(cells) = args.cells {
+        cells::build::run(args, cells as usize)?;
+        return Ok(Outcome::Done);
+    }
     let output = Output::open(Some(&args.output))?;
     if output.is_terminal() {
         let problem = "a tree is not for a terminal: pipe it, or name a file";

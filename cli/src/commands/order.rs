@@ -11,33 +11,39 @@ use super::Outcome;
 use crate::args::OrderArgs;
 use crate::failure::Failure;
 use crate::files::Output;
-use crate::job;
 use crate::progress::Progress;
+use crate::{cells, job};
 
 /// Runs the command.
 pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
     let output = Output::open(args.output.as_deref())?;
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     let viewpoints: Vec<Viewpoint> = match args.direction {
         Some(direction) => vec![Viewpoint::Direction(direction)],
         None => args.eye.iter().copied().map(Viewpoint::Eye).collect(),
     };
+    if let Some(path) = cells::folder::named(&args.scene.name) {
+        job::refuse_options_of(&path.display(), &[args.build.heuristic], &args.build.limits)?;
+        cells::draw::order(args, path, &viewpoints, output)?;
+        return Ok(Outcome::Done);
+    }
+    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     let _progress = Progress::spinner("writing");
     output.write(|out| {
         viewpoints.iter().enumerate().try_for_each(|(k, &viewpoint)| {
             let eye = (viewpoints.len() > 1).then_some(k);
-            write_order(out, args, &scene, &tree, viewpoint, eye)
+            write_order(out, args, &scene, &tree, None, viewpoint, eye)
         })
     })?;
     Ok(Outcome::Done)
 }
 
-/// Writes the order of one viewpoint.
-fn write_order(
+/// Writes the order of one viewpoint. Polygons of a cell have other numbers in the whole scene.
+pub(crate) fn write_order(
     out: &mut dyn Write,
     args: &OrderArgs,
     scene: &Scene,
     tree: &BspTree,
+    numbers: Option<&[usize]>,
     viewpoint: Viewpoint,
     eye: Option<usize>,
 ) -> io::Result<()> {
@@ -52,7 +58,7 @@ fn write_order(
         }
         let line = Line {
             eye,
-            polygon: fragment.polygon(),
+            polygon: numbers.map_or(fragment.polygon(), |numbers| numbers[fragment.polygon()]),
             vertices: vertices(&fragment, scene.polygon(fragment.polygon())),
             edges: args.edges.then(|| fragment.edges().collect()),
             weights: args.weights.then(|| weights(&fragment)),

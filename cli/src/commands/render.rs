@@ -17,7 +17,7 @@ use crate::progress::Progress;
 use crate::terminal::note;
 use crate::units::count;
 use crate::upright::note_z_up;
-use crate::{camera, job, png_file, svg};
+use crate::{camera, cells, job, png_file, svg};
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
@@ -27,6 +27,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     if format == Format::Png && output.is_terminal() {
         let problem = "a PNG is not for a terminal: pipe it, or name a file";
         return Err(about_output(&args.output, problem));
+    }
+    if let Some(path) = cells::folder::named(&args.scene.name) {
+        job::refuse_options_of(&path.display(), &[args.build.heuristic], &args.build.limits)?;
+        cells::draw::render(args, path, output, format)?;
+        return Ok(Outcome::Done);
     }
     let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
     note_z_up(&scene, &args.view.up);

@@ -1,5 +1,6 @@
 //! `binspace stats`: the figures of trees.
 
+use std::path::Path;
 use std::time::Instant;
 
 use binspace::scene::Scene;
@@ -8,13 +9,14 @@ use serde::Serialize;
 
 use super::Outcome;
 use crate::args::StatsArgs;
+use crate::cells::folder::Folder;
 use crate::failure::Failure;
 use crate::measure::{order_nanoseconds, timed_build};
 use crate::scene_arg::Loaded;
 use crate::table::Table;
 use crate::terminal::{HEAD, note, say, styled};
 use crate::units::{bytes, count, three_digits, time};
-use crate::{job, scene_arg};
+use crate::{cells, job, scene_arg};
 
 /// The width of the table's column of heuristics, in characters.
 const NAME: usize = 13;
@@ -23,6 +25,8 @@ const NAME: usize = 13;
 struct Figures {
     /// None of a tree from a file.
     heuristic: Option<Heuristic>,
+    /// The number of the cell that it is of.
+    cell: Option<usize>,
     stats: Stats,
     /// The time to build the tree, or to read it.
     build_seconds: f64,
@@ -32,6 +36,9 @@ struct Figures {
 /// Runs the command.
 pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     let begin = Instant::now();
+    if let Some(path) = cells::folder::named(&args.scene.name) {
+        return of_cells(args, path);
+    }
     let Loaded { scene, tree } = scene_arg::load(&args.scene)?;
     if let Some(tree) = tree {
         return of_file(args, &scene, &tree, begin.elapsed().as_secs_f64());
@@ -57,6 +64,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         }
         let figures = Figures {
             heuristic: Some(heuristic),
+            cell: None,
             stats: tree.stats(),
             build_seconds: seconds,
             order_nanoseconds: order_nanoseconds(&tree, &scene),
@@ -81,11 +89,44 @@ fn of_file(
     job::note_preparation(scene, tree.faces(), tree.preparation());
     let figures = Figures {
         heuristic: None,
+        cell: None,
         stats: tree.stats(),
         build_seconds: seconds,
         order_nanoseconds: order_nanoseconds(tree, scene),
     };
     show(args, scene, &figures, true)?;
+    Ok(Outcome::Done)
+}
+
+/// The figures of the trees in a folder.
+fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
+    job::refuse_options_of(&path.display(), &args.heuristic.0, &args.limits)?;
+    let folder = Folder::open(path)?;
+    for number in 0..folder.partition.cells() {
+        let begin = Instant::now();
+        let cell = folder.cell(number)?;
+        let figures = Figures {
+            heuristic: None,
+            cell: Some(number),
+            stats: cell.tree.stats(),
+            build_seconds: begin.elapsed().as_secs_f64(),
+            order_nanoseconds: order_nanoseconds(&cell.tree, &cell.scene),
+        };
+        if args.json {
+            say(json(&figures)?)?;
+            continue;
+        }
+        let table = table();
+        if number == 0 {
+            say(format!(
+                "{}: {}",
+                styled(HEAD, folder.bounds.name()),
+                count(folder.partition.cells(), "cell")
+            ))?;
+            say(styled(HEAD, table.head()))?;
+        }
+        say(row(&table, &figures))?;
+    }
     Ok(Outcome::Done)
 }
 
@@ -132,7 +173,11 @@ fn row(table: &Table, figures: &Figures) -> String {
     let Figures { heuristic, stats, .. } = figures;
     let per_face = stats.fragments as f64 / stats.faces.max(1) as f64;
     table.row(&[
-        heuristic.map_or_else(|| "from a file".to_owned(), name),
+        match (figures.cell, heuristic) {
+            (Some(cell), _) => format!("cell {cell}"),
+            (None, Some(heuristic)) => name(*heuristic),
+            (None, None) => "from a file".to_owned(),
+        },
         stats.fragments.to_string(),
         format!("{per_face:.2}"),
         stats.nodes.to_string(),
@@ -160,6 +205,8 @@ fn name(heuristic: Heuristic) -> String {
 #[derive(Serialize)]
 struct Line {
     heuristic: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cell: Option<usize>,
     polygons: usize,
     faces: usize,
     fragments: usize,
@@ -187,6 +234,7 @@ fn json(figures: &Figures) -> Result<String, Failure> {
     let stats = &figures.stats;
     let line = Line {
         heuristic: figures.heuristic.map(|heuristic| heuristic.to_string()),
+        cell: figures.cell,
         polygons: stats.polygons,
         faces: stats.faces,
         fragments: stats.fragments,

@@ -1,6 +1,7 @@
 //! The program as its users run it: the real binary, its files, its exit status.
 
 mod bad_input;
+mod cells;
 mod chromium;
 mod cull;
 mod draw;

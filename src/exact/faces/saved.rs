@@ -42,15 +42,15 @@ impl Faces {
     }
 
     /// Reads faces, which have to be [checked](Self::check), once the file's checksum is known to be
-    /// right.
-    pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, LoadError> {
+    /// right. Before the corners of all faces come so many of their cell.
+    pub(crate) fn read(file: &mut Reader<impl Read>, of_cell: u32) -> Result<Self, LoadError> {
         let point = |bytes: &[u8], at: usize| {
             let bytes: &[u8; 24] = bytes[at..].first_chunk().unwrap_or(&[0; 24]);
             [0, 8, 16].map(|at| u64_at(bytes, at) as i64 as f64)
         };
         let lattice = Lattice::read(file)?;
         let tolerance = file.f64("tolerance")?;
-        let mut corners = 0_u64;
+        let mut corners = u64::from(of_cell);
         let faces = file.list("faces", MAX_LABELS, |bytes: &[u8; 12]| {
             // Saturated rather than wrong: too many are refused below.
             let start = u32::try_from(corners).unwrap_or(u32::MAX);
@@ -94,6 +94,9 @@ impl Faces {
         if !(0.0..=LARGEST_TOLERANCE).contains(&self.tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
+        if !Self::is_cell(&self.corners[..self.corners_of_cell()]) {
+            return Err(LoadError::of("cell", "is outside the grid"));
+        }
         let ranges = (0..self.faces.len()).step_by(PART);
         let ranges = ranges.map(|start| start..self.faces.len().min(start + PART)).collect();
         let check = |mut range: Range<usize>| range.try_for_each(|face| self.check_face(face));
@@ -133,7 +136,7 @@ impl Faces {
     }
 
     fn check_moved(&self) -> Result<(), LoadError> {
-        let (mut next, mut face) = (0, 0);
+        let (mut next, mut face) = (self.corners_of_cell() as u32, 0);
         for &(corner, given) in &self.moved {
             let fault = |fault| Err(invalid("moved corner", corner as usize, fault));
             if corner < next || corner as usize >= self.corners.len() {

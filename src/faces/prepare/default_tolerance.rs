@@ -106,3 +106,22 @@ impl Ground {
         Self { lattice, tolerance: tolerance.min(LARGEST), rounding: rounding.max(coarse) }
     }
 }
+
+/// No faces, on the grid and with the tolerance of polygons in a box that are as precise as said.
+///
+/// # Errors
+///
+/// If a corner of the box is infinite or NaN, or the tolerance negative or NaN.
+pub(crate) fn empty_faces(
+    bounds: [DVec3; 2],
+    tolerance: Tolerance,
+    precision: f64,
+) -> Result<Faces, Error> {
+    tolerance.check()?;
+    if bounds.iter().any(|corner| !corner.is_finite()) {
+        return Err(Error::bounds());
+    }
+    let lattice = Lattice::new(bounds[0], bounds[1]);
+    let Ground { tolerance, .. } = Ground::new(lattice, bounds, tolerance, precision);
+    Ok(Faces { lattice, tolerance, ..Faces::default() })
+}

@@ -35,6 +35,13 @@ pub(super) struct Scan {
     vertices: usize,
     /// The highest vertex number that was not yet defined when it was used.
     ahead: Option<Ahead>,
+    /// The name of the material in use, and the numbers of those that were.
+    in_use: Option<String>,
+    numbers: HashMap<Option<String>, u32>,
+    /// The libraries, to find those that are mentioned again.
+    known_libraries: HashSet<String>,
+    /// Whether what is said of corners besides their positions is passed over.
+    is_bare: bool,
 }
 
 /// A vertex number with the line and the face that use it.
@@ -49,39 +56,47 @@ impl Scan {
     pub(super) fn new(text: &str) -> Result<Self, ObjError> {
         let mut scan = Self::default();
         scan.cleaned.reserve(text.len());
-        let mut in_use: Option<String> = None;
-        let mut numbers: HashMap<Option<String>, u32> = HashMap::new();
-        let mut libraries: HashSet<String> = HashSet::new();
-        for (number, line) in lines(text) {
-            let line = line.trim_start();
-            let mut words = line.split_whitespace();
-            let keyword = words.next().unwrap_or("#");
-            // The last byte of a name may be a space in another encoding.
-            let rest = || line.get(keyword.len()..).unwrap_or_default().trim_ascii();
-            match keyword {
-                "v" => scan.vertex(words, number)?,
-                "vt" => scan.attributes.uv(words),
-                "vn" => scan.attributes.normal(words),
-                "f" => {
-                    scan.face(words, number)?;
-                    let material = scan.number_of(&mut numbers, &in_use);
-                    scan.material_of.push(material);
-                    scan.face_lines.push(number);
-                }
-                "usemtl" => in_use = Some(rest().to_owned()).filter(|name| !name.is_empty()),
-                "mtllib" if !rest().is_empty() && libraries.insert(rest().to_owned()) => {
-                    scan.libraries.push(rest().to_owned());
-                }
-                "p" => scan.report.skipped_points += 1,
-                "l" => scan.report.skipped_lines += 1,
-                _ if keyword.starts_with('#') || HARMLESS.contains(&keyword) => {}
-                _ => scan.report.skipped_statements += 1,
-            }
-        }
+        lines(text).try_for_each(|(number, line)| scan.line(number, &line))?;
         scan.finish()
     }
 
-    fn finish(self) -> Result<Self, ObjError> {
+    /// One that passes over what is said of corners besides their positions.
+    pub(super) fn bare() -> Self {
+        Self { is_bare: true, ..Self::default() }
+    }
+
+    /// Reads the next line, by its number from 1.
+    pub(super) fn line(&mut self, number: usize, line: &str) -> Result<(), ObjError> {
+        let line = line.trim_start();
+        let mut words = line.split_whitespace();
+        let keyword = words.next().unwrap_or("#");
+        // The last byte of a name may be a space in another encoding.
+        let rest = || line.get(keyword.len()..).unwrap_or_default().trim_ascii();
+        match keyword {
+            "v" => self.vertex(words, number)?,
+            "vt" | "vn" if self.is_bare => {}
+            "vt" => self.attributes.uv(words),
+            "vn" => self.attributes.normal(words),
+            "f" => {
+                self.face(words, number)?;
+                let material = self.number_of_material();
+                self.material_of.push(material);
+                self.face_lines.push(number);
+            }
+            "usemtl" => self.in_use = Some(rest().to_owned()).filter(|name| !name.is_empty()),
+            "mtllib" if !rest().is_empty() && self.known_libraries.insert(rest().to_owned()) => {
+                self.libraries.push(rest().to_owned());
+            }
+            "p" => self.report.skipped_points += 1,
+            "l" => self.report.skipped_lines += 1,
+            _ if keyword.starts_with('#') || HARMLESS.contains(&keyword) => {}
+            _ => self.report.skipped_statements += 1,
+        }
+        Ok(())
+    }
+
+    /// An error if a face names a vertex that does not exist, or there is none.
+    pub(super) fn finish(self) -> Result<Self, ObjError> {
         if self.report.faces == 0 {
             return Err(Kind::NoFace.at(None, None));
         }
@@ -94,18 +109,15 @@ impl Scan {
         }
     }
 
-    fn number_of(
-        &mut self,
-        numbers: &mut HashMap<Option<String>, u32>,
-        name: &Option<String>,
-    ) -> u32 {
-        if let Some(&number) = numbers.get(name) {
+    /// The number of the material in use.
+    fn number_of_material(&mut self) -> u32 {
+        if let Some(&number) = self.numbers.get(&self.in_use) {
             return number;
         }
         // No more names than faces, of which there are at most u32::MAX.
         let number = self.materials.len() as u32;
-        self.materials.push(name.clone());
-        numbers.insert(name.clone(), number);
+        self.materials.push(self.in_use.clone());
+        self.numbers.insert(self.in_use.clone(), number);
         number
     }
 
@@ -120,7 +132,9 @@ impl Scan {
             found += 1;
         }
         self.cleaned.push('\n');
-        self.attributes.vertex(self.vertices, words);
+        if !self.is_bare {
+            self.attributes.vertex(self.vertices, words);
+        }
         self.vertices += 1;
         match found {
             3 => Ok(()),
@@ -146,7 +160,9 @@ impl Scan {
             }
             // Writing to a string does not fail.
             let _ = write!(self.cleaned, " {index}");
-            self.attributes.corner(index, token.split_once('/').map(|(_, rest)| rest));
+            if !self.is_bare {
+                self.attributes.corner(index, token.split_once('/').map(|(_, rest)| rest));
+            }
             self.corners += 1;
         }
         self.cleaned.push('\n');

@@ -2,6 +2,7 @@
 
 use super::error::{Kind, ObjError};
 use std::borrow::Cow;
+use std::io::{self, BufRead};
 
 /// Byte-order marks of encodings that are not read; that of UTF-32 begins with one of UTF-16.
 const MARKS: [(&[u8], &str); 4] = [
@@ -69,9 +70,129 @@ fn physical_line<'a>(rest: &mut &'a str) -> &'a str {
     line
 }
 
+/// The lines of a file as [`lines`] gives them, read one by one. A line, not a file, that is not UTF-8
+/// is taken for Latin-1.
+pub(super) struct LinesOf<R> {
+    input: R,
+    /// The line read last, in bytes.
+    bytes: Vec<u8>,
+    number: usize,
+    /// Whether a line ended in CR: a LF that follows belongs to it.
+    is_after_cr: bool,
+}
+
+impl<R: BufRead> LinesOf<R> {
+    pub(super) fn new(input: R) -> Self {
+        Self { input, bytes: Vec::new(), number: 0, is_after_cr: false }
+    }
+
+    /// The next line and its number; `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, ObjError> {
+        self.bytes.clear();
+        if !self.read_physical()? {
+            return Ok(None);
+        }
+        let first = self.number;
+        let is_comment = self.bytes.trim_ascii_start().starts_with(b"#");
+        while !is_comment && self.bytes.ends_with(b"\\") {
+            self.bytes.pop();
+            self.bytes.push(b' ');
+            if !self.read_physical()? {
+                self.bytes.pop();
+                break;
+            }
+        }
+        if self.bytes.contains(&0) {
+            return Err(Kind::ZeroByte.at(Some(first), None));
+        }
+        let text = match std::str::from_utf8(&self.bytes) {
+            Ok(text) => Cow::Borrowed(text),
+            Err(_) => self.bytes.iter().map(|&byte| char::from(byte)).collect(),
+        };
+        Ok(Some((first, text)))
+    }
+
+    /// Adds the next line as it stands; `false` at the end.
+    fn read_physical(&mut self) -> Result<bool, ObjError> {
+        let about = |error: io::Error| Kind::Read(error).at(None, None);
+        let start = self.bytes.len();
+        let mut has_begun = false;
+        loop {
+            let mut given = self.input.fill_buf().map_err(about)?;
+            if given.is_empty() {
+                break;
+            }
+            if std::mem::take(&mut self.is_after_cr) && given[0] == b'\n' {
+                self.input.consume(1);
+                given = self.input.fill_buf().map_err(about)?;
+                if given.is_empty() {
+                    break;
+                }
+            }
+            has_begun = true;
+            let end = given.iter().position(|&byte| byte == b'\n' || byte == b'\r');
+            self.bytes.extend_from_slice(&given[..end.unwrap_or(given.len())]);
+            let Some(end) = end else {
+                let all = given.len();
+                self.input.consume(all);
+                continue;
+            };
+            self.is_after_cr = given[end] == b'\r';
+            self.input.consume(end + 1);
+            break;
+        }
+        self.number += usize::from(has_begun);
+        if has_begun && self.number == 1 {
+            self.strip_mark(start)?;
+        }
+        Ok(has_begun)
+    }
+
+    fn strip_mark(&mut self, start: usize) -> Result<(), ObjError> {
+        let line = &self.bytes[start..];
+        if let Some((_, name)) = MARKS.iter().find(|(mark, _)| line.starts_with(mark)) {
+            return Err(Kind::Encoding(name).at(None, None));
+        }
+        if line.starts_with(b"\xef\xbb\xbf") {
+            self.bytes.drain(start..start + 3);
+        }
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Read in small parts, so that lines end everywhere in them.
+    #[test]
+    fn lines_read_one_by_one_are_the_same() {
+        let texts = [
+            "a\nb\n\nc\n",
+            "a\r\nb\r\n\r\nc",
+            "a\rb\r\rc\r",
+            "",
+            "\n",
+            "\r",
+            "v \\",
+            "f 1 \\\n2 \\\r\n3\n# C:\\\nv",
+            "\u{feff}v 1\nf \\",
+            "\r\n\r\n\n\rx\n\ré",
+        ];
+        for text in texts {
+            let plain = text.strip_prefix('\u{feff}').unwrap_or(text);
+            for size in 1..6 {
+                let parts = io::BufReader::with_capacity(size, text.as_bytes());
+                let (mut lines, mut found) = (LinesOf::new(parts), Vec::new());
+                while let Some((number, line)) = lines.next().unwrap() {
+                    found.push((number, line.into_owned()));
+                }
+                assert_eq!(found, all(plain), "{text:?} by {size}");
+            }
+        }
+        let error = |bytes: &[u8]| LinesOf::new(bytes).next().map(|_| ()).unwrap_err().to_string();
+        assert!(error(b"\xff\xfev\0").contains("UTF-16") && error(b"v\0").contains("zero byte"));
+    }
 
     fn all(text: &str) -> Vec<(usize, String)> {
         lines(text).map(|(number, line)| (number, line.into_owned())).collect()

@@ -65,7 +65,7 @@ impl Points {
         let faces = &survey.tree.faces;
         let mut known: HashMap<[u64; 3], Node> = HashMap::new();
         known.try_reserve(faces.corner_count() / 4).map_err(|_| Error::out_of_memory())?;
-        for corner in 0..faces.corner_count() as u32 {
+        for corner in faces.corners_of_cell() as u32..faces.corner_count() as u32 {
             let place = faces.given_corner(corner).map(f64::to_bits);
             known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
             self.same.unite(*known.entry(place).or_insert(corner), corner);

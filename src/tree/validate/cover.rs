@@ -18,6 +18,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::fault::{Culprit, Fault, Invalid};
+use crate::exact::cell::Clipper;
 use crate::exact::{Exact, ExactVertex, Kernel, Line, PlaneId, Symbol, Vertex};
 use crate::tree::BspTree;
 use crate::tree::walk::Visit;
@@ -84,9 +85,17 @@ impl BspTree {
         Ok(large)
     }
 
-    /// Compares the set of the root with the faces.
+    /// Compares the set of the root with the faces, or what of them is in their cell.
     fn check_faces(&self, set: &Set<ExactVertex>) -> Result<(), Fault> {
+        let mut clipper = Clipper::new(&self.faces);
         for face in 0..self.faces.len() as u32 {
+            let part = clipper.clip(face);
+            if let Some(part) = part.filter(|part| !part.is_empty()) {
+                if !set.get(&face).is_some_and(|outline| is_same(outline, part)) {
+                    return Err(Fault::Incomplete(self.culprit(face)));
+                }
+                continue;
+            }
             let corners = self.faces.corners(face).len();
             let is_face = |outline: &Vec<ExactVertex>| {
                 let first = outline.iter().position(|v| v.symbol() == Symbol::corner(0));
@@ -97,7 +106,7 @@ impl BspTree {
                 };
                 outline.is_empty() || outline.len() == corners && (0..corners).all(is_corner)
             };
-            if !set.get(&face).is_some_and(is_face) {
+            if part.is_none() || !set.get(&face).is_some_and(is_face) {
                 return Err(Fault::Incomplete(self.culprit(face)));
             }
         }
@@ -107,6 +116,17 @@ impl BspTree {
     fn culprit(&self, face: u32) -> Culprit {
         Culprit { face, polygon: self.faces.polygon(face) }
     }
+}
+
+/// Whether two outlines are one, wherever they begin.
+fn is_same(outline: &[ExactVertex], other: &[ExactVertex]) -> bool {
+    let name = |vertex: &ExactVertex| (vertex.symbol(), vertex.line());
+    let Some(first) = other.first().map(name) else { return outline.is_empty() };
+    let start = outline.iter().position(|vertex| name(vertex) == first);
+    start.is_some_and(|start| {
+        let turned = outline[start..].iter().chain(&outline[..start]);
+        turned.map(name).eq(other.iter().map(name))
+    })
 }
 
 /// What two pieces in front of a plane and behind it were before it cut them apart; `None` if they

@@ -1,0 +1,172 @@
+//! Folders of `binspace build --cells`: a partition, and a tree and its polygons for each cell.
+
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use binspace::scene::Scene;
+use binspace::{BspTree, LoadError, Partition};
+
+use crate::failure::Failure;
+use crate::files::{self, STANDARD};
+use crate::{saved_file, unfinished};
+
+/// The name of the file with the partition, and behind it a scene of one polygon: the ends of a diagonal
+/// of the bounding box.
+const PARTITION: &str = "partition.bsp";
+
+/// The name of a cell's file: its tree, the scene of what the tree was built of, and the numbers of these
+/// polygons in the whole scene, ascending, as `u64`.
+fn cell_name(cell: usize) -> String {
+    format!("cell-{cell:04}.bsp")
+}
+
+/// What is kept of a cell.
+pub(crate) struct Cell {
+    pub(crate) tree: BspTree,
+    pub(crate) scene: Scene,
+    /// The numbers that its polygons have in the whole scene.
+    pub(crate) numbers: Vec<usize>,
+}
+
+/// A folder that gets its name only when it is complete.
+pub(crate) struct NewFolder {
+    target: PathBuf,
+    /// The files in it, which have no names yet.
+    files: Vec<(String, File)>,
+}
+
+impl NewFolder {
+    /// Prepares to write a folder, which must not be there, or must be empty.
+    pub(crate) fn create(target: &Path) -> Result<Self, Failure> {
+        let about = |problem: String| Failure::about(target.display(), problem);
+        if target == Path::new(STANDARD) {
+            return Err(about("with `--cells` a folder is written: name it".to_owned()));
+        }
+        match std::fs::read_dir(target).map(Iterator::count) {
+            Ok(0) => {}
+            Ok(_) => {
+                return Err(about("it is there already: remove it, or name another".to_owned()));
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(about(format!("it cannot become a folder: {error}"))),
+        }
+        if target.file_name().is_none() {
+            return Err(about("a new folder needs a name".to_owned()));
+        }
+        Ok(Self { target: target.to_owned(), files: Vec::new() })
+    }
+
+    /// The folder that it will be in.
+    pub(crate) fn beside(&self) -> &Path {
+        files::folder_of(&self.target)
+    }
+
+    /// Adds the partition, and the scene's name, view and bounding box.
+    pub(crate) fn add_partition(
+        &mut self,
+        partition: &Partition,
+        scene: &Scene,
+    ) -> Result<(), Failure> {
+        self.add(PARTITION.to_owned(), |mut out| {
+            partition.write(&mut out)?;
+            scene.write(&mut out)
+        })
+    }
+
+    /// Adds the next cell.
+    pub(crate) fn add_cell(&mut self, cell: &Cell) -> Result<(), Failure> {
+        // The partition is the first of the files.
+        let number = self.files.len() - 1;
+        self.add(cell_name(number), |out| {
+            saved_file::write(out, &cell.scene, &cell.tree)?;
+            cell.numbers
+                .iter()
+                .try_for_each(|&number| out.write_all(&(number as u64).to_le_bytes()))
+        })
+    }
+
+    fn add(
+        &mut self,
+        name: String,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let written = unfinished::create_in(self.beside()).and_then(|file| {
+            let mut out = BufWriter::new(file);
+            write(&mut out)?;
+            out.into_inner().map_err(io::IntoInnerError::into_error)
+        });
+        let unwritable = |error| {
+            Failure::about(self.target.display(), format!("{name} cannot be written: {error}"))
+        };
+        let file = written.map_err(unwritable)?;
+        self.files.push((name, file));
+        Ok(())
+    }
+
+    /// Puts the folder in its place, with all its files.
+    pub(crate) fn finish(self) -> Result<(), Failure> {
+        let placed =
+            unfinished::place_all(self.files, files::folder_of(&self.target), &self.target);
+        placed.map_err(|error| {
+            Failure::about(self.target.display(), format!("cannot be written: {error}"))
+        })
+    }
+}
+
+/// A folder that is there.
+pub(crate) struct Folder {
+    path: PathBuf,
+    pub(crate) partition: Partition,
+    /// One polygon: the ends of a diagonal of the bounding box. With the scene's name, up and view.
+    pub(crate) bounds: Scene,
+}
+
+/// The folder that a scene's name means, if it is one.
+pub(crate) fn named(name: &std::ffi::OsStr) -> Option<&Path> {
+    Some(Path::new(name)).filter(|path| path.is_dir())
+}
+
+impl Folder {
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        let mut input = open(&path.join(PARTITION))?;
+        let name = path.join(PARTITION).display().to_string();
+        let about = |error: LoadError| Failure::about(&name, error);
+        let partition = Partition::read(&mut input).map_err(about)?;
+        let bounds = Scene::read(&mut input).map_err(about)?;
+        let is_box = bounds.len() == 1 && bounds.polygon(0).len() == 2;
+        if !is_box || has_more(&mut input) {
+            return Err(Failure::about(name, "it was not written by binspace"));
+        }
+        Ok(Self { path: path.to_owned(), partition, bounds })
+    }
+
+    /// Reads a cell.
+    pub(crate) fn cell(&self, number: usize) -> Result<Cell, Failure> {
+        let path = self.path.join(cell_name(number));
+        let name = path.display().to_string();
+        let mut input = open(&path)?;
+        let (scene, tree) = saved_file::read_pair(&name, &mut input)?;
+        let mut numbers = Vec::with_capacity(scene.len());
+        for _ in 0..scene.len() {
+            let mut bytes = [0; 8];
+            let read = input.read_exact(&mut bytes);
+            read.map_err(|_| Failure::about(&name, "it ends within its numbers: it is cut short"))?;
+            numbers.push(u64::from_le_bytes(bytes) as usize);
+        }
+        if !numbers.is_sorted_by(|a, b| a < b) || has_more(&mut input) {
+            return Err(Failure::about(name, "it is no cell of a folder: build it again"));
+        }
+        Ok(Cell { tree, scene, numbers })
+    }
+}
+
+fn open(path: &Path) -> Result<BufReader<File>, Failure> {
+    let file = File::open(path)
+        .map_err(|error| Failure::about(path.display(), format!("cannot be read: {error}")))?;
+    Ok(BufReader::new(file))
+}
+
+fn has_more(input: &mut impl Read) -> bool {
+    input.read(&mut [0]).is_ok_and(|more| more > 0)
+}

@@ -1,0 +1,137 @@
+//! Where the polygons of a scene come from that need not fit into memory.
+
+use std::io;
+use std::ops::ControlFlow;
+
+use binspace::Extent;
+use binspace::glam::DVec3;
+use binspace::scene::{ObjStream, Scene};
+
+use crate::args::SceneArgs;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::scene_arg::{self, Source};
+use crate::terminal::note;
+
+/// So many corners choose the planes between cells, at most. More: memory; fewer: cells differ in size.
+const SAMPLES: usize = 1 << 20;
+
+/// Polygons that are read one after the other.
+pub(crate) enum Polygons {
+    File(ObjStream),
+    Built(Scene),
+}
+
+impl Polygons {
+    /// Reads what comes before the polygons, or generates a scene.
+    pub(crate) fn open(args: &SceneArgs) -> Result<Self, Failure> {
+        let name = args.name.to_string_lossy();
+        match scene_arg::source(&args.name)? {
+            Source::StandardInput => {
+                let problem = "it is read twice with `--cells`: name a file";
+                Err(Failure::about("standard input", problem))
+            }
+            Source::Builtin(_) => Ok(Self::Built(scene_arg::load(args)?.scene)),
+            Source::File(path) if path.is_dir() || crate::saved_file::is_saved(&path) => {
+                let problem = "its tree is built already: give the scene that it was built of";
+                Err(Failure::about(name, problem))
+            }
+            Source::File(path) => {
+                let _progress = Progress::spinner(format!("reading {name}"));
+                let file =
+                    ObjStream::open(&path).map_err(|error| Failure::Message(error.to_string()))?;
+                if !file.report().is_clean() {
+                    note(&format!("{name}: {}", file.report()));
+                }
+                Ok(Self::File(file))
+            }
+        }
+    }
+
+    /// The scene without its polygons.
+    pub(crate) fn scene(&self) -> Scene {
+        match self {
+            Self::File(file) => file.scene().clone(),
+            Self::Built(scene) => {
+                let mut empty = Scene::new(scene.name(), scene.up());
+                if let Some((eye, target)) = scene.suggested_view() {
+                    empty = empty.with_view(eye, target);
+                }
+                for material in scene.materials() {
+                    empty.add_material(material.clone());
+                }
+                empty
+            }
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::File(file) => file.polygons(),
+            Self::Built(scene) => scene.len(),
+        }
+    }
+
+    /// The extent, and some of the corners.
+    pub(crate) fn extent_and_samples(&self) -> (Extent, Vec<DVec3>) {
+        match self {
+            Self::File(file) => extent_and_samples(file.corners(), file.scene().precision()),
+            Self::Built(scene) => {
+                let corners = scene.polygons().flat_map(|polygon| polygon.into_iter().copied());
+                extent_and_samples(corners, scene.precision())
+            }
+        }
+    }
+
+    /// Calls `visit` with the number, the corners and the material of each polygon.
+    pub(crate) fn for_each(
+        &self,
+        mut visit: impl FnMut(usize, &[DVec3], u32) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let unwritable = |error: io::Error| {
+            Failure::about("a file beside the output", format!("cannot be written: {error}"))
+        };
+        match self {
+            Self::File(file) => {
+                let mut number = 0;
+                let read = file.read(|polygon, material| match visit(number, polygon, material) {
+                    Ok(()) => {
+                        number += 1;
+                        ControlFlow::Continue(())
+                    }
+                    Err(error) => ControlFlow::Break(error),
+                });
+                match read.map_err(|error| Failure::Message(error.to_string()))? {
+                    ControlFlow::Continue(()) => Ok(()),
+                    ControlFlow::Break(error) => Err(unwritable(error)),
+                }
+            }
+            Self::Built(scene) => {
+                let known = |number: usize| {
+                    let material = scene.material(number);
+                    scene.materials().iter().position(|other| std::ptr::eq(other, material))
+                };
+                let mut polygons = scene.polygons().enumerate();
+                polygons
+                    .try_for_each(|(number, polygon)| {
+                        visit(number, &polygon, known(number).map_or(u32::MAX, |m| m as u32))
+                    })
+                    .map_err(unwritable)
+            }
+        }
+    }
+}
+
+fn extent_and_samples(
+    corners: impl Iterator<Item = DVec3> + Clone,
+    precision: f64,
+) -> (Extent, Vec<DVec3>) {
+    let (mut extent, mut count) = (Extent::default(), 0_usize);
+    for corner in corners.clone() {
+        extent.include(&[corner]);
+        count += 1;
+    }
+    // Not that of a list of corners, but what the file's decimals say.
+    extent.precision = precision;
+    (extent, corners.step_by(count.div_ceil(SAMPLES).max(1)).collect())
+}

@@ -1,0 +1,175 @@
+//! Folders of `build --cells`: the same pictures and polygons as of one tree.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+
+use serde_json::Value;
+
+use crate::run::{CROSSING, Folder};
+
+/// Panes that go through each other, every third one translucent, one that is not convex, and a face
+/// without area.
+fn panes(folder: &Folder) {
+    folder.write("m.mtl", "newmtl wall\nKd 0.8 0.5 0.2\nnewmtl glass\nKd 0.1 0.4 0.9\nd 0.5\n");
+    let mut text = "mtllib m.mtl\n".to_owned();
+    for k in 0..60 {
+        let (x, y) = (f64::from(k % 8), f64::from(k / 8));
+        let lean = f64::from(k % 5) - 2.0;
+        writeln!(text, "usemtl {}", if k % 3 == 0 { "glass" } else { "wall" }).unwrap();
+        for [u, v] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+            writeln!(text, "v {} {} {}", x + u * 1.25, y + v * 1.5, lean * u + 0.25 * v).unwrap();
+        }
+        writeln!(text, "f -4 -3 -2 -1").unwrap();
+    }
+    text += "usemtl wall\nv 0 0 3\nv 8 0 3\nv 4 2 3\nv 4 8 3\nf -4 -3 -2 -1\nf 1 1 2\n";
+    folder.write("s.obj", text);
+}
+
+#[test]
+fn pictures_of_cells_are_those_of_one_tree() {
+    let folder = Folder::new("cells_pictures");
+    panes(&folder);
+    folder.run("build s.obj -o s.bsp").good();
+    let views = [
+        "--eye=12,9,14 --target=4,4,0 --size 120x90",
+        "--eye=4,4,0.1 --target=0,0,0 --size 80x60 --cull back",
+        "--direction=1,0.5,-2 --target=4,4,0 --size 100x80 --samples 2 --colours polygon",
+    ];
+    for cells in [1, 2, 3, 7, 16] {
+        let made = folder.run(&format!("build s.obj --cells {cells} -o d{cells}"));
+        assert!(made.err.contains("1 face without area"), "{}", made.err);
+        assert_eq!(made.good(), "");
+        assert_eq!(fs::read_dir(folder.path(&format!("d{cells}"))).unwrap().count(), cells + 1);
+        for (k, view) in views.iter().enumerate() {
+            let picture = |name: &str| {
+                folder.run(&format!("render {name} -o p.png {view}")).good();
+                fs::read(folder.path("p.png")).unwrap()
+            };
+            // With a parallel camera the scene's box decides how much is shown.
+            let of_one = if k == 2 { picture("d1") } else { picture("s.bsp") };
+            assert_eq!(picture(&format!("d{cells}")), of_one, "{cells} cells, {view}");
+        }
+    }
+    let svg = folder.run("render d7 -o - --format svg").good();
+    assert!(svg.ends_with("</svg>\n") && svg.matches("<path").count() > 100);
+}
+
+/// Each polygon's area, from the lines of `order`, and the numbers of the cells' trees.
+#[test]
+fn orders_of_cells_have_all_polygons() {
+    let folder = Folder::new("cells_orders");
+    panes(&folder);
+    folder.run("build s.obj --cells 5 -o d").good();
+    let areas = |command: &str| {
+        let mut areas: BTreeMap<u64, f64> = BTreeMap::new();
+        for line in folder.run(command).good().lines() {
+            let line: Value = serde_json::from_str(line).unwrap();
+            let at: Vec<Vec<f64>> = serde_json::from_value(line["vertices"].clone()).unwrap();
+            let arm = |k: usize| [0, 1, 2].map(|i| at[k][i] - at[0][i]);
+            let mut sum = [0.0; 3];
+            for k in 1..at.len() - 1 {
+                let (a, b) = (arm(k), arm(k + 1));
+                for i in 0..3 {
+                    sum[i] += a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+                }
+            }
+            let area = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
+            *areas.entry(line["polygon"].as_u64().unwrap()).or_default() += area;
+        }
+        areas
+    };
+    let whole = areas("order s.obj --eye=12,9,14");
+    for command in ["order d --eye=12,9,14", "order d --direction=0,1,0 --front-to-back"] {
+        let found = areas(command);
+        assert!(found.keys().eq(whole.keys()) && found.len() == 61, "{command}");
+        assert!(found.iter().all(|(k, area)| (area - whole[k]).abs() < 1e-9 * area), "{command}");
+    }
+    let forward = folder.run("order d --eye=12,9,14").good();
+    let backward = folder.run("order d --eye=12,9,14 --front-to-back").good();
+    assert!(forward.lines().eq(backward.lines().rev()));
+    let stats = folder.run("stats d --json").good();
+    let fragments = |line: &str| serde_json::from_str::<Value>(line).unwrap()["fragments"].clone();
+    let total: u64 = stats.lines().map(|line| fragments(line).as_u64().unwrap()).sum();
+    assert_eq!((stats.lines().count(), total), (5, forward.lines().count() as u64));
+    let table = folder.run("stats d").good();
+    assert!(table.contains("cell 4") && table.lines().all(|line| line.chars().count() <= 80));
+}
+
+#[test]
+fn a_built_in_scene_is_divided_as_a_file_is() {
+    let folder = Folder::new("cells_builtin");
+    folder.run("build cornell --cells 4 -o d").good();
+    folder.run("build cornell -o s.bsp").good();
+    for name in ["d", "s.bsp"] {
+        let view = "--eye=1,2,9 --target=0,1,0 --size 80x60";
+        folder.run(&format!("render {name} -o {name}.png {view}")).good();
+    }
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert_eq!(read("d.png"), read("s.bsp.png"));
+}
+
+#[test]
+fn a_folder_is_written_completely_or_not_at_all() {
+    let folder = Folder::new("cells_whole");
+    folder.write("s.obj", CROSSING);
+    folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 7\n");
+    folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    let files = ["bad.obj", "flat.obj", "s.obj"];
+    for (command, problem) in [
+        ("build bad.obj --cells 3 -o d", "vertex 7 does not exist"),
+        ("build flat.obj --cells 3 -o d", "nothing is left"),
+        ("build missing.obj --cells 3 -o d", "missing.obj"),
+        ("build random --cells 3 -o d --max-fragments 10", "--max-fragments"),
+        ("build s.obj --cells 0 -o d", "0"),
+        ("build s.obj --cells 2 -o -", "name it"),
+        ("build s.obj --cells 2 -o s.obj", "cannot become a folder"),
+        ("build - --cells 2 -o d", "name a file"),
+    ] {
+        let run = folder.run(command);
+        assert!(run.status == Some(2) && run.err.contains(problem), "{command}: {}", run.err);
+        assert_eq!(folder.files(), files, "{command}");
+    }
+    folder.run("build s.obj --cells 2 -o d").good();
+    let message = folder.run("build s.obj --cells 3 -o d").refused();
+    assert!(message.contains("it is there already"), "{message}");
+    // An empty folder becomes one.
+    fs::create_dir(folder.path("empty")).unwrap();
+    folder.run("build s.obj --cells 2 -o empty").good();
+    folder.run("render empty -o p.png --size 20x20").good();
+}
+
+#[test]
+fn what_a_folder_is_not_for_is_refused() {
+    let folder = Folder::new("cells_refused");
+    folder.write("s.obj", CROSSING);
+    folder.run("build s.obj --cells 3 -o d").good();
+    fs::create_dir(folder.path("other")).unwrap();
+    for command in [
+        "verify d",
+        "draw d -o a.svg",
+        "page d -o a.html",
+        "build d -o a.bsp",
+        "build d --cells 2 -o e",
+        "render d -o a.png --depth",
+        "render d -o a.png --z-buffer",
+        "render d -o a.png --tolerance 0",
+        "order d --eye=1,2,3 --heuristic first",
+        "stats d --heuristic all",
+        "order other --eye=1,2,3",
+        "order d/cell-0001.bsp --eye=1,2,3",
+    ] {
+        let message = folder.run(command).refused();
+        assert!(!message.contains("os error 21"), "{command}: {message}");
+    }
+    assert!(folder.run("order d/cell-0001.bsp --eye=1,2,3").refused().contains("name the folder"));
+    assert!(folder.run("verify d").refused().contains("render"));
+    // Cells of another folder, damaged or missing.
+    let cell = folder.path("d/cell-0001.bsp");
+    let file = fs::read(&cell).unwrap();
+    fs::write(&cell, &file[..file.len() - 3]).unwrap();
+    assert!(folder.run("render d -o a.png").refused().contains("cell-0001.bsp"));
+    fs::remove_file(&cell).unwrap();
+    assert!(folder.run("order d --eye=1,2,3 -o a.json").refused().contains("cell-0001.bsp"));
+    assert_eq!(folder.files(), ["d", "other", "s.obj"]);
+}

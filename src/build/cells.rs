@@ -1,0 +1,102 @@
+//! Trees of the cells of a scene.
+
+use std::ops::ControlFlow;
+
+use super::driver::tree_of_faces;
+use super::options::BuildOptions;
+use super::progress::{Progress, Watch, one_at_a_time};
+use crate::error::Error;
+use crate::faces::Preparer;
+use crate::input::{Point, Polygon};
+use crate::partition::{Extent, Partition};
+use crate::tree::BspTree;
+
+impl BuildOptions {
+    /// Divides a scene into cells, each of about as many of some samples of it, such as one corner of every
+    /// polygon, or of some of them. Takes O(n log cells) time for n samples.
+    ///
+    /// Each plane goes through a sample, and divides those on the axis along which they reach furthest. The
+    /// same samples, in whatever order, give the same cells. No cell is left out, but there may be nothing
+    /// in some: with fewer samples than cells, or most of them in one place, planes lie where there is room
+    /// for them. 0 cells count as 1.
+    ///
+    /// The extent must hold all polygons: it defines the grid that their corners are rounded to, as the
+    /// [bounds](Self::bounds) do that these options may have. The tolerance of these options is that of all
+    /// cells; the default follows the extent.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate of the extent or the bounds is NaN or infinite, the tolerance is negative or NaN, or
+    /// memory runs out.
+    pub fn partition<P: Point>(
+        &self,
+        extent: &Extent,
+        samples: impl IntoIterator<Item = P>,
+        cells: usize,
+    ) -> Result<Partition, Error> {
+        let mut extent = *extent;
+        if let Some(bounds) = &self.bounds {
+            extent.include(&bounds[..]);
+        }
+        Partition::new(&extent, self.tolerance, samples, cells)
+    }
+
+    /// Builds the tree of a cell, of the polygons that [reach](Partition::reached_by) it, or more. Their
+    /// order counts where they are coplanar, so it must be the same for all cells; the tree names them by
+    /// their places in this list.
+    ///
+    /// The tolerance and the bounds of the options do not count: the partition has both.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build`](Self::build), and if a polygon reaches beyond the partition's grid.
+    ///
+    /// # Panics
+    ///
+    /// If `cell` is not less than [`Partition::cells`].
+    pub fn build_cell<P: Polygon>(
+        &self,
+        partition: &Partition,
+        cell: usize,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<BspTree, Error> {
+        tree_of_cell(self, partition, cell, polygons, &Watch::default())
+    }
+
+    /// The same, with progress reported to a callback that can cancel, as
+    /// [`build_with_progress`](Self::build_with_progress) does.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build_cell`](Self::build_cell), and if it is cancelled.
+    ///
+    /// # Panics
+    ///
+    /// As for [`build_cell`](Self::build_cell).
+    pub fn build_cell_with_progress<P: Polygon>(
+        &self,
+        partition: &Partition,
+        cell: usize,
+        polygons: impl IntoIterator<Item = P>,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<BspTree, Error> {
+        let progress = one_at_a_time(progress);
+        tree_of_cell(self, partition, cell, polygons, &Watch::new(&progress))
+    }
+}
+
+fn tree_of_cell<P: Polygon>(
+    options: &BuildOptions,
+    partition: &Partition,
+    cell: usize,
+    polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
+) -> Result<BspTree, Error> {
+    let mut faces = partition.faces(cell);
+    let mut preparer = Preparer::default();
+    let mut preparation = preparer.append(&mut faces, polygons, 0, watch)?;
+    preparation.duplicates = preparer.duplicates_added(&faces, 0, watch)?;
+    // What that needs is freed before the faces are divided.
+    drop(preparer);
+    tree_of_faces(options, faces, preparation, watch)
+}

@@ -1,0 +1,113 @@
+//! Chooses the planes between cells: medians of samples (J. L. Bentley, "Multidimensional binary search
+//! trees used for associative searching", 1975), along the axis on which these reach furthest.
+
+use super::{Extent, Partition, Subtree, Wall};
+use crate::Error;
+use crate::exact::cell::Cell;
+use crate::exact::{Faces, LATTICE_LIMIT};
+use crate::faces::{Tolerance, empty_faces};
+use crate::input::Point;
+use crate::memory::{push, reserve};
+
+impl Partition {
+    /// Divides a scene into so many cells, with about as many samples in each. O(samples · log cells).
+    pub(crate) fn new<P: Point>(
+        extent: &Extent,
+        tolerance: Tolerance,
+        samples: impl IntoIterator<Item = P>,
+        cells: usize,
+    ) -> Result<Self, Error> {
+        let Extent { low, high, precision } = *extent;
+        let is_nothing = low.cmpgt(high).any();
+        let bounds = if is_nothing { Default::default() } else { [low, high] };
+        let Faces { lattice, tolerance, .. } = empty_faces(bounds, tolerance, precision)?;
+        let mut points: Vec<[f64; 3]> = Vec::new();
+        for sample in samples {
+            let point = sample.to_dvec3();
+            // Samples choose planes and no more: those that say nothing are left out.
+            if point.is_finite() {
+                let limit = |c: f64| c.clamp(-LATTICE_LIMIT, LATTICE_LIMIT);
+                push(&mut points, lattice.snap(point).map(limit))?;
+            }
+        }
+        let planes = planes(&mut points, bounds.map(|corner| lattice.snap(corner)), cells.max(1))?;
+        Ok(Self { lattice, tolerance, planes })
+    }
+}
+
+/// A subtree to come: where its samples are, and the box that it divides.
+struct Part {
+    subtree: Subtree,
+    samples: std::ops::Range<usize>,
+    room: Cell,
+}
+
+fn planes(samples: &mut [[f64; 3]], room: Cell, cells: usize) -> Result<Vec<Wall>, Error> {
+    let mut planes = Vec::new();
+    reserve(&mut planes, cells - 1)?;
+    let subtree = Subtree { plane: 0, cells: 0..cells };
+    let mut parts = vec![Part { subtree, samples: 0..samples.len(), room }];
+    while let Some(Part { subtree, samples: range, room }) = parts.pop() {
+        let count = subtree.cells.len();
+        if count < 2 {
+            continue;
+        }
+        let own = &mut samples[range.clone()];
+        let wall = wall(own, &room, count);
+        planes.push(wall);
+        let behind = range.start + move_behind(own, wall);
+        let [mut back_room, mut front_room] = [room; 2];
+        (back_room[1][wall.axis], front_room[0][wall.axis]) = (wall.at, wall.at);
+        let [back, front] = subtree.sides();
+        push(&mut parts, Part { subtree: front, samples: behind..range.end, room: front_room })?;
+        push(&mut parts, Part { subtree: back, samples: range.start..behind, room: back_room })?;
+    }
+    Ok(planes)
+}
+
+/// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, as
+/// that often is a corner, which cuts fewer polygons. The same in whatever order the samples are.
+fn wall(samples: &mut [[f64; 3]], room: &Cell, count: usize) -> Wall {
+    let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for sample in &*samples {
+        for axis in 0..3 {
+            reach[0][axis] = reach[0][axis].min(sample[axis]);
+            reach[1][axis] = reach[1][axis].max(sample[axis]);
+        }
+    }
+    let axis = longest(&reach);
+    let least = reach[0][axis];
+    // With one sample or none, or all in one place, the middle is as good as any other.
+    if samples.is_empty() || reach[1][axis] == least {
+        let axis = longest(room);
+        let middle = 0.5 * room[0][axis] + 0.5 * room[1][axis];
+        return Wall { axis, at: middle.round() + 0.0 };
+    }
+    let place = (samples.len() as u128 * (count / 2) as u128 / count as u128) as usize;
+    let by_axis = |a: &[f64; 3], b: &[f64; 3]| a[axis].total_cmp(&b[axis]);
+    let at = samples.select_nth_unstable_by(place, by_axis).1[axis];
+    // One of many at the lower end would leave nothing behind it: the next larger does.
+    let next = || {
+        let above = samples.iter().map(|sample| sample[axis]).filter(|&c| c > least);
+        above.fold(f64::INFINITY, f64::min)
+    };
+    Wall { axis, at: if at > least { at } else { next() } }
+}
+
+/// The axis on which a box reaches furthest, the first of equals.
+fn longest([low, high]: &Cell) -> usize {
+    let length = |axis: usize| high[axis] - low[axis];
+    (1..3).fold(0, |best, axis| if length(axis) > length(best) { axis } else { best })
+}
+
+/// Moves the samples behind a plane to the beginning, and counts them.
+fn move_behind(samples: &mut [[f64; 3]], wall: Wall) -> usize {
+    let mut behind = 0;
+    for i in 0..samples.len() {
+        if samples[i][wall.axis] < wall.at {
+            samples.swap(i, behind);
+            behind += 1;
+        }
+    }
+    behind
+}

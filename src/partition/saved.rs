@@ -1,0 +1,69 @@
+//! Partitions in files.
+
+use std::io::{self, Read, Write};
+
+use super::{Partition, Wall};
+use crate::exact::{LATTICE_LIMIT, Lattice};
+use crate::save::{Kind, LoadError, Reader, Writer, u32_at, u64_at};
+
+const KIND: Kind = Kind { name: *b"part", version: 1 };
+/// The most planes: more than anyone builds trees of cells for.
+const MOST: usize = 1 << 28;
+
+impl Partition {
+    /// Writes the partition, so that [`read`](Self::read) gives an equal one.
+    ///
+    /// # Layout
+    ///
+    /// Version 1. All numbers are little-endian.
+    ///
+    /// | part | what |
+    /// |---|---|
+    /// | head | the bytes `binspacepart`, the version as `u32` |
+    /// | grid, tolerance | as in the file of a [tree](crate::BspTree::write) |
+    /// | planes | their number as `u64`, one less than the cells, depth first, and behind a plane before in front; each is the axis as `u32`, and the coordinate on the grid as `i64`. Over n cells, n / 2, rounded down, are behind |
+    /// | end | the CRC-32 of all bytes before, `u32` |
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer.
+    pub fn write(&self, output: impl Write) -> io::Result<()> {
+        let mut file = Writer::new(output, KIND)?;
+        self.lattice.write(&mut file)?;
+        file.f64(self.tolerance)?;
+        file.list(self.planes.iter(), |file, wall| {
+            file.u32(wall.axis as u32)?;
+            file.u64(wall.at as i64 as u64)
+        })?;
+        file.finish()
+    }
+
+    /// Reads a partition that [`write`](Self::write) has written. Takes up no more than its bytes.
+    ///
+    /// Any file is safe to read, and memory grows with what is read. Whatever it says, cells of the same
+    /// partition have each point of a polygon once; forged planes can leave all of them to one.
+    ///
+    /// # Errors
+    ///
+    /// If the data cannot be read, are no partition, of another version, cut short or damaged, or name a
+    /// plane, a grid or a tolerance that cannot be; or if memory runs out.
+    pub fn read(input: impl Read) -> Result<Self, LoadError> {
+        let mut file = Reader::new(input, KIND)?;
+        let lattice = Lattice::read(&mut file)?;
+        let tolerance = file.f64("tolerance")?;
+        let planes = file.list("planes", MOST, |bytes: &[u8; 12]| Wall {
+            axis: u32_at(bytes, 0) as usize,
+            at: u64_at(bytes, 4) as i64 as f64,
+        })?;
+        file.finish()?;
+        lattice.check()?;
+        if !(0.0..=LATTICE_LIMIT / 128.0).contains(&tolerance) {
+            return Err(LoadError::of("tolerance", "is negative, too large or no number"));
+        }
+        let is_wrong = |wall: &Wall| wall.axis > 2 || wall.at.abs() > LATTICE_LIMIT;
+        match planes.iter().position(is_wrong) {
+            Some(plane) => Err(crate::save::invalid("plane", plane, "is outside the grid")),
+            None => Ok(Self { lattice, tolerance, planes }),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Each point of each polygon is in one cell: areas and edges of all cells together, in rationals.
+
+use std::collections::BTreeMap;
+
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+
+use binspace::glam::DVec3;
+use binspace::{BspTree, BuildOptions};
+
+use crate::divided::{Divided, stars, tiles, triangles};
+use crate::support::dice::Dice;
+use crate::support::hard;
+use crate::support::judge::{Cover, Judge, Verdict, ensure};
+use crate::support::shapes::Corners;
+
+/// A face of a scene: its polygon, and the numbers of its corners.
+type Name = (usize, Vec<u32>);
+
+fn name(tree: &BspTree, face: u32, polygon: usize) -> Name {
+    let corners = 0..tree.faces().corners(face).len() as u32;
+    (polygon, corners.map(|k| tree.faces().corner_number(face, k)).collect())
+}
+
+/// How many faces were cut by planes of cells.
+fn check(scene: &Divided, options: BuildOptions) -> Result<usize, String> {
+    let mut covers: BTreeMap<Name, (Cover, usize)> = BTreeMap::new();
+    for (number, cell) in scene.cells.iter().enumerate() {
+        let [low, high] = scene.partition.bounds(number);
+        // The tolerance, and the rounding of vertices.
+        let step = cell.tree.faces().lattice().length_to_world(1.0);
+        let slack = DVec3::splat(4.0 * (scene.partition.tolerance() + step));
+        for fragment in cell.tree.fragments() {
+            for vertex in fragment.vertices() {
+                let is_in = vertex.cmpge(low - slack).all() && vertex.cmple(high + slack).all();
+                ensure(is_in, || format!("{vertex} is not in {low} … {high}"))?;
+            }
+        }
+        for (face, cover) in Judge::new(&cell.tree).covers().iter().enumerate() {
+            let polygon = cell.given[cell.tree.faces().polygon(face as u32)];
+            let (all, cells) = covers.entry(name(&cell.tree, face as u32, polygon)).or_default();
+            all.add(cover);
+            *cells += 1;
+        }
+    }
+    let whole = options.build(&scene.polygons).map_err(|error| error.to_string())?;
+    let judge = Judge::new(&whole);
+    for face in 0..whole.faces().len() {
+        let name = name(&whole, face as u32, whole.faces().polygon(face as u32));
+        let (mut cover, _) = covers.get(&name).cloned().ok_or(format!("face {face} is lost"))?;
+        judge.is_covered(face, &mut cover)?;
+    }
+    ensure(covers.len() == whole.faces().len(), || {
+        "there are other faces than in one tree".into()
+    })?;
+    Ok(covers.values().filter(|(_, cells)| *cells > 1).count())
+}
+
+fn checked(polygons: Vec<Corners>, options: BuildOptions, cells: usize) -> usize {
+    let scene = Divided::new(polygons, options, cells).unwrap();
+    check(&scene, options).unwrap_or_else(|what| panic!("{cells} cells: {what}"))
+}
+
+#[test]
+fn every_polygon_is_in_all_cells_together_once() {
+    let mut cut = 0;
+    for cells in 1..10 {
+        let mut dice = Dice(100 + cells as u64);
+        for polygons in [triangles(&mut dice, 30, 20), tiles(&mut dice, 60), stars(&mut dice, 8)] {
+            for options in [BuildOptions::DEFAULT, BuildOptions::DEFAULT.with_tolerance(0.0)] {
+                cut += checked(polygons.clone(), options, cells);
+            }
+        }
+    }
+    assert!(cut > 500, "{cut}");
+}
+
+#[test]
+fn every_hard_polygon_is_in_all_cells_together_once() {
+    let mut runner = TestRunner::new(Config { cases: 150, ..Config::default() });
+    let cut = std::cell::Cell::new(0);
+    let run = runner.run(&(hard::scene(), 1..10_usize), |(scene, cells)| {
+        let mut options = BuildOptions::DEFAULT;
+        if let Some(length) = scene.tolerance() {
+            options = options.with_tolerance(length);
+        }
+        let divided = Divided::new(scene.polygons, options, cells).expect("a tree of each");
+        let verdict = check(&divided, options);
+        prop_assert!(verdict.is_ok(), "{}", verdict.unwrap_err());
+        cut.set(cut.get() + verdict.unwrap());
+        Ok(())
+    });
+    run.unwrap();
+    assert!(cut.get() > 100, "{}", cut.get());
+}
+
+/// What lies in the plane between two cells is in the one on the side of larger coordinates, and what is
+/// within the tolerance of it as well.
+#[test]
+fn what_lies_in_a_plane_between_is_in_the_cell_in_front() {
+    let square = |x: f64| -> Corners {
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(x, y, z)).to_vec()
+    };
+    let xs = [0.0, 2.0 - 1e-7, 2.0, 2.0 + 1e-7, 2.0 - 1e-5, 4.0];
+    let polygons: Vec<Corners> = xs.map(square).into();
+    // The middle of three samples.
+    let samples = vec![DVec3::ZERO, DVec3::new(2.0, 0.5, 0.5), DVec3::new(4.0, 0.0, 0.0)];
+    let options = BuildOptions::DEFAULT.with_tolerance(1e-6);
+    let scene = Divided::with_samples(polygons, options, samples, 2).unwrap();
+    assert_eq!(scene.partition.bounds(1)[0].x, 2.0);
+    let of = |cell: usize| {
+        let cell = &scene.cells[cell];
+        let mut numbers: Vec<usize> =
+            (0..cell.tree.len() as u32).map(|f| cell.polygon(f)).collect();
+        numbers.sort_unstable();
+        numbers
+    };
+    assert_eq!([of(0), of(1)], [vec![0, 4], vec![1, 2, 3, 5]]);
+}
+
+/// All polygons in one cell of many, and a scene of nothing.
+#[test]
+fn cells_may_be_empty() -> Verdict {
+    let mut dice = Dice(4);
+    let polygons = triangles(&mut dice, 20, 10);
+    let far =
+        |p: f64| vec![DVec3::splat(p), DVec3::splat(p) + DVec3::X, DVec3::splat(p) + DVec3::Y];
+    // Most of the scene is in one place, and the samples are in another.
+    let away = |p: Corners| p.into_iter().map(|corner| corner - 3e5).collect();
+    let all: Vec<Corners> = polygons.into_iter().map(away).chain([far(1e6), far(-1e6)]).collect();
+    let samples = vec![DVec3::splat(1e6); 50];
+    let scene = Divided::with_samples(all, BuildOptions::DEFAULT, samples, 7).unwrap();
+    let full = scene.cells.iter().filter(|cell| !cell.tree.is_empty()).count();
+    ensure(full < 7, || format!("{full} full cells"))?;
+    check(&scene, BuildOptions::DEFAULT)?;
+    let nothing = Divided::new(vec![], BuildOptions::DEFAULT, 3).unwrap();
+    ensure(nothing.fragments() == 0, || "something of nothing".into())
+}

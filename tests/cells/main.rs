@@ -1,0 +1,10 @@
+//! Scenes built as several cells, held against rays, areas and trees of the whole.
+
+mod borders;
+mod cover;
+mod divided;
+mod order;
+mod partition;
+mod saved;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,203 @@
+//! Partitions: which cells there are, and which polygons reach them.
+
+use binspace::glam::DVec3;
+use binspace::{BspTree, BuildOptions, Extent, Viewpoint, scene};
+
+use crate::divided::{Divided, extent, tiles, triangles};
+use crate::support::dice::Dice;
+use crate::support::shapes::Corners;
+use crate::support::snapshot::Snapshot;
+
+/// What is seen of a tree: where its fragments are, and whose.
+fn fragments(tree: &BspTree, number: impl Fn(usize) -> usize) -> Vec<(usize, Vec<DVec3>)> {
+    tree.fragments().map(|f| (number(f.polygon()), f.vertices().collect())).collect()
+}
+
+/// Polygons that are not listed for a cell have no part in it; and few are listed in vain, though these
+/// are large for their cells.
+#[test]
+fn a_cell_needs_the_polygons_that_reach_it_and_no_others() {
+    let (mut listed, mut had) = (0, 0);
+    for cells in 1..10 {
+        let mut dice = Dice(cells as u64 * 31);
+        for polygons in [triangles(&mut dice, 60, 30), tiles(&mut dice, 60)] {
+            let options = BuildOptions::DEFAULT;
+            let scene = Divided::new(polygons, options, cells).unwrap();
+            for (number, cell) in scene.cells.iter().enumerate() {
+                let of_all = options.build_cell(&scene.partition, number, &scene.polygons).unwrap();
+                let own = fragments(&cell.tree, |polygon| cell.given[polygon]);
+                assert_eq!(own, fragments(&of_all, |polygon| polygon));
+                listed += cell.given.len();
+                had += cell.given.len() - cell.tree.preparation().dropped;
+            }
+        }
+    }
+    assert!(had > 2000 && listed * 10 < had * 14, "{listed} {had}");
+}
+
+#[test]
+fn one_cell_is_the_tree_of_all() {
+    let polygons = triangles(&mut Dice(2), 80, 50);
+    let options = BuildOptions::DEFAULT;
+    let scene = Divided::new(polygons, options, 1).unwrap();
+    let all = options.build(&scene.polygons).unwrap();
+    assert_eq!(fragments(&scene.cells[0].tree, |p| p), fragments(&all, |p| p));
+    let stats = scene.cells[0].tree.stats();
+    assert_eq!((stats.nodes, stats.tolerance), (all.stats().nodes, all.stats().tolerance));
+    assert_eq!(scene.partition.tolerance(), stats.tolerance);
+}
+
+#[test]
+fn the_order_of_samples_and_the_number_of_threads_do_not_count() {
+    let polygons = triangles(&mut Dice(6), 3000, 1000);
+    let all = extent(&polygons);
+    let mut samples: Vec<DVec3> = polygons.iter().flatten().copied().collect();
+    let options = BuildOptions::DEFAULT;
+    let partition = options.partition(&all, samples.clone(), 13).unwrap();
+    samples.reverse();
+    samples.rotate_left(1234);
+    assert_eq!(partition, options.partition(&all, samples, 13).unwrap());
+    let build = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| options.build_cell(&partition, 5, &polygons).unwrap())
+    };
+    assert_eq!(Snapshot::of(&build(1)), Snapshot::of(&build(4)));
+}
+
+/// Samples in each cell, of a scene without a lump.
+#[test]
+fn cells_have_about_as_many_samples() {
+    let mut dice = Dice(1);
+    let samples: Vec<DVec3> =
+        (0..10_000).map(|_| DVec3::new(dice.share(), dice.share() * 3.0, dice.share())).collect();
+    let mut all = Extent::default();
+    all.include(&samples[..]);
+    for cells in [1, 2, 3, 5, 8, 13, 100] {
+        let partition = BuildOptions::DEFAULT.partition(&all, samples.clone(), cells).unwrap();
+        for cell in 0..cells {
+            let [low, high] = partition.bounds(cell);
+            let is_in = |p: &&DVec3| p.cmpge(low).all() && p.cmplt(high).all();
+            let share = samples.iter().filter(is_in).count() * cells;
+            assert!((9_000..11_000).contains(&share), "{share} in {cell} of {cells}");
+        }
+    }
+}
+
+/// Samples that say little: none, one, all in one place, some that are no points.
+#[test]
+fn odd_samples_give_as_many_cells() {
+    let polygons = tiles(&mut Dice(3), 30);
+    let at = DVec3::new(1.0, 1.0, 1.0);
+    let odd = [vec![], vec![at], vec![at; 9], vec![DVec3::NAN, at, DVec3::INFINITY, at * 1e300]];
+    for samples in odd {
+        for cells in [0, 1, 2, 6, 9] {
+            let all = extent(&polygons);
+            let partition = BuildOptions::DEFAULT.partition(&all, samples.clone(), cells).unwrap();
+            assert_eq!(partition.cells(), cells.max(1));
+            let mut order = partition.back_to_front(Viewpoint::eye([9.0, 8.0, 7.0]));
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..cells.max(1)));
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_divided_is_an_error() {
+    let options = BuildOptions::DEFAULT;
+    let polygon = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut all = Extent::default();
+    all.include(&polygon);
+    let none: [DVec3; 0] = [];
+    assert!(options.with_tolerance(-1.0).partition(&all, none, 2).is_err());
+    let mut wrong = all;
+    wrong.include(&[[0.0, f64::NAN, 0.0]]);
+    assert!(options.partition(&wrong, none, 2).is_err());
+    // In any order, merged or not.
+    let mut wrong_too = Extent::default();
+    wrong_too.merge(&wrong);
+    wrong_too.merge(&all);
+    assert!(options.partition(&wrong_too, none, 2).is_err());
+    let partition = options.partition(&all, none, 4).unwrap();
+    let mut reached = Vec::new();
+    for bad in [f64::NAN, f64::INFINITY, 1e9] {
+        let off = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, bad, 0.0]];
+        partition.reached_by(&off, &mut reached);
+        assert_eq!(reached, [0, 1, 2, 3]);
+        let error = options.build_cell(&partition, 2, [polygon, off]).unwrap_err();
+        assert_eq!(error.polygon(), Some(1), "{error}");
+    }
+    partition.reached_by(&[[0.0; 3]; 0], &mut reached);
+    assert_eq!(reached, []);
+}
+
+/// A tree of a cell stays one when polygons are added.
+#[test]
+fn what_is_added_is_cut_to_the_cell() {
+    let options = BuildOptions::DEFAULT;
+    let polygons = triangles(&mut Dice(12), 60, 30);
+    let scene = Divided::new(polygons.clone(), options, 5).unwrap();
+    let own = |tree: &BspTree| {
+        let mut own = fragments(tree, |polygon| polygon);
+        own.iter_mut()
+            .for_each(|(_, vertices)| vertices.sort_by_key(|v| v.to_array().map(f64::to_bits)));
+        own.sort_by_key(|(polygon, vertices)| (*polygon, vertices[0].to_array().map(f64::to_bits)));
+        own
+    };
+    for cell in 0..5 {
+        let mut tree = options.build_cell(&scene.partition, cell, &polygons[..40]).unwrap();
+        tree.extend(&polygons[40..]).unwrap();
+        tree.validate().unwrap();
+        let all = options.build_cell(&scene.partition, cell, &polygons).unwrap();
+        assert_eq!(own(&tree), own(&all));
+        assert_eq!(tree.preparation().dropped, all.preparation().dropped);
+    }
+}
+
+/// Two squares far apart in a corner of the extent: bounds that hold more.
+#[test]
+fn bounds_of_the_options_are_held_too() {
+    let square = |z: f64| -> Corners {
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()
+    };
+    let options = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::splat(100.0));
+    let scene = Divided::new(vec![square(0.0), square(1.0)], options, 2).unwrap();
+    let whole = options.build(&scene.polygons).unwrap();
+    assert_eq!(scene.cells[0].tree.grid(), whole.grid());
+    assert!(options.build_cell(&scene.partition, 1, [square(99.0)]).is_ok());
+}
+
+/// Meshes, boxes and hits of a cell are of what is in it.
+#[test]
+fn a_cell_is_a_tree_as_any_other() {
+    let terrain = scene::terrain(400, 3);
+    let polygons: Vec<Corners> = terrain.polygons().map(|p| p.to_vec()).collect();
+    let scene = Divided::new(polygons, BuildOptions::DEFAULT, 4).unwrap();
+    let whole = BspTree::build(terrain.polygons()).unwrap();
+    let (mut area, mut hits) = (0.0, [0; 2]);
+    for cell in &scene.cells {
+        let mesh = cell.tree.welded_mesh().unwrap();
+        let at: Vec<DVec3> = mesh.vertices().map(|vertex| vertex.position).collect();
+        for triangle in mesh.triangles().indices().chunks_exact(3) {
+            let [a, b, c] = [0, 1, 2].map(|k| at[triangle[k] as usize]);
+            area += (b - a).cross(c - a).length();
+        }
+    }
+    let expected: f64 = whole
+        .fragments()
+        .map(|fragment| {
+            let at: Vec<DVec3> = fragment.vertices().collect();
+            at.windows(2).map(|w| (w[0] - at[0]).cross(w[1] - at[0])).sum::<DVec3>().length()
+        })
+        .sum();
+    assert!((area - expected).abs() < 1e-9 * expected, "{area} {expected}");
+    let mut dice = Dice(8);
+    for _ in 0..200 {
+        let from = DVec3::new(dice.share() * 60.0, dice.share() * 60.0, 90.0);
+        let ray = binspace::Ray::new(from, DVec3::new(0.1, 0.05, -1.0));
+        let found = whole.hits(ray).count();
+        let in_cells: usize = scene.cells.iter().map(|cell| cell.tree.hits(ray).count()).sum();
+        assert_eq!(found, in_cells);
+        hits[usize::from(found > 0)] += 1;
+    }
+    assert!(hits[1] > 20, "{hits:?}");
+}

@@ -1,0 +1,113 @@
+//! Partitions and trees of cells in files.
+
+use binspace::{BspTree, BuildOptions, Partition};
+
+use crate::divided::{Divided, stars, tiles, triangles};
+use crate::support::dice::Dice;
+use crate::support::saved::{bytes, seal, use_all};
+use crate::support::snapshot::Snapshot;
+
+fn written(partition: &Partition) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    partition.write(&mut bytes).unwrap();
+    bytes
+}
+
+fn divided(seed: u64, cells: usize) -> Divided {
+    let mut dice = Dice(seed);
+    let mut polygons = triangles(&mut dice, 12, 20);
+    polygons.extend(tiles(&mut dice, 12));
+    polygons.extend(stars(&mut dice, 2));
+    Divided::new(polygons, BuildOptions::DEFAULT, cells).unwrap()
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    for cells in 1..8 {
+        let scene = divided(cells as u64, cells);
+        let file = written(&scene.partition);
+        assert_eq!(Partition::read(&file[..]).unwrap(), scene.partition);
+        // Something else may follow.
+        let mut rest = &[&file[..], b"more"].concat()[..];
+        assert!(Partition::read(&mut rest).is_ok() && rest == b"more");
+        for cell in &scene.cells {
+            let again = BspTree::read(&bytes(&cell.tree)[..]).unwrap();
+            assert_eq!(Snapshot::of(&again), Snapshot::of(&cell.tree));
+            again.validate().unwrap();
+            assert_eq!(again.preparation(), cell.tree.preparation());
+            use_all(&again).unwrap();
+        }
+    }
+}
+
+#[test]
+fn damaged_partitions_are_errors() {
+    let file = written(&divided(3, 5).partition);
+    for end in 0..file.len() {
+        assert!(Partition::read(&file[..end]).is_err());
+    }
+    for bit in 0..8 * file.len() {
+        let mut damaged = file.clone();
+        damaged[bit / 8] ^= 1 << (bit % 8);
+        assert!(Partition::read(&damaged[..]).is_err(), "bit {bit}");
+    }
+}
+
+/// Bytes of strangers, with a right checksum: what is read can be used.
+#[test]
+fn forged_partitions_are_errors_or_partitions() {
+    let scene = divided(4, 4);
+    let file = written(&scene.partition);
+    let mut read = [0; 2];
+    for at in 16..file.len() - 4 {
+        for value in [0, 1, 0x7f, 0xff] {
+            let mut forged = file.clone();
+            forged[at] = value;
+            seal(&mut forged);
+            let Ok(partition) = Partition::read(&forged[..]) else {
+                read[0] += 1;
+                continue;
+            };
+            read[1] += 1;
+            assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);
+            let mut reached = Vec::new();
+            let mut given = vec![vec![]; partition.cells()];
+            for polygon in &scene.polygons {
+                partition.reached_by(polygon, &mut reached);
+                reached.iter().for_each(|&cell| given[cell].push(polygon));
+            }
+            for (cell, polygons) in given.into_iter().enumerate() {
+                // The grid may be another, and the polygons beyond it.
+                if let Ok(tree) = BuildOptions::DEFAULT.build_cell(&partition, cell, polygons) {
+                    tree.validate().unwrap();
+                }
+                partition.bounds(cell);
+            }
+        }
+    }
+    assert!(read[0] > 50 && read[1] > 50, "{read:?}");
+}
+
+/// Trees of cells of strangers: whatever is read, nothing panics.
+#[test]
+fn forged_trees_of_cells_can_be_used() {
+    let scene = divided(5, 3);
+    let (mut dice, mut read) = (Dice(1), [0; 2]);
+    for cell in &scene.cells {
+        let file = bytes(&cell.tree);
+        for _ in 0..500 {
+            let mut forged = file.clone();
+            let at = 16 + dice.below(file.len() - 20);
+            forged[at] = if dice.below(2) == 0 { dice.below(256) as u8 } else { forged[at] ^ 1 };
+            seal(&mut forged);
+            match BspTree::read(&forged[..]) {
+                Ok(tree) => {
+                    use_all(&tree).unwrap();
+                    read[1] += 1;
+                }
+                Err(_) => read[0] += 1,
+            }
+        }
+    }
+    assert!(read[0] > 300 && read[1] > 50, "{read:?}");
+}
