@@ -5,6 +5,7 @@
 //! between it and the right end of its row, counted up or down. (The sum along a row is then what the cell
 //! covers; as in the rasterizers of fonts.) Time goes with the pixels that cells have.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use binspace::drawing::{Region, VisibilityMap};
@@ -20,9 +21,14 @@ const AT_ONCE: usize = 1 << 21;
 ///
 /// Colours are blended by their numbers, as viewers of vector pictures do, not by their light.
 pub(crate) fn picture(map: &VisibilityMap<'_>, rgb: impl Fn(usize) -> [u8; 3]) -> Vec<u8> {
+    let mut colours: HashMap<usize, [f64; 3]> = HashMap::new();
+    for cell in map.cells() {
+        let polygon = cell.polygon();
+        colours.entry(polygon).or_insert_with(|| rgb(polygon).map(f64::from));
+    }
     let add = |band: &mut Band| {
         for cell in map.cells() {
-            band.add(cell.corners().map(from_corner), rgb(cell.polygon()).map(f64::from));
+            band.add(cell.corners().map(from_corner), colours[&cell.polygon()]);
         }
     };
     pixels(map.size(), add)

@@ -4,11 +4,12 @@
 //! painted too; a piece of a translucent one, before or after each that shows there, as they lie. What is
 //! hidden by a third needs no order.
 
-use super::halving::{CUT, NARROWED, found_in};
+use super::halving::{CUT, VISITED, found_in};
 use super::lines::Lines;
 use super::pairs::{Found, Pair, add, sorted};
 use super::reaches::{Reach, Reaches};
-use super::region::{Region, are_apart};
+use super::rect::{NOWHERE, Rect, are_apart};
+use super::reporter::each;
 use super::rims::Rims;
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
@@ -17,7 +18,7 @@ use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 
 /// Leaves with the opaque faces that may reach into them, and the translucent items.
-struct Entry<'l> {
+struct LeafReaches<'l> {
     leaves: &'l [Leaf],
     reaches: Reaches,
     translucent: Reaches,
@@ -34,28 +35,36 @@ pub(super) fn pairs<'l>(
 ) -> Result<Vec<Pair>, Error> {
     let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
     let shows = |face: &u32| place(*face) != u32::MAX;
-    for face in (0..stock.views.len() as u32).filter(shows) {
+    for face in each(watch, 2, 0..stock.views.len() as u32) {
+        let face = face?;
+        if !shows(&face) {
+            continue;
+        }
         if stock.views[face as usize].is_opaque {
             reaches.push(face, rims.known_outline(face))?;
         }
     }
-    for item in 0..stock.items.len() as u32 {
+    for item in each(watch, 2, 0..stock.items.len() as u32) {
+        let item = item?;
         if !stock.is_opaque(item) && shows(&stock.face(item)) {
             translucent.push(item, rims.known_item(stock, item))?;
         }
     }
-    let halves = |entry: &Entry<'l>, _: &mut Found| {
-        watch.work((entry.reaches.list.len() + entry.translucent.list.len()) * NARROWED)?;
-        entry.halves(stock, &rims.lines)
-    };
-    let leaf = |entry: &Entry<'l>, found: &mut Found| entry.leaf(stock, rims, place, found, watch);
-    let all = Entry { leaves, reaches, translucent };
-    sorted(found_in(all, Found::default, halves, leaf, watch)?)
+    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(stock, &rims.lines, watch);
+    let leaf =
+        |part: &LeafReaches<'l>, found: &mut Found| part.leaf(stock, rims, place, found, watch);
+    let all = LeafReaches { leaves, reaches, translucent };
+    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
-impl<'l> Entry<'l> {
+impl<'l> LeafReaches<'l> {
     /// The first and the second half of the leaves; `None` of a single one.
-    fn halves(&self, stock: &Stock<'_>, lines: &Lines<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
             return Ok(None);
         }
@@ -64,8 +73,8 @@ impl<'l> Entry<'l> {
             let region = region(leaves);
             let of_face = |face: u32| stock.views[face as usize].region;
             let of_item = |item: u32| stock.items[item as usize].region;
-            let reaches = self.reaches.narrowed(lines, &region, of_face)?;
-            let translucent = self.translucent.narrowed(lines, &region, of_item)?;
+            let reaches = self.reaches.narrowed(lines, &region, of_face, watch)?;
+            let translucent = self.translucent.narrowed(lines, &region, of_item, watch)?;
             Ok(Self { leaves, reaches, translucent })
         };
         Ok(Some([part(first)?, part(second)?]))
@@ -84,8 +93,11 @@ impl<'l> Entry<'l> {
         // Nothing opaque shows above a face of which all shows that is in the tile.
         let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
         let mut whole: Vec<u32> = Vec::new();
-        for visible in cells().filter(|visible| is_whole(stock, rims, visible)) {
-            push(&mut whole, stock.face(visible.item))?;
+        for visible in each(watch, VISITED, cells()) {
+            let visible = visible?;
+            if is_whole(stock, rims, visible) {
+                push(&mut whole, stock.face(visible.item))?;
+            }
         }
         whole.sort_unstable();
         let mut below: Vec<Reach> = Vec::new();
@@ -100,10 +112,10 @@ impl<'l> Entry<'l> {
             if !stock.is_opaque(*item) {
                 continue;
             }
-            watch.work(below.len() * CUT)?;
             let above = place(stock.face(*item));
             let around = cell.region();
-            for reach in &below {
+            for reach in each(watch, CUT, &below) {
+                let reach = reach?;
                 let pair = Pair { below: place(reach.number), above };
                 let is_apart = are_apart(&around, &stock.views[reach.number as usize].region);
                 if is_apart || pair.below == above || found.contains(&pair) {
@@ -128,11 +140,11 @@ impl<'l> Entry<'l> {
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        watch.work(self.translucent.list.len() * CUT)?;
         let (face, is_opaque) = (stock.face(item), stock.is_opaque(item));
         let own = if is_opaque { place(face) } else { item };
         let around = cell.region();
-        for reach in &self.translucent.list {
+        for reach in each(watch, CUT, &self.translucent.list) {
+            let reach = reach?;
             let other = reach.number;
             let pair = match other < item {
                 true => Pair { below: own, above: other },
@@ -160,9 +172,8 @@ fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> bool {
 }
 
 /// The box around leaves.
-pub(super) fn region(leaves: &[Leaf]) -> Region {
-    let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    leaves.iter().fold(none, |[low, high], leaf| {
+pub(super) fn region(leaves: &[Leaf]) -> Rect {
+    leaves.iter().fold(NOWHERE, |[low, high], leaf| {
         let [from, to] = leaf.tile.sides();
         let axes = [0, 1];
         [axes.map(|i: usize| low[i].min(from[i])), axes.map(|i: usize| high[i].max(to[i]))]

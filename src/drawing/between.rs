@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::edges::SHORTEST;
+use super::halving::VISITED;
 use super::overlaid::{LineRun, Overlaid, sights, spots};
 use super::passes::{Pass, Passing, Pieces, passes};
 use super::reaches::Reaches;
+use super::reporter::{each, sort_by};
 use super::rims::Rims;
 use super::stock::Stock;
 use crate::Error;
@@ -16,7 +18,7 @@ use crate::overlay::Overlay;
 /// The path of what is not in the picture.
 pub(super) const NO_PATH: u32 = u32::MAX;
 
-/// The lines and points of an overlay, each with how many of the paths come before it, in order. `path_of`
+/// The lines and points of an overlay, each with how many of the paths come before it, in order: a phase. `path_of`
 /// has the path of each item.
 pub(super) fn between(
     stock: &Stock<'_>,
@@ -24,37 +26,42 @@ pub(super) fn between(
     path_of: &[u32],
     paths: u32,
     overlay: &Overlay,
+    watch: &Watch<'_>,
 ) -> Result<Vec<(u32, Overlaid)>, Error> {
-    let (segments, sights) = sights(&rims.lines, overlay)?;
-    let (markers, spots) = spots(&rims.lines, overlay)?;
+    let (segments, sights) = sights(&rims.lines, overlay, watch)?;
+    let (markers, spots) = spots(&rims.lines, overlay, watch)?;
     let mut reaches = Reaches::default();
-    for item in (0..stock.items.len() as u32).filter(|&item| path_of[item as usize] != NO_PATH) {
-        reaches.push(item, rims.known_item(stock, item))?;
+    for item in each(watch, VISITED, 0..stock.items.len() as u32) {
+        let item = item?;
+        if path_of[item as usize] != NO_PATH {
+            reaches.push(item, rims.known_item(stock, item))?;
+        }
     }
     let face = |item: u32| stock.face(item);
     let around = |item: u32| stock.items[item as usize].region;
     let pieces = Pieces { lines: &rims.lines, reaches, face: &face, around: &around };
     let passing = Passing { sights: &sights, spots: &spots };
-    let mut found = passes(pieces, passing, |_| true, &Watch::default())?;
-    found.sights.sort_unstable_by_key(|pass| pass.sight);
+    let mut found = passes(pieces, passing, |_| true, watch)?;
+    sort_by(&mut found.sights, watch, |a, b| a.sight.cmp(&b.sight))?;
     let mut rest = &found.sights[..];
     let mut overlaid = Vec::new();
     for (number, (segment, sight)) in (0..).zip(segments.iter().zip(&sights)) {
         let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
         rest = others;
-        for (below, places) in in_order(sight.places, own, path_of, paths)? {
+        for (below, places) in in_order(sight.places, own, path_of, paths, watch)? {
             let run = LineRun::new(segment, places.map(|place| sight.at(place)), true);
             push(&mut overlaid, (below, Overlaid::Line(run)))?;
         }
     }
     let mut room = vec![Room::of(paths); spots.len()];
-    for pass in &found.spots {
+    for pass in each(watch, 1, &found.spots) {
+        let pass = pass?;
         room[pass.spot as usize].narrow(path_of[pass.piece as usize], pass.is_behind);
     }
     for (marker, room) in markers.into_iter().zip(room) {
         push(&mut overlaid, (room.last(), Overlaid::Marker(marker)))?;
     }
-    overlaid.sort_by_key(|&(below, _)| below);
+    sort_by(&mut overlaid, watch, |(a, _), (b, _)| a.cmp(b))?;
     Ok(overlaid)
 }
 
@@ -94,6 +101,7 @@ fn in_order(
     passes: &[Pass],
     path_of: &[u32],
     paths: u32,
+    watch: &Watch<'_>,
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
     // Where each pass begins and ends.
     let mut events = Vec::new();
@@ -103,14 +111,15 @@ fn in_order(
             push(&mut events, (place, (pass.is_behind, path), change))?;
         }
     }
-    events.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut events, watch, |a, b| a.0.total_cmp(&b.0))?;
     // How many passes of each path there are, those before it and those behind it.
     let mut passed: BTreeMap<(bool, u32), i32> = BTreeMap::new();
     let mut parts = Vec::new();
     let [mut start, mut done] = [places[0]; 2];
     let mut room = Room::of(paths);
     let ends = events.iter().map(|event| event.0.clamp(places[0], places[1]));
-    for (i, to) in ends.chain([places[1]]).enumerate() {
+    for numbered in each(watch, 2 * VISITED, ends.chain([places[1]]).enumerate()) {
+        let (i, to) = numbered?;
         if to - done >= SHORTEST {
             let mut next = Room::of(paths);
             let before = passed.range(..(true, 0)).next_back();

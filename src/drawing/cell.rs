@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::half::Half;
 use super::lines::Lines;
-use super::region::Region;
+use super::rect::{NOWHERE, Rect};
 use crate::Error;
 use crate::memory::reserve;
 
@@ -116,8 +116,8 @@ impl Cell {
     }
 
     /// A box around it.
-    pub(super) fn region(&self) -> Region {
-        let mut region = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    pub(super) fn region(&self) -> Rect {
+        let mut region = NOWHERE;
         for Corner { at, radius } in self.sides.iter().map(|side| side.start) {
             for axis in 0..2 {
                 region[0][axis] = region[0][axis].min(at[axis] - radius);

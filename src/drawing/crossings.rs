@@ -1,14 +1,18 @@
 //! Lines in which polygons go through one another.
 
+use super::cell::Cell;
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::feet::Feet;
 use super::frame::is_same_line;
 use super::half::Half;
+use super::halving::VISITED;
 use super::lines::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
+use super::reporter::{each, sort_by};
 use super::table::{Table, insert};
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::exact::PlaneId;
 use crate::memory::push;
 
@@ -22,6 +26,15 @@ struct CutSide {
     /// Where it begins and ends along the line, and in the picture.
     places: [f64; 2],
     ends: [[f64; 2]; 2],
+}
+
+/// What two such sides have in common: a part of a crossing that shows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CommonSide {
+    line: u32,
+    /// The lower number first.
+    pub(super) faces: [u32; 2],
+    pub(super) ends: [[f64; 2]; 2],
 }
 
 /// Whether two faces go through one another in a line: by the line and the faces.
@@ -39,38 +52,55 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn crossings(&self) -> Result<Vec<EdgeRun>, Error> {
-        let mut sides = self.cut_sides()?;
-        sides
-            .sort_unstable_by(|a, b| a.line.cmp(&b.line).then(a.places[0].total_cmp(&b.places[0])));
-        let mut runs = Vec::new();
+        self.reporter.watch(2, |watch| {
+            let common = self.common_sides(watch)?;
+            let mut runs = Vec::new();
+            for line in common.chunk_by(|a, b| a.line == b.line) {
+                let first = runs.len();
+                for side in each(watch, VISITED, line) {
+                    push(&mut runs, self.run(side?))?;
+                }
+                merge(&mut runs, first, watch)?;
+            }
+            runs.retain(|run| distance(run.ends[0], run.ends[1]) >= SHORTEST);
+            sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
+            Ok(runs)
+        })
+    }
+
+    /// What sides of cells have in common that lie on either side of a line in which their faces go through one
+    /// another, line by line: two phases.
+    pub(super) fn common_sides(&self, watch: &Watch<'_>) -> Result<Vec<CommonSide>, Error> {
+        let mut sides = self.cut_sides(watch)?;
+        sort_by(&mut sides, watch, |a, b| {
+            a.line.cmp(&b.line).then(a.places[0].total_cmp(&b.places[0]))
+        })?;
+        let mut common = Vec::new();
         let mut are_crossing = Known::default();
         for line in sides.chunk_by(|a, b| a.line == b.line) {
-            let first = runs.len();
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
-                for b in ahead.filter(|b| b.is_negative != a.is_negative) {
-                    if self.do_cross(a, b, &mut are_crossing)? {
-                        push(&mut runs, self.common([a, b]))?;
+                for b in each(watch, VISITED, ahead) {
+                    let b = b?;
+                    if b.is_negative != a.is_negative && self.do_cross(a, b, &mut are_crossing)? {
+                        push(&mut common, CommonSide::new([a, b]))?;
                     }
                 }
             }
-            merge(&mut runs, first);
         }
-        runs.retain(|run| distance(run.ends[0], run.ends[1]) >= SHORTEST);
-        runs.sort_by_key(|run| run.polygon);
-        Ok(runs)
+        Ok(common)
     }
 
     /// All sides of cells on lines of cuts, whatever made them: several planes may have cut along one line, and
     /// what is beyond a border of a tile or a third polygon's edge was not cut again.
-    fn cut_sides(&self) -> Result<Vec<CutSide>, Error> {
+    fn cut_sides(&self, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let lines = &self.rims.lines;
         // The first of the cuts that have the same line, and whether both are positive on the same side.
         let mut known: Table<u64, Option<(u32, bool)>> = Table::default();
         let mut cuts = Feet::default();
-        self.for_each_part(|_, cell| {
+        let add_cuts = |_: u32, cell: &Cell| {
             for half in cell.sides.iter().map(|side| side.half) {
                 let Some(line) = half.number() else { continue };
                 if !matches!(lines.key(line), Key::Cut(..)) || known.contains_key(&half.line()) {
@@ -83,9 +113,10 @@ impl VisibilityMap<'_> {
                 insert(&mut known, half.line(), Some(found.unwrap_or((line, true))))?;
             }
             Ok(())
-        })?;
+        };
+        self.for_each_part(add_cuts, watch)?;
         let mut found = Vec::new();
-        self.for_each_part(|item, cell| {
+        let add_sides = |item: u32, cell: &Cell| {
             let face = self.stock.face(item);
             let (own, sides) = (self.rims.known_outline(face), &cell.sides);
             for (i, side) in sides.iter().enumerate() {
@@ -111,7 +142,8 @@ impl VisibilityMap<'_> {
                 )?;
             }
             Ok(())
-        })?;
+        };
+        self.for_each_part(add_sides, watch)?;
         Ok(found)
     }
 
@@ -150,16 +182,19 @@ impl VisibilityMap<'_> {
         }))
     }
 
-    /// What two sides have in common.
-    fn common(&self, sides: [&CutSide; 2]) -> EdgeRun {
-        let polygon = |border: &CutSide| self.stock.frame.faces.polygon(border.face);
-        let [a, b] = sides.map(polygon);
-        let [first, second] = sides;
-        let start = if first.places[0] > second.places[0] { first } else { second }.ends[0];
-        let end = if first.places[1] < second.places[1] { first } else { second }.ends[1];
-        let kind = EdgeKind::Crossing(a.max(b));
-        let (polygon, ends) = (a.min(b), [start, end]);
-        EdgeRun { polygon, edge: None, kind, ends, is_visible: true, layers: None }
+    fn run(&self, side: &CommonSide) -> EdgeRun {
+        let [a, b] = side.faces.map(|face| self.stock.frame.faces.polygon(face));
+        let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
+        EdgeRun { polygon, edge: None, kind, ends: side.ends, is_visible: true, layers: None }
+    }
+}
+
+impl CommonSide {
+    fn new([a, b]: [&CutSide; 2]) -> Self {
+        let start = if a.places[0] > b.places[0] { a } else { b }.ends[0];
+        let end = if a.places[1] < b.places[1] { a } else { b }.ends[1];
+        let faces = [a.face.min(b.face), a.face.max(b.face)];
+        Self { line: a.line, faces, ends: [start, end] }
     }
 }
 
@@ -171,31 +206,30 @@ fn gap(before: &EdgeRun, run: &EdgeRun) -> f64 {
 
 /// Joins runs of the same polygons, from the `first` on, where one begins where another ends or before: they are
 /// on one line, in its direction. (Runs of two translucent polygons are found from either side.)
-fn merge(runs: &mut Vec<EdgeRun>, first: usize) {
+fn merge(runs: &mut Vec<EdgeRun>, first: usize, watch: &Watch<'_>) -> Result<(), Error> {
     let other = |run: &EdgeRun| match run.kind {
         EdgeKind::Crossing(other) => other,
         _ => 0,
     };
     // Stable: runs of one pair stay in their order along the line.
-    runs[first..].sort_by_key(|run| (run.polygon, other(run)));
-    let mut kept = first;
-    for next in first..runs.len() {
-        let run = runs[next];
-        let goes_on = kept > first && {
-            let before = &runs[kept - 1];
+    let mut rest = runs.split_off(first);
+    let key = |run: &EdgeRun| (run.polygon, other(run));
+    sort_by(&mut rest, watch, |a, b| key(a).cmp(&key(b)))?;
+    for run in each(watch, 1, rest) {
+        let run = run?;
+        let goes_on = |before: &&mut EdgeRun| {
             (before.polygon, before.kind) == (run.polygon, run.kind)
                 && gap(before, &run) <= SHORTEST
         };
-        if goes_on {
-            let before = &mut runs[kept - 1];
-            let [start, end] = [before.ends[1], run.ends[1]];
-            if distance(before.ends[0], end) > distance(before.ends[0], start) {
-                before.ends[1] = end;
+        match runs[first..].last_mut().filter(goes_on) {
+            Some(before) => {
+                let [start, end] = [before.ends[1], run.ends[1]];
+                if distance(before.ends[0], end) > distance(before.ends[0], start) {
+                    before.ends[1] = end;
+                }
             }
-        } else {
-            runs[kept] = run;
-            kept += 1;
+            None => push(runs, run)?,
         }
     }
-    runs.truncate(kept);
+    Ok(())
 }

@@ -2,15 +2,18 @@
 
 use std::cmp::Ordering;
 
-use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::halving::VISITED;
 use super::map::VisibilityMap;
+use super::reporter::{each, finish_item, sort_by};
+use super::shared_edges::{Numbers, SharedEdge, shared_edges};
+use super::sight::Sight;
 use super::table::Table;
 use super::visible::Visible;
 use crate::Error;
-use crate::exact::{Faces, PlaneId};
-use crate::memory::reserve;
+use crate::build::progress::Watch;
+use crate::memory::{push, reserve};
 
 /// What a line is in a drawing of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +41,8 @@ pub struct EdgeRun {
     pub edge: Option<u32>,
     /// What the line is.
     pub kind: EdgeKind,
-    /// Where the run begins and ends in the picture, in pixels from the centre of the first one.
+    /// Where the run begins and ends in the picture, in pixels from the centre of the first one: in the direction
+    /// in which the polygon runs along the edge.
     pub ends: [[f64; 2]; 2],
     /// Whether it shows.
     pub is_visible: bool,
@@ -50,21 +54,17 @@ pub struct EdgeRun {
 /// Runs and gaps shorter than this, in pixels, are what rounding has left.
 pub(super) const SHORTEST: f64 = 1e-6;
 
-/// The number of an edge, by a face and which of its edges it is.
-type Numbers = Table<(u32, u32), u32>;
-
-/// An edge, by the faces that have it.
-#[derive(Debug, Default)]
-struct Shared {
-    /// Faces, and which of their edges it is.
-    faces: SmallVec<[(u32, u32); 2]>,
-    /// Where it shows: from one end to the other, in pixels from its beginning in the picture.
-    visible: Vec<[f64; 2]>,
+/// Edges with the runs of those that a polygon shows.
+pub(super) struct Runs {
+    pub(super) edges: Vec<SharedEdge>,
+    /// Each with the number of its edge.
+    pub(super) list: Vec<(EdgeRun, u32)>,
 }
 
 impl VisibilityMap<'_> {
     /// All edges of polygons that show a side to the camera, as far as they are in the picture, in runs
-    /// that are visible or hidden. Runs of one polygon follow one another.
+    /// that are visible or hidden. Runs of one polygon follow one another, and those of an edge from its
+    /// beginning to its end.
     ///
     /// What is visible is read off the map, so it is as exact: only the ends of runs are rounded. An edge
     /// is hidden by what lies before it, not by the polygons that have it. Polygons have an edge in common
@@ -77,65 +77,79 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn edges(&self) -> Result<Vec<EdgeRun>, Error> {
-        let faces = self.stock.frame.faces;
-        let (mut all, numbers) = shared(faces, |face| self.stock.opacity(face) > 0.0)?;
-        let starts = self.starts(&all);
-        self.collect(&mut all, &numbers, &starts)?;
+        self.reporter.watch(2, |watch| {
+            let list = self.edge_runs(watch)?.list;
+            let mut runs = Vec::new();
+            reserve(&mut runs, list.len())?;
+            for run in each(watch, 1, list) {
+                runs.push(run?.0);
+            }
+            Ok(runs)
+        })
+    }
+
+    /// The runs of all edges: two phases.
+    pub(super) fn edge_runs(&self, watch: &Watch<'_>) -> Result<Runs, Error> {
+        let is_drawn = |face| self.stock.opacity(face) > 0.0;
+        let (mut edges, numbers) = shared_edges(&self.rims.lines, is_drawn, watch)?;
+        self.collect(&mut edges, &numbers, watch)?;
         let mut views = Views { map: self, sides: Table::default() };
-        let mut runs = Vec::new();
-        for (edge, start) in all.iter_mut().zip(&starts) {
-            let Some(start) = start else { continue };
-            views.runs(edge, start, &mut runs)?;
+        let (mut list, count) = (Vec::new(), edges.len());
+        reserve(&mut list, count)?;
+        for numbered in each(watch, VISITED, edges.iter_mut().enumerate()) {
+            let (number, edge) = numbered?;
+            if let Some(sight) = edge.sight {
+                let first = list.len();
+                sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
+                views.runs(edge, &sight, |run| push(&mut list, (run, number as u32)))?;
+                watch.work((list.len() - first) * VISITED)?;
+            }
+            finish_item(watch, number, count);
         }
-        runs.sort_by_key(|run| (run.polygon, run.edge));
-        Ok(runs)
+        sort_by(&mut list, watch, |(a, _), (b, _)| (a.polygon, a.edge).cmp(&(b.polygon, b.edge)))?;
+        Ok(Runs { edges, list })
     }
 
-    /// Where each edge begins in the picture, its direction, and its length; `None` if it is not in it.
-    fn starts(&self, all: &[Shared]) -> Vec<Option<Span>> {
-        let frame = &self.stock.frame;
-        let span = |edge: &Shared| {
-            let &(face, k) = edge.faces.first()?;
-            let ends = ends_of(frame.faces, face, k).map(|corner| frame.rays.project(corner));
-            Span::of(ends, self.size())
-        };
-        all.iter().map(span).collect()
-    }
-
-    /// Adds to each edge where it shows.
+    /// Adds to each edge where it shows: a phase.
     fn collect(
         &self,
-        all: &mut [Shared],
+        all: &mut [SharedEdge],
         numbers: &Numbers,
-        starts: &[Option<Span>],
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let stock = &self.stock;
         // Which edges of a face lie on a line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
         let faces = stock.frame.faces;
-        for face in 0..faces.len() as u32 {
+        for face in each(watch, VISITED, 0..faces.len() as u32) {
+            let face = face?;
             // Faces of polygons that do not show have no lines.
             let corners = 0..faces.corners(face).len() as u32;
             for (k, half) in corners.zip(self.rims.known_outline(face)) {
+                watch.work(VISITED)?;
                 if numbers.contains_key(&(face, k)) {
                     edges.try_reserve(1).map_err(|_| Error::out_of_memory())?;
                     edges.entry((face, half.line())).or_default().push(k);
                 }
             }
         }
-        for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let face = stock.face(*item);
-            for (i, side) in cell.sides.iter().enumerate() {
-                let end = cell.sides[if i + 1 == cell.sides.len() { 0 } else { i + 1 }].start;
-                for &k in edges.get(&(face, side.half.line())).into_iter().flatten() {
-                    let Some(&number) = numbers.get(&(face, k)) else { continue };
-                    let Some(span) = &starts[number as usize] else { continue };
-                    let [a, b] = [side.start.at, end.at].map(|point| span.place(point));
-                    let visible = &mut all[number as usize].visible;
-                    reserve(visible, 1)?;
-                    visible.push([a.min(b), a.max(b)]);
+        let count = self.leaves.len();
+        for (i, leaf) in self.leaves.iter().enumerate() {
+            finish_item(watch, i, count);
+            for visible in each(watch, SIDES, &leaf.cells) {
+                let Visible { item, cell } = visible?;
+                let face = stock.face(*item);
+                for (i, side) in cell.sides.iter().enumerate() {
+                    let end = cell.sides[if i + 1 == cell.sides.len() { 0 } else { i + 1 }].start;
+                    for &k in edges.get(&(face, side.half.line())).into_iter().flatten() {
+                        let Some(&number) = numbers.get(&(face, k)) else { continue };
+                        let edge = &mut all[number as usize];
+                        let Some(sight) = &edge.sight else { continue };
+                        let [a, b] = [side.start.at, end.at].map(|point| sight.place_on(point));
+                        push(&mut edge.visible, [a.min(b), a.max(b)])?;
+                    }
                 }
             }
         }
@@ -143,99 +157,8 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// All edges of faces that are drawn, and the number of each by face and edge of it.
-fn shared(faces: &Faces, is_drawn: impl Fn(u32) -> bool) -> Result<(Vec<Shared>, Numbers), Error> {
-    let mut points: Table<[u64; 3], u32> = Table::default();
-    let mut point = |corner: usize| -> Result<u32, Error> {
-        let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
-        points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        let next = points.len() as u32;
-        Ok(*points.entry(place).or_insert(next))
-    };
-    let mut by_points: Table<[u32; 2], u32> = Table::default();
-    let mut numbers = Numbers::default();
-    let mut all: Vec<Shared> = Vec::new();
-    for face in (0..faces.len() as u32).filter(|&face| is_drawn(face)) {
-        let range = faces.corner_range(face);
-        for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
-            if faces.outline_edge(face, k as u32).is_none() {
-                continue;
-            }
-            let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
-            let [a, b] = [point(range.start + k)?, point(next)?];
-            for table in [by_points.try_reserve(1), numbers.try_reserve(1)] {
-                table.map_err(|_| Error::out_of_memory())?;
-            }
-            let number = *by_points.entry([a.min(b), a.max(b)]).or_insert(all.len() as u32);
-            if number as usize == all.len() {
-                reserve(&mut all, 1)?;
-                all.push(Shared::default());
-            }
-            all[number as usize].faces.push((face, k as u32));
-            numbers.insert((face, k as u32), number);
-        }
-    }
-    Ok((all, numbers))
-}
-
-pub(super) fn ends_of(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
-    let corners = faces.corners(face);
-    let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
-    [corners[k as usize], corners[next]]
-}
-
-/// An edge in the picture.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    from: [f64; 2],
-    /// Of length 1.
-    direction: [f64; 2],
-    length: f64,
-}
-
-impl Span {
-    /// The part in the picture of the line between two points in homogeneous coordinates.
-    fn of(ends: [[f64; 3]; 2], size: [u32; 2]) -> Option<Self> {
-        let [width, height] = size.map(f64::from);
-        // What is positive in the picture, and ahead of the eye.
-        let inside = |[x, y, z]: [f64; 3]| {
-            [z, x + 0.5 * z, (width - 0.5) * z - x, y + 0.5 * z, (height - 0.5) * z - y]
-        };
-        let (mut first, mut last) = (0.0f64, 1.0f64);
-        for (a, b) in inside(ends[0]).into_iter().zip(inside(ends[1])) {
-            if a <= 0.0 && b <= 0.0 {
-                return None;
-            }
-            let share = a / (a - b);
-            if a < 0.0 {
-                first = first.max(share);
-            } else if b < 0.0 {
-                last = last.min(share);
-            }
-        }
-        let point = |share: f64| {
-            let at = |i: usize| ends[0][i] + (ends[1][i] - ends[0][i]) * share;
-            [at(0) / at(2), at(1) / at(2)]
-        };
-        let [from, to] = [point(first), point(last)];
-        let way = [to[0] - from[0], to[1] - from[1]];
-        let length = way[0].hypot(way[1]);
-        if first > last || !length.is_finite() || length < SHORTEST {
-            return None;
-        }
-        Some(Self { from, direction: way.map(|c| c / length), length })
-    }
-
-    /// How far along a point is.
-    fn place(&self, point: [f64; 2]) -> f64 {
-        let along = |i: usize| (point[i] - self.from[i]) * self.direction[i];
-        (along(0) + along(1)).clamp(0.0, self.length)
-    }
-
-    fn at(&self, place: f64) -> [f64; 2] {
-        [0, 1].map(|i: usize| self.from[i] + self.direction[i] * place)
-    }
-}
+/// To look at the sides of a cell takes as long as a build takes to examine so many pieces.
+const SIDES: usize = 16;
 
 /// From which sides faces are seen.
 struct Views<'m> {
@@ -249,12 +172,13 @@ impl Views<'_> {
         *self.sides.entry(face).or_insert_with(|| frame.seen_side(face))
     }
 
-    /// The runs of an edge, unless no polygon shows a side there.
+    /// Gives the runs of an edge, in the direction of that of its faces which they are told of, unless no
+    /// polygon shows a side there.
     fn runs(
         &mut self,
-        edge: &mut Shared,
-        span: &Span,
-        runs: &mut Vec<EdgeRun>,
+        edge: &SharedEdge,
+        sight: &Sight,
+        give: impl FnMut(EdgeRun) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let fronts_only = self.map.stock.frame.rays.is_front_only();
         let sides: SmallVec<[Ordering; 2]> =
@@ -264,48 +188,30 @@ impl Views<'_> {
         let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return Ok(()) };
         let faces = self.map.stock.frame.faces;
         let (face, k) = edge.faces[owner];
-        let kind = kind(faces, edge, &sides);
-        let polygon = faces.polygon(face);
+        let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
         let number = Some(faces.outline_edge(face, k).unwrap_or(k));
+        let mut runs: SmallVec<[EdgeRun; 4]> = SmallVec::new();
         let mut add = |from: f64, to: f64, is_visible: bool| {
-            if to - from < SHORTEST {
-                return Ok(());
+            if to - from >= SHORTEST {
+                let ends = [sight.at(from), sight.at(to)];
+                runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
             }
-            let ends = [span.at(from), span.at(to)];
-            reserve(runs, 1)?;
-            runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
-            Ok::<(), Error>(())
         };
-        edge.visible.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut done = 0.0;
+        let [mut done, end] = sight.places;
         let mut parts = edge.visible.iter().copied().peekable();
         while let Some([from, mut to]) = parts.next() {
             while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
                 to = to.max(next[1]);
             }
-            add(done, from, false)?;
-            add(from, to, true)?;
+            add(done, from, false);
+            add(from, to, true);
             done = to;
         }
-        add(done, span.length, false)
+        add(done, end, false);
+        if edge.is_turned(faces, 0, owner) {
+            runs.reverse();
+            runs.iter_mut().for_each(|run| run.ends.swap(0, 1));
+        }
+        runs.into_iter().try_for_each(give)
     }
-}
-
-/// What an edge is, by its faces and the sides that they show.
-fn kind(faces: &Faces, edge: &Shared, sides: &[Ordering]) -> EdgeKind {
-    let &[(one, k), (other, l)] = &edge.faces[..] else { return EdgeKind::Border };
-    let from = |face: u32, k: u32| faces.given_corner(faces.corner_range(face).start as u32 + k);
-    // Where two polygons have their fronts on one side, they run along the edge in opposite ways.
-    let is_turned = from(one, k) == from(other, l);
-    let second = if is_turned { sides[1].reverse() } else { sides[1] };
-    if sides[0] != second || sides[0].is_eq() {
-        return EdgeKind::Silhouette;
-    }
-    let normal = |face: u32| {
-        let normal = faces.plane(PlaneId::face(face)).normal_f64();
-        (normal / normal.abs().max_element()).normalize_or_zero()
-    };
-    let (a, b): (DVec3, DVec3) = (normal(one), normal(other));
-    let b = if is_turned { -b } else { b };
-    EdgeKind::Crease(a.cross(b).length().atan2(a.dot(b)))
 }

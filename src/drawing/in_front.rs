@@ -2,45 +2,42 @@
 //!
 //! (A. Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.)
 
-use super::edges::{EdgeRun, SHORTEST, ends_of};
+use super::edges::{EdgeRun, Runs, SHORTEST};
+use super::halving::{LINES, VISITED};
 use super::map::VisibilityMap;
 use super::overlaid::{LineRun, sights};
-use super::passes::{Passing, Pieces, passes};
+use super::passes::{Pass, Passing, Pieces, passes};
 use super::reaches::Reaches;
+use super::reporter::{each, finish_item, sort_by};
 use super::rims::Rims;
 use super::sight::Sight;
-use super::table::{Table, insert};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{push, reserve};
+use crate::memory::{collect, push};
 use crate::overlay::Overlay;
+
+/// The place of what has no hidden runs.
+const NONE: u32 = u32::MAX;
 
 /// Both ends of a run.
 type Ends = [[f64; 2]; 2];
 
-/// A segment with hidden parts.
-struct Hidden {
-    sight: Sight,
-    /// A face whose edge it is, which does not count; `u32::MAX` if it is none.
-    own: u32,
-}
-
 /// From a place of a segment on, so many polygons are in front of it.
 #[derive(Clone, Copy, Debug)]
-struct Step {
+pub(super) struct Step {
     from: f64,
     layers: u32,
 }
 
 /// The steps of several segments, and where those of each begin: before its first, nothing is in front.
 #[derive(Default)]
-struct Steps {
+pub(super) struct Steps {
     steps: Vec<Step>,
     begins: Vec<usize>,
 }
 
 impl Steps {
-    fn of(&self, segment: usize) -> &[Step] {
+    pub(super) fn of(&self, segment: usize) -> &[Step] {
         &self.steps[self.begins[segment]..self.begins[segment + 1]]
     }
 }
@@ -55,43 +52,38 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
-        let runs = self.edges()?;
-        let faces = self.stock.frame.faces;
-        let mut of_edge: Table<(u32, u32), (u32, u32)> = Table::default();
-        for face in 0..faces.len() as u32 {
-            for k in 0..faces.corners(face).len() as u32 {
-                if let Some(edge) = faces.outline_edge(face, k) {
-                    insert(&mut of_edge, (faces.polygon(face) as u32, edge), (face, k))?;
+        self.reporter.watch(4, |watch| {
+            let Runs { edges, list } = self.edge_runs(watch)?;
+            // The edges with hidden runs, and the number of each among these.
+            let (mut hidden, mut sights) = (Vec::new(), Vec::new());
+            let mut places: Vec<u32> = collect(edges.iter().map(|_| NONE))?;
+            for run in each(watch, VISITED, &list) {
+                let (run, number) = run?;
+                let (edge, place) = (&edges[*number as usize], &mut places[*number as usize]);
+                if let (false, NONE, Some(sight)) = (run.is_visible, *place, edge.sight) {
+                    *place = hidden.len() as u32;
+                    push(&mut hidden, *number)?;
+                    push(&mut sights, sight)?;
                 }
             }
-        }
-        let edges = || runs.chunk_by(|a, b| (a.polygon, a.edge) == (b.polygon, b.edge));
-        let (mut all, mut numbers) = (Vec::new(), Vec::new());
-        for runs in edges() {
-            let edge = (runs[0].polygon as u32, runs[0].edge.unwrap_or_default());
-            let is_hidden = runs.iter().any(|run| !run.is_visible);
-            let found = of_edge.get(&edge).filter(|_| is_hidden);
-            let hidden = found.and_then(|&(own, k)| {
-                let sight = Sight::new(&self.rims.lines, ends_of(faces, own, k))?;
-                Some(Hidden { sight, own })
-            });
-            push(&mut numbers, hidden.is_some().then_some(all.len()))?;
-            reserve(&mut all, 1)?;
-            all.extend(hidden);
-        }
-        let steps = self.steps(&all)?;
-        let mut layered = Vec::new();
-        for (runs, number) in edges().zip(numbers) {
-            for run in runs {
-                let steps = number.map(|number| (&all[number].sight, steps.of(number)));
-                for (ends, layers) in in_layers(run.ends, run.is_visible, steps)? {
+            let is_own = |sight: u32, face: u32| {
+                let edge = &edges[hidden[sight as usize] as usize];
+                edge.faces.iter().any(|&(own, _)| own == face)
+            };
+            let steps = self.steps(&sights, is_own, watch)?;
+            let mut layered = Vec::new();
+            for run in each(watch, VISITED, &list) {
+                let (run, number) = run?;
+                let place = places[*number as usize] as usize;
+                let known = sights.get(place).map(|sight| (sight, steps.of(place)));
+                for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
                     push(&mut layered, EdgeRun { ends, layers: Some(layers), ..*run })?;
                 }
             }
-        }
-        Ok(layered)
+            Ok(layered)
+        })
     }
 
     /// The runs of [`lines`](Self::lines), each with [`LineRun::layers`], as
@@ -101,54 +93,69 @@ impl VisibilityMap<'_> {
     ///
     /// As for `lines`.
     pub fn lines_in_layers(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
-        let runs = self.lines(overlay)?;
-        let (segments, sights) = sights(&self.rims.lines, overlay)?;
-        let all: Vec<Hidden> =
-            sights.into_iter().map(|sight| Hidden { sight, own: u32::MAX }).collect();
-        let steps = self.steps(&all)?;
-        let mut layered = Vec::new();
-        let mut runs = runs.iter().peekable();
-        for (number, segment) in segments.iter().enumerate() {
-            let name = (segment.line, segment.number);
-            while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
-                let steps = Some((&all[number].sight, steps.of(number)));
-                for (ends, layers) in in_layers(run.ends, run.is_visible, steps)? {
-                    push(&mut layered, LineRun { ends, layers: Some(layers), ..*run })?;
+        overlay.expect_no_polygons(self.tree)?;
+        self.reporter.watch(3, |watch| {
+            let (segments, sights) = sights(&self.rims.lines, overlay, watch)?;
+            let runs = self.line_runs(&segments, &sights, watch)?;
+            let steps = self.steps(&sights, |_, _| false, watch)?;
+            let mut layered = Vec::new();
+            let mut runs = runs.iter().peekable();
+            for numbered in each(watch, VISITED, segments.iter().enumerate()) {
+                let (number, segment) = numbered?;
+                let name = (segment.line, segment.number);
+                while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
+                    let known = Some((&sights[number], steps.of(number)));
+                    for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
+                        push(&mut layered, LineRun { ends, layers: Some(layers), ..*run })?;
+                    }
                 }
             }
-        }
-        Ok(layered)
+            Ok(layered)
+        })
     }
 
-    fn steps(&self, all: &[Hidden]) -> Result<Steps, Error> {
+    /// How many polygons are in front of segments: two phases. A face that is a segment's own does not count.
+    pub(super) fn steps(
+        &self,
+        sights: &[Sight],
+        is_own: impl Fn(u32, u32) -> bool,
+        watch: &Watch<'_>,
+    ) -> Result<Steps, Error> {
         let (stock, faces) = (&self.stock, self.stock.frame.faces);
         let mut reaches = Reaches::default();
         // Polygons that do not show hide edges too.
         let mut rims = Rims::new(stock);
-        for face in (0..faces.len() as u32).filter(|&face| stock.sees(face)) {
-            reaches.push(face, rims.outline(stock, face)?)?;
+        for face in 0..faces.len() {
+            finish_item(watch, face, faces.len());
+            let face = face as u32;
+            watch.work(1)?;
+            if stock.sees(face) {
+                watch.work(LINES)?;
+                reaches.push(face, rims.outline(stock, face)?)?;
+            }
         }
         let around = |face: u32| stock.views[face as usize].region;
         let pieces = Pieces { lines: &rims.lines, reaches, face: &|face| face, around: &around };
-        let sights: Vec<Sight> = all.iter().map(|hidden| hidden.sight).collect();
-        let passing = Passing { sights: &sights, spots: &[] };
-        let found = passes(pieces, passing, |is_behind| is_behind, &Watch::default())?;
+        let passing = Passing { sights, spots: &[] };
+        let found = passes(pieces, passing, |is_behind| is_behind, watch)?;
         let mut passes = found.sights;
-        passes.retain(|pass| pass.piece != all[pass.sight as usize].own);
         let polygon = |face: u32| faces.polygon(face);
-        passes.sort_unstable_by(|a, b| {
+        sort_by(&mut passes, watch, |a, b| {
             let keys = [a, b].map(|pass| (pass.sight, polygon(pass.piece)));
             keys[0].cmp(&keys[1]).then(a.places[0].total_cmp(&b.places[0]))
-        });
+        })?;
         let (mut steps, mut changes) = (Steps::default(), Vec::new());
         let mut rest = &passes[..];
-        for number in 0..all.len() as u32 {
+        for number in each(watch, VISITED, 0..sights.len() as u32) {
+            let number = number?;
             let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
             rest = others;
             changes.clear();
+            watch.work(own.len() * VISITED)?;
             for same in own.chunk_by(|a, b| polygon(a.piece) == polygon(b.piece)) {
                 // Each polygon counts once, however many parts of it there are.
-                let mut parts = same.iter().map(|pass| pass.places).peekable();
+                let counts = |pass: &&Pass| !is_own(number, pass.piece);
+                let mut parts = same.iter().filter(counts).map(|pass| pass.places).peekable();
                 while let Some([from, mut to]) = parts.next() {
                     while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
                         to = to.max(next[1]);
@@ -157,7 +164,7 @@ impl VisibilityMap<'_> {
                     push(&mut changes, (to, -1))?;
                 }
             }
-            changes.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
             push(&mut steps.begins, steps.steps.len())?;
             let mut layers = 0i64;
             for &(from, change) in &changes {
@@ -172,10 +179,11 @@ impl VisibilityMap<'_> {
 
 /// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
 /// rounding has left are not told from those before them.
-fn in_layers(
+pub(super) fn in_layers(
     ends: Ends,
     is_visible: bool,
     steps: Option<(&Sight, &[Step])>,
+    watch: &Watch<'_>,
 ) -> Result<Vec<(Ends, u32)>, Error> {
     let Some((sight, steps)) = steps.filter(|_| !is_visible) else {
         return Ok(vec![(ends, u32::from(!is_visible))]);
@@ -190,6 +198,7 @@ fn in_layers(
     let begins = inside.map(|step| (step.from, step.layers));
     let mut begins = [(low, before)].into_iter().chain(begins).peekable();
     while let Some((from, layers)) = begins.next() {
+        watch.work(1)?;
         let to = begins.peek().map_or(high, |next| next.0);
         let layers = layers.max(1);
         let goes_on = parts.last().is_some_and(|last| last.1 == layers);

@@ -2,6 +2,7 @@
 
 use super::halving::VISITED;
 use super::pairs::Pair;
+use super::reporter::each;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, push};
@@ -36,11 +37,12 @@ enum Way {
 
 impl Groups {
     /// Each node by itself, in the order of their numbers: of each pair, `below` is the lower number.
-    pub(super) fn new(nodes: usize, pairs: &[Pair]) -> Result<Self, Error> {
+    pub(super) fn new(nodes: usize, pairs: &[Pair], watch: &Watch<'_>) -> Result<Self, Error> {
         let empty = || collect((0..nodes).map(|_| Vec::new()));
         let numbers = || collect(0..nodes as u32);
         let (mut after, mut before): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (empty()?, empty()?);
-        for pair in pairs {
+        for pair in each(watch, VISITED, pairs) {
+            let pair = pair?;
             push(&mut after[pair.below as usize], pair.above)?;
             push(&mut before[pair.above as usize], pair.below)?;
         }
@@ -184,7 +186,7 @@ mod tests {
             for above in 1..nodes as u32 {
                 pairs.extend((0..below(4)).map(|_| Pair { below: below(above.into()), above }));
             }
-            let mut groups = Groups::new(nodes, &pairs).unwrap();
+            let mut groups = Groups::new(nodes, &pairs, &Watch::default()).unwrap();
             for _ in 0..3 * nodes {
                 let [a, b] = [below(nodes as u64), below(nodes as u64)];
                 let [one, other] = [groups.group(a), groups.group(b)];
@@ -214,7 +216,7 @@ mod tests {
             // The first comes before all but the last.
             let last = between as u32 + 1;
             let pairs: Vec<Pair> = (1..last).map(|above| Pair { below: 0, above }).collect();
-            let mut groups = Groups::new(between + 2, &pairs).unwrap();
+            let mut groups = Groups::new(between + 2, &pairs, &Watch::default()).unwrap();
             groups.join(0, last, &Watch::default()).unwrap();
             assert_eq!(groups.group(0) == groups.group(last), expected, "{between}");
         }

@@ -291,6 +291,13 @@ impl<'t> Lines<'t> {
         line.error / self.reach[0].min(self.reach[1])
     }
 
+    /// The edge from one lattice point to another in floats, whether its line is one of these or not.
+    pub(super) fn rounded_edge(&self, ends: [[f64; 3]; 2]) -> Rounded {
+        let (k, error) = edge(&self.frame.rays, ends);
+        let rounded = Rounded::scaled(k, 4.0 * error);
+        if rounded.is_fine() { rounded } else { self.rounded_other(&self.frame.edge(ends)) }
+    }
+
     /// A line in floats that is none of these.
     pub(super) fn rounded_other(&self, exact: &Exact) -> Rounded {
         Rounded::new(exact, self.reach)
@@ -344,7 +351,7 @@ impl<'t> Lines<'t> {
         let Frame { rays, faces } = &self.frame;
         let sheet = |plane| Sheet::new(rays, faces, plane);
         let (k, error) = match key {
-            Key::Edge(points) => edge(rays, self.ends(points)),
+            Key::Edge(points) => return self.rounded_edge(self.ends(points)),
             Key::Upright(face, k) => {
                 let ([a, b], axis) = self.upright(face, k);
                 sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))

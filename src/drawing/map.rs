@@ -5,13 +5,14 @@ use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::halving::LINES;
+use super::reporter::{Reporter, each, finish_item};
 use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
 use super::visible::{Leaf, Visible, visible};
 use crate::Error;
 use crate::build::Progress;
-use crate::build::progress::{Watch, one_at_a_time};
+use crate::build::progress::Watch;
 use crate::memory::collect;
 use crate::raster::Rays;
 use crate::tree::BspTree;
@@ -29,6 +30,18 @@ use crate::tree::BspTree;
 ///
 /// Positions are in pixels from the centre of the first one, as those of [`Rays`]: the picture reaches
 /// from −½ to its size less ½, x to the right, y down.
+///
+/// # Progress
+///
+/// A map that is made [with progress](Self::of_with_progress) keeps the callback: all that is asked of the map
+/// afterwards, and can fail, reports to it as well. Each operation, the making of the map among them, counts by
+/// itself: `total` is the number of its parts, which is the same from its beginning to its end and tells
+/// nothing but how `done` is to be read; `done` begins with 0, never decreases, and is `total` in the last
+/// call, when the result is ready. Parts do not take equally long. The callback is called each time about a
+/// millisecond of work is done, by any thread, one at a time. If it returns `Break`, the operation ends with an
+/// error of which [`Error::is_cancelled`] is true; the map stays as it is, and what is asked of it next
+/// begins anew. If several threads ask one map at once, the callback hears of all of them in turn, and of
+/// some perhaps not the end.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
@@ -36,6 +49,7 @@ pub struct VisibilityMap<'t> {
     /// Of the faces of polygons that show, and of the items of translucent ones.
     pub(super) rims: Rims<'t>,
     pub(super) leaves: Vec<Leaf>,
+    pub(super) reporter: Reporter<'t>,
 }
 
 /// A polygon that shows.
@@ -65,7 +79,7 @@ impl<'t> VisibilityMap<'t> {
     ///
     /// If there is not enough memory.
     pub fn of(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
-        Self::new(tree, rays, vec![], &Watch::default())
+        Self::new(tree, rays, |_| 1.0, Reporter::default())
     }
 
     /// As [`of`](Self::of), of polygons with opacities, by their numbers, from 0 to 1: those of less than 1
@@ -84,7 +98,7 @@ impl<'t> VisibilityMap<'t> {
         rays: Rays,
         opacity: impl Fn(usize) -> f64,
     ) -> Result<Self, Error> {
-        Self::new(tree, rays, checked(tree, opacity)?, &Watch::default())
+        Self::new(tree, rays, opacity, Reporter::default())
     }
 
     /// As [`with_opacities`](Self::with_opacities), with `progress` as in
@@ -97,15 +111,13 @@ impl<'t> VisibilityMap<'t> {
         tree: &'t BspTree,
         rays: Rays,
         opacity: impl Fn(usize) -> f64,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 't,
     ) -> Result<Self, Error> {
-        let progress = one_at_a_time(progress);
-        Self::new(tree, rays, checked(tree, opacity)?, &Watch::new(&progress))
+        Self::new(tree, rays, opacity, Reporter::new(progress))
     }
 
-    /// As [`of`](Self::of). Now and then `progress` is called with how much of the picture is done, by any
-    /// thread, one at a time; if it returns `Break`, the map is cancelled. While the tree is read, nothing
-    /// is done.
+    /// As [`of`](Self::of). Now and then `progress` is called with how far it is, and may cancel it: now, and in
+    /// all that is asked of the map afterwards. See [above](Self#progress).
     ///
     /// # Errors
     ///
@@ -113,39 +125,26 @@ impl<'t> VisibilityMap<'t> {
     pub fn of_with_progress(
         tree: &'t BspTree,
         rays: Rays,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 't,
     ) -> Result<Self, Error> {
-        let progress = one_at_a_time(progress);
-        Self::new(tree, rays, vec![], &Watch::new(&progress))
+        Self::new(tree, rays, |_| 1.0, Reporter::new(progress))
     }
 
     fn new(
         tree: &'t BspTree,
         rays: Rays,
-        opacities: Vec<f64>,
-        watch: &Watch<'_>,
+        opacity: impl Fn(usize) -> f64,
+        reporter: Reporter<'t>,
     ) -> Result<Self, Error> {
-        let size = rays.size();
-        let stock = Stock::new(tree, rays, opacities, watch)?;
-        let (leaves, mut rims) = visible(&stock, Tile::picture(size), watch)?;
-        let faces = tree.faces();
-        let mut shows: Vec<bool> = collect((0..stock.polygons_end()).map(|_| false))?;
-        for Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
-            shows[stock.polygon(*item)] = true;
-        }
-        for face in 0..faces.len() as u32 {
-            if stock.sees(face) && shows[faces.polygon(face)] {
-                watch.work(LINES)?;
-                rims.outline(&stock, face)?;
-            }
-        }
-        for item in 0..stock.items.len() as u32 {
-            if !stock.is_opaque(item) && shows[stock.polygon(item)] {
-                watch.work(LINES)?;
-                rims.item(&stock, item)?;
-            }
-        }
-        Ok(Self { tree, stock, rims, leaves })
+        let opacities = checked(tree, opacity)?;
+        let (stock, rims, leaves) = reporter.watch(3, |watch| {
+            let picture = Tile::picture(rays.size());
+            let stock = Stock::new(tree, rays, opacities, watch)?;
+            let (leaves, mut rims) = visible(&stock, picture, watch)?;
+            add_shown(&mut rims, &stock, &leaves, watch)?;
+            Ok((stock, rims, leaves))
+        })?;
+        Ok(Self { tree, stock, rims, leaves, reporter })
     }
 
     /// The picture's width and height in pixels.
@@ -173,6 +172,36 @@ impl<'t> VisibilityMap<'t> {
         }
         found.into_values().map(|(shown, _)| shown)
     }
+}
+
+/// Adds the outlines of all faces of polygons that show, and of the items of translucent ones: a phase.
+fn add_shown<'t>(
+    rims: &mut Rims<'t>,
+    stock: &Stock<'t>,
+    leaves: &[Leaf],
+    watch: &Watch<'_>,
+) -> Result<(), Error> {
+    let faces = stock.frame.faces;
+    let mut shows: Vec<bool> = collect((0..stock.polygons_end()).map(|_| false))?;
+    for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+        shows[stock.polygon(visible?.item)] = true;
+    }
+    for face in each(watch, 1, 0..faces.len() as u32) {
+        let face = face?;
+        if stock.sees(face) && shows[faces.polygon(face)] {
+            watch.work(LINES)?;
+            rims.outline(stock, face)?;
+        }
+        finish_item(watch, face as usize, faces.len());
+    }
+    for item in each(watch, 1, 0..stock.items.len() as u32) {
+        let item = item?;
+        if !stock.is_opaque(item) && shows[stock.polygon(item)] {
+            watch.work(LINES)?;
+            rims.item(stock, item)?;
+        }
+    }
+    Ok(())
 }
 
 /// The opacities of all polygons; none if all are opaque.

@@ -52,11 +52,12 @@
 // | `rounded` | lines in floats |
 // | `feet` | lines found by where they are |
 // | `lines` | all lines of a picture, by what made them |
-// | `region` | boxes in the picture |
+// | `rect` | boxes in the picture |
 // | `cell` | convex cells, and how a line cuts them |
 // | `stock` | the pieces that may show |
 // | `rims` | the lines that bound them, made when they are asked for |
 // | `tile` | tiles of the picture |
+// | `reporter` | progress and cancellation |
 // | `halving` | the picture halved until its parts are simple, on all threads |
 // | `narrow` | the pieces that may show in a tile |
 // | `visible` | what is visible, tile by tile |
@@ -64,6 +65,7 @@
 // | `pairs` | pairs of what is drawn before what |
 // | `above` | which polygon shows above which |
 // | `order` | an order of them, and who is in cycles |
+// | `divided` | tiles in parts that show the same items |
 // | `regions` | where the same polygons show, one behind the other |
 // | `outline` | outlines of areas in parts |
 // | `paths` | drawings: filled outlines in an order |
@@ -74,6 +76,7 @@
 // | `translucent` | drawings of translucent polygons |
 // | `reaches` | pieces in a part of the picture |
 // | `edges` | visible and hidden runs of edges |
+// | `shared_edges` | edges, by the faces that have them |
 // | `crossings` | lines in which polygons go through one another |
 // | `sight` | segments and points of the scene as the picture shows them |
 // | `overlaid` | what shows of an overlay's lines and points |
@@ -88,6 +91,7 @@ mod above;
 mod between;
 mod cell;
 mod crossings;
+mod divided;
 mod edges;
 mod feet;
 mod frame;
@@ -110,10 +114,12 @@ mod passes;
 mod paths;
 mod pen;
 mod reaches;
-mod region;
+mod rect;
 mod regions;
+mod reporter;
 mod rims;
 mod rounded;
+mod shared_edges;
 mod sight;
 mod steps;
 mod stock;

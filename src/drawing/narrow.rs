@@ -2,11 +2,14 @@
 
 use smallvec::SmallVec;
 
-use super::region::{Region, are_apart, reaches_across};
+use super::halving::NARROWED;
+use super::rect::{Rect, are_apart, reaches_across};
+use super::reporter::each;
 use super::rims::Rims;
 use super::stock::{Item, Stock};
 use super::tile::{Across, Tile};
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 
 /// Of so many faces at most, the front ones, it is asked whether all their pieces cover a tile.
@@ -26,14 +29,15 @@ impl List {
         stock: &Stock<'t>,
         rims: &mut Rims<'t>,
         tile: Tile,
+        watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let mut narrow = Narrow::new(stock, rims, tile, u32::MAX, stock.items.len())?;
-        for item in 0..stock.items.len() as u32 {
-            if !narrow.add(item)? {
+        for item in each(watch, NARROWED, 0..stock.items.len() as u32) {
+            if !narrow.add(item?)? {
                 break;
             }
         }
-        narrow.finish()
+        narrow.finish(watch)
     }
 
     /// What of the list may show in a part of the tile.
@@ -42,14 +46,15 @@ impl List {
         stock: &Stock<'t>,
         rims: &mut Rims<'t>,
         tile: Tile,
+        watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let mut narrow = Narrow::new(stock, rims, tile, self.limit, self.items.len())?;
-        for &item in &self.items {
-            if !narrow.add(item)? {
+        for item in each(watch, NARROWED, &self.items) {
+            if !narrow.add(*item?)? {
                 break;
             }
         }
-        narrow.finish()
+        narrow.finish(watch)
     }
 }
 
@@ -57,7 +62,7 @@ impl List {
 struct Narrow<'a, 't> {
     stock: &'a Stock<'t>,
     rims: &'a mut Rims<'t>,
-    sides: Region,
+    sides: Rect,
     list: List,
 }
 
@@ -99,7 +104,7 @@ impl<'a, 't> Narrow<'a, 't> {
     }
 
     /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
-    fn finish(self) -> Result<List, Error> {
+    fn finish(self, watch: &Watch<'_>) -> Result<List, Error> {
         let Self { stock, rims, sides, mut list } = self;
         let mut end = list.limit;
         let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
@@ -117,6 +122,7 @@ impl<'a, 't> Narrow<'a, 't> {
                 continue;
             }
             tried.push(face);
+            watch.work(list.items.len() - place)?;
             let mut siblings =
                 list.items[place..].iter().filter(|&&other| stock.face(other) == face);
             end = siblings.next_back().map_or(end, |&last| end.min(last));

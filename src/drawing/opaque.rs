@@ -1,19 +1,17 @@
 //! Drawings of opaque polygons.
 
-use std::ops::ControlFlow;
-
 use super::above::pairs;
 use super::cell::Cell;
-use super::halving::CUT;
+use super::halving::{CUT, VISITED};
 use super::map::VisibilityMap;
 use super::order::{Ordered, order};
 use super::paths::{Drawing, add_edges, add_sides};
+use super::reporter::{each, finish_item};
 use super::stock::Stock;
 use super::translucent::mixed;
 use super::visible::{Leaf, Visible};
 use crate::Error;
-use crate::build::Progress;
-use crate::build::progress::{Watch, one_at_a_time};
+use crate::build::progress::Watch;
 use crate::memory::{collect, push};
 use crate::parallel_map;
 
@@ -33,23 +31,9 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn drawing(&self) -> Result<Drawing, Error> {
-        self.drawn(&Watch::default())
-    }
-
-    /// As [`drawing`](Self::drawing). Now and then `progress` is called with how far the drawing has come,
-    /// by any thread, one at a time; if it returns `Break`, the drawing is cancelled.
-    ///
-    /// # Errors
-    ///
-    /// As for `drawing`, and [`Error`] if it was cancelled.
-    pub fn drawing_with_progress(
-        &self,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
-    ) -> Result<Drawing, Error> {
-        let progress = one_at_a_time(progress);
-        self.drawn(&Watch::new(&progress))
+        self.reporter.watch(2, |watch| self.drawn(watch))
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
@@ -58,33 +42,38 @@ impl VisibilityMap<'_> {
             return mixed(stock, rims, leaves, watch);
         }
         let size = self.size();
-        let shown = Nodes::of(stock, leaves)?;
+        let shown = Nodes::of(stock, leaves, watch)?;
         let place = |face: u32| shown.places[face as usize];
         let pairs = pairs(stock, rims, leaves, &place, watch)?;
         let Ordered { order, is_clipped } =
             order(shown.polygons.len(), &pairs, &shown.ranks, &|_| true, watch)?;
-        let cells = shown.cells(stock, leaves, &is_clipped)?;
-        let part = |nodes: &[u32]| {
+        let cells = shown.cells(stock, leaves, &is_clipped, watch)?;
+        let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
+        let count = shares.len();
+        let part = |(i, nodes): (usize, &[u32])| {
             let (mut part, mut edges) = (Drawing::empty(size), Vec::new());
             for &node in nodes {
                 watch.work(CUT)?;
                 let index = node as usize;
                 edges.clear();
                 if is_clipped[index] {
-                    for cell in &cells[index] {
-                        add_sides(cell, &mut edges)?;
+                    for cell in each(watch, VISITED, &cells[index]) {
+                        add_sides(cell?, &mut edges)?;
                     }
                 } else {
-                    for &face in &shown.faces[index] {
+                    for face in each(watch, CUT, &shown.faces[index]) {
+                        let face = *face?;
                         add_edges(&rims.lines, rims.known_outline(face), &mut edges)?;
                     }
                 }
-                part.push(shown.polygons[index], is_clipped[index], &edges)?;
+                part.push(shown.polygons[index], is_clipped[index], &edges, watch)?;
             }
+            finish_item(watch, i, count);
             Ok(part)
         };
         let mut drawing = Drawing::empty(size);
-        for part in parallel_map::map(order.chunks(SHARE).collect(), part) {
+        for part in parallel_map::map(shares, part) {
+            watch.work(SHARE)?;
             drawing.append(part?)?;
         }
         Ok(drawing)
@@ -103,24 +92,27 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn of(stock: &Stock<'_>, leaves: &[Leaf]) -> Result<Self, Error> {
+    fn of(stock: &Stock<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
         let faces = stock.frame.faces;
         let most = stock.polygons_end();
         let mut last: Vec<Option<u32>> = collect((0..most).map(|_| None))?;
-        for Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
-            let last = &mut last[stock.polygon(*item)];
-            *last = (*last).max(Some(*item));
+        for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+            let item = visible?.item;
+            let last = &mut last[stock.polygon(item)];
+            *last = (*last).max(Some(item));
         }
         let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
         let mut numbers: Vec<u32> = collect((0..most).map(|_| u32::MAX))?;
-        for (polygon, last) in last.iter().enumerate() {
+        for named in each(watch, 1, last.iter().enumerate()) {
+            let (polygon, last) = named?;
             let Some(last) = last else { continue };
             numbers[polygon] = shown.polygons.len() as u32;
             push(&mut shown.polygons, polygon)?;
             push(&mut shown.faces, vec![])?;
             push(&mut shown.ranks, stock.items.len() as u32 - last)?;
         }
-        for face in 0..faces.len() as u32 {
+        for face in each(watch, 1, 0..faces.len() as u32) {
+            let face = face?;
             let number = match stock.sees(face) {
                 true => numbers[faces.polygon(face)],
                 false => u32::MAX,
@@ -139,9 +131,11 @@ impl Nodes {
         stock: &Stock<'_>,
         leaves: &'l [Leaf],
         is_clipped: &[bool],
+        watch: &Watch<'_>,
     ) -> Result<Vec<Vec<&'l Cell>>, Error> {
         let mut cells: Vec<Vec<&Cell>> = collect(self.polygons.iter().map(|_| vec![]))?;
-        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+        for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+            let Visible { item, cell } = visible?;
             let place = self.places[stock.face(*item) as usize] as usize;
             if is_clipped[place] {
                 push(&mut cells[place], cell)?;

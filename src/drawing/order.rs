@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::halving::VISITED;
 use super::pairs::Pair;
+use super::reporter::{each, sort_by};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, push, reserve};
@@ -95,7 +96,8 @@ impl<'p> Graph<'p> {
         watch: &'p Watch<'p>,
     ) -> Result<Self, Error> {
         let mut starts = filled(nodes + 1, 0)?;
-        for pair in pairs {
+        for pair in each(watch, 1, pairs) {
+            let pair = pair?;
             starts[pair.below as usize + 1] += 1;
         }
         for node in 0..nodes {
@@ -103,8 +105,9 @@ impl<'p> Graph<'p> {
         }
         let (is_clipped, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
         let mut is_seen_through = filled(nodes, false)?;
-        for pair in pairs.iter().filter(|pair| !is_opaque(pair.above)) {
-            is_seen_through[pair.below as usize] = true;
+        for pair in each(watch, 1, pairs) {
+            let pair = pair?;
+            is_seen_through[pair.below as usize] |= !is_opaque(pair.above);
         }
         let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
         let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
@@ -139,7 +142,8 @@ impl Graph<'_> {
             while let Some(mut nodes) = open.pop() {
                 let mut degrees = self.degrees(&nodes)?;
                 degrees.retain(|&(_, node)| !self.is_clipped[node as usize]);
-                degrees.sort_unstable_by_key(|&(product, node)| Reverse((product, Reverse(node))));
+                let key = |&(product, node): &(u64, u32)| Reverse((product, Reverse(node)));
+                sort_by(&mut degrees, self.watch, |a, b| key(a).cmp(&key(b)))?;
                 if degrees.is_empty() {
                     continue;
                 }
@@ -168,7 +172,8 @@ impl Graph<'_> {
         let mut counts = std::mem::take(&mut self.search.counts);
         nodes.iter().for_each(|&node| counts[node as usize] = [0; 2]);
         let of = |node: u32| self.component[node as usize];
-        for &node in nodes {
+        for node in each(self.watch, VISITED, nodes) {
+            let node = *node?;
             let above = self.above(node).filter(|&above| of(above) == of(node));
             for above in above.filter(|&above| self.holds(Pair { below: node, above })) {
                 counts[node as usize][0] += 1;
@@ -289,8 +294,10 @@ impl Graph<'_> {
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
         let nodes = self.is_clipped.len();
         let mut waits: Vec<u32> = filled(nodes, 0)?;
-        let kept = self.pairs.iter().filter(|&&pair| self.holds(pair));
-        kept.for_each(|pair| waits[pair.above as usize] += 1);
+        for pair in each(self.watch, 1, self.pairs) {
+            let pair = *pair?;
+            waits[pair.above as usize] += u32::from(self.holds(pair));
+        }
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
         // Each node is in it once at most.
         ready.try_reserve_exact(nodes).map_err(|_| Error::out_of_memory())?;
@@ -299,6 +306,7 @@ impl Graph<'_> {
         let mut order = Vec::new();
         reserve(&mut order, nodes)?;
         while let Some(Reverse((_, node))) = ready.pop() {
+            self.watch.work(2 * VISITED)?;
             order.push(node);
             if self.is_last(node) {
                 continue;

@@ -2,6 +2,12 @@
 
 use std::collections::HashMap;
 
+use super::halving::VISITED;
+use super::reporter::{each, sort_by};
+use crate::Error;
+use crate::build::progress::Watch;
+use crate::memory::collect;
+
 /// A side of a part: its line, and where it begins and ends, with the part on its left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
@@ -22,17 +28,24 @@ impl Edge {
 /// Points are rounded to a grid of this step, in pixels, and are one if they fall on one place.
 const GRID: f64 = 1.0 / (1u64 << 16) as f64;
 
+/// To go on from an edge to the next takes as long as a build takes to examine so many pieces.
+const FOLLOWED: usize = 16;
+
 type Place = [i64; 2];
 
 /// The closed outlines of the union of convex parts side by side, each around what is on its
 /// left; `None` if some overlap, or if rounding left an outline open, or nothing.
 ///
 /// Where two parts share a side, or some of it, that is no outline.
-pub(super) fn outlines(edges: &[Edge]) -> Option<Vec<Vec<[f64; 2]>>> {
-    let edges = without_common(edges)?;
+pub(super) fn outlines(
+    edges: &[Edge],
+    watch: &Watch<'_>,
+) -> Result<Option<Vec<Vec<[f64; 2]>>>, Error> {
+    let Some(edges) = without_common(edges, watch)? else { return Ok(None) };
     // Which edges begin at a place.
     let mut begin: HashMap<Place, Vec<usize>> = HashMap::new();
-    for (i, edge) in edges.iter().enumerate() {
+    for numbered in each(watch, VISITED, edges.iter().enumerate()) {
+        let (i, edge) = numbered?;
         begin.entry(place(edge.from)).or_default().push(i);
     }
     let mut is_used = vec![false; edges.len()];
@@ -44,6 +57,7 @@ pub(super) fn outlines(edges: &[Edge]) -> Option<Vec<Vec<[f64; 2]>>> {
         let mut outline: Vec<[f64; 2]> = Vec::new();
         let (mut current, mut last): (usize, Option<&Edge>) = (first, None);
         loop {
+            watch.work(FOLLOWED)?;
             is_used[current] = true;
             let edge = &edges[current];
             // Edges of one line follow one another where others meet it.
@@ -54,7 +68,10 @@ pub(super) fn outlines(edges: &[Edge]) -> Option<Vec<Vec<[f64; 2]>>> {
             if is_same(edge.to, edges[first].from) {
                 break;
             }
-            current = next(&begin, &is_used, &edges, current)?;
+            match next(&begin, &is_used, &edges, current) {
+                Some(next) => current = next,
+                None => return Ok(None),
+            }
         }
         if outline.len() > 1 && last.is_some_and(|last| last.goes_on_as(&edges[first])) {
             outline.remove(0);
@@ -64,7 +81,7 @@ pub(super) fn outlines(edges: &[Edge]) -> Option<Vec<Vec<[f64; 2]>>> {
         }
     }
     // Nothing is left of what is smaller than the grid.
-    if outlines.is_empty() { None } else { Some(outlines) }
+    Ok(if outlines.is_empty() { None } else { Some(outlines) })
 }
 
 fn place(point: [f64; 2]) -> Place {
@@ -99,18 +116,21 @@ fn next(
 
 /// The edges without what two of them have in common, in opposite directions; `None` if some run in the
 /// same direction, as those of parts that overlap do.
-fn without_common(edges: &[Edge]) -> Option<Vec<Edge>> {
-    let mut by_line: Vec<usize> = (0..edges.len()).collect();
-    by_line.sort_by_key(|&i| edges[i].line);
+fn without_common(edges: &[Edge], watch: &Watch<'_>) -> Result<Option<Vec<Edge>>, Error> {
+    let mut by_line: Vec<usize> = collect(0..edges.len())?;
+    sort_by(&mut by_line, watch, |&a, &b| edges[a].line.cmp(&edges[b].line))?;
     let mut left = Vec::new();
     for group in by_line.chunk_by(|&a, &b| edges[a].line == edges[b].line) {
+        watch.work(group.len() * VISITED)?;
         if let [one] = group {
             left.push(edges[*one]);
             continue;
         }
-        on_one_line(group.iter().map(|&i| &edges[i]), &mut left)?;
+        if on_one_line(group.iter().map(|&i| &edges[i]), &mut left).is_none() {
+            return Ok(None);
+        }
     }
-    Some(left)
+    Ok(Some(left))
 }
 
 /// The same of edges on one line.

@@ -2,11 +2,12 @@
 
 use super::above::region;
 use super::edges::SHORTEST;
-use super::halving::{CUT, NARROWED, found_in};
+use super::halving::{CUT, VISITED, found_in};
 use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::passes::{Passing, kept};
-use super::region::are_apart;
+use super::rect::are_apart;
+use super::reporter::{each, sort_by};
 use super::sight::{Sight, Spot};
 use super::visible::{Leaf, Visible};
 use crate::Error;
@@ -74,17 +75,31 @@ impl VisibilityMap<'_> {
     /// # Errors
     ///
     /// If the overlay was made for another tree, as far as its size tells; if it has polygons, the first of
-    /// which is [`Error::polygon`]; or if there is not enough memory.
+    /// which is [`Error::polygon`]; if there is not enough memory; or if it was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
-        let (segments, sights) = sights(&self.rims.lines, overlay)?;
-        let mut hidden = self.covered(Passing { sights: &sights, spots: &[] })?.hidden;
-        hidden.sort_unstable_by(|(a, p), (b, q)| a.cmp(b).then(p[0].total_cmp(&q[0])));
+        self.reporter.watch(1, |watch| {
+            let (segments, sights) = sights(&self.rims.lines, overlay, watch)?;
+            self.line_runs(&segments, &sights, watch)
+        })
+    }
+
+    /// The runs of segments that the picture shows: a phase.
+    pub(super) fn line_runs(
+        &self,
+        segments: &[GivenSegment],
+        sights: &[Sight],
+        watch: &Watch<'_>,
+    ) -> Result<Vec<LineRun>, Error> {
+        let mut hidden = self.covered(Passing { sights, spots: &[] }, watch)?.hidden;
+        sort_by(&mut hidden, watch, |(a, p), (b, q)| a.cmp(b).then(p[0].total_cmp(&q[0])))?;
         let mut rest = &hidden[..];
         let mut runs = Vec::new();
-        for (number, (segment, sight)) in (0..).zip(segments.iter().zip(&sights)) {
+        for segment in each(watch, VISITED, (0..).zip(segments.iter().zip(sights))) {
+            let (number, (segment, sight)) = segment?;
             let (parts, others) = rest.split_at(rest.partition_point(|&(of, _)| of == number));
             rest = others;
+            watch.work(parts.len())?;
             add_runs(segment, sight, parts, &mut runs)?;
         }
         Ok(runs)
@@ -99,24 +114,27 @@ impl VisibilityMap<'_> {
     /// As for `lines`.
     pub fn markers(&self, overlay: &Overlay) -> Result<Vec<MarkerView>, Error> {
         overlay.expect_no_polygons(self.tree)?;
-        let (mut views, spots) = spots(&self.rims.lines, overlay)?;
-        for number in self.covered(Passing { sights: &[], spots: &spots })?.hidden_spots {
-            views[number as usize].is_visible = false;
-        }
-        Ok(views)
+        self.reporter.watch(1, |watch| {
+            let (mut views, spots) = spots(&self.rims.lines, overlay, watch)?;
+            let hidden = self.covered(Passing { sights: &[], spots: &spots }, watch)?.hidden_spots;
+            for number in each(watch, 1, hidden) {
+                views[number? as usize].is_visible = false;
+            }
+            Ok(views)
+        })
     }
 
-    /// What is hidden of segments and points, in no particular order.
-    fn covered<'m>(&'m self, passing: Passing<'_>) -> Result<Covered, Error> {
+    /// What is hidden of segments and points, in no particular order: a phase.
+    fn covered<'m>(&'m self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Covered, Error> {
         let sights = (0..passing.sights.len() as u32).collect();
         let spots = (0..passing.spots.len() as u32).collect();
-        let watch = Watch::default();
-        let all = Entry { leaves: &self.leaves, sights, spots };
-        let halves = |entry: &Entry<'m>, _: &mut Covered| entry.halves(passing, &watch);
+        let all = LeafPasses { leaves: &self.leaves, sights, spots };
+        let halves = |part: &LeafPasses<'m>, _: &mut Covered| part.halves(passing, watch);
         let leaf =
-            |entry: &Entry<'_>, found: &mut Covered| entry.leaf(self, passing, found, &watch);
+            |part: &LeafPasses<'_>, found: &mut Covered| part.leaf(self, passing, found, watch);
         let mut all_found = Covered::default();
-        for mut found in found_in(all, Covered::default, halves, leaf, &watch)? {
+        for mut found in found_in(all, Covered::default, halves, leaf, watch)? {
+            watch.work(found.hidden.len() + found.hidden_spots.len())?;
             reserve(&mut all_found.hidden, found.hidden.len())?;
             all_found.hidden.append(&mut found.hidden);
             reserve(&mut all_found.hidden_spots, found.hidden_spots.len())?;
@@ -130,9 +148,11 @@ impl VisibilityMap<'_> {
 pub(super) fn sights(
     lines: &Lines<'_>,
     overlay: &Overlay,
+    watch: &Watch<'_>,
 ) -> Result<(Vec<GivenSegment>, Vec<Sight>), Error> {
     let (mut segments, mut sights) = (Vec::new(), Vec::new());
-    for segment in overlay.given_segments() {
+    for segment in each(watch, CUT, overlay.given_segments()) {
+        let segment = segment?;
         if let Some(sight) = Sight::new(lines, segment.ends) {
             push(&mut segments, segment)?;
             push(&mut sights, sight)?;
@@ -145,9 +165,11 @@ pub(super) fn sights(
 pub(super) fn spots(
     lines: &Lines<'_>,
     overlay: &Overlay,
+    watch: &Watch<'_>,
 ) -> Result<(Vec<MarkerView>, Vec<Spot>), Error> {
     let (mut views, mut spots) = (Vec::new(), Vec::new());
-    for (point, given) in overlay.given_points().enumerate() {
+    for numbered in each(watch, CUT, overlay.given_points().enumerate()) {
+        let (point, given) = numbered?;
         if let Some(spot) = Spot::new(lines, given) {
             push(&mut views, MarkerView { point, at: spot.at, is_visible: true })?;
             push(&mut spots, spot)?;
@@ -165,27 +187,27 @@ struct Covered {
 }
 
 /// Leaves, with the segments and points that may be in them.
-struct Entry<'l> {
+struct LeafPasses<'l> {
     leaves: &'l [Leaf],
     sights: Vec<u32>,
     spots: Vec<u32>,
 }
 
-impl<'l> Entry<'l> {
+impl<'l> LeafPasses<'l> {
     /// The first and the second half of the leaves; `None` of a single one, or where nothing is.
     fn halves(&self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
         let Self { leaves, sights, spots } = self;
-        watch.work((sights.len() + spots.len()) * NARROWED)?;
         if leaves.len() < 2 || sights.is_empty() && spots.is_empty() {
             return Ok(None);
         }
         let (first, second) = leaves.split_at(leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
             let around = region(leaves);
-            let sights = kept(sights, |number| passing.sights[number as usize].may_meet(&around))?;
+            let may_meet = |number: u32| passing.sights[number as usize].may_meet(&around);
+            let sights = kept(sights, may_meet, watch)?;
             let is_near =
                 |number: u32| !are_apart(&around, &passing.spots[number as usize].region());
-            Ok(Self { leaves, sights, spots: kept(spots, is_near)? })
+            Ok(Self { leaves, sights, spots: kept(spots, is_near, watch)? })
         };
         Ok(Some([part(first)?, part(second)?]))
     }
@@ -200,7 +222,7 @@ impl<'l> Entry<'l> {
     ) -> Result<(), Error> {
         let (stock, lines) = (&map.stock, &map.rims.lines);
         for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            watch.work((1 + self.sights.len() + self.spots.len()) * CUT)?;
+            watch.work(CUT)?;
             // What is behind something translucent shows through.
             if !stock.is_opaque(*item) {
                 continue;
@@ -209,7 +231,8 @@ impl<'l> Entry<'l> {
             let face = stock.face(*item);
             let mut side = None;
             let mut seen = || *side.get_or_insert_with(|| lines.frame.seen_side(face));
-            for &number in &self.sights {
+            for number in each(watch, CUT, &self.sights) {
+                let number = *number?;
                 let sight = &passing.sights[number as usize];
                 if !sight.may_meet(&around) {
                     continue;
@@ -221,7 +244,8 @@ impl<'l> Entry<'l> {
                     push(&mut found.hidden, (number, [from, to]))?;
                 }
             }
-            for &number in &self.spots {
+            for number in each(watch, CUT, &self.spots) {
+                let number = *number?;
                 let spot = &passing.spots[number as usize];
                 if !are_apart(&around, &spot.region())
                     && spot.is_in(lines, cell)

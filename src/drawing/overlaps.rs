@@ -1,10 +1,11 @@
 //! Which pieces overlap in the picture, nothing hidden.
 
 use super::cell::Cell;
-use super::halving::{CUT, NARROWED, found_in};
+use super::halving::{CUT, found_in};
 use super::lines::Lines;
 use super::pairs::{Found, Pair, add, sorted};
 use super::reaches::Reaches;
+use super::reporter::each;
 use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::{IN_VAIN, Tile, in_vain};
@@ -13,7 +14,7 @@ use crate::build::progress::Watch;
 use crate::memory::push;
 
 /// A tile with the items that may be in it, front to back.
-struct Entry {
+struct TileStack {
     tile: Tile,
     reaches: Reaches,
     /// How often it was halved in vain: both parts had nearly all items that do not cover them.
@@ -33,20 +34,18 @@ pub(super) fn overlaps(
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let mut reaches = Reaches::default();
-    for item in 0..stock.items.len() as u32 {
+    for item in each(watch, 2, 0..stock.items.len() as u32) {
+        let item = item?;
         reaches.push(item, rims.known_item(stock, item))?;
     }
-    let all = Entry { tile: picture, reaches, in_vain: 0 };
-    let halves = |entry: &Entry, _: &mut Found| {
-        watch.work(entry.reaches.list.len() * NARROWED)?;
-        entry.halves(stock, &rims.lines)
-    };
-    let leaf = |entry: &Entry, found: &mut Found| entry.leaf(stock, &rims.lines, found, watch);
-    let all = all.narrowed(stock, &rims.lines, picture)?;
-    sorted(found_in(all, Found::default, halves, leaf, watch)?)
+    let all = TileStack { tile: picture, reaches, in_vain: 0 };
+    let halves = |part: &TileStack, _: &mut Found| part.halves(stock, &rims.lines, watch);
+    let leaf = |part: &TileStack, found: &mut Found| part.leaf(stock, &rims.lines, found, watch);
+    let all = all.narrowed(stock, &rims.lines, picture, watch)?;
+    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
-impl Entry {
+impl TileStack {
     fn is_leaf(&self) -> bool {
         let between = self.reaches.list.split(|reach| reach.covers());
         let most = between.map(<[_]>::len).max().unwrap_or(0);
@@ -54,21 +53,33 @@ impl Entry {
     }
 
     /// Both halves of the tile; `None` of a leaf.
-    fn halves(&self, stock: &Stock<'_>, lines: &Lines<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let [first, second] = self.tile.halves();
-        let mut parts = [self.narrowed(stock, lines, first)?, self.narrowed(stock, lines, second)?];
-        let open = |entry: &Self| entry.reaches.list.iter().filter(|reach| !reach.covers()).count();
+        let narrowed = |tile| self.narrowed(stock, lines, tile, watch);
+        let mut parts = [narrowed(first)?, narrowed(second)?];
+        let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
         let counts = [open(&parts[0]), open(&parts[1])];
         [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, open(self), counts);
         Ok(Some(parts))
     }
 
-    fn narrowed(&self, stock: &Stock<'_>, lines: &Lines<'_>, tile: Tile) -> Result<Self, Error> {
+    fn narrowed(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        tile: Tile,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         let around = |item: u32| stock.items[item as usize].region;
-        let reaches = self.reaches.narrowed(lines, &tile.sides(), around)?;
+        let reaches = self.reaches.narrowed(lines, &tile.sides(), around, watch)?;
         Ok(Self { tile, reaches, in_vain: 0 })
     }
 
@@ -85,7 +96,7 @@ impl Entry {
         let mut cover: Option<u32> = None;
         let mut behind: Vec<(u32, Cell)> = Vec::new();
         for reach in &self.reaches.list {
-            watch.work((1 + behind.len()) * CUT)?;
+            watch.work(CUT)?;
             let item = reach.number;
             if reach.covers() {
                 if let (Some(cover), true) = (cover, behind.is_empty()) {
@@ -104,7 +115,8 @@ impl Entry {
                 add(item, cover)?;
             }
             let face = |item: u32| stock.face(item);
-            for (above, other) in &behind {
+            for part in each(watch, CUT, &behind) {
+                let (above, other) = part?;
                 if face(*above) != face(item) && other.meets(lines, halves)? {
                     add(item, *above)?;
                 }

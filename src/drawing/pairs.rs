@@ -3,8 +3,10 @@
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 
+use super::reporter::{each, sort_by};
 use super::table::Mixer;
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::reserve;
 
 /// "`below` has to be drawn before `above`", by their numbers.
@@ -25,13 +27,15 @@ pub(super) fn add(found: &mut Found, pair: Pair) -> Result<(), Error> {
 }
 
 /// All pairs of several sets, sorted, each once.
-pub(super) fn sorted(parts: Vec<Found>) -> Result<Vec<Pair>, Error> {
+pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
     let mut pairs = Vec::new();
     for part in parts {
         reserve(&mut pairs, part.len())?;
-        pairs.extend(part);
+        for pair in each(watch, 1, part) {
+            pairs.push(pair?);
+        }
     }
-    pairs.sort_unstable();
+    sort_by(&mut pairs, watch, Pair::cmp)?;
     pairs.dedup();
     Ok(pairs)
 }

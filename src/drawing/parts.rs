@@ -1,13 +1,16 @@
 //! Parts of polygons that are painted at once.
 
+use std::cmp::Reverse;
+
 use super::between::NO_PATH;
 use super::cell::Cell;
-use super::halving::CUT;
+use super::halving::{CUT, VISITED};
 use super::join::Groups;
 use super::order::{cycles, order};
 use super::outline::Edge;
 use super::pairs::Pair;
 use super::paths::{Drawing, add_edges, add_sides};
+use super::reporter::{each, finish_item, sort_by};
 use super::rims::Rims;
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
@@ -32,34 +35,37 @@ impl Parts {
         overlaps: &[Pair],
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let units = units(stock, overlaps)?;
+        let units = units(stock, overlaps, watch)?;
         let count = units.iter().max().map_or(0, |&most| most as usize + 1);
-        let cycles = cycles(count, &contracted(overlaps, &units)?, watch)?;
+        let cycles = cycles(count, &contracted(overlaps, &units, watch)?, watch)?;
         // Units in no cycle are whole. The pieces of the others start by themselves.
         let mut nodes: Vec<u32> = Vec::new();
-        for item in 0..units.len() as u32 {
+        for item in each(watch, 1, 0..units.len() as u32) {
+            let item = item?;
             if cycles[units[item as usize] as usize].is_some() {
                 push(&mut nodes, item)?;
             }
         }
         // What is further back has a higher number as an item, and a lower one as a node.
         let cycle = |item: u32| cycles[units[item as usize] as usize];
-        nodes.sort_unstable_by_key(|&item| (cycle(item), std::cmp::Reverse(item)));
+        let key = |item: u32| (cycle(item), Reverse(item));
+        sort_by(&mut nodes, watch, |&a, &b| key(a).cmp(&key(b)))?;
         let mut node_of: Vec<u32> = collect(units.iter().map(|_| u32::MAX))?;
         for (node, &item) in (0..).zip(&nodes) {
             node_of[item as usize] = node;
         }
-        let is_within = |pair: &&Pair| {
-            let [a, b] = [pair.below, pair.above].map(cycle);
-            a.is_some() && a == b
-        };
         let mut pairs = Vec::new();
-        for &Pair { below, above } in overlaps.iter().filter(is_within) {
-            let [below, above] = [below, above].map(|item| node_of[item as usize]);
-            push(&mut pairs, Pair { below, above })?;
+        for pair in each(watch, VISITED, overlaps) {
+            let Pair { below, above } = *pair?;
+            let ends = [below, above];
+            let [a, b] = ends.map(cycle);
+            if a.is_some() && a == b {
+                let [below, above] = ends.map(|item| node_of[item as usize]);
+                push(&mut pairs, Pair { below, above })?;
+            }
         }
-        let mut groups = Groups::new(nodes.len(), &pairs)?;
-        for (a, b) in candidates(&nodes, &units)? {
+        let mut groups = Groups::new(nodes.len(), &pairs, watch)?;
+        for (a, b) in candidates(&nodes, &units, watch)? {
             groups.join(a, b, watch)?;
         }
         // A part for each unit that is whole, and for each group.
@@ -68,16 +74,17 @@ impl Parts {
             of_item[item as usize] = count as u32 + groups.group(node);
         }
         let mut items: Vec<Vec<u32>> = collect((0..count + nodes.len()).map(|_| Vec::new()))?;
-        for (item, &part) in (0..).zip(&of_item) {
+        for placed in each(watch, VISITED, (0..).zip(&of_item)) {
+            let (item, &part) = placed?;
             push(&mut items[part as usize], item)?;
         }
         for items in &mut items {
-            items.sort_by_key(|&item| stock.face(item));
+            sort_by(items, watch, |&a, &b| stock.face(a).cmp(&stock.face(b)))?;
         }
         Ok(Self { of_item, items })
     }
 
-    /// The parts in an order to paint them: it keeps all pairs, and else that of the tree. Where something
+    /// The parts in an order to paint them, a phase: it keeps all pairs, and else that of the tree. Where something
     /// is hidden, `leaves` have what shows. With them the path of each item, or [`NO_PATH`].
     pub(super) fn drawing(
         &self,
@@ -94,16 +101,18 @@ impl Parts {
             let first = self.items[part as usize].first();
             leaves.is_some() && first.is_some_and(|&item| stock.is_opaque(item))
         };
-        let pairs = contracted(pairs, &self.of_item)?;
+        let pairs = contracted(pairs, &self.of_item, watch)?;
         let ordered = order(self.items.len(), &pairs, &ranks, &is_opaque, watch)?;
-        let cells = leaves.map(|leaves| self.cells(leaves)).transpose()?;
+        let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
         let mut drawing = Drawing::empty(stock.frame.rays.size());
         reserve(&mut drawing.paths, ordered.order.len())?;
         let counts = Counts::of(stock)?;
         let mut path_of: Vec<u32> = collect(stock.items.iter().map(|_| NO_PATH))?;
         let mut edges = Vec::new();
-        for part in ordered.order {
+        let count = ordered.order.len();
+        for (i, part) in ordered.order.into_iter().enumerate() {
             watch.work(CUT)?;
+            finish_item(watch, i, count);
             let items = &self.items[part as usize];
             let shown = cells.as_ref().map(|cells| &cells[part as usize]);
             let is_clipped = ordered.is_clipped[part as usize];
@@ -111,27 +120,32 @@ impl Parts {
             match shown {
                 Some(cells) if cells.is_empty() => continue,
                 Some(cells) if is_clipped => {
-                    for cell in cells {
-                        add_sides(cell, &mut edges)?;
+                    for cell in each(watch, VISITED, cells) {
+                        add_sides(cell?, &mut edges)?;
                     }
                 }
-                _ => counts.add_pieces(stock, rims, items, &mut edges)?,
+                _ => counts.add_pieces(stock, rims, items, &mut edges, watch)?,
             }
             if !edges.is_empty() {
                 let path = drawing.paths.len() as u32;
                 items.iter().for_each(|&item| path_of[item as usize] = path);
                 let polygon = stock.polygon(items[0]);
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
-                drawing.push(polygon, is_part, &edges)?;
+                drawing.push(polygon, is_part, &edges, watch)?;
             }
         }
         Ok((drawing, path_of))
     }
 
     /// What shows of each.
-    fn cells<'l>(&self, leaves: &'l [Leaf]) -> Result<Vec<Vec<&'l Cell>>, Error> {
+    fn cells<'l>(
+        &self,
+        leaves: &'l [Leaf],
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Vec<&'l Cell>>, Error> {
         let mut cells: Vec<Vec<&Cell>> = collect(self.items.iter().map(|_| vec![]))?;
-        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
+        for visible in each(watch, VISITED, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+            let Visible { item, cell } = visible?;
             push(&mut cells[self.of_item[*item as usize] as usize], cell)?;
         }
         Ok(cells)
@@ -161,6 +175,7 @@ impl Counts {
         rims: &Rims<'_>,
         items: &[u32],
         edges: &mut Vec<Edge>,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         for same in items.chunk_by(|&a, &b| stock.face(a) == stock.face(b)) {
             let face = stock.face(same[0]);
@@ -169,8 +184,8 @@ impl Counts {
                 add_edges(&rims.lines, rims.known_outline(face), edges)?;
                 continue;
             }
-            for &item in same {
-                add_edges(&rims.lines, rims.known_item(stock, item), edges)?;
+            for item in each(watch, CUT, same) {
+                add_edges(&rims.lines, rims.known_item(stock, *item?), edges)?;
             }
         }
         Ok(())
@@ -178,18 +193,21 @@ impl Counts {
 }
 
 /// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
-fn units(stock: &Stock<'_>, overlaps: &[Pair]) -> Result<Vec<u32>, Error> {
+fn units(stock: &Stock<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
     let polygon = |item: u32| stock.polygon(item);
     let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
     let mut is_folded: Vec<bool> = collect((0..count).map(|_| false))?;
-    for pair in overlaps.iter().filter(|pair| polygon(pair.below) == polygon(pair.above)) {
-        is_folded[polygon(pair.below)] = true;
+    for pair in each(watch, VISITED, overlaps) {
+        let Pair { below, above } = *pair?;
+        let [below, above] = [below, above].map(polygon);
+        is_folded[below] |= below == above;
     }
     let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) =
         (collect((0..count).map(|_| None))?, collect(stock.views.iter().map(|_| None))?);
     let (mut units, mut next) = (Vec::new(), 0);
     reserve(&mut units, stock.items.len())?;
-    for item in 0..stock.items.len() as u32 {
+    for item in each(watch, 1, 0..stock.items.len() as u32) {
+        let item = item?;
         let polygon = polygon(item);
         let unit = match is_folded[polygon] {
             true => &mut of_face[stock.face(item) as usize],
@@ -203,33 +221,36 @@ fn units(stock: &Stock<'_>, overlaps: &[Pair]) -> Result<Vec<u32>, Error> {
 }
 
 /// The pairs between what items belong to.
-fn contracted(overlaps: &[Pair], of_item: &[u32]) -> Result<Vec<Pair>, Error> {
+fn contracted(overlaps: &[Pair], of_item: &[u32], watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
     let mut pairs = Vec::new();
-    for pair in overlaps {
-        let [below, above] = [pair.below, pair.above].map(|item| of_item[item as usize]);
+    for pair in each(watch, 1, overlaps) {
+        let Pair { below, above } = *pair?;
+        let [below, above] = [below, above].map(|item| of_item[item as usize]);
         if below != above {
             push(&mut pairs, Pair { below, above })?;
         }
     }
-    pairs.sort_unstable();
+    sort_by(&mut pairs, watch, Pair::cmp)?;
     pairs.dedup();
     Ok(pairs)
 }
 
 /// Nodes of one unit, two at a time, those first that are nearest in the order: they have the fewest
 /// between them. (Which are joined first hardly matters to how many are left.)
-fn candidates(nodes: &[u32], units: &[u32]) -> Result<Vec<(u32, u32)>, Error> {
+fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u32, u32)>, Error> {
     let unit = |node: u32| units[nodes[node as usize] as usize];
     let mut by_unit: Vec<u32> = collect(0..nodes.len() as u32)?;
-    by_unit.sort_by_key(|&node| unit(node));
+    sort_by(&mut by_unit, watch, |&a, &b| unit(a).cmp(&unit(b)))?;
     let mut pairs = Vec::new();
     for same in by_unit.chunk_by(|&a, &b| unit(a) == unit(b)) {
-        for (i, &a) in same.iter().enumerate() {
+        for numbered in each(watch, NEXT, same.iter().enumerate()) {
+            let (i, &a) = numbered?;
             for &b in same[i + 1..].iter().take(NEXT) {
                 push(&mut pairs, (a, b))?;
             }
         }
     }
-    pairs.sort_unstable_by_key(|&(a, b)| (b - a, a));
+    let key = |&(a, b): &(u32, u32)| (b - a, a);
+    sort_by(&mut pairs, watch, |a, b| key(a).cmp(&key(b)))?;
     Ok(pairs)
 }

@@ -4,7 +4,8 @@ use super::cell::Cell;
 use super::halving::{CUT, NARROWED, found_in};
 use super::lines::Lines;
 use super::reaches::Reaches;
-use super::region::{Region, are_apart};
+use super::rect::{Rect, are_apart};
+use super::reporter::each;
 use super::sight::{Sight, Spot};
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
@@ -53,7 +54,7 @@ pub(super) struct Pieces<'a> {
     /// The face of a piece.
     pub(super) face: &'a (dyn Fn(u32) -> u32 + Sync),
     /// A box around a piece.
-    pub(super) around: &'a (dyn Fn(u32) -> Region + Sync),
+    pub(super) around: &'a (dyn Fn(u32) -> Rect + Sync),
 }
 
 /// Tiles are not halved where at most so many pieces reach into them without covering them. Larger: more
@@ -62,7 +63,7 @@ pub(super) struct Pieces<'a> {
 const FEW: usize = 64;
 
 /// A tile with the pieces, segments and points that may be in it.
-struct Entry {
+struct TilePasses {
     tile: Tile,
     reaches: Reaches,
     sights: Vec<u32>,
@@ -70,7 +71,7 @@ struct Entry {
     in_vain: u32,
 }
 
-/// All passes that are wanted, by whether the piece is in front.
+/// All passes that are wanted, by whether the piece is in front: a phase.
 pub(super) fn passes(
     mut pieces: Pieces<'_>,
     passing: Passing<'_>,
@@ -81,16 +82,14 @@ pub(super) fn passes(
     let reaches = std::mem::take(&mut pieces.reaches);
     let sights = (0..passing.sights.len() as u32).collect();
     let spots = (0..passing.spots.len() as u32).collect();
-    let all = Entry { tile, reaches, sights, spots, in_vain: 0 };
-    let halves = |entry: &Entry, _: &mut Passes| {
-        let Entry { reaches, sights, spots, .. } = entry;
-        watch.work((reaches.list.len() + sights.len() + spots.len()) * NARROWED)?;
-        entry.halves(&pieces, passing)
+    let all = TilePasses { tile, reaches, sights, spots, in_vain: 0 };
+    let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
+    let leaf = |part: &TilePasses, found: &mut Passes| {
+        part.leaf(&pieces, passing, &is_wanted, found, watch)
     };
-    let leaf =
-        |entry: &Entry, found: &mut Passes| entry.leaf(&pieces, passing, &is_wanted, found, watch);
-    let (all, mut passes) = (all.narrowed(&pieces, passing, tile)?, Passes::default());
+    let (all, mut passes) = (all.narrowed(&pieces, passing, tile, watch)?, Passes::default());
     for mut found in found_in(all, Passes::default, halves, leaf, watch)? {
+        watch.work(found.sights.len() + found.spots.len())?;
         reserve(&mut passes.sights, found.sights.len())?;
         passes.sights.append(&mut found.sights);
         reserve(&mut passes.spots, found.spots.len())?;
@@ -99,7 +98,7 @@ pub(super) fn passes(
     Ok(passes)
 }
 
-impl Entry {
+impl TilePasses {
     /// How many pieces do not cover the tile.
     fn open(&self) -> usize {
         self.reaches.list.iter().filter(|reach| !reach.covers()).count()
@@ -115,12 +114,13 @@ impl Entry {
         &self,
         pieces: &Pieces<'_>,
         passing: Passing<'_>,
+        watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(pieces, passing, tile);
+        let narrowed = |tile| self.narrowed(pieces, passing, tile, watch);
         let mut parts = [narrowed(first)?, narrowed(second)?];
         let counts = [parts[0].open(), parts[1].open()];
         [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, self.open(), counts);
@@ -132,12 +132,14 @@ impl Entry {
         pieces: &Pieces<'_>,
         passing: Passing<'_>,
         tile: Tile,
+        watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let sides = tile.sides();
-        let reaches = self.reaches.narrowed(pieces.lines, &sides, pieces.around)?;
-        let sights = kept(&self.sights, |number| passing.sights[number as usize].may_meet(&sides))?;
+        let reaches = self.reaches.narrowed(pieces.lines, &sides, pieces.around, watch)?;
+        let may_meet = |number: u32| passing.sights[number as usize].may_meet(&sides);
+        let sights = kept(&self.sights, may_meet, watch)?;
         let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].region());
-        let spots = kept(&self.spots, is_near)?;
+        let spots = kept(&self.spots, is_near, watch)?;
         Ok(Self { tile, reaches, sights, spots, in_vain: 0 })
     }
 
@@ -156,13 +158,14 @@ impl Entry {
         let lines = pieces.lines;
         let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
         for reach in &self.reaches.list {
-            watch.work((1 + self.sights.len() + self.spots.len()) * CUT)?;
+            watch.work(CUT)?;
             let halves = self.reaches.halves_of(reach);
             let Some(cell) = whole.within(lines, halves, None)? else { continue };
             let (around, piece) = (cell.region(), reach.number);
             let face = (pieces.face)(piece);
             let side = lines.frame.seen_side(face);
-            for &number in &self.sights {
+            for number in each(watch, CUT, &self.sights) {
+                let number = *number?;
                 let sight = &passing.sights[number as usize];
                 if !sight.may_meet(&around) {
                     continue;
@@ -179,7 +182,8 @@ impl Entry {
                 add(false, [f64::NEG_INFINITY, from])?;
                 add(false, [to, f64::INFINITY])?;
             }
-            for &number in &self.spots {
+            for number in each(watch, CUT, &self.spots) {
+                let number = *number?;
                 let spot = &passing.spots[number as usize];
                 if !are_apart(&around, &spot.region()) && spot.is_in(lines, &cell) {
                     let is_behind = spot.is_behind(lines, face, side);
@@ -194,9 +198,18 @@ impl Entry {
 }
 
 /// Those of some numbers that a function keeps.
-pub(super) fn kept(numbers: &[u32], keep: impl Fn(u32) -> bool) -> Result<Vec<u32>, Error> {
+pub(super) fn kept(
+    numbers: &[u32],
+    keep: impl Fn(u32) -> bool,
+    watch: &Watch<'_>,
+) -> Result<Vec<u32>, Error> {
     let mut kept = Vec::new();
     reserve(&mut kept, numbers.len())?;
-    kept.extend(numbers.iter().filter(|&&number| keep(number)));
+    for number in each(watch, NARROWED, numbers) {
+        let number = *number?;
+        if keep(number) {
+            kept.push(number);
+        }
+    }
     Ok(kept)
 }

@@ -9,6 +9,7 @@ use super::outline::{Edge, outlines};
 use super::overlaid::Overlaid;
 use super::tile::Tile;
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::{place, push, reserve};
 
 /// A view as filled outlines, in the order to paint them.
@@ -49,9 +50,10 @@ impl Drawing {
         polygon: usize,
         is_clipped: bool,
         edges: &[Edge],
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        for outline in joined(edges) {
+        for outline in joined(edges, watch)? {
             push(&mut self.outlines, self.corners.len() as u32)?;
             reserve(&mut self.corners, outline.len())?;
             self.corners.extend(outline);
@@ -115,11 +117,11 @@ impl<'d> Path<'d> {
 
 /// The outlines of what edges go around. A single part is its outline. Those of a folded polygon lie on one
 /// another, and specks are smaller than outlines can be: there each is one of its own.
-pub(super) fn joined(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
+pub(super) fn joined(edges: &[Edge], watch: &Watch<'_>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     let is_one =
         edges.iter().position(|edge| edge.to == edges[0].from) == edges.len().checked_sub(1);
-    let joined = if is_one { None } else { outlines(edges) };
-    joined.unwrap_or_else(|| apart(edges))
+    let joined = if is_one { None } else { outlines(edges, watch)? };
+    Ok(joined.unwrap_or_else(|| apart(edges)))
 }
 
 /// The outlines of convex parts, one after another.

@@ -3,10 +3,13 @@
 use smallvec::SmallVec;
 
 use super::half::Half;
+use super::halving::NARROWED;
 use super::lines::Lines;
-use super::region::{Region, are_apart, is_within};
+use super::rect::{Rect, are_apart, is_within};
+use super::reporter::each;
 use super::tile::Across;
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::{place, push, reserve};
 
 /// A piece, with those of its lines that may cross a part of the picture.
@@ -49,11 +52,13 @@ impl Reaches {
     pub(super) fn narrowed(
         &self,
         lines: &Lines<'_>,
-        region: &Region,
-        around: impl Fn(u32) -> Region,
+        region: &Rect,
+        around: impl Fn(u32) -> Rect,
+        watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let mut part = Self::default();
-        'pieces: for reach in &self.list {
+        'pieces: for reach in each(watch, NARROWED, &self.list) {
+            let reach = reach?;
             let around = around(reach.number);
             if are_apart(region, &around) {
                 continue;

@@ -1,20 +1,15 @@
 //! Regions of the picture in which the same polygons show, one behind the other.
 
-use std::collections::BTreeMap;
-
-use smallvec::SmallVec;
-
-use super::cell::Cell;
-use super::half::Half;
-use super::lines::Lines;
+use super::divided::Divided;
+use super::halving::VISITED;
 use super::map::VisibilityMap;
 use super::outline::Edge;
 use super::paths::{add_sides, joined};
-use super::region::{Region as Around, are_apart};
-use super::stock::Stock;
-use super::visible::{Leaf, Visible};
+use super::reporter::{each, finish_item, sort_by};
+use super::table::{Table, insert};
 use crate::Error;
-use crate::memory::{push, reserve};
+use crate::build::progress::Watch;
+use crate::memory::{collect, push, reserve};
 use crate::parallel_map;
 
 /// A part of the picture in which the same polygons show, one behind the other.
@@ -24,58 +19,154 @@ pub struct Region {
     outlines: Vec<Vec<[f64; 2]>>,
 }
 
-/// A convex part of a region: all of it shows the same items, front to back.
-struct Part {
-    cell: Cell,
-    around: Around,
-    items: SmallVec<[u32; 4]>,
-}
+/// So many tiles are divided at once, by all threads. Larger: more memory for their parts; smaller: threads wait
+/// for one another.
+const AT_ONCE: usize = 64;
 
 impl VisibilityMap<'_> {
     /// The parts of the picture that differ in what shows, side by side; what shows nothing is in none.
     ///
     /// Where all polygons are opaque, there is one for each that shows. Translucent polygons divide what they
-    /// lie over: n of them that overlap have up to O(n²) regions. Filled each with one blended colour, and
-    /// added up instead of painted over one another, regions have no seams.
+    /// lie over: n of them that overlap have up to O(n²) regions, with up to n polygons each. Filled each with
+    /// one blended colour, and added up instead of painted over one another, regions have no seams.
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
-        let Self { stock, rims, leaves, .. } = self;
-        let mut edges: BTreeMap<SmallVec<[usize; 4]>, Vec<Edge>> = BTreeMap::new();
-        for parts in
-            parallel_map::map(leaves.iter().collect(), |leaf| parts(leaf, stock, &rims.lines))
-        {
-            for Part { cell, items, .. } in parts? {
-                let polygons = items.iter().map(|&item| stock.polygon(item)).collect();
-                add_sides(&cell, edges.entry(polygons).or_default())?;
-            }
-        }
-        let all: Vec<_> = edges.into_iter().collect();
-        let region = |(polygons, edges): (SmallVec<[usize; 4]>, Vec<Edge>)| Region {
-            polygons: polygons.into_vec(),
-            outlines: joined(&edges),
-        };
-        Ok(parallel_map::map(all, region))
+        self.reporter.watch(2, |watch| self.stacks(watch)?.regions(watch))
     }
 
-    /// Calls a function with each convex part of the picture, once for each item that shows there.
-    pub(super) fn for_each_part(
-        &self,
-        mut see: impl FnMut(u32, &Cell) -> Result<(), Error>,
+    /// What shows of polygons that lie one behind the other: a phase.
+    fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
+        let mut stacks = Stacks::default();
+        push(&mut stacks.layers, Layer { polygon: usize::MAX, before: 0 })?;
+        let (mut done, count) = (0, self.leaves.len());
+        for leaves in self.leaves.chunks(AT_ONCE) {
+            let divided = |leaf| Divided::new(leaf, &self.stock, &self.rims.lines, watch);
+            for divided in parallel_map::map(leaves.iter().collect(), divided) {
+                stacks.add(&divided?, |item| self.stock.polygon(item), watch)?;
+                finish_item(watch, done, count);
+                done += 1;
+            }
+        }
+        Ok(stacks)
+    }
+}
+
+/// Polygons that show, each behind another layer or, if that is the first of all, in front.
+struct Layer {
+    polygon: usize,
+    before: u32,
+}
+
+/// The regions, each by its last layer.
+#[derive(Default)]
+struct Stacks {
+    layers: Vec<Layer>,
+    /// Layers by what is before them and their polygons.
+    numbers: Table<(u32, usize), u32>,
+    /// The edges of all parts of regions, and whose they are.
+    edges: Vec<(u32, Edge)>,
+}
+
+impl Stacks {
+    /// Adds the parts of a tile.
+    fn add(
+        &mut self,
+        divided: &Divided,
+        polygon: impl Fn(u32) -> usize,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        for leaf in &self.leaves {
-            if is_opaque(leaf, &self.stock) {
-                leaf.cells.iter().try_for_each(|visible| see(visible.item, &visible.cell))?;
-                continue;
-            }
-            for Part { cell, items, .. } in parts(leaf, &self.stock, &self.rims.lines)? {
-                items.iter().try_for_each(|&item| see(item, &cell))?;
-            }
+        // The layers of all tiles that those of this one are.
+        let mut own: Vec<u32> = Vec::new();
+        reserve(&mut own, divided.layers.len())?;
+        own.push(0);
+        for layer in each(watch, VISITED, &divided.layers[1..]) {
+            let layer = layer?;
+            let (before, polygon) = (own[layer.before as usize], polygon(layer.item));
+            let number = match self.numbers.get(&(before, polygon)) {
+                Some(&number) => number,
+                None => {
+                    let number = self.layers.len() as u32;
+                    insert(&mut self.numbers, (before, polygon), number)?;
+                    push(&mut self.layers, Layer { polygon, before })?;
+                    number
+                }
+            };
+            own.push(number);
+        }
+        let mut sides = Vec::new();
+        for part in each(watch, VISITED, &divided.parts) {
+            let part = part?;
+            add_sides(&part.cell, &mut sides)?;
+            reserve(&mut self.edges, sides.len())?;
+            let layer = own[part.layer as usize];
+            self.edges.extend(sides.drain(..).map(|edge| (layer, edge)));
         }
         Ok(())
     }
+
+    /// The regions, in the order of their polygons: a phase.
+    fn regions(self, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
+        let Self { layers, edges, numbers } = self;
+        drop(numbers);
+        // Where the edges of each region begin, and then where they end.
+        let mut ends: Vec<usize> = collect(layers.iter().map(|_| 0))?;
+        for edge in each(watch, 1, &edges) {
+            ends[edge?.0 as usize] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut ends {
+            sum += std::mem::replace(end, sum);
+        }
+        let none = Edge { line: 0, from: [0.0; 2], to: [0.0; 2] };
+        let mut grouped: Vec<Edge> = collect(edges.iter().map(|_| none))?;
+        for edge in each(watch, 1, edges) {
+            let (layer, edge) = edge?;
+            let end = &mut ends[layer as usize];
+            grouped[*end] = edge;
+            *end += 1;
+        }
+        let mut begin = 0;
+        let mut all: Vec<(Vec<usize>, &[Edge])> = Vec::new();
+        for (layer, &end) in (0..).zip(&ends) {
+            if begin < end {
+                let polygons = stack(&layers, layer, watch)?;
+                push(&mut all, (polygons, &grouped[begin..end]))?;
+            }
+            begin = end;
+        }
+        let mut order: Vec<usize> = collect(0..all.len())?;
+        sort_by(&mut order, watch, |&a, &b| all[a].0.cmp(&all[b].0))?;
+        let count = all.len();
+        let region = |(i, at): (usize, usize)| {
+            let outlines = joined(all[at].1, watch)?;
+            finish_item(watch, i, count);
+            Ok((at, outlines))
+        };
+        let joined = parallel_map::map(order.into_iter().enumerate().collect(), region);
+        let mut regions = Vec::new();
+        reserve(&mut regions, count)?;
+        for region in joined {
+            let (at, outlines) = region?;
+            regions.push(Region { polygons: std::mem::take(&mut all[at].0), outlines });
+        }
+        Ok(regions)
+    }
+}
+
+/// The polygons of a layer and of those before it, front to back.
+fn stack(layers: &[Layer], last: u32, watch: &Watch<'_>) -> Result<Vec<usize>, Error> {
+    let at = |layer: u32| (layer != 0).then(|| &layers[layer as usize]);
+    let all = || std::iter::successors(at(last), |layer| at(layer.before));
+    let mut polygons = Vec::new();
+    polygons.try_reserve_exact(all().count()).map_err(|_| Error::out_of_memory())?;
+    for layer in each(watch, 1, all()) {
+        polygons.push(layer?.polygon);
+    }
+    polygons.reverse();
+    Ok(polygons)
 }
 
 impl Region {
@@ -106,61 +197,4 @@ fn area(outline: &[[f64; 2]]) -> f64 {
         0.5 * (ax * by - ay * bx)
     });
     halves.sum()
-}
-
-/// Whether nothing shows through anything in a tile.
-fn is_opaque(leaf: &Leaf, stock: &Stock<'_>) -> bool {
-    leaf.cells.iter().all(|visible| stock.is_opaque(visible.item))
-}
-
-/// The parts of a tile. What is visible is laid over what was there, front to back.
-fn parts(leaf: &Leaf, stock: &Stock<'_>, lines: &Lines<'_>) -> Result<Vec<Part>, Error> {
-    let mut found = Vec::new();
-    if is_opaque(leaf, stock) {
-        reserve(&mut found, leaf.cells.len())?;
-        found.extend(
-            leaf.cells.iter().map(|Visible { item, cell }| {
-                Part::new(cell.clone(), SmallVec::from_elem(*item, 1))
-            }),
-        );
-        return Ok(found);
-    }
-    let tile = Cell::rectangle(lines, leaf.tile.low, leaf.tile.high);
-    let mut open = vec![Part::new(tile, SmallVec::new())];
-    let (mut left, mut outside) = (Vec::new(), Vec::new());
-    for Visible { item, cell } in &leaf.cells {
-        let halves: SmallVec<[Half; 8]> = cell.sides.iter().map(|side| side.half).collect();
-        let around = cell.region();
-        let mut i = 0;
-        while let Some(part) = open.get(i) {
-            let common = match are_apart(&part.around, &around) {
-                true => None,
-                false => part.cell.within(lines, &halves, Some(&mut outside))?,
-            };
-            let Some(common) = common else {
-                outside.clear();
-                i += 1;
-                continue;
-            };
-            let part = open.swap_remove(i);
-            reserve(&mut left, outside.len() + 1)?;
-            left.extend(outside.drain(..).map(|cell| Part::new(cell, part.items.clone())));
-            let mut items = part.items;
-            items.push(*item);
-            let to = if stock.is_opaque(*item) { &mut found } else { &mut left };
-            push(to, Part::new(common, items))?;
-        }
-        reserve(&mut open, left.len())?;
-        open.append(&mut left);
-    }
-    open.retain(|part| !part.items.is_empty());
-    reserve(&mut found, open.len())?;
-    found.append(&mut open);
-    Ok(found)
-}
-
-impl Part {
-    fn new(cell: Cell, items: SmallVec<[u32; 4]>) -> Self {
-        Self { around: cell.region(), cell, items }
-    }
 }

@@ -4,7 +4,7 @@ use smallvec::SmallVec;
 
 use super::half::Half;
 use super::lines::Lines;
-use super::region::{Region, is_within};
+use super::rect::{Rect, is_within};
 use super::stock::{Item, Stock, View};
 use super::table::{Table, insert};
 use super::tile::Across;
@@ -66,7 +66,7 @@ impl<'t> Rims<'t> {
         &mut self,
         stock: &Stock<'_>,
         item: u32,
-        sides: &Region,
+        sides: &Rect,
     ) -> Result<Across, Error> {
         let ends = self.item_place(stock, item)?;
         Ok(self.across(ends, sides))
@@ -77,7 +77,7 @@ impl<'t> Rims<'t> {
         &mut self,
         stock: &Stock<'_>,
         item: u32,
-        sides: &Region,
+        sides: &Rect,
     ) -> Result<Option<SmallVec<[Half; 8]>>, Error> {
         let ends = self.item_place(stock, item)?;
         if is_within(&stock.items[item as usize].region, sides) {
@@ -99,7 +99,7 @@ impl<'t> Rims<'t> {
         &mut self,
         stock: &Stock<'_>,
         face: u32,
-        sides: &Region,
+        sides: &Rect,
     ) -> Result<bool, Error> {
         if !is_within(sides, &stock.views[face as usize].region) {
             return Ok(false);
@@ -108,7 +108,7 @@ impl<'t> Rims<'t> {
         Ok(self.across(ends, sides) == Across::Inside)
     }
 
-    fn across(&self, ends: [u32; 2], sides: &Region) -> Across {
+    fn across(&self, ends: [u32; 2], sides: &Rect) -> Across {
         let mut all = Across::Inside;
         for &half in self.at(ends) {
             match self.lines.across(half, sides) {

@@ -8,7 +8,7 @@ use super::cell::{Cell, Corner, side_on_line};
 use super::edges::SHORTEST;
 use super::frame::{Exact, Image, meeting};
 use super::lines::Lines;
-use super::region::{Region, are_apart};
+use super::rect::{NOWHERE, Rect, are_apart};
 use super::rounded::Rounded;
 use super::tile::Tile;
 use crate::exact::{Exact as Exactly, Int, Kernel, PlaneId};
@@ -25,7 +25,17 @@ pub(super) struct Sight {
     /// Where it begins and ends in the picture.
     pub(super) places: [f64; 2],
     /// A box around that part.
-    region: Region,
+    region: Rect,
+}
+
+/// What floats tell of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Certain {
+    /// Both ends are in the picture, here.
+    Inside([[f64; 2]; 2]),
+    /// No point is in the picture.
+    Outside,
+    Nothing,
 }
 
 /// Boxes are larger than what they are around by this, in pixels: far more than rounding.
@@ -34,36 +44,55 @@ const MARGIN: f64 = 1e-3;
 impl Sight {
     /// `None` if it is not in the picture, or a point there.
     pub(super) fn new(lines: &Lines<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
-        let rounded = lines.rounded_other(&lines.frame.edge(ends));
-        let [_, kx, ky] = rounded.k;
-        let slope = kx.hypot(ky);
-        if slope == 0.0 {
+        let picture = Tile::picture(lines.frame.rays.size()).sides();
+        let certain = certain_ends(lines, ends, &picture);
+        if certain == Certain::Outside {
             return None;
         }
+        let mut sight = Self::along(lines.rounded_edge(ends), ends)?;
+        let [from, to] = match certain {
+            Certain::Inside(ends) => ends.map(|end| sight.place(end)),
+            _ => sight.in_picture(lines)?,
+        };
+        if (to - from).is_nan() || to - from < SHORTEST {
+            return None;
+        }
+        sight.limit([from, to]);
+        Some(sight)
+    }
+
+    /// A line without ends.
+    fn along(rounded: Rounded, ends: [[f64; 3]; 2]) -> Option<Self> {
+        let [_, kx, ky] = rounded.k;
+        let slope = (kx * kx + ky * ky).sqrt();
         let direction = [ky / slope, -kx / slope];
-        let region = Tile::picture(lines.frame.rays.size()).sides();
-        let mut sight = Self { ends, rounded, direction, places: [0.0; 2], region };
+        let sight = Self { ends, rounded, direction, places: [0.0; 2], region: NOWHERE };
+        (slope > 0.0).then_some(sight)
+    }
+
+    /// From where to where it is in the picture.
+    fn in_picture(&self, lines: &Lines<'_>) -> Option<[f64; 2]> {
         let Tile { low, high } = Tile::picture(lines.frame.rays.size());
-        let [mut from, mut to] = sight.chord(lines, &Cell::rectangle(lines, low, high))?;
-        let images = ends.map(|end| lines.frame.image(end));
+        let [mut from, mut to] = self.chord(lines, &Cell::rectangle(lines, low, high))?;
+        let images = self.ends.map(|end| lines.frame.image(end));
         let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
         if is_ahead[0] {
-            from = from.max(sight.place_of(&images[0]));
+            from = from.max(self.place_of(&images[0]));
         }
         if is_ahead[1] {
-            to = to.min(sight.place_of(&images[1]));
+            to = to.min(self.place_of(&images[1]));
         }
-        if is_ahead == [false; 2] || (to - from).is_nan() || to - from < SHORTEST {
-            return None;
-        }
-        sight.places = [from, to];
-        let [a, b] = sight.places.map(|place| sight.at(place));
+        (is_ahead != [false; 2]).then_some([from, to])
+    }
+
+    fn limit(&mut self, places: [f64; 2]) {
+        self.places = places;
+        let [a, b] = places.map(|place| self.at(place));
         let axes = [0, 1];
-        sight.region = [
+        self.region = [
             axes.map(|i: usize| a[i].min(b[i]) - MARGIN),
             axes.map(|i: usize| a[i].max(b[i]) + MARGIN),
         ];
-        Some(sight)
     }
 
     /// The point of its line at a place.
@@ -79,6 +108,11 @@ impl Sight {
         x * self.direction[0] + y * self.direction[1]
     }
 
+    /// The same of a point that is on it, but for rounding.
+    pub(super) fn place_on(&self, point: [f64; 2]) -> f64 {
+        self.place(point).clamp(self.places[0], self.places[1])
+    }
+
     fn place_of<const N: usize>(&self, image: &[Int<N>; 3]) -> f64 {
         let [weight, x, y] = image.map(Int::to_f64);
         self.place([x / weight, y / weight])
@@ -89,7 +123,7 @@ impl Sight {
     }
 
     /// Whether it may meet a box.
-    pub(super) fn may_meet(&self, region: &Region) -> bool {
+    pub(super) fn may_meet(&self, region: &Rect) -> bool {
         if are_apart(region, &self.region) {
             return false;
         }
@@ -169,6 +203,31 @@ impl Sight {
     }
 }
 
+/// What floats tell of the segment between two lattice points. (Most are inside or outside.)
+fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: &Rect) -> Certain {
+    let projected = ends.map(|end| lines.frame.rays.project(end));
+    // What is positive in the picture and ahead of the eye, and how far off that may be.
+    let inside = |([x, y, z], [ex, ey, ez]): ([f64; 3], [f64; 3])| {
+        let side = |at: f64, error: f64, border: f64, sign: f64| {
+            let off = error + border.abs() * ez;
+            (sign * (at - border * z), off + 4.0 * f64::EPSILON * (at.abs() + (border * z).abs()))
+        };
+        let beyond = |at, error, axis: usize| side(at, error, low[axis], 1.0);
+        let before = |at, error, axis: usize| side(at, error, high[axis], -1.0);
+        [(z, ez), beyond(x, ex, 0), before(x, ex, 0), beyond(y, ey, 1), before(y, ey, 1)]
+    };
+    let [a, b] = projected.map(inside);
+    let is_out = |&(value, off): &(f64, f64)| value < -off;
+    if a.iter().zip(&b).any(|(a, b)| is_out(a) && is_out(b)) {
+        return Certain::Outside;
+    }
+    let is_in = |&(value, off): &(f64, f64)| value > off;
+    match a.iter().chain(&b).all(is_in) {
+        true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
+        false => Certain::Nothing,
+    }
+}
+
 /// A point of the scene as the picture shows it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
@@ -190,7 +249,7 @@ impl Spot {
     }
 
     /// A box around it.
-    pub(super) fn region(&self) -> Region {
+    pub(super) fn region(&self) -> Rect {
         [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
     }
 

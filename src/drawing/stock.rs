@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use super::frame::Frame;
-use super::region::{NOWHERE, Region, common, is_empty};
+use super::rect::{NOWHERE, Rect, common, is_empty};
 use super::tile::Tile;
 use crate::Error;
 use crate::build::progress::Watch;
@@ -20,14 +20,14 @@ pub(super) struct Item {
     /// The tree's number of it.
     pub(super) fragment: u32,
     /// A box around what of it is in the picture.
-    pub(super) region: Region,
+    pub(super) region: Rect,
 }
 
 /// How the camera sees a face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     /// A box around what of it is in the picture; an empty one if the picture shows nothing of it.
-    pub(super) region: Region,
+    pub(super) region: Rect,
     /// Whether the κ of its plane is positive.
     pub(super) is_positive: bool,
     /// Whether it hides what is behind it.
@@ -95,7 +95,7 @@ impl<'t> Stock<'t> {
     }
 
     /// A box around the part of a convex hull that is in the picture; `None` if there is none.
-    fn region(&self, points: &[[f64; 3]]) -> Option<Region> {
+    fn region(&self, points: &[[f64; 3]]) -> Option<Rect> {
         let picture = Tile::picture(self.frame.rays.size()).sides();
         let region = common(&self.frame.rays.region(points)?, &picture);
         (!is_empty(&region)).then_some(region)

@@ -2,7 +2,7 @@
 
 use super::half::{Half, STEPS};
 use super::lines::Lines;
-use super::region::Region;
+use super::rect::Rect;
 
 /// A rectangle of the picture, between borders in steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl Tile {
     }
 
     /// Its sides in pixels: exact.
-    pub(super) fn sides(&self) -> Region {
+    pub(super) fn sides(&self) -> Rect {
         [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn in_vain(before: u32, all: usize, parts: [usize; 2]) -> [u32; 2] {
 
 impl Lines<'_> {
     /// Where a box lies against a half.
-    pub(super) fn across(&self, half: Half, [low, high]: &Region) -> Across {
+    pub(super) fn across(&self, half: Half, [low, high]: &Rect) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [w, h] = [0, 1].map(|axis: usize| 0.5 * (high[axis] - low[axis]));

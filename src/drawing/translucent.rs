@@ -9,13 +9,14 @@ use super::overlaps::overlaps;
 use super::pairs::Pair;
 use super::parts::Parts;
 use super::paths::Drawing;
+use super::reporter::{Reporter, each, finish_item};
 use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
 use super::visible::Leaf;
 use crate::Error;
 use crate::build::Progress;
-use crate::build::progress::{Watch, one_at_a_time};
+use crate::build::progress::Watch;
 use crate::memory::{collect, push};
 use crate::overlay::Overlay;
 use crate::raster::Rays;
@@ -38,11 +39,11 @@ impl Drawing {
     ///
     /// If there is not enough memory.
     pub fn translucent(tree: &BspTree, rays: Rays) -> Result<Self, Error> {
-        Self::with_all(tree, rays, None, &Watch::default())
+        Self::with_all(tree, rays, None, &Reporter::default())
     }
 
     /// As [`translucent`](Self::translucent). Now and then `progress` is called with how far the drawing has
-    /// come, by any thread, one at a time; if it returns `Break`, the drawing is cancelled.
+    /// come, and may cancel it, as in [an operation of a map](super::VisibilityMap#progress).
     ///
     /// # Errors
     ///
@@ -52,8 +53,7 @@ impl Drawing {
         rays: Rays,
         progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
     ) -> Result<Self, Error> {
-        let progress = one_at_a_time(progress);
-        Self::with_all(tree, rays, None, &Watch::new(&progress))
+        Self::with_all(tree, rays, None, &Reporter::new(progress))
     }
 
     /// As [`translucent`](Self::translucent), with the lines and points of an overlay of the same tree
@@ -69,37 +69,61 @@ impl Drawing {
     /// # Errors
     ///
     /// As for `translucent` and `lines`.
-    pub fn translucent_with(tree: &BspTree, rays: Rays, overlay: &Overlay) -> Result<Self, Error> {
-        overlay.expect_no_polygons(tree)?;
-        Self::with_all(tree, rays, Some(overlay), &Watch::default())
+    pub fn translucent_with_overlay(
+        tree: &BspTree,
+        rays: Rays,
+        overlay: &Overlay,
+    ) -> Result<Self, Error> {
+        Self::with_all(tree, rays, Some(overlay), &Reporter::default())
+    }
+
+    /// As [`translucent_with_overlay`](Self::translucent_with_overlay), with `progress` as in
+    /// [`translucent_with_progress`](Self::translucent_with_progress).
+    ///
+    /// # Errors
+    ///
+    /// As for `translucent_with_overlay`, and [`Error`] if it was cancelled.
+    pub fn translucent_with_overlay_and_progress(
+        tree: &BspTree,
+        rays: Rays,
+        overlay: &Overlay,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<Self, Error> {
+        Self::with_all(tree, rays, Some(overlay), &Reporter::new(progress))
     }
 
     fn with_all(
         tree: &BspTree,
         rays: Rays,
         overlay: Option<&Overlay>,
-        watch: &Watch<'_>,
+        reporter: &Reporter<'_>,
     ) -> Result<Self, Error> {
-        let picture = Tile::picture(rays.size());
-        let stock = Stock::new(tree, rays, vec![], watch)?;
-        let mut rims = Rims::new(&stock);
-        for item in 0..stock.items.len() as u32 {
-            watch.work(LINES)?;
-            rims.item(&stock, item)?;
-        }
-        let overlaps = overlaps(&stock, &rims, picture, watch)?;
-        let parts = Parts::new(&stock, &overlaps, watch)?;
-        let (mut drawing, path_of) = parts.drawing(&stock, &rims, &overlaps, None, watch)?;
         if let Some(overlay) = overlay {
-            let count = drawing.paths.len() as u32;
-            drawing.overlaid = between(&stock, &rims, &path_of, count, overlay)?;
+            overlay.expect_no_polygons(tree)?;
         }
-        Ok(drawing)
+        reporter.watch(if overlay.is_some() { 4 } else { 3 }, |watch| {
+            let picture = Tile::picture(rays.size());
+            let stock = Stock::new(tree, rays, vec![], watch)?;
+            let (mut rims, count) = (Rims::new(&stock), stock.items.len());
+            for item in 0..count {
+                watch.work(LINES)?;
+                rims.item(&stock, item as u32)?;
+                finish_item(watch, item, count);
+            }
+            let overlaps = overlaps(&stock, &rims, picture, watch)?;
+            let parts = Parts::new(&stock, &overlaps, watch)?;
+            let (mut drawing, path_of) = parts.drawing(&stock, &rims, &overlaps, None, watch)?;
+            if let Some(overlay) = overlay {
+                let count = drawing.paths.len() as u32;
+                drawing.overlaid = between(&stock, &rims, &path_of, count, overlay, watch)?;
+            }
+            Ok(drawing)
+        })
     }
 }
 
 /// The drawing of a map where something shows through: opaque polygons are in one path each, translucent ones
-/// as in [`Drawing::translucent`], and what shows nowhere is left out.
+/// as in [`Drawing::translucent`], and what shows nowhere is left out. Two phases.
 pub(super) fn mixed(
     stock: &Stock<'_>,
     rims: &Rims<'_>,
@@ -111,11 +135,14 @@ pub(super) fn mixed(
     let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
     let (mut shows, mut first): (Vec<bool>, Vec<u32>) =
         (collect((0..count).map(|_| false))?, collect((0..count).map(|_| u32::MAX))?);
-    for visible in leaves.iter().flat_map(|leaf| &leaf.cells) {
-        shows[polygon(visible.item)] = true;
+    for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+        shows[polygon(visible?.item)] = true;
     }
-    for item in (0..stock.items.len() as u32).rev().filter(|&item| shows[polygon(item)]) {
-        first[polygon(item)] = item;
+    for item in each(watch, 1, (0..stock.items.len() as u32).rev()) {
+        let item = item?;
+        if shows[polygon(item)] {
+            first[polygon(item)] = item;
+        }
     }
     let faces = stock.frame.faces;
     let place = |face: u32| {
@@ -123,10 +150,12 @@ pub(super) fn mixed(
         first.get(polygon).copied().unwrap_or(u32::MAX)
     };
     let pairs = pairs(stock, rims, leaves, &place, watch)?;
-    let is_blended = |pair: &&Pair| !stock.is_opaque(pair.above);
-    let mut blended = Vec::new();
-    for &pair in pairs.iter().filter(is_blended) {
-        push(&mut blended, pair)?;
+    let mut blended: Vec<Pair> = Vec::new();
+    for pair in each(watch, 1, &pairs) {
+        let pair = *pair?;
+        if !stock.is_opaque(pair.above) {
+            push(&mut blended, pair)?;
+        }
     }
     let parts = Parts::new(stock, &blended, watch)?;
     let (drawing, _) = parts.drawing(stock, rims, &pairs, Some(leaves), watch)?;

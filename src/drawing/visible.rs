@@ -6,10 +6,11 @@
 //! algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
 
 use super::cell::{Cell, Side};
-use super::halving::{CUT, NARROWED, found_in};
+use super::halving::{CUT, found_in};
 use super::lines::Adopted;
 use super::narrow::List;
-use super::region::{Region, are_apart};
+use super::rect::{Rect, are_apart};
+use super::reporter::finish_item;
 use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::{IN_VAIN, Tile, in_vain};
@@ -39,7 +40,7 @@ const SHORT: usize = 64;
 
 /// A tile with the pieces that may show in it.
 #[derive(Debug)]
-struct Entry {
+struct TileList {
     tile: Tile,
     list: List,
     /// How often it was halved in vain: both parts had nearly all items.
@@ -55,7 +56,7 @@ struct Found<'t> {
 /// A part of a tile where nothing shows so far.
 struct Open {
     cell: Cell,
-    around: Region,
+    around: Rect,
 }
 
 impl Open {
@@ -64,54 +65,57 @@ impl Open {
     }
 }
 
-/// What is visible of all items, in the order of the tiles, by lines that are made for it.
+/// What is visible of all items, in the order of the tiles, by lines that are made for it: two phases.
 pub(super) fn visible<'t>(
     stock: &Stock<'t>,
     picture: Tile,
     watch: &Watch<'_>,
 ) -> Result<(Vec<Leaf>, Rims<'t>), Error> {
     let new = || Found { rims: Rims::new(stock), leaves: vec![] };
-    let halves = |entry: &Entry, found: &mut Found<'t>| {
-        watch.work(entry.list.items.len() * NARROWED)?;
-        entry.halves(stock, &mut found.rims)
-    };
-    let leaf = |entry: &Entry, found: &mut Found<'t>| {
-        if entry.list.items.is_empty() {
+    let halves =
+        |part: &TileList, found: &mut Found<'t>| part.halves(stock, &mut found.rims, watch);
+    let leaf = |part: &TileList, found: &mut Found<'t>| {
+        if part.list.items.is_empty() {
             return Ok(());
         }
-        let leaf = entry.leaf(stock, &mut found.rims, watch)?;
+        let leaf = part.leaf(stock, &mut found.rims, watch)?;
         push(&mut found.leaves, leaf)
     };
     let mut rims = Rims::new(stock);
-    let list = List::of_all(stock, &mut rims, picture)?;
-    let all = Entry { tile: picture, list, in_vain: 0 };
+    let list = List::of_all(stock, &mut rims, picture, watch)?;
+    let all = TileList { tile: picture, list, in_vain: 0 };
     let mut leaves = Vec::new();
-    for mut found in found_in(all, new, halves, leaf, watch)? {
+    let shares = found_in(all, new, halves, leaf, watch)?;
+    let count = shares.len();
+    for (i, mut found) in shares.into_iter().enumerate() {
         let mut adopted = Adopted::default();
-        for Visible { cell, .. } in found.leaves.iter_mut().flat_map(|leaf| &mut leaf.cells) {
-            for Side { half, .. } in &mut cell.sides {
+        for Leaf { cells, .. } in &mut found.leaves {
+            watch.work(cells.len() * CUT)?;
+            for Side { half, .. } in cells.iter_mut().flat_map(|visible| &mut visible.cell.sides) {
                 *half = rims.lines.adopted(&found.rims.lines, *half, &mut adopted)?;
             }
         }
         reserve(&mut leaves, found.leaves.len())?;
         leaves.append(&mut found.leaves);
+        finish_item(watch, i, count);
     }
     Ok((leaves, rims))
 }
 
-impl Entry {
+impl TileList {
     /// Both halves of the tile, each with what may show in it; `None` of a leaf.
     fn halves<'t>(
         &self,
         stock: &Stock<'t>,
         rims: &mut Rims<'t>,
+        watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let tiles = self.tile.halves();
-        let first = self.list.narrowed(stock, rims, tiles[0])?;
-        let second = self.list.narrowed(stock, rims, tiles[1])?;
+        let first = self.list.narrowed(stock, rims, tiles[0], watch)?;
+        let second = self.list.narrowed(stock, rims, tiles[1], watch)?;
         let counts = [&first, &second].map(|list| list.items.len());
         let in_vain = in_vain(self.in_vain, self.list.items.len(), counts);
         Ok(Some([

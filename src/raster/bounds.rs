@@ -75,13 +75,19 @@ impl Rays {
     }
 
     /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels from the
-    /// centre of the first one, times the last, which is positive ahead of the eye.
+    /// centre of the first one, times the last, which is positive ahead of the eye. With bounds on their errors.
     #[cfg(feature = "drawing")]
-    pub(crate) fn project(&self, point: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.in_picture(point).0.to_array();
+    pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+        let (at, error) = self.in_picture(point);
+        let ([x, y, z], [ex, ey, ez]) = (at.to_array(), error.to_array());
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
         let shift = [0.5 * f64::from(self.size[0]) - 0.5, -top - 0.5];
-        [x + shift[0] * z, y + shift[1] * z, z]
+        // Each product and each sum is rounded once.
+        let off = |part: f64, error: f64, shift: f64| {
+            error + shift.abs() * ez + 4.0 * f64::EPSILON * (part.abs() + (shift * z).abs())
+        };
+        let errors = [off(x, ex, shift[0]), off(y, ey, shift[1]), ez];
+        ([x + shift[0] * z, y + shift[1] * z, z], errors)
     }
 
     /// A point in multiples of right, down and the direction through the middle (the last is 1

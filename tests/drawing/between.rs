@@ -72,7 +72,7 @@ fn check(
     let sightlines = Sightlines::new(tree.faces(), origin);
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
-    let drawing = Drawing::translucent_with(tree, rays.clone(), &overlay).map_err(text)?;
+    let drawing = Drawing::translucent_with_overlay(tree, rays.clone(), &overlay).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
     let mut faces_of =
         vec![
@@ -173,7 +173,7 @@ fn a_line_is_cut_only_where_it_goes_through() {
             .replace_with(&tree, Shapes::NONE.with_lines([line]).with_points([line[0]]))
             .unwrap();
         let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let drawing = Drawing::translucent_with(&tree, rays, &overlay).unwrap();
+        let drawing = Drawing::translucent_with_overlay(&tree, rays, &overlay).unwrap();
         let (mut paths, mut found) = (0, vec![]);
         for step in drawing.steps() {
             match step {

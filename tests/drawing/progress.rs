@@ -1,90 +1,218 @@
-//! Progress of maps and drawings, and their cancellation.
+//! Progress of maps, of what is asked of them, and of drawings; and their cancellation.
 
 use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::Builtin;
 use binspace::view::Camera;
-use binspace::{BspTree, Error, Progress};
+use binspace::{BspTree, Error, Overlay, Progress, Shapes};
 
-/// The tree of many crossing triangles, and the rays of a view.
-fn tree_and_rays() -> (BspTree, Rays) {
-    let scene = Builtin::Random.build(Some(500), 3);
+/// Many crossing triangles in a view, and lines and points between them.
+struct View {
+    tree: BspTree,
+    rays: Rays,
+    overlay: Overlay,
+}
+
+fn view(triangles: u32) -> View {
+    let scene = Builtin::Random.build(Some(triangles), 3);
     let tree = BspTree::build(scene.polygons()).unwrap();
     let (low, high) = scene.bounds().unwrap();
     let camera = Camera::looking_at_all([low, high], scene.up(), [400, 300]).unwrap();
     let rays = Rays::new(&camera, tree.faces()).unwrap();
-    (tree, rays)
+    let mut random = SplitMix64::new(5);
+    let mut point = || low + random.point(0.0, 1.0) * (high - low);
+    let lines: Vec<Vec<DVec3>> = (0..3 * triangles).map(|_| vec![point(), point()]).collect();
+    let points: Vec<DVec3> = (0..8 * triangles).map(|_| point()).collect();
+    let mut overlay = Overlay::new(&tree);
+    overlay.replace_with(&tree, Shapes::NONE.with_lines(&lines).with_points(points)).unwrap();
+    View { tree, rays, overlay }
 }
 
-type Job<'j> = (
-    &'j str,
-    &'j dyn Fn(&mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Result<(), Error>,
-);
+fn mixed(polygon: usize) -> f64 {
+    if polygon.is_multiple_of(2) { 0.5 } else { 1.0 }
+}
 
-#[test]
-fn jobs_tell_how_far_they_are_and_can_be_cancelled() {
-    let (tree, rays) = tree_and_rays();
-    let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
-    let mixed = |polygon: usize| if polygon.is_multiple_of(2) { 0.5 } else { 1.0 };
-    let half = VisibilityMap::with_opacities(&tree, rays.clone(), mixed).unwrap();
-    let jobs: [Job<'_>; 5] = [
-        ("map", &|progress| {
-            VisibilityMap::of_with_progress(&tree, rays.clone(), progress).map(drop)
-        }),
-        ("drawing", &|progress| map.drawing_with_progress(progress).map(drop)),
-        ("map with opacities", &|progress| {
-            VisibilityMap::with_opacities_and_progress(&tree, rays.clone(), mixed, progress)
-                .map(drop)
-        }),
-        ("mixed drawing", &|progress| half.drawing_with_progress(progress).map(drop)),
-        ("translucent", &|progress| {
-            Drawing::translucent_with_progress(&tree, rays.clone(), progress).map(drop)
-        }),
-    ];
-    for (name, job) in jobs {
-        let mut heard: Vec<Progress> = vec![];
-        job(&mut |progress| {
-            heard.push(progress);
-            ControlFlow::Continue(())
-        })
-        .unwrap();
-        assert!(heard.len() > 10, "{name}: {heard:?}");
-        assert!(heard.windows(2).all(|pair| pair[0].done <= pair[1].done), "{name}: {heard:?}");
-        let some =
-            heard.iter().filter(|progress| 0 < progress.done && progress.done < progress.total);
-        assert!(some.count() > 1, "{name}: {heard:?}");
-        assert!(heard.iter().any(|progress| progress.total > 0 && progress.done == progress.total));
-        for calls in [1, heard.len() / 2] {
-            let mut left = calls;
-            let error = job(&mut |_| {
-                left -= 1;
-                if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-            .unwrap_err();
-            assert!(error.is_cancelled() && left == 0, "{name}: {error}");
+/// Hears how far an operation is, and cancels it.
+#[derive(Default)]
+struct Listener {
+    heard: Mutex<Vec<Progress>>,
+    /// The call that cancels.
+    last: AtomicUsize,
+}
+
+impl Listener {
+    fn hear(&self, progress: Progress) -> ControlFlow<()> {
+        let mut heard = self.heard.lock().unwrap();
+        heard.push(progress);
+        match heard.len() < self.last.load(Ordering::Relaxed) {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
         }
+    }
+
+    /// Begins anew, and cancels at this call.
+    fn cancel_at(&self, call: usize) {
+        self.heard.lock().unwrap().clear();
+        self.last.store(call, Ordering::Relaxed);
+    }
+
+    /// What was heard since then.
+    fn heard(&self) -> Vec<Progress> {
+        self.heard.lock().unwrap().clone()
     }
 }
 
-/// Who listens gets what others get.
+/// What is asked of a map: an answer as text, so that answers can be compared.
+type Question = (&'static str, fn(&VisibilityMap<'_>, &Overlay) -> Result<String, Error>);
+
+const QUESTIONS: [Question; 8] = [
+    ("drawing", |map, _| Ok(format!("{:?}", map.drawing()?))),
+    ("edges", |map, _| Ok(format!("{:?}", map.edges()?))),
+    ("edges in layers", |map, _| Ok(format!("{:?}", map.edges_in_layers()?))),
+    ("crossings", |map, _| Ok(format!("{:?}", map.crossings()?))),
+    ("lines", |map, overlay| Ok(format!("{:?}", map.lines(overlay)?))),
+    ("lines in layers", |map, overlay| Ok(format!("{:?}", map.lines_in_layers(overlay)?))),
+    ("markers", |map, overlay| Ok(format!("{:?}", map.markers(overlay)?))),
+    ("regions", |map, _| Ok(format!("{:?}", map.regions()?))),
+];
+
+/// What makes a map or a drawing, with progress if someone listens.
+type Making = (&'static str, fn(&View, Option<&Listener>) -> Result<String, Error>);
+
+const MAKINGS: [Making; 4] = [
+    ("map", |View { tree, rays, .. }, listener| {
+        let map = match listener {
+            Some(listener) => {
+                let hear = |progress| listener.hear(progress);
+                VisibilityMap::of_with_progress(tree, rays.clone(), hear)?
+            }
+            None => VisibilityMap::of(tree, rays.clone())?,
+        };
+        Ok(format!("{:?}", map.cells().collect::<Vec<_>>()))
+    }),
+    ("map with opacities", |View { tree, rays, .. }, listener| {
+        let map = match listener {
+            Some(listener) => {
+                let hear = |progress| listener.hear(progress);
+                VisibilityMap::with_opacities_and_progress(tree, rays.clone(), mixed, hear)?
+            }
+            None => VisibilityMap::with_opacities(tree, rays.clone(), mixed)?,
+        };
+        Ok(format!("{:?}", map.cells().collect::<Vec<_>>()))
+    }),
+    ("translucent", |View { tree, rays, .. }, listener| {
+        let drawing = match listener {
+            Some(listener) => {
+                let hear = |progress| listener.hear(progress);
+                Drawing::translucent_with_progress(tree, rays.clone(), hear)?
+            }
+            None => Drawing::translucent(tree, rays.clone())?,
+        };
+        Ok(format!("{drawing:?}"))
+    }),
+    ("translucent with an overlay", |View { tree, rays, overlay }, listener| {
+        let rays = rays.clone();
+        let drawing = match listener {
+            Some(listener) => {
+                let hear = |progress| listener.hear(progress);
+                Drawing::translucent_with_overlay_and_progress(tree, rays, overlay, hear)?
+            }
+            None => Drawing::translucent_with_overlay(tree, rays, overlay)?,
+        };
+        Ok(format!("{drawing:?}"))
+    }),
+];
+
+/// Checks all calls of an operation: they never go back, and only the last one says that all is done.
+fn check_calls(name: &str, heard: &[Progress]) {
+    assert!(heard.len() > 3, "{name}: {heard:?}");
+    let done = heard.iter().map(|progress| progress.done);
+    assert!(heard.iter().all(|progress| progress.total == heard[0].total), "{name}: {heard:?}");
+    assert!(heard[0].done == 0 && done.clone().is_sorted(), "{name}: {heard:?}");
+    let total = heard[0].total;
+    assert!(heard.last().unwrap().done == total, "{name}: {heard:?}");
+    assert_eq!(done.clone().filter(|&done| done == total).count(), 1, "{name}: {heard:?}");
+    assert!(done.filter(|&done| 0 < done && done < total).count() > 1, "{name}: {heard:?}");
+}
+
+/// Checks all calls of an operation, and cancels it at the first, at some in between, and at the last: there is
+/// no further call.
+fn check(name: &str, listener: &Listener, operation: impl Fn() -> Result<String, Error>) -> String {
+    listener.cancel_at(usize::MAX);
+    let found = operation().unwrap();
+    let heard = listener.heard();
+    check_calls(name, &heard);
+    let calls = heard.len();
+    for last in [1, 2, calls / 4, calls / 2, calls - 1, calls] {
+        listener.cancel_at(last);
+        let error = operation().unwrap_err();
+        assert!(error.is_cancelled(), "{name}: {error}");
+        assert!(listener.heard() == heard[..last], "{name}: {last} of {calls}");
+    }
+    found
+}
+
+/// On one thread, so that two runs have the same calls.
+fn alone<T: Send>(act: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(act)
+}
+
 #[test]
-fn results_are_the_same_with_progress() {
-    let (tree, rays) = tree_and_rays();
-    let go_on = |_| ControlFlow::Continue(());
-    let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
-    let other = VisibilityMap::of_with_progress(&tree, rays.clone(), go_on).unwrap();
-    assert!(map.polygons().eq(other.polygons()) && map.polygons().count() > 100);
-    let outlines = |drawing: &Drawing| -> Vec<_> {
-        drawing
-            .paths()
-            .map(|path| (path.polygon(), path.outlines().map(<[_]>::to_vec).collect::<Vec<_>>()))
-            .collect()
-    };
-    let (one, two) = (map.drawing().unwrap(), other.drawing_with_progress(go_on).unwrap());
-    assert_eq!(outlines(&one), outlines(&two));
-    let one = Drawing::translucent(&tree, rays.clone()).unwrap();
-    let two = Drawing::translucent_with_progress(&tree, rays, go_on).unwrap();
-    assert_eq!(outlines(&one), outlines(&two));
+fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
+    let (view, listener) = (view(500), Listener::default());
+    alone(|| {
+        for (name, make) in MAKINGS {
+            let found = check(name, &listener, || make(&view, Some(&listener)));
+            assert!(found == make(&view, None).unwrap(), "{name}");
+        }
+    });
+}
+
+/// A map keeps the callback that it was made with; and after it was cancelled, it answers all the same.
+#[test]
+fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
+    let (view, listener) = (view(1500), Listener::default());
+    let View { tree, rays, overlay } = &view;
+    listener.cancel_at(usize::MAX);
+    let hear = |progress| listener.hear(progress);
+    let opaque = (
+        VisibilityMap::of(tree, rays.clone()).unwrap(),
+        VisibilityMap::of_with_progress(tree, rays.clone(), hear).unwrap(),
+    );
+    let translucent = (
+        VisibilityMap::with_opacities(tree, rays.clone(), mixed).unwrap(),
+        VisibilityMap::with_opacities_and_progress(tree, rays.clone(), mixed, hear).unwrap(),
+    );
+    alone(|| {
+        for (silent, map) in [&opaque, &translucent] {
+            for (name, ask) in QUESTIONS {
+                let found = check(name, &listener, || ask(map, overlay));
+                assert!(found == ask(silent, overlay).unwrap(), "{name}");
+            }
+        }
+    });
+}
+
+/// On several threads calls come one at a time, in order, and none after the one that cancels.
+#[test]
+fn threads_report_in_order() {
+    let (view, listener) = (view(500), Listener::default());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
+    pool.install(|| {
+        for (name, make) in MAKINGS {
+            listener.cancel_at(usize::MAX);
+            make(&view, Some(&listener)).unwrap();
+            let heard = listener.heard();
+            check_calls(name, &heard);
+            listener.cancel_at(heard.len() / 2);
+            let error = make(&view, Some(&listener)).unwrap_err();
+            assert!(error.is_cancelled() && listener.heard().len() == heard.len() / 2, "{name}");
+        }
+    });
 }

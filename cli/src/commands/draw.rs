@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use binspace::drawing::{Drawing, VisibilityMap};
@@ -63,7 +64,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         is_opaque,
         seams,
     };
-    let view = View { args, style };
+    let view = View { args, style, bar: Mutex::default() };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -83,18 +84,23 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         let mut pixels = match is_opaque {
             _ if args.lines => coverage::blank(camera.size()),
             true => coverage::picture(map, |polygon| style.fill(polygon)),
-            false => coverage::blended(camera.size(), &map.regions().map_err(about)?, &style),
+            false => {
+                view.show(Some("dividing the picture"));
+                coverage::blended(camera.size(), &map.regions().map_err(about)?, &style)
+            }
         };
         let strokes = view.strokes(Some(map), edges).map_err(about)?;
         figures.count(&strokes);
         ink::draw(&mut pixels, camera.size(), &strokes);
         figures.draw_seconds = start.elapsed().as_secs_f64();
+        view.show(None);
         let write = |out: &mut dyn Write| png_file::write(out, camera.size(), &pixels);
         figures.bytes = output.write_counted(write)?;
     } else {
         let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
         let fills = view.fills(&tree, rays, map.as_ref(), start, &mut figures).map_err(about)?;
         let drawn = view.drawn(fills, strokes, &mut figures);
+        view.show(None);
         figures.bytes = output.write_counted(|out| match format {
             DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
             _ => drawn_svg::write(out, &drawn),
@@ -110,16 +116,31 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
 struct View<'a> {
     args: &'a DrawArgs,
     style: Style<'a>,
+    /// What is being done, by all that is asked of the map too: that keeps a callback.
+    bar: Mutex<Option<Progress>>,
 }
 
 impl<'a> View<'a> {
+    /// Shows what is done next, if it takes long.
+    fn show(&self, phase: Option<&'static str>) {
+        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = phase.map(Progress::share);
+    }
+
+    /// Goes on, and shows how far it is.
+    fn go_on(&self, progress: binspace::Progress) -> ControlFlow<()> {
+        if let Some(bar) = &*self.bar.lock().unwrap_or_else(PoisonError::into_inner) {
+            bar.set(progress.done, progress.total);
+        }
+        ControlFlow::Continue(())
+    }
+
     fn min_size(&self) -> f64 {
         self.args.min_size.unwrap_or(MIN_SIZE)
     }
 
-    fn map<'t>(&self, tree: &'t BspTree, rays: Rays) -> Result<VisibilityMap<'t>, Error> {
-        let bar = Progress::share("finding what shows");
-        let progress = |progress| shown_by(&bar, progress);
+    fn map<'t>(&'t self, tree: &'t BspTree, rays: Rays) -> Result<VisibilityMap<'t>, Error> {
+        self.show(Some("finding what shows"));
+        let progress = |progress| self.go_on(progress);
         let opacity = |polygon| f64::from(self.style.opacity(polygon));
         VisibilityMap::with_opacities_and_progress(tree, rays, opacity, progress)
     }
@@ -133,7 +154,7 @@ impl<'a> View<'a> {
         start: Instant,
         figures: &mut Figures,
     ) -> Result<Vec<Filled<'a>>, Error> {
-        let Self { args, style } = self;
+        let Self { args, style, .. } = self;
         let mut is_small = vec![false; style.scene.len()];
         for shown in map.iter().flat_map(|map| map.polygons()) {
             figures.visible += 1;
@@ -143,8 +164,7 @@ impl<'a> View<'a> {
         if args.lines {
             return Ok(vec![]);
         }
-        let bar = Progress::share("drawing");
-        let progress = |progress| shown_by(&bar, progress);
+        self.show(Some("drawing"));
         let drawing = match map {
             Some(map) if style.seams == Seams::PlusLighter => {
                 let mut regions = map.regions()?;
@@ -153,8 +173,8 @@ impl<'a> View<'a> {
                 figures.draw_seconds = start.elapsed().as_secs_f64();
                 return Ok(filled_regions(&regions, style));
             }
-            Some(map) if !args.translucent => map.drawing_with_progress(progress)?,
-            _ => Drawing::translucent_with_progress(tree, rays, progress)?,
+            Some(map) if !args.translucent => map.drawing()?,
+            _ => Drawing::translucent_with_progress(tree, rays, |progress| self.go_on(progress))?,
         };
         figures.draw_seconds = start.elapsed().as_secs_f64();
         let is_drawn = |polygon: usize| match args.translucent {
@@ -177,6 +197,7 @@ impl<'a> View<'a> {
         edges: EdgeChoice,
     ) -> Result<Vec<Strokes>, Error> {
         let Some(map) = map.filter(|_| edges != EdgeChoice::None) else { return Ok(vec![]) };
+        self.show(Some("finding lines"));
         let hidden = self.args.hidden.unwrap_or(Hidden::None);
         let mut runs = match hidden {
             Hidden::Layers => map.edges_in_layers()?,
@@ -200,12 +221,6 @@ impl<'a> View<'a> {
         let are_regions = seams == Seams::PlusLighter && !fills.is_empty();
         Drawn { size: camera.size(), fills, strokes, ids, are_regions }
     }
-}
-
-/// Goes on, and shows how far it is.
-fn shown_by(bar: &Progress, progress: binspace::Progress) -> ControlFlow<()> {
-    bar.set(progress.done, progress.total);
-    ControlFlow::Continue(())
 }
 
 /// The figures of a drawing.

@@ -1,0 +1,179 @@
+//! Progress of what a map is asked for, and its cancellation.
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::ops::ControlFlow;
+
+use crate::Error;
+use crate::build::Progress;
+use crate::build::progress::{Watch, one_at_a_time};
+use crate::memory::reserve;
+
+/// Each phase of an operation has so many parts.
+const PARTS: usize = 64;
+/// Loops look for cancellation each time they have worked as long as a build takes to examine so many pieces: a
+/// tenth of a millisecond.
+const STRETCH: usize = 1 << 12;
+/// Lists are sorted in runs of this length, which are merged.
+const RUN: usize = 1 << 13;
+/// To sort a run takes, for each of its items, as long as a build takes to examine so many pieces.
+const SORTED: usize = 6;
+
+type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
+
+/// Tells a callback how far operations are, each from its beginning to its end, and lets it cancel them; or
+/// tells nobody.
+#[derive(Default)]
+pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
+
+impl<'c> Reporter<'c> {
+    pub(super) fn new(progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'c) -> Self {
+        Self(Some(Box::new(one_at_a_time(progress))))
+    }
+
+    /// Does an operation of so many phases. Only its end is the end of the last part.
+    pub(super) fn watch<T>(
+        &self,
+        phases: usize,
+        operation: impl FnOnce(&Watch<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let watch = match &self.0 {
+            Some(callback) => Watch::new(&**callback),
+            None => Watch::default(),
+        };
+        watch.expect(phases * PARTS + 1)?;
+        let result = operation(&watch)?;
+        watch.end()?;
+        Ok(result)
+    }
+}
+
+impl fmt::Debug for Reporter<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = if self.0.is_some() { "Reporter(callback)" } else { "Reporter(nobody)" };
+        f.write_str(name)
+    }
+}
+
+/// Counts item `i` of the `n` items of a phase as done.
+pub(super) fn finish_item(watch: &Watch<'_>, i: usize, n: usize) {
+    for _ in i * PARTS / n..(i + 1) * PARTS / n {
+        watch.finish(0);
+    }
+}
+
+/// The items of a loop that hears cancellation; each takes as long as a build takes to examine so many pieces.
+pub(super) fn each<T>(
+    watch: &Watch<'_>,
+    pieces: usize,
+    items: impl IntoIterator<Item = T>,
+) -> impl Iterator<Item = Result<T, Error>> {
+    let (mut items, mut work) = (items.into_iter(), 0);
+    std::iter::from_fn(move || {
+        let item = items.next();
+        work += pieces;
+        if work >= STRETCH || item.is_none() {
+            let worked = watch.work(std::mem::take(&mut work));
+            return worked.err().map(Err).or(item.map(Ok));
+        }
+        item.map(Ok)
+    })
+}
+
+/// Sorts a list, stably, and hears cancellation.
+pub(super) fn sort_by<T: Copy>(
+    list: &mut Vec<T>,
+    watch: &Watch<'_>,
+    compare: impl Fn(&T, &T) -> Ordering,
+) -> Result<(), Error> {
+    for run in list.chunks_mut(RUN) {
+        watch.work(run.len() * SORTED)?;
+        run.sort_by(&compare);
+    }
+    let (mut length, mut merged) = (RUN, Vec::new());
+    while length < list.len() {
+        merged.clear();
+        reserve(&mut merged, list.len())?;
+        for runs in list.chunks(2 * length) {
+            let (mut first, mut second) = runs.split_at(length.min(runs.len()));
+            let next = std::iter::from_fn(|| {
+                let from = match (first.first(), second.first()) {
+                    (Some(a), Some(b)) if compare(b, a).is_lt() => &mut second,
+                    (None, _) => &mut second,
+                    _ => &mut first,
+                };
+                let (next, rest) = from.split_first()?;
+                *from = rest;
+                Some(*next)
+            });
+            for item in each(watch, 1, next) {
+                merged.push(item?);
+            }
+        }
+        std::mem::swap(list, &mut merged);
+        length *= 2;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+
+    #[test]
+    fn lists_are_sorted_as_by_the_standard_library() {
+        let mut random = SplitMix64::new(1);
+        for len in [0, 1, 2, 1000, RUN, RUN + 1, 2 * RUN, 5 * RUN + 17] {
+            let list: Vec<(u64, usize)> = (0..len).map(|i| (random.next() % 1000, i)).collect();
+            let (mut expected, mut found) = (list.clone(), list);
+            expected.sort_by_key(|item| item.0);
+            sort_by(&mut found, &Watch::default(), |a, b| a.0.cmp(&b.0)).unwrap();
+            assert!(found == expected, "{len}");
+        }
+    }
+
+    /// Calls the callback at each step and cancels at one: nothing more is done.
+    #[test]
+    fn loops_and_sorts_end_where_they_are_cancelled() {
+        for calls in 1..8 {
+            let mut left = calls;
+            let reporter = Reporter::new(|_| {
+                left -= 1;
+                if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            let mut done = 0;
+            let result = reporter.watch(1, |watch| {
+                let mut list: Vec<u32> = (0..1 << 17).rev().collect();
+                for item in each(watch, 1, 0..1 << 18) {
+                    item?;
+                    done += 1;
+                }
+                sort_by(&mut list, watch, u32::cmp)
+            });
+            assert!(result.unwrap_err().is_cancelled());
+            drop(reporter);
+            assert_eq!(left, 0);
+            assert!(done <= (calls - 1) << 16, "{done} by call {calls}");
+        }
+    }
+
+    #[test]
+    fn all_parts_of_a_phase_are_done_in_the_end() {
+        for n in [1, 2, 3, 63, 64, 65, 1000] {
+            let mut last = None;
+            let reporter = Reporter::new(|progress: Progress| {
+                last = Some([progress.done, progress.total]);
+                ControlFlow::Continue(())
+            });
+            let phase = |watch: &Watch<'_>| {
+                (0..n).for_each(|i| finish_item(watch, i, n));
+                watch.work(1 << 16)?;
+                Err::<(), _>(Error::cancelled())
+            };
+            reporter.watch(2, phase).unwrap_err();
+            drop(reporter);
+            assert_eq!(last, Some([PARTS, 2 * PARTS + 1]), "{n}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Edges, each by the faces that have it.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::edges::EdgeKind;
+use super::halving::{CUT, VISITED};
+use super::lines::Lines;
+use super::reporter::each;
+use super::sight::Sight;
+use super::table::{Table, insert};
+use crate::Error;
+use crate::build::progress::Watch;
+use crate::exact::{Faces, PlaneId};
+
+/// The number of an edge, by a face and which of its edges it is.
+pub(super) type Numbers = Table<(u32, u32), u32>;
+
+/// An edge of at least one face.
+#[derive(Debug)]
+pub(super) struct SharedEdge {
+    /// Faces, and which of their edges it is.
+    pub(super) faces: SmallVec<[(u32, u32); 2]>,
+    /// The edge of the first of the faces; `None` if the picture does not show it as a line.
+    pub(super) sight: Option<Sight>,
+    /// Where it shows: places along it.
+    pub(super) visible: Vec<[f64; 2]>,
+}
+
+/// All edges of faces that are drawn, and the number of each by face and edge of it.
+pub(super) fn shared_edges(
+    lines: &Lines<'_>,
+    is_drawn: impl Fn(u32) -> bool,
+    watch: &Watch<'_>,
+) -> Result<(Vec<SharedEdge>, Numbers), Error> {
+    let faces = lines.frame.faces;
+    let mut points: Table<[u64; 3], u32> = Table::default();
+    let mut point = |corner: usize| -> Result<u32, Error> {
+        let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
+        points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        let next = points.len() as u32;
+        Ok(*points.entry(place).or_insert(next))
+    };
+    let mut by_points: Table<[u32; 2], u32> = Table::default();
+    let mut numbers = Numbers::default();
+    let mut all: Vec<SharedEdge> = Vec::new();
+    for face in each(watch, VISITED, 0..faces.len() as u32) {
+        let face = face?;
+        if !is_drawn(face) {
+            continue;
+        }
+        let range = faces.corner_range(face);
+        for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
+            if faces.outline_edge(face, k as u32).is_none() {
+                continue;
+            }
+            watch.work(CUT / 2)?;
+            let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
+            let [a, b] = [point(range.start + k)?, point(next)?];
+            by_points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+            let number = *by_points.entry([a.min(b), a.max(b)]).or_insert(all.len() as u32);
+            if number as usize == all.len() {
+                let sight = Sight::new(lines, faces.ends(face, k as u32));
+                // Edges are large: lists of them that grow by an eighth are moved too often.
+                all.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                all.push(SharedEdge { faces: SmallVec::new(), sight, visible: vec![] });
+            }
+            all[number as usize].faces.push((face, k as u32));
+            insert(&mut numbers, (face, k as u32), number)?;
+        }
+    }
+    Ok((all, numbers))
+}
+
+impl Faces {
+    /// Where a face's edge `k` begins and ends.
+    fn ends(&self, face: u32, k: u32) -> [[f64; 3]; 2] {
+        let corners = self.corners(face);
+        let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
+        [corners[k as usize], corners[next]]
+    }
+
+    /// Where a face's edge `k` begins, as given.
+    fn given_start(&self, face: u32, k: u32) -> [f64; 3] {
+        self.given_corner(self.corner_range(face).start as u32 + k)
+    }
+}
+
+impl SharedEdge {
+    /// Whether two of the faces run along it in opposite ways.
+    pub(super) fn is_turned(&self, faces: &Faces, one: usize, other: usize) -> bool {
+        let [a, b] = [one, other].map(|i| faces.given_start(self.faces[i].0, self.faces[i].1));
+        a != b
+    }
+
+    /// What it is, by the sides that its faces show.
+    pub(super) fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
+        let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
+        // Where two polygons have their fronts on one side, they run along the edge in opposite ways.
+        let is_folded = !self.is_turned(faces, 0, 1);
+        let second = if is_folded { sides[1].reverse() } else { sides[1] };
+        if sides[0] != second || sides[0].is_eq() {
+            return EdgeKind::Silhouette;
+        }
+        let normal = |face: u32| {
+            let normal = faces.plane(PlaneId::face(face)).normal_f64();
+            (normal / normal.abs().max_element()).normalize_or_zero()
+        };
+        let (a, b): (DVec3, DVec3) = (normal(one), normal(other));
+        let b = if is_folded { -b } else { b };
+        EdgeKind::Crease(a.cross(b).length().atan2(a.dot(b)))
+    }
+}
