@@ -8,7 +8,7 @@ use super::halving::{CUT, VISITED};
 use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::rect::{Rect, are_apart};
-use super::reporter::each;
+use super::reporter::{each, finish_item};
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
 use crate::Error;
@@ -112,13 +112,15 @@ impl Divided {
 }
 
 impl VisibilityMap<'_> {
-    /// Calls a function with each convex part of the picture, once for each item that shows there.
+    /// Calls a function with each convex part of the picture, once for each item that shows there: a phase.
     pub(super) fn for_each_part(
         &self,
         mut see: impl FnMut(u32, &Cell) -> Result<(), Error>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        for leaf in &self.leaves {
+        let count = self.leaves.len();
+        for (i, leaf) in self.leaves.iter().enumerate() {
+            finish_item(watch, i, count);
             if is_opaque(leaf, &self.stock) {
                 for visible in each(watch, VISITED, &leaf.cells) {
                     let Visible { item, cell } = visible?;
