@@ -50,7 +50,7 @@ impl Divided {
         let none = Layer { item: u32::MAX, before: 0, newest: 0 };
         let mut divided = Self { parts: vec![], layers: vec![none] };
         if is_opaque(leaf, stock) {
-            for visible in each(watch, VISITED, &leaf.cells) {
+            for visible in each(watch, CUT, &leaf.cells) {
                 let Visible { item, cell } = visible?;
                 let layer = divided.behind(0, *item)?;
                 push(&mut divided.parts, Part::new(cell.clone(), layer))?;
@@ -122,7 +122,7 @@ impl VisibilityMap<'_> {
         for (i, leaf) in self.leaves.iter().enumerate() {
             finish_item(watch, i, count);
             if is_opaque(leaf, &self.stock) {
-                for visible in each(watch, VISITED, &leaf.cells) {
+                for visible in each(watch, CUT, &leaf.cells) {
                     let Visible { item, cell } = visible?;
                     see(*item, cell)?;
                 }
@@ -130,7 +130,7 @@ impl VisibilityMap<'_> {
             }
             let divided = Divided::new(leaf, &self.stock, &self.rims.lines, watch)?;
             for part in &divided.parts {
-                for item in each(watch, VISITED, divided.items(part)) {
+                for item in each(watch, CUT, divided.items(part)) {
                     see(item?, &part.cell)?;
                 }
             }
