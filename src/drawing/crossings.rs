@@ -46,7 +46,8 @@ impl VisibilityMap<'_> {
     ///
     /// A point is on a crossing if both polygons show at it, one on each side. This is read off the map,
     /// so it is as exact: only the ends of runs are rounded. Where an edge of a polygon only touches
-    /// another, [`edges`](Self::edges) has it.
+    /// another, [`edges`](Self::edges) has it; and [`crossings_in_layers`](Self::crossings_in_layers) what is hidden
+    /// of crossings.
     ///
     /// O(n log n) for n cells.
     ///

@@ -8,7 +8,7 @@ use super::halving::{CUT, VISITED};
 use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::rect::{Rect, are_apart};
-use super::reporter::each;
+use super::reporter::{each, finish_item};
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
 use crate::Error;
@@ -50,7 +50,7 @@ impl Divided {
         let none = Layer { item: u32::MAX, before: 0, newest: 0 };
         let mut divided = Self { parts: vec![], layers: vec![none] };
         if is_opaque(leaf, stock) {
-            for visible in each(watch, VISITED, &leaf.cells) {
+            for visible in each(watch, CUT, &leaf.cells) {
                 let Visible { item, cell } = visible?;
                 let layer = divided.behind(0, *item)?;
                 push(&mut divided.parts, Part::new(cell.clone(), layer))?;
@@ -112,15 +112,17 @@ impl Divided {
 }
 
 impl VisibilityMap<'_> {
-    /// Calls a function with each convex part of the picture, once for each item that shows there.
+    /// Calls a function with each convex part of the picture, once for each item that shows there: a phase.
     pub(super) fn for_each_part(
         &self,
         mut see: impl FnMut(u32, &Cell) -> Result<(), Error>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        for leaf in &self.leaves {
+        let count = self.leaves.len();
+        for (i, leaf) in self.leaves.iter().enumerate() {
+            finish_item(watch, i, count);
             if is_opaque(leaf, &self.stock) {
-                for visible in each(watch, VISITED, &leaf.cells) {
+                for visible in each(watch, CUT, &leaf.cells) {
                     let Visible { item, cell } = visible?;
                     see(*item, cell)?;
                 }
@@ -128,7 +130,7 @@ impl VisibilityMap<'_> {
             }
             let divided = Divided::new(leaf, &self.stock, &self.rims.lines, watch)?;
             for part in &divided.parts {
-                for item in each(watch, VISITED, divided.items(part)) {
+                for item in each(watch, CUT, divided.items(part)) {
                     see(item?, &part.cell)?;
                 }
             }

@@ -191,27 +191,35 @@ impl Views<'_> {
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
         let number = Some(faces.outline_edge(face, k).unwrap_or(k));
         let mut runs: SmallVec<[EdgeRun; 4]> = SmallVec::new();
-        let mut add = |from: f64, to: f64, is_visible: bool| {
-            if to - from >= SHORTEST {
-                let ends = [sight.at(from), sight.at(to)];
-                runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
-            }
-        };
-        let [mut done, end] = sight.places;
-        let mut parts = edge.visible.iter().copied().peekable();
-        while let Some([from, mut to]) = parts.next() {
-            while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
-                to = to.max(next[1]);
-            }
-            add(done, from, false);
-            add(from, to, true);
-            done = to;
+        for (ends, is_visible) in parts(sight, &edge.visible) {
+            runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
         }
-        add(done, end, false);
         if edge.is_turned(faces, 0, owner) {
             runs.reverse();
             runs.iter_mut().for_each(|run| run.ends.swap(0, 1));
         }
         runs.into_iter().try_for_each(give)
     }
+}
+
+/// A segment in parts that show and parts that do not: by where it shows, in the order of the beginnings.
+pub(super) fn parts(sight: &Sight, visible: &[[f64; 2]]) -> SmallVec<[([[f64; 2]; 2], bool); 4]> {
+    let mut found = SmallVec::new();
+    let mut add = |from: f64, to: f64, is_visible: bool| {
+        if to - from >= SHORTEST {
+            found.push(([sight.at(from), sight.at(to)], is_visible));
+        }
+    };
+    let [mut done, end] = sight.places;
+    let mut parts = visible.iter().copied().peekable();
+    while let Some([from, mut to]) = parts.next() {
+        while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
+            to = to.max(next[1]);
+        }
+        add(done, from, false);
+        add(from, to, true);
+        done = to;
+    }
+    add(done, end, false);
+    found
 }

@@ -78,6 +78,7 @@
 // | `edges` | visible and hidden runs of edges |
 // | `shared_edges` | edges, by the faces that have them |
 // | `crossings` | lines in which polygons go through one another |
+// | `through` | faces that go through one another, shown or not |
 // | `sight` | segments and points of the scene as the picture shows them |
 // | `overlaid` | what shows of an overlay's lines and points |
 // | `passes` | where segments pass in front of pieces or behind them |
@@ -124,6 +125,7 @@ mod sight;
 mod steps;
 mod stock;
 mod table;
+mod through;
 mod tile;
 mod translucent;
 mod visible;

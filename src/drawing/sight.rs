@@ -13,11 +13,11 @@ use super::rounded::Rounded;
 use super::tile::Tile;
 use crate::exact::{Exact as Exactly, Int, Kernel, PlaneId};
 
-/// A segment between two lattice points, as far as the picture has it. How far along something is, is its
-/// place: in pixels, rising from the first end to the second.
+/// A segment of the scene, as far as the picture has it. How far along something is, is its
+/// place: in pixels, rising from the first end to the second, if these are lattice points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
-    ends: [[f64; 3]; 2],
+    source: Source,
     /// The line of the picture that it is on.
     rounded: Rounded,
     /// Along that line; of length 1.
@@ -26,6 +26,15 @@ pub(super) struct Sight {
     pub(super) places: [f64; 2],
     /// A box around that part.
     region: Rect,
+}
+
+/// Where a segment comes from.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// It goes from one lattice point to another.
+    Points([[f64; 3]; 2]),
+    /// These faces go through one another there.
+    Crossing([u32; 2]),
 }
 
 /// What floats tell of a segment.
@@ -38,6 +47,9 @@ enum Certain {
     Nothing,
 }
 
+/// All places.
+const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 /// Boxes are larger than what they are around by this, in pixels: far more than rounding.
 const MARGIN: f64 = 1e-3;
 
@@ -49,10 +61,10 @@ impl Sight {
         if certain == Certain::Outside {
             return None;
         }
-        let mut sight = Self::along(lines.rounded_edge(ends), ends)?;
+        let mut sight = Self::along(lines.rounded_edge(ends), Source::Points(ends))?;
         let [from, to] = match certain {
             Certain::Inside(ends) => ends.map(|end| sight.place(end)),
-            _ => sight.in_picture(lines)?,
+            _ => sight.in_picture(lines, ends)?,
         };
         if (to - from).is_nan() || to - from < SHORTEST {
             return None;
@@ -61,20 +73,33 @@ impl Sight {
         Some(sight)
     }
 
+    /// The line in which two faces go through one another, between these points of the picture.
+    pub(super) fn crossing(
+        lines: &Lines<'_>,
+        faces: [u32; 2],
+        ends: [[f64; 2]; 2],
+    ) -> Option<Self> {
+        let rounded = lines.rounded_other(&cut(lines, faces));
+        let mut sight = Self::along(rounded, Source::Crossing(faces))?;
+        let [a, b] = ends.map(|end| sight.place(end));
+        sight.limit([a.min(b), a.max(b)]);
+        ((a - b).abs() >= SHORTEST).then_some(sight)
+    }
+
     /// A line without ends.
-    fn along(rounded: Rounded, ends: [[f64; 3]; 2]) -> Option<Self> {
+    fn along(rounded: Rounded, source: Source) -> Option<Self> {
         let [_, kx, ky] = rounded.k;
         let slope = (kx * kx + ky * ky).sqrt();
         let direction = [ky / slope, -kx / slope];
-        let sight = Self { ends, rounded, direction, places: [0.0; 2], region: NOWHERE };
+        let sight = Self { source, rounded, direction, places: [0.0; 2], region: NOWHERE };
         (slope > 0.0).then_some(sight)
     }
 
-    /// From where to where it is in the picture.
-    fn in_picture(&self, lines: &Lines<'_>) -> Option<[f64; 2]> {
+    /// From where to where it is in the picture, by its ends.
+    fn in_picture(&self, lines: &Lines<'_>, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
         let Tile { low, high } = Tile::picture(lines.frame.rays.size());
         let [mut from, mut to] = self.chord(lines, &Cell::rectangle(lines, low, high))?;
-        let images = self.ends.map(|end| lines.frame.image(end));
+        let images = ends.map(|end| lines.frame.image(end));
         let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
         if is_ahead[0] {
             from = from.max(self.place_of(&images[0]));
@@ -119,7 +144,10 @@ impl Sight {
     }
 
     fn exact(&self, lines: &Lines<'_>) -> Exact {
-        lines.frame.edge(self.ends)
+        match self.source {
+            Source::Points(ends) => lines.frame.edge(ends),
+            Source::Crossing(faces) => cut(lines, faces),
+        }
     }
 
     /// Whether it may meet a box.
@@ -174,18 +202,65 @@ impl Sight {
     /// The places where it is further away than a face's plane, which is seen from a side; `None` if it is
     /// nowhere. No further off than the tolerance it is on the plane, and not behind it.
     pub(super) fn behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> Option<[f64; 2]> {
-        const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        match self.source {
+            Source::Points(ends) => self.points_behind(lines, ends, face, seen),
+            Source::Crossing([own, _]) => self.crossing_behind(lines, own, face, seen),
+        }
+    }
+
+    /// The same of a crossing, by one of its faces: that is as far away as another plane where the rays meet
+    /// both in one line. (No tolerance: the ends are no lattice points.)
+    fn crossing_behind(
+        &self,
+        lines: &Lines<'_>,
+        own: u32,
+        face: u32,
+        seen: Ordering,
+    ) -> Option<[f64; 2]> {
+        let [line, cut] = [self.exact(lines), cut(lines, [own, face])];
+        // Where the cut is positive, the own face is in front of the other's plane if its κ is positive.
+        let side = lines.frame.sheet(PlaneId::face(own)).side();
+        let is_behind = |sign: Ordering| {
+            let at = if side.is_gt() { sign } else { sign.reverse() };
+            at.is_ne() && at == seen.reverse()
+        };
+        let minor = |i: usize, j: usize| {
+            let [a, b]: [Int<12>; 2] = [cut[i].times(&line[j]), cut[j].times(&line[i])];
+            (a - b).sign()
+        };
+        // How the cut changes along the line.
+        let rise = minor(1, 2);
+        if rise.is_ne() {
+            let place = self.place(meeting([&line, &cut]));
+            let after = is_behind(rise);
+            return Some(if after { [place, ALL[1]] } else { [ALL[0], place] })
+                .filter(|_| after || is_behind(rise.reverse()));
+        }
+        // It is the same all along: of the line that is left if as much of the other is taken away as has its
+        // slope.
+        let axis = if line[1].sign().is_ne() { 1 } else { 2 };
+        let sign = if line[axis].sign().is_gt() { minor(0, axis) } else { minor(axis, 0) };
+        is_behind(sign).then_some(ALL)
+    }
+
+    fn points_behind(
+        &self,
+        lines: &Lines<'_>,
+        ends: [[f64; 3]; 2],
+        face: u32,
+        seen: Ordering,
+    ) -> Option<[f64; 2]> {
         let faces = lines.frame.faces;
         let splitter = Exactly.splitter(faces, PlaneId::face(face));
-        let sides = self.ends.map(|end| splitter.side_beyond(faces, &end));
+        let sides = ends.map(|end| splitter.side_beyond(faces, &end));
         let is_behind = sides.map(|side| side == seen.reverse());
         if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
             return (is_behind != [false; 2]).then_some(ALL);
         }
         // It goes through the plane, at a mean of its ends.
         let plane = faces.plane(PlaneId::face(face));
-        let [a, b] = self.ends.map(|end| lines.frame.image(end));
-        let weights = [self.ends[1], self.ends[0]].map(|end| {
+        let [a, b] = ends.map(|end| lines.frame.image(end));
+        let weights = [ends[1], ends[0]].map(|end| {
             let at = plane.at(&end);
             if at.is_negative() { -at } else { at }
         });
@@ -201,6 +276,12 @@ impl Sight {
         let ahead = if a[0].sign().is_gt() { 0 } else { 1 };
         is_behind[ahead].then_some(ALL)
     }
+}
+
+/// The line in which rays meet the planes of two faces.
+fn cut(lines: &Lines<'_>, faces: [u32; 2]) -> Exact {
+    let [one, other] = faces.map(|face| lines.frame.sheet(PlaneId::face(face)));
+    one.cut(&other)
 }
 
 /// What floats tell of the segment between two lattice points. (Most are inside or outside.)

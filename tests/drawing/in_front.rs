@@ -110,3 +110,108 @@ fn edges_have_as_many_layers_as_rays_meet() {
     assert!(judged.iter().all(|&count| count > 500) && most > 5, "{judged:?} {most}");
     assert!(on_walls * 4 < judged[1], "{on_walls} {judged:?}");
 }
+
+/// Stars, combs and polygons with corners on their edges, which are triangulated: each edge has its layers from
+/// one end to the other, in its direction.
+#[test]
+fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
+    let (mut random, mut dice) = (SplitMix64::new(3), Dice(3));
+    let outlines: Vec<Vec<[f64; 2]>> = vec![
+        // A comb, with corners on its back.
+        vec![
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [4.0, 0.0],
+            [6.0, 0.0],
+            [6.0, 4.0],
+            [5.0, 4.0],
+            [5.0, 1.0],
+            [4.0, 1.0],
+            [4.0, 4.0],
+            [2.0, 4.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 4.0],
+            [0.0, 4.0],
+        ],
+        // A star.
+        (0..10)
+            .map(|k| {
+                let (angle, radius) = (f64::from(k) * 0.628, if k % 2 == 0 { 4.0 } else { 1.5 });
+                [angle.cos() * radius, angle.sin() * radius].map(f64::round)
+            })
+            .collect(),
+        // Two squares that touch in a corner.
+        vec![
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 3.0],
+            [6.0, 3.0],
+            [6.0, 6.0],
+            [3.0, 6.0],
+            [3.0, 3.0],
+            [0.0, 3.0],
+        ],
+    ];
+    let polygons: Vec<Vec<DVec3>> = (0..36)
+        .map(|i| {
+            let (at, x, y) =
+                (random.point(-8.0, 8.0), random.point(-1.0, 1.0), random.point(-1.0, 1.0));
+            // On a grid, so that all corners of a polygon are in one plane.
+            let [at, x, y] = [at, x * 8.0, y * 8.0].map(|v| v.round() / 8.0);
+            outlines[i % outlines.len()].iter().map(|[u, v]| at + x * *u + y * *v).collect()
+        })
+        .filter(|corners: &Vec<DVec3>| {
+            let [a, b, c] = [corners[0], corners[1], corners[corners.len() - 1]];
+            (b - a).cross(c - a).length() > 0.1
+        })
+        .collect();
+    let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap();
+    assert!(tree.faces().len() > 3 * polygons.len(), "they are triangulated");
+    let lattice = *tree.faces().lattice();
+    let (mut judged, mut told, mut along) = ([0; 3], 0, 0);
+    for far in [30.0, 6.0] {
+        for _ in 0..3 {
+            let eye = random.point(-1.0, 1.0).normalize() * far;
+            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [320, 240]).unwrap();
+            let Some(origin) = origin(&tree, &camera) else { continue };
+            let sightlines = Sightlines::new(tree.faces(), origin);
+            let runs = in_layers(&tree, &camera);
+            for edge in runs.chunk_by(|a, b| (a.polygon, a.edge) == (b.polygon, b.edge)) {
+                let corners = &polygons[edge[0].polygon];
+                let number = edge[0].edge.unwrap() as usize;
+                let ends = [number, (number + 1) % corners.len()]
+                    .map(|k| rational::point(lattice.snap(corners[k])));
+                // Runs go from the beginning of the edge to its end.
+                let projected = ends.each_ref().map(|end| project(&camera, &lattice, end));
+                if let [Some(a), Some(b)] = projected {
+                    let way = [b[0] - a[0], b[1] - a[1]];
+                    for run in edge {
+                        let own = [0, 1].map(|i: usize| run.ends[1][i] - run.ends[0][i]);
+                        assert!(own[0] * way[0] + own[1] * way[1] > 0.0, "{run:?} {a:?} {b:?}");
+                    }
+                    along += edge.len();
+                }
+                for pair in edge.windows(2) {
+                    assert!(pair[0].ends[1] == pair[1].ends[0], "{pair:?}");
+                }
+                for _ in 0..4 {
+                    let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
+                    let point: Point = between(&ends, share);
+                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    let Some(run) = edge.iter().find(|run| place_in(run.ends, at) == Some(true))
+                    else {
+                        continue;
+                    };
+                    let layers = sightlines.polygons_before(&point).len();
+                    assert_eq!(run.layers, Some(layers as u32), "{run:?} at {share}, {camera:?}");
+                    judged[layers.min(2)] += 1;
+                }
+                told += 1;
+            }
+        }
+    }
+    assert!(judged.iter().all(|&count| count > 300), "{judged:?}");
+    assert!(told > 500 && along > 500, "{told} {along}");
+}

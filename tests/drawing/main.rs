@@ -7,6 +7,7 @@ mod coincidences;
 mod crossings;
 mod extremes;
 mod hidden;
+mod hidden_crossings;
 mod in_front;
 mod lines;
 mod meetings;

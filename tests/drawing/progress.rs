@@ -71,11 +71,12 @@ impl Listener {
 /// What is asked of a map: an answer as text, so that answers can be compared.
 type Question = (&'static str, fn(&VisibilityMap<'_>, &Overlay) -> Result<String, Error>);
 
-const QUESTIONS: [Question; 8] = [
+const QUESTIONS: [Question; 9] = [
     ("drawing", |map, _| Ok(format!("{:?}", map.drawing()?))),
     ("edges", |map, _| Ok(format!("{:?}", map.edges()?))),
     ("edges in layers", |map, _| Ok(format!("{:?}", map.edges_in_layers()?))),
     ("crossings", |map, _| Ok(format!("{:?}", map.crossings()?))),
+    ("crossings in layers", |map, _| Ok(format!("{:?}", map.crossings_in_layers()?))),
     ("lines", |map, overlay| Ok(format!("{:?}", map.lines(overlay)?))),
     ("lines in layers", |map, overlay| Ok(format!("{:?}", map.lines_in_layers(overlay)?))),
     ("markers", |map, overlay| Ok(format!("{:?}", map.markers(overlay)?))),
@@ -177,7 +178,7 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
 /// A map keeps the callback that it was made with; and after it was cancelled, it answers all the same.
 #[test]
 fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
-    let (view, listener) = (view(1500), Listener::default());
+    let (view, listener) = (view(700), Listener::default());
     let View { tree, rays, overlay } = &view;
     listener.cancel_at(usize::MAX);
     let hear = |progress| listener.hear(progress);

@@ -204,7 +204,14 @@ impl<'a> View<'a> {
             _ => map.edges()?,
         };
         if edges != EdgeChoice::Silhouettes {
-            runs.append(&mut map.crossings()?);
+            let mut crossings = match hidden {
+                Hidden::None => map.crossings()?,
+                _ => map.crossings_in_layers()?,
+            };
+            if hidden == Hidden::Dashed {
+                crossings.iter_mut().for_each(|run| run.layers = None);
+            }
+            runs.append(&mut crossings);
         }
         strokes(&runs, edges, hidden, self.min_size())
     }

@@ -1,0 +1,167 @@
+//! Where polygons go through one another, shown or hidden, against rays in rationals.
+
+use super::overlay::{between, origin, place_in, project, square, triangles};
+use super::sightlines::{Origin, Sightlines};
+use super::support::model::Face;
+use super::support::rational::{self, Point};
+use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions};
+use num_traits::Signed;
+
+fn length(run: &EdgeRun) -> f64 {
+    let [[ax, ay], [bx, by]] = run.ends;
+    (bx - ax).hypot(by - ay)
+}
+
+/// Two cards that cross, behind bars: the runs between their ends, each with its layers.
+#[test]
+fn bars_before_the_crossing_of_two_cards_are_counted() {
+    let cards = [
+        [[-2.0, -2.0, -2.0], [2.0, -2.0, 2.0], [2.0, 2.0, 2.0], [-2.0, 2.0, -2.0]],
+        [[-2.0, -2.0, 2.0], [2.0, -2.0, -2.0], [2.0, 2.0, -2.0], [-2.0, 2.0, 2.0]],
+    ];
+    let mut polygons: Vec<Vec<DVec3>> =
+        cards.iter().map(|card| card.map(DVec3::from).to_vec()).collect();
+    polygons.push(square([-3.0, -1.5], [3.0, 1.0], 3.0));
+    polygons.push(square([-3.0, -0.5], [3.0, 0.5], 4.0));
+    // Behind all, and one of the cards goes through nothing of it.
+    polygons.push(square([-3.0, -3.0], [3.0, 3.0], -3.0));
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    let tree = BspTree::build(&polygons).unwrap();
+    let rays = Rays::new(&camera, tree.faces()).unwrap();
+    let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
+    let mut runs = map.crossings_in_layers().unwrap();
+    runs.sort_by(|a, b| a.ends[0][1].min(a.ends[1][1]).total_cmp(&b.ends[0][1].min(b.ends[1][1])));
+    let found: Vec<(Option<u32>, f64)> =
+        runs.iter().map(|run| (run.layers, (length(run) * 1e6).round() / 1e6)).collect();
+    // From the top: y goes down in the picture.
+    let expected = [(0, 10.0), (1, 5.0), (2, 10.0), (1, 10.0), (0, 5.0)];
+    assert_eq!(found, expected.map(|(layers, length)| (Some(layers), length)));
+    for run in &runs {
+        assert_eq!((run.polygon, run.kind, run.edge), (0, EdgeKind::Crossing(1), None));
+        assert_eq!(run.is_visible, run.layers == Some(0));
+    }
+    // What is behind glass shows.
+    let glass = |polygon: usize| if polygon == 2 || polygon == 3 { 0.5 } else { 1.0 };
+    let map = VisibilityMap::with_opacities(&tree, rays, glass).unwrap();
+    let runs = map.crossings_in_layers().unwrap();
+    assert!(runs.iter().all(|run| run.is_visible && run.layers == Some(0)), "{runs:?}");
+    assert!((runs.iter().map(length).sum::<f64>() - 40.0).abs() < 1e-6, "{runs:?}");
+}
+
+fn bounds(corners: &[DVec3]) -> [DVec3; 2] {
+    let all = || corners.iter().copied();
+    [all().reduce(DVec3::min).unwrap(), all().reduce(DVec3::max).unwrap()]
+}
+
+/// The segment that two triangles have in common, if they go through one another.
+fn common(a: &Face, b: &Face) -> Option<[Point; 2]> {
+    let mut ends: Vec<Point> = vec![];
+    for (one, other) in [(a, b), (b, a)] {
+        for k in 0..one.corners.len() {
+            let (p, q) = (&one.corners[k], &one.corners[(k + 1) % one.corners.len()]);
+            let (at_p, at_q) = (other.plane.at(p), other.plane.at(q));
+            if (&at_p * &at_q).is_negative() {
+                let share = &at_p / (&at_p - &at_q);
+                let point: Point = std::array::from_fn(|i| &p[i] + (&q[i] - &p[i]) * &share);
+                if is_inside(other, &point) {
+                    ends.push(point);
+                }
+            }
+        }
+    }
+    <[Point; 2]>::try_from(ends).ok()
+}
+
+fn is_inside(face: &Face, point: &Point) -> bool {
+    let n = face.corners.len();
+    (0..n).all(|k| {
+        let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
+        let turn = rational::product(&rational::difference(b, a), &rational::difference(point, a));
+        rational::scalar(&turn, &face.plane.normal).is_positive()
+    })
+}
+
+#[test]
+fn crossings_have_as_many_layers_as_rays_meet() {
+    let mut random = SplitMix64::new(8);
+    let (mut judged, mut most, mut pairs, mut unsure) = ([0; 4], 0, 0, 0);
+    for (count, edge, is_parallel) in
+        [(40, 0.8, false), (40, 0.8, true), (120, 0.5, false), (250, 0.25, true)]
+    {
+        let polygons = triangles(&mut random, count, edge);
+        let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap();
+        let lattice = *tree.faces().lattice();
+        let faces: Vec<Face> =
+            (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
+        assert_eq!(faces.len(), polygons.len());
+        // Rationals are slow: only for triangles whose boxes have points in common.
+        let boxes: Vec<[DVec3; 2]> = polygons.iter().map(|corners| bounds(corners)).collect();
+        let mut crossing: Vec<(usize, usize, [Point; 2])> = vec![];
+        for i in 0..faces.len() {
+            for j in i + 1..faces.len() {
+                let ([a, b], [c, d]) = (boxes[i], boxes[j]);
+                if a.cmple(d).all() && c.cmple(b).all() {
+                    crossing.extend(common(&faces[i], &faces[j]).map(|ends| (i, j, ends)));
+                }
+            }
+        }
+        pairs += crossing.len();
+        for far in [3.0, 0.4] {
+            let place = random.point(-1.0, 1.0).normalize() * far;
+            let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
+            let camera = match is_parallel {
+                true => Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 1.5 * far, [320, 240]),
+                false => Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]),
+            };
+            let camera = camera.unwrap();
+            let Some(origin) = origin(&tree, &camera) else { continue };
+            let sightlines = Sightlines::new(tree.faces(), origin);
+            let is_ahead = |point: &Point| match &sightlines.origin {
+                Origin::Eye(eye) => {
+                    let arm = rational::difference(point, eye);
+                    let forward = rational::point(camera.forward());
+                    rational::scalar(&arm, &forward).is_positive()
+                }
+                Origin::Along(_) => true,
+            };
+            let shows = |at: [f64; 2]| 0.0 < at[0] && at[0] < 319.0 && 0.0 < at[1] && at[1] < 239.0;
+            let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+            let runs = map.crossings_in_layers().unwrap();
+            let visible: f64 = map.crossings().unwrap().iter().map(length).sum();
+            let same: f64 = runs.iter().filter(|run| run.is_visible).map(length).sum();
+            assert!((visible - same).abs() < 1e-3, "{visible} {same}");
+            for &(i, j, ref ends) in &crossing {
+                let own = |run: &&EdgeRun| (run.polygon, run.kind) == (i, EdgeKind::Crossing(j));
+                let runs: Vec<&EdgeRun> = runs.iter().filter(own).collect();
+                for k in 0..6 {
+                    let point = between(ends, 0.071 + 0.16 * f64::from(k));
+                    if !is_ahead(&point) {
+                        continue;
+                    }
+                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    if !shows(at) {
+                        continue;
+                    }
+                    let mut here = runs.iter().filter(|run| place_in(run.ends, at).is_some());
+                    let run = here.next().unwrap_or_else(|| panic!("{i} {j} {at:?}"));
+                    if place_in(run.ends, at) != Some(true) {
+                        unsure += 1;
+                        continue;
+                    }
+                    let layers = sightlines.polygons_before(&point).len();
+                    assert_eq!(run.layers, Some(layers as u32), "{run:?} {at:?} {camera:?}");
+                    assert_eq!(run.is_visible, layers == 0);
+                    judged[layers.min(3)] += 1;
+                    most = most.max(layers);
+                }
+            }
+        }
+    }
+    assert!(judged.iter().all(|&count| count > 50) && most > 4, "{judged:?} {most}");
+    assert!(pairs > 200 && unsure * 20 < judged.iter().sum(), "{pairs} {unsure} {judged:?}");
+}
