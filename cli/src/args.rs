@@ -408,7 +408,7 @@ pub(crate) enum Format {
 #[derive(Args, Debug)]
 pub(crate) struct SceneArgs {
     /// An OBJ file, a file of `binspace build`, - for either on standard input, or a built-in scene
-    /// such as sphere:100000
+    /// such as sphere:100000; for render, order and stats also a folder of `binspace build --cells`
     ///
     /// A name that ends in .obj or .bsp or contains a path separator is a file. Any other is a built-in
     /// scene, with an optional size after a colon, or, if there is none of that name, a file.

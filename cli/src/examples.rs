@@ -13,6 +13,7 @@ Examples:
   binspace report --quick                    every method, its speed against its error
   binspace lecture -o lecture                what a course teaches, as a page
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
+  binspace build big.obj --cells 16 -o big   a scene larger than memory, cell by cell
 
 Exit status: 0 done; 1 an image differs from the depth buffer's; 2 an error: bad usage
 or input, output that cannot be written, too little memory.";
@@ -21,7 +22,8 @@ pub(crate) const BUILD: &str = "\
 Examples:
   binspace build scene.obj -o scene.bsp
   binspace order scene.bsp --eye=0,2,10
-  binspace build city:100000 -o - | binspace render - -o city.png";
+  binspace build city:100000 -o - | binspace render - -o city.png
+  binspace build big.obj --cells 16 -o big && binspace render big -o big.png";
 
 pub(crate) const ORDER: &str = "\
 Examples:

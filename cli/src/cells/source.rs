@@ -18,8 +18,8 @@ const SAMPLES: usize = 1 << 20;
 
 /// Polygons that are read one after the other.
 pub(crate) enum Polygons {
-    File(ObjStream),
-    Built(Scene),
+    File(Box<ObjStream>),
+    Built(Box<Scene>),
 }
 
 impl Polygons {
@@ -31,7 +31,7 @@ impl Polygons {
                 let problem = "it is read twice with `--cells`: name a file";
                 Err(Failure::about("standard input", problem))
             }
-            Source::Builtin(_) => Ok(Self::Built(scene_arg::load(args)?.scene)),
+            Source::Builtin(_) => Ok(Self::Built(Box::new(scene_arg::load(args)?.scene))),
             Source::File(path) if path.is_dir() || crate::saved_file::is_saved(&path) => {
                 let problem = "its tree is built already: give the scene that it was built of";
                 Err(Failure::about(name, problem))
@@ -43,7 +43,7 @@ impl Polygons {
                 if !file.report().is_clean() {
                     note(&format!("{name}: {}", file.report()));
                 }
-                Ok(Self::File(file))
+                Ok(Self::File(Box::new(file)))
             }
         }
     }

@@ -1,0 +1,78 @@
+//! What each rank has done, how long it took, and with how much memory.
+
+use std::time::Duration;
+
+use mpi::topology::SimpleCommunicator;
+
+use crate::exchange;
+
+/// Of one rank.
+#[derive(Debug, Default)]
+pub(crate) struct Figures {
+    /// Polygons of its share, polygons that it was sent, and those that have part in its cell.
+    pub(crate) given: u64,
+    pub(crate) received: u64,
+    pub(crate) polygons: u64,
+    pub(crate) fragments: u64,
+    /// Layers of pixels.
+    pub(crate) layers: u64,
+    /// Sent to other ranks.
+    pub(crate) polygon_bytes: u64,
+    pub(crate) layer_bytes: u64,
+    /// Of the processor, without waiting for others.
+    pub(crate) read: Duration,
+    pub(crate) build: Duration,
+    pub(crate) paint: Duration,
+    /// By the clock, with waiting for others.
+    pub(crate) exchange: Duration,
+    pub(crate) composite: Duration,
+    pub(crate) all: Duration,
+}
+
+impl Figures {
+    /// Prints the figures of all ranks, one a line, if they are wanted.
+    pub(crate) fn report(&self, world: &SimpleCommunicator, is_wanted: bool) {
+        let counts = [
+            self.given,
+            self.received,
+            self.polygons,
+            self.fragments,
+            self.layers,
+            self.polygon_bytes,
+            self.layer_bytes,
+            peak_memory(),
+        ];
+        let times = [self.read, self.build, self.paint, self.exchange, self.composite, self.all];
+        let own: Vec<f64> = counts
+            .into_iter()
+            .map(|count| count as f64)
+            .chain(times.into_iter().map(|time| time.as_secs_f64()))
+            .collect();
+        let Some(all) = exchange::gather(world, &own).filter(|_| is_wanted) else { return };
+        println!(
+            "rank,given,received,polygons,fragments,layers,polygon_bytes,layer_bytes,peak_bytes,\
+             read_cpu_s,build_cpu_s,paint_cpu_s,exchange_s,composite_s,all_s"
+        );
+        for (rank, row) in all.chunks(own.len()).enumerate() {
+            let (counts, times) = row.split_at(counts.len());
+            let counts: Vec<String> = counts.iter().map(|count| format!("{count:.0}")).collect();
+            let times: Vec<String> = times.iter().map(|time| format!("{time:.3}")).collect();
+            println!("{rank},{},{}", counts.join(","), times.join(","));
+        }
+    }
+}
+
+/// The time that this process has had of a processor; 0 where the system does not tell.
+pub(crate) fn processor_time() -> Duration {
+    let status = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+    let nanoseconds = status.split_whitespace().next().and_then(|first| first.parse().ok());
+    Duration::from_nanos(nanoseconds.unwrap_or(0))
+}
+
+/// The most memory that this process has had, in bytes; 0 where the system does not tell.
+fn peak_memory() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kilobytes.unwrap_or(0) * 1024
+}

@@ -1,0 +1,183 @@
+//! Draws scenes that are spread over many processes, in exact order.
+//!
+//! Each MPI rank reads or generates a share of the polygons. All agree on the extent and, from samples, on
+//! the planes between cells, one cell a rank. Polygons go to the ranks whose cells they reach; each rank
+//! builds the tree of its cell, and paints it. What shows in a pixel goes to the rank that owns the pixel,
+//! which blends it in the order of the cells.
+
+mod agree;
+mod arguments;
+mod composite;
+mod exchange;
+mod figures;
+mod picture;
+mod polygon;
+mod share;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions, Extent, Partition};
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::Communicator;
+
+use agree::{Failure, together};
+use arguments::Arguments;
+use figures::{Figures, processor_time};
+use polygon::Given;
+use share::Share;
+
+/// So many samples choose the planes between cells, at most. More: time; fewer: cells differ in size.
+const SAMPLES: u64 = 1 << 16;
+
+fn main() -> ExitCode {
+    let Some(universe) = mpi::initialize() else {
+        eprintln!("error: MPI cannot be initialized");
+        return ExitCode::from(2);
+    };
+    let world = universe.world();
+    agree::abort_on_panic();
+    match run(&world) {
+        Ok(()) => ExitCode::SUCCESS,
+        // It has been reported, by the rank where it was.
+        Err(Failure) => ExitCode::from(2),
+    }
+}
+
+/// All that a rank does. After an error on any rank, all of them return.
+fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
+    let arguments = together(world, Arguments::parse(std::env::args().skip(1)))?;
+    let mut figures = Figures::default();
+    let (start, begin) = (Instant::now(), processor_time());
+    let share = Share::load(&arguments.scene, rank(world), ranks(world));
+    figures.read = processor_time() - begin;
+    let share = together(world, share)?;
+    figures.given = share.polygons.len() as u64;
+    if arguments.alone {
+        return alone(world, &arguments, &share);
+    }
+    let mut extent = share.extent();
+    exchange::merge(world, &mut extent);
+    let begin = Instant::now();
+    let options = arguments.options();
+    let partition = divide(world, &options, &extent, &share)?;
+    let (sent, mine) = send_polygons(world, &partition, share);
+    figures.polygon_bytes = sent;
+    figures.received = mine.len() as u64;
+    figures.exchange = begin.elapsed();
+    let begin = processor_time();
+    let tree = options.build_cell(&partition, rank(world), &mine);
+    figures.build = processor_time() - begin;
+    let tree = together(world, tree.map_err(|error| error.to_string()))?;
+    figures.fragments = tree.len() as u64;
+    figures.polygons = (mine.len() - tree.preparation().dropped) as u64;
+    let begin = processor_time();
+    let (camera, rays) = together(world, camera_and_rays(&arguments, &extent, &tree))?;
+    let layers = picture::layers(&tree, &camera, &rays, &mine);
+    figures.paint = processor_time() - begin;
+    figures.layers = layers.len() as u64;
+    let begin = Instant::now();
+    let order = partition.back_to_front(camera.viewpoint());
+    let (sent, pixels) = composite::blended(world, camera.size(), &order, layers);
+    figures.layer_bytes = sent;
+    figures.composite = begin.elapsed();
+    let written = match pixels {
+        Some(pixels) => picture::write(&arguments.output, camera.size(), &pixels),
+        None => Ok(()),
+    };
+    together(world, written)?;
+    figures.all = start.elapsed();
+    figures.report(world, arguments.figures);
+    Ok(())
+}
+
+fn rank(world: &SimpleCommunicator) -> usize {
+    world.rank() as usize
+}
+
+fn ranks(world: &SimpleCommunicator) -> usize {
+    world.size() as usize
+}
+
+/// The cells, one a rank: made by rank 0 of samples, and sent to all.
+fn divide(
+    world: &SimpleCommunicator,
+    options: &BuildOptions,
+    extent: &Extent,
+    share: &Share,
+) -> Result<Partition, Failure> {
+    let total = exchange::sum(world, share.polygons.len() as u64);
+    // Which polygons are samples does not depend on who has them, so neither do the cells.
+    let stride = total.div_ceil(SAMPLES).max(1);
+    let samples = share.polygons.iter().filter(|given| given.number.is_multiple_of(stride));
+    let own: Vec<f64> = samples.flat_map(|given| given.corners[0].to_array()).collect();
+    let samples = exchange::gather(world, &own);
+    let made = samples.map_or(Ok(Vec::new()), |samples| {
+        let points = samples.as_chunks::<3>().0.iter().copied();
+        let partition = options.partition(extent, points, ranks(world));
+        let mut bytes = Vec::new();
+        let written = partition
+            .map_err(|error| error.to_string())
+            .and_then(|partition| partition.write(&mut bytes).map_err(|error| error.to_string()));
+        written.map(|()| bytes)
+    });
+    let bytes = exchange::broadcast(world, together(world, made)?);
+    together(world, Partition::read(&bytes[..]).map_err(|error| error.to_string()))
+}
+
+/// Sends each polygon to the ranks whose cells it reaches. Gives how many bytes this rank has sent, and the
+/// polygons that it has been sent, in the order of their numbers.
+fn send_polygons(
+    world: &SimpleCommunicator,
+    partition: &Partition,
+    share: Share,
+) -> (u64, Vec<Given>) {
+    let mut outgoing = vec![Vec::new(); ranks(world)];
+    let mut reached = Vec::new();
+    for given in &share.polygons {
+        partition.reached_by(given, &mut reached);
+        reached.iter().for_each(|&cell| given.write(&mut outgoing[cell]));
+    }
+    // The share is freed before others come.
+    drop(share);
+    let own = outgoing[rank(world)].len();
+    let sent = outgoing.iter().map(Vec::len).sum::<usize>() - own;
+    let incoming = exchange::all_to_all(world, outgoing);
+    let mut mine: Vec<Given> = Vec::new();
+    for bytes in incoming {
+        mine.extend(Given::read_all(&bytes));
+    }
+    // Coplanar polygons are painted in input order.
+    mine.sort_unstable_by_key(|given| given.number);
+    (sent as u64, mine)
+}
+
+fn camera_and_rays(
+    arguments: &Arguments,
+    extent: &Extent,
+    tree: &BspTree,
+) -> Result<(Camera, Rays), String> {
+    let camera = arguments.camera(extent).map_err(|error| error.to_string())?;
+    let rays = Rays::new(&camera, tree.faces()).map_err(|error| error.to_string())?;
+    Ok((camera, rays))
+}
+
+/// The picture as the library paints it of one tree, without cells: to compare with. For one rank.
+fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Result<(), Failure> {
+    let draw = || -> Result<(), String> {
+        if ranks(world) > 1 {
+            return Err("--alone is for one rank".to_owned());
+        }
+        let tree = arguments.options().build(&share.polygons).map_err(|error| error.to_string())?;
+        let (camera, rays) = camera_and_rays(arguments, &share.extent(), &tree)?;
+        let look =
+            |polygon: usize| (share.polygons[polygon].colour, share.polygons[polygon].opacity);
+        let viewpoint = camera.viewpoint();
+        let pixels =
+            binspace::paint_tree_in_colour(&tree, viewpoint, &rays, look, picture::BACKGROUND);
+        picture::write(&arguments.output, camera.size(), &pixels)
+    };
+    together(world, draw())
+}

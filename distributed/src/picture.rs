@@ -1,0 +1,138 @@
+//! What a rank paints of its cell, and pictures in files.
+
+use std::io::Write;
+use std::path::Path;
+
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, for_each_painted};
+
+use crate::polygon::Given;
+
+/// The colour behind everything.
+pub(crate) const BACKGROUND: [u8; 3] = [255; 3];
+
+/// What one polygon adds to one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Layer {
+    /// Its number, row by row from the top left.
+    pub(crate) pixel: u32,
+    pub(crate) colour: [u8; 3],
+    /// From 0 to 1.
+    pub(crate) opacity: f32,
+}
+
+/// The bytes of a layer.
+pub(crate) const LAYER: usize = 12;
+
+impl Layer {
+    pub(crate) fn bytes(&self) -> [u8; LAYER] {
+        let ([a, b, c, d], [r, g, blue]) = (self.pixel.to_le_bytes(), self.colour);
+        let [e, f, h, i] = self.opacity.to_le_bytes();
+        [a, b, c, d, r, g, blue, 0, e, f, h, i]
+    }
+
+    pub(crate) fn of(&[a, b, c, d, r, g, blue, _, e, f, h, i]: &[u8; LAYER]) -> Self {
+        Self {
+            pixel: u32::from_le_bytes([a, b, c, d]),
+            colour: [r, g, blue],
+            opacity: f32::from_le_bytes([e, f, h, i]),
+        }
+    }
+}
+
+/// What shows of a cell in each pixel: of each, the furthest first. Nothing that an opaque polygon hides is
+/// among it.
+pub(crate) fn layers(
+    tree: &BspTree,
+    camera: &Camera,
+    rays: &Rays,
+    polygons: &[Given],
+) -> Vec<Layer> {
+    let [width, height] = rays.size().map(|side| side as usize);
+    let look = |polygon: usize| (polygons[polygon].colour, polygons[polygon].opacity);
+    let mut painted =
+        Painted { layers: Vec::new(), first: vec![0; width * height], sweep_at: 1 << 20 };
+    for_each_painted(tree, camera.viewpoint(), rays, look, |pixel, colour, opacity| {
+        painted.add(Layer { pixel: pixel as u32, colour, opacity });
+    });
+    painted.sweep();
+    painted.layers
+}
+
+/// Layers in the order in which they were painted.
+struct Painted {
+    layers: Vec<Layer>,
+    /// Of each pixel, the place of the first layer that is not hidden.
+    first: Vec<usize>,
+    /// At how many layers to remove the hidden ones.
+    sweep_at: usize,
+}
+
+impl Painted {
+    fn add(&mut self, layer: Layer) {
+        if layer.opacity == 1.0 {
+            self.first[layer.pixel as usize] = self.layers.len();
+        }
+        self.layers.push(layer);
+        if self.layers.len() >= self.sweep_at {
+            self.sweep();
+            self.sweep_at = self.sweep_at.max(2 * self.layers.len());
+        }
+    }
+
+    /// Removes what is hidden.
+    fn sweep(&mut self) {
+        let (first, mut place) = (&self.first, 0);
+        self.layers.retain(|layer| {
+            place += 1;
+            place > first[layer.pixel as usize]
+        });
+        // What is left of each pixel shows.
+        self.first.fill(0);
+    }
+}
+
+/// Writes a picture, RGB, as PPM: completely or not at all.
+pub(crate) fn write(path: &Path, [width, height]: [u32; 2], pixels: &[u8]) -> Result<(), String> {
+    let part = path.with_extension("part");
+    let written = std::fs::File::create(&part).and_then(|mut file| {
+        write!(file, "P6\n{width} {height}\n255\n")?;
+        file.write_all(pixels)?;
+        file.sync_all()?;
+        std::fs::rename(&part, path)
+    });
+    written.map_err(|error| {
+        // Best effort: the reason is what matters.
+        let _ = std::fs::remove_file(&part);
+        format!("{}: cannot be written: {error}", path.display())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn layer(pixel: u32, opacity: f32) -> Layer {
+        Layer { pixel, colour: [pixel as u8, 2, 3], opacity }
+    }
+
+    #[test]
+    fn layers_are_bytes_and_back() {
+        let given = layer(70_000, 0.3);
+        assert_eq!(Layer::of(&given.bytes()), given);
+    }
+
+    #[test]
+    fn what_is_hidden_goes_and_the_rest_keeps_its_order() {
+        for sweep_at in [1, 2, 3, 100] {
+            let mut painted = Painted { layers: vec![], first: vec![0; 4], sweep_at };
+            let given =
+                [(0, 0.1), (1, 0.2), (0, 1.0), (1, 0.3), (0, 0.4), (2, 1.0), (2, 1.0), (1, 0.5)];
+            given.into_iter().for_each(|(pixel, opacity)| painted.add(layer(pixel, opacity)));
+            painted.sweep();
+            let expected = [(1, 0.2), (0, 1.0), (1, 0.3), (0, 0.4), (2, 1.0), (1, 0.5)];
+            assert_eq!(painted.layers, expected.map(|(pixel, opacity)| layer(pixel, opacity)));
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! What a rank has of a scene before all exchange: generated, or read from files.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use binspace::Extent;
+use binspace::glam::DVec3;
+use binspace::scene::ObjStream;
+
+use crate::polygon::Given;
+
+/// Some of a scene's polygons.
+#[derive(Debug, Default)]
+pub(crate) struct Share {
+    pub(crate) polygons: Vec<Given>,
+}
+
+/// A scene whose polygons each rank generates by their numbers.
+#[derive(Clone, Copy, Debug)]
+struct Generated {
+    polygons: u64,
+    /// Whether nearly all are in a small part of the room.
+    is_lump: bool,
+}
+
+impl Share {
+    /// The share of a rank: `cloud:N` and `lump:N` are generated; all else is an OBJ file, or a folder of
+    /// them, of which rank k of n reads numbers k, k + n, …, in the order of their names.
+    pub(crate) fn load(scene: &str, rank: usize, ranks: usize) -> Result<Self, String> {
+        let kinds = [("cloud:", false), ("lump:", true)];
+        for (name, is_lump) in kinds {
+            if let Some(count) = scene.strip_prefix(name) {
+                let polygons =
+                    count.parse().map_err(|_| format!("{scene}: no number of polygons"))?;
+                return Ok(Generated { polygons, is_lump }.share(rank as u64, ranks as u64));
+            }
+        }
+        let mut share = Self::default();
+        for (number, file) in files(Path::new(scene))?.into_iter().enumerate() {
+            if number % ranks == rank {
+                share.read(&file, number)?;
+            }
+        }
+        Ok(share)
+    }
+
+    pub(crate) fn extent(&self) -> Extent {
+        let mut extent = Extent::default();
+        self.polygons.iter().for_each(|given| extent.include(given));
+        extent
+    }
+
+    /// Adds the polygons of a file. Numbers go by files, and then by places in them.
+    fn read(&mut self, path: &Path, file: usize) -> Result<(), String> {
+        let about = |error: binspace::scene::ObjError| error.to_string();
+        let stream = ObjStream::open(path).map_err(about)?;
+        let (precision, mut number) = (stream.scene().precision(), (file as u64) << 32);
+        let flow = stream.read(|corners, material| {
+            let look = &stream.scene().materials()[material as usize];
+            let colour = look.color.map(|channel| (channel * 255.0).round() as u8);
+            let (opacity, corners) = (look.opacity, corners.to_vec());
+            // Faces without corners show nowhere.
+            if !corners.is_empty() {
+                self.polygons.push(Given { number, colour, opacity, precision, corners });
+            }
+            number += 1;
+            ControlFlow::<()>::Continue(())
+        });
+        flow.map(drop).map_err(about)
+    }
+}
+
+/// The OBJ files that a name means.
+fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let about = |error: std::io::Error| format!("{}: {error}", path.display());
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(path).map_err(about)? {
+        let file = entry.map_err(about)?.path();
+        if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
+            found.push(file);
+        }
+    }
+    found.sort();
+    if found.is_empty() {
+        Err(format!("{}: no OBJ file is in it", path.display()))
+    } else {
+        Ok(found)
+    }
+}
+
+/// The opacity of three of four generated polygons.
+const TRANSLUCENT: f32 = 0.6;
+
+impl Generated {
+    fn share(self, rank: u64, ranks: u64) -> Share {
+        let end =
+            |rank: u64| (u128::from(self.polygons) * u128::from(rank) / u128::from(ranks)) as u64;
+        Share { polygons: (end(rank)..end(rank + 1)).map(|number| self.polygon(number)).collect() }
+    }
+
+    /// A triangle at a place by chance, of a size that leaves each about as many neighbours however many
+    /// there are.
+    fn polygon(self, number: u64) -> Given {
+        let mut dice = Dice(number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let mut point = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+        let mut centre = point() * 100.0;
+        let mut size = 60.0 / (self.polygons as f64).cbrt();
+        if self.is_lump && !number.is_multiple_of(64) {
+            (centre, size) = (centre * 0.05 + DVec3::splat(40.0), size * 0.05);
+        }
+        let corners: Vec<DVec3> = (0..3).map(|_| centre + point() * size).collect();
+        let hue = dice.roll();
+        let colour = [hue, hue >> 8, hue >> 16].map(|bits| 64 + (bits % 192) as u8);
+        let opacity = if number.is_multiple_of(4) { 1.0 } else { TRANSLUCENT };
+        Given { number, colour, opacity, precision: 0.0, corners }
+    }
+}
+
+/// A stream of numbers (SplitMix64: Steele, Lea and Flood, 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number from 0 to 1.
+    fn share(&mut self) -> f64 {
+        (self.roll() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_of_any_number_of_ranks_are_the_scene() {
+        let all = Share::load("lump:101", 0, 1).unwrap().polygons;
+        assert_eq!(all.len(), 101);
+        for ranks in [2, 3, 8, 150] {
+            let shares = (0..ranks).map(|rank| Share::load("lump:101", rank, ranks).unwrap());
+            let joined: Vec<Given> = shares.flat_map(|share| share.polygons).collect();
+            assert_eq!(joined, all);
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Runs the program by `mpirun`: pictures are the same, bit for bit, on any number of ranks, and an error
+//! on one rank ends all.
+//!
+//! Where there is no `mpirun`, the tests say so and check nothing.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What came of a run.
+#[derive(Debug)]
+struct Run {
+    status: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn has_mpirun() -> bool {
+    let found = Command::new("mpirun").arg("--version").output().is_ok();
+    if !found {
+        eprintln!("skipped: there is no `mpirun`: install Open MPI");
+    }
+    found
+}
+
+/// Runs the program on some ranks, in a folder.
+fn run(folder: &Path, ranks: usize, arguments: &str) -> Run {
+    let mut command = Command::new("timeout");
+    command.args(["100", "mpirun", "--allow-run-as-root", "--oversubscribe", "-np"]);
+    command.arg(ranks.to_string()).arg(env!("CARGO_BIN_EXE_binspace-mpi"));
+    let output = command.args(arguments.split_whitespace()).current_dir(folder).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Run { status: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
+}
+
+/// The picture that a run writes.
+fn picture(folder: &Path, ranks: usize, arguments: &str) -> Vec<u8> {
+    let run = run(folder, ranks, &format!("{arguments} -o p.ppm"));
+    assert_eq!(run.status, Some(0), "{ranks} ranks: {run:?}");
+    let picture = fs::read(folder.join("p.ppm")).unwrap();
+    fs::remove_file(folder.join("p.ppm")).unwrap();
+    picture
+}
+
+/// How many pixels are not white.
+fn covered(picture: &[u8], size: [usize; 2]) -> usize {
+    let pixels = &picture[picture.len() - 3 * size[0] * size[1]..];
+    pixels.chunks(3).filter(|pixel| *pixel != [255; 3]).count()
+}
+
+/// A picture by each number of ranks is the one of a single tree, which has no cells.
+fn same_on_all(folder: &Path, scene: &str, views: &[&str], least: usize) {
+    for view in views {
+        let arguments = format!("{scene} --size 128x96 {view}");
+        let expected = picture(folder, 1, &format!("{arguments} --alone"));
+        assert!(covered(&expected, [128, 96]) >= least, "{arguments}");
+        for ranks in [1, 2, 3, 4, 8] {
+            let found = picture(folder, ranks, &arguments);
+            assert!(found == expected, "{arguments}: {ranks} ranks paint another picture");
+        }
+    }
+}
+
+const FAR_AND_INSIDE: [&str; 2] = ["", "--eye=5,3,1 --target=40,30,20"];
+
+#[test]
+fn pictures_are_those_of_one_process() {
+    if has_mpirun() {
+        let folder = tempfile::tempdir().unwrap();
+        same_on_all(folder.path(), "cloud:4000", &FAR_AND_INSIDE, 2000);
+    }
+}
+
+#[test]
+fn pictures_of_a_scene_in_one_corner_are_the_same() {
+    if has_mpirun() {
+        let folder = tempfile::tempdir().unwrap();
+        same_on_all(folder.path(), "lump:3000", &["", "--eye=38,39,47 --target=40,40,40"], 30);
+    }
+}
+
+/// More ranks than polygons, one polygon, and none at all.
+#[test]
+fn ranks_without_polygons_do_their_part() {
+    if has_mpirun() {
+        let folder = tempfile::tempdir().unwrap();
+        for (scene, least) in [("cloud:5", 10), ("cloud:1", 10), ("cloud:0", 0)] {
+            same_on_all(folder.path(), scene, &[""], least);
+        }
+    }
+}
+
+/// Walls in the planes x = 0, 1, …, panes that go through them, and decals on both.
+fn write_parts(folder: &Path) {
+    let mut corners = String::new();
+    let mut square = |at: [f64; 3], u: [f64; 3], v: [f64; 3]| {
+        for [a, b] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            let p: Vec<String> =
+                (0..3).map(|i| format!("{}", at[i] + a * u[i] + b * v[i])).collect();
+            corners += &format!("v {}\n", p.join(" "));
+        }
+        corners += "f -4 -3 -2 -1\n";
+        std::mem::take(&mut corners)
+    };
+    fs::write(folder.join("m.mtl"), "newmtl a\nKd 0.9 0.3 0.1\nnewmtl b\nKd 0.1 0.3 0.9\nd 0.4\n")
+        .unwrap();
+    for file in 0..5 {
+        let x = f64::from(file);
+        let mut text = "mtllib m.mtl\nusemtl b\n".to_owned();
+        text += &square([x, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]);
+        text += "usemtl a\n";
+        text += &square([x, 1.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+        text += &square([-1.0, x * 0.75, 0.5], [7.0, 0.0, 0.0], [0.0, 0.5, 2.0]);
+        text += "usemtl b\n";
+        text += &square([-1.0, 0.25, x * 0.75 + 0.1], [7.0, 0.0, 0.3], [0.0, 3.0, 0.0]);
+        fs::write(folder.join(format!("part{file}.obj")), text).unwrap();
+    }
+}
+
+#[test]
+fn files_that_ranks_share_are_one_scene() {
+    if has_mpirun() {
+        let folder = tempfile::tempdir().unwrap();
+        write_parts(folder.path());
+        let views = ["", "--eye=9,3,7", "--eye=2,2,2.2 --target=0,1,0"];
+        same_on_all(folder.path(), ".", &views, 2000);
+    }
+}
+
+/// A bad file on one rank, a budget that one rank exceeds, an output that rank 0 cannot write, and a
+/// command line that is wrong on all: one message, exit status 2, and no picture.
+#[test]
+fn an_error_on_one_rank_ends_all() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_parts(path);
+    fs::write(path.join("part2.obj"), "v 0 0 0\nv 1 0 0\nf 1 2 9\n").unwrap();
+    for (ranks, arguments, problem) in [
+        (4, ". -o p.ppm", "rank 2: ./part2.obj"),
+        (2, ". -o p.ppm", "vertex 9 does not exist"),
+        (3, "lump:3000 --max-fragments 900 -o p.ppm", "raise the budget"),
+        (3, "cloud:30 -o none/p.ppm", "rank 0: none/p.ppm: cannot be written"),
+        (3, "cloud:30 --tolerance -1 -o p.ppm", "rank 0: the coplanar tolerance"),
+        (2, "cloud:30 --eye 1,2,3 --target 1,2,3 -o p.ppm", "rank 0"),
+        (2, "cloud:30", "usage"),
+        (2, "no_such_file.obj -o p.ppm", "no_such_file.obj"),
+        (2, "cloud:30 --alone -o p.ppm", "--alone is for one rank"),
+    ] {
+        let run = run(path, ranks, arguments);
+        assert_eq!(run.status, Some(2), "{arguments}: {run:?}");
+        assert!(run.err.contains(problem), "{arguments}: {run:?}");
+        assert_eq!(run.err.matches("error: rank").count(), 1, "{arguments}: {run:?}");
+        assert!(run.out.is_empty() && !path.join("p.ppm").exists(), "{arguments}: {run:?}");
+        assert!(!path.join("p.part").exists(), "{arguments}");
+    }
+}
+
+#[test]
+fn figures_have_a_line_for_each_rank() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder: PathBuf = tempfile::tempdir().unwrap().keep();
+    let run = run(&folder, 3, "cloud:2000 -o p.ppm --figures");
+    fs::remove_dir_all(&folder).unwrap();
+    let rows: Vec<Vec<f64>> = run
+        .out
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|number| number.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 3, "{run:?}");
+    let sum = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>();
+    // Each is given once, and has part in one cell or more.
+    assert_eq!(sum(1), 2000.0);
+    assert!(sum(2) >= sum(3) && sum(3) > 2000.0 && sum(4) >= sum(3), "{run:?}");
+}
