@@ -37,7 +37,8 @@ pub enum EdgeKind {
 pub struct EdgeRun {
     /// A polygon that has the edge, and shows a side to the camera.
     pub polygon: usize,
-    /// The number, within that polygon, of the corner where the edge begins; `None` of a crossing.
+    /// The number, within that polygon, of the corner where the edge begins; `None` of a crossing, and of a
+    /// silhouette inside a polygon that is not planar.
     pub edge: Option<u32>,
     /// What the line is.
     pub kind: EdgeKind,
@@ -68,9 +69,10 @@ impl VisibilityMap<'_> {
     ///
     /// What is visible is read off the map, so it is as exact: only the ends of runs are rounded. An edge
     /// is hidden by what lies before it, not by the polygons that have it. Polygons have an edge in common
-    /// if both of its corners are the same. Edges inside a polygon, which triangulation made, are none;
-    /// nor are edges of polygons that are all seen exactly edge-on. Where polygons go through one another,
-    /// [`crossings`](Self::crossings) tells.
+    /// if both of its corners are the same. Edges inside a polygon, which triangulation made, are none, but
+    /// for silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge,
+    /// and from behind on the other. Nor are edges of polygons that are all seen exactly edge-on. Where
+    /// polygons go through one another, [`crossings`](Self::crossings) tells.
     ///
     /// O(n log n) for n edges and cells. (What is hidden, and how to tell for lines: A. Appel, "The notion
     /// of quantitative invisibility and the machine rendering of solids", 1967.)
@@ -93,9 +95,10 @@ impl VisibilityMap<'_> {
     /// The runs of all edges: two phases.
     pub(super) fn edge_runs(&self, watch: &Watch<'_>) -> Result<Runs, Error> {
         let is_drawn = |face| self.stock.opacity(face) > 0.0;
-        let (mut edges, numbers) = shared_edges(&self.rims.lines, is_drawn, watch)?;
-        self.collect(&mut edges, &numbers, watch)?;
         let mut views = Views { map: self, sides: Table::default() };
+        let side = |face| views.side(face);
+        let (mut edges, numbers) = shared_edges(&self.rims.lines, is_drawn, side, watch)?;
+        self.collect(&mut edges, &numbers, watch)?;
         let (mut list, count) = (Vec::new(), edges.len());
         reserve(&mut list, count)?;
         for numbered in each(watch, VISITED, edges.iter_mut().enumerate()) {
@@ -189,7 +192,7 @@ impl Views<'_> {
         let faces = self.map.stock.frame.faces;
         let (face, k) = edge.faces[owner];
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
-        let number = Some(faces.outline_edge(face, k).unwrap_or(k));
+        let number = faces.outline_edge(face, k);
         let mut runs: SmallVec<[EdgeRun; 4]> = SmallVec::new();
         for (ends, is_visible) in parts(sight, &edge.visible) {
             runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });

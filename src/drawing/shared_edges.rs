@@ -29,10 +29,13 @@ pub(super) struct SharedEdge {
     pub(super) visible: Vec<[f64; 2]>,
 }
 
-/// All edges of faces that are drawn, and the number of each by face and edge of it.
+/// All edges of faces that are drawn, and the number of each by face and edge of it. Of the edges that
+/// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have gaps
+/// without them.
 pub(super) fn shared_edges(
     lines: &Lines<'_>,
     is_drawn: impl Fn(u32) -> bool,
+    mut side: impl FnMut(u32) -> Ordering,
     watch: &Watch<'_>,
 ) -> Result<(Vec<SharedEdge>, Numbers), Error> {
     let faces = lines.frame.faces;
@@ -44,6 +47,8 @@ pub(super) fn shared_edges(
         Ok(*points.entry(place).or_insert(next))
     };
     let mut by_points: Table<[u32; 2], u32> = Table::default();
+    // Edges inside polygons of which one face was met.
+    let mut inner: Table<(usize, [u32; 2]), (u32, u32)> = Table::default();
     let mut numbers = Numbers::default();
     let mut all: Vec<SharedEdge> = Vec::new();
     for face in each(watch, VISITED, 0..faces.len() as u32) {
@@ -53,22 +58,37 @@ pub(super) fn shared_edges(
         }
         let range = faces.corner_range(face);
         for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
-            if faces.outline_edge(face, k as u32).is_none() {
-                continue;
-            }
             watch.work(CUT / 2)?;
             let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
             let [a, b] = [point(range.start + k)?, point(next)?];
-            by_points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-            let number = *by_points.entry([a.min(b), a.max(b)]).or_insert(all.len() as u32);
-            if number as usize == all.len() {
-                let sight = Sight::new(lines, faces.ends(face, k as u32));
+            let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);
+            let mut known: SmallVec<[(u32, u32); 2]> = SmallVec::from_slice(&[(face, k)]);
+            let number = if faces.outline_edge(face, k).is_some() {
+                by_points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                *by_points.entry(points).or_insert(new)
+            } else {
+                let key = (faces.polygon(face), points);
+                let Some(other) = inner.remove(&key) else {
+                    insert(&mut inner, key, (face, k))?;
+                    continue;
+                };
+                if side(other.0) == side(face) {
+                    continue;
+                }
+                known.insert(0, other);
+                new
+            };
+            if number == new {
+                let (first, k) = known[0];
+                let sight = Sight::new(lines, faces.ends(first, k));
                 // Edges are large: lists of them that grow by an eighth are moved too often.
                 all.try_reserve(1).map_err(|_| Error::out_of_memory())?;
                 all.push(SharedEdge { faces: SmallVec::new(), sight, visible: vec![] });
             }
-            all[number as usize].faces.push((face, k as u32));
-            insert(&mut numbers, (face, k as u32), number)?;
+            for name in known {
+                all[number as usize].faces.push(name);
+                insert(&mut numbers, name, number)?;
+            }
         }
     }
     Ok((all, numbers))

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use binspace::BspTree;
-use binspace::drawing::{EdgeKind, VisibilityMap};
+use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
@@ -11,7 +11,7 @@ use binspace::view::Camera;
 
 type Corners = Vec<Vec<DVec3>>;
 
-/// A ring of quads, not convex, with lumps.
+/// A ring of quads, not convex, with lumps: none of the quads is planar.
 fn torus(around: usize, across: usize) -> Corners {
     let point = |i: usize, k: usize| {
         let angle = |n: usize, of: usize| std::f64::consts::TAU * (n % of) as f64 / of as f64;
@@ -23,19 +23,20 @@ fn torus(around: usize, across: usize) -> Corners {
             .map(|c| (c * 4096.0).round() / 4096.0)
     };
     let quads = (0..around).flat_map(|i| (0..across).map(move |k| (i, k)));
-    let triangles = quads.flat_map(|(i, k)| {
-        let [a, b, c, d] =
-            [(i, k), (i + 1, k), (i + 1, k + 1), (i, k + 1)].map(|(i, k)| point(i, k));
-        [vec![a, b, c], vec![a, c, d]]
-    });
-    triangles.collect()
+    let quad = |(i, k)| [(i, k), (i + 1, k), (i + 1, k + 1), (i, k + 1)].map(|(i, k)| point(i, k));
+    quads.map(|place| quad(place).to_vec()).collect()
+}
+
+fn triangles(quads: Corners) -> Corners {
+    let halves = |q: Vec<DVec3>| [vec![q[0], q[1], q[2]], vec![q[0], q[2], q[3]]];
+    quads.into_iter().flat_map(halves).collect()
 }
 
 #[test]
 fn silhouettes_of_closed_bodies_are_closed() {
     let mut random = SplitMix64::new(9);
     let (mut edges, mut hidden) = (0, 0);
-    for polygons in [torus(24, 12), torus(60, 30)] {
+    for polygons in [torus(24, 12), torus(60, 30)].map(triangles) {
         let tree = BspTree::build(&polygons).unwrap();
         for _ in 0..12 {
             let eye = random.point(-1.0, 1.0).normalize() * 30.0;
@@ -64,4 +65,37 @@ fn silhouettes_of_closed_bodies_are_closed() {
         }
     }
     assert!(edges > 2_000 && hidden > 200, "{edges} {hidden}");
+}
+
+/// Where a quad is seen from its front on one side of its diagonal, and from behind on the other, the
+/// silhouette goes along the diagonal.
+#[test]
+fn silhouettes_of_quads_that_are_not_planar_are_closed() {
+    let mut random = SplitMix64::new(9);
+    let (mut runs_in_all, mut inside) = (0, 0);
+    for quads in [torus(24, 12), torus(60, 30)] {
+        let tree = BspTree::build(&quads).unwrap();
+        for _ in 0..12 {
+            let eye = random.point(-1.0, 1.0).normalize() * 30.0;
+            let up = DVec3::new(0.1, 0.2, 1.0);
+            let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            let map = VisibilityMap::of(&tree, rays).unwrap();
+            let runs = map.edges().unwrap();
+            let layered = map.edges_in_layers().unwrap();
+            let count = |runs: &[EdgeRun]| runs.iter().filter(|run| run.edge.is_none()).count();
+            assert!(count(&layered) >= count(&runs));
+            assert!(runs.iter().all(|run| run.edge.is_some() || run.kind == EdgeKind::Silhouette));
+            let outline: Vec<_> =
+                runs.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
+            let ends: Vec<[f64; 2]> = outline.iter().flat_map(|run| run.ends).collect();
+            // Each end is where another run begins or ends.
+            let near = |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|i| (a[i] - b[i]).abs() < 1e-5);
+            let is_open =
+                |end: &&[f64; 2]| ends.iter().filter(|other| near(end, other)).count() % 2 == 1;
+            assert_eq!(ends.iter().filter(is_open).count(), 0, "{eye}");
+            (runs_in_all, inside) = (runs_in_all + outline.len(), inside + count(&runs));
+        }
+    }
+    assert!(runs_in_all > 2_000 && inside > 300, "{runs_in_all} {inside}");
 }
