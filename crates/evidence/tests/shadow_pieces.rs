@@ -145,7 +145,7 @@ fn every_point_within_a_piece_sees_what_the_piece_says() {
 }
 
 #[test]
-#[ignore = "takes a minute; with fewer above"]
+#[ignore = "takes half a minute; with fewer above"]
 fn a_million_points_see_what_their_pieces_say() {
     check(&courtyard(), &lamp(2), 800_000);
     let (scene, lamp) = triangles();
