@@ -23,7 +23,7 @@ pub(super) enum Part {
     Pictures(Vec<Picture>),
     /// A graph, as SVG.
     Graph(String),
-    /// A table: its head and its rows. Cells that begin with a digit are set to the right.
+    /// A table: its head and its rows. Columns of numbers are set to the right.
     Table(Vec<String>, Vec<Vec<String>>),
 }
 

@@ -2,7 +2,7 @@
 
 use binspace::Faces;
 use binspace::glam::DVec3;
-use binspace::raster::{Image, Rays, colour_of, compare, difference, picture, zbuffer};
+use binspace::raster::{Comparison, Image, Rays, Verdict, colour_of, compare, picture, zbuffer};
 use binspace::scene;
 use binspace::view::Camera;
 use binspace_evidence::method::{DepthBuffer, DepthFormat, Interpolation, Method};
@@ -59,11 +59,11 @@ fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
             rows.push([name.to_owned(), format.to_string(), order, holes, spills]);
             if format == DepthFormat::Float && how == Interpolation::IntegerEdges {
                 let shown = picture(&body.rays, &body.faces, &image, colour_of, WHITE);
-                let marked = difference(&found, &shown);
+                let marked = marked(&found, &shown);
                 pictures.push(Picture::new(
                     SIZE,
                     marked,
-                    format!("{name}, {format}: what differs"),
+                    format!("{name}, {format}: what differs, each pixel marked by three by three"),
                 ));
             }
         }
@@ -82,11 +82,32 @@ fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
     chapter.text(format!(
         "Against the exact picture of a teapot that covers {covered} pixels. Sums of rounded steps are off by \
          a hundred-thousandth of a pixel or so: only a centre that is as near to an edge goes to the wrong \
-         triangle (red), is left out (yellow) or spills over the outline (magenta). Vertices rounded to 1/256 \
+         triangle (red), is left out (black) or spills over the outline (blue). Vertices rounded to 1/256 \
          are off by more, so more pixels differ; but each edge is then walked exactly, so that triangles which \
          share one still meet without a gap.",
     ));
     Ok(())
+}
+
+/// A pale copy of a picture, on which pixels that are wrong are easy to find.
+fn marked(found: &Comparison, shown: &[u8]) -> Vec<u8> {
+    let mut marked: Vec<u8> = shown.iter().map(|&c| 204 + c / 5).collect();
+    let [width, height] = SIZE.map(|side| side as usize);
+    for (k, verdict) in found.verdicts.iter().enumerate() {
+        let colour = match verdict {
+            Verdict::WrongOrder => [225, 0, 0],
+            Verdict::Hole => [0, 0, 0],
+            Verdict::Spill => [0, 60, 255],
+            _ => continue,
+        };
+        let (x, y) = (k % width, k / width);
+        for y in y.saturating_sub(1)..(y + 2).min(height) {
+            for x in x.saturating_sub(1)..(x + 2).min(width) {
+                marked[3 * (y * width + x)..][..3].copy_from_slice(&colour);
+            }
+        }
+    }
+    marked
 }
 
 /// A section of the picture at a time.

@@ -16,6 +16,7 @@ mod painter;
 mod plan;
 mod precision;
 mod radiosity;
+mod shadow_pieces;
 mod shadows;
 mod shot;
 mod translucent;

@@ -142,7 +142,7 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
             colours(sheets, &fight)?,
             format!("{format}, apart by {gap}"),
         ));
-        rows.push(row(sheets, gap, format, &fight));
+        rows.push(row(sheets, gap, format, &fight)?);
     }
     let tree = Bsp::exact(BuildOptions::DEFAULT.with_tolerance(0.0));
     let fight = fine.shown_by(&tree).map_err(failure)?;
@@ -153,6 +153,7 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
         "2.4e-6".into(),
         none(),
         none(),
+        none(),
         0.to_string(),
         fight.wrong.to_string(),
     ]);
@@ -161,7 +162,8 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
         [
             "stored",
             "apart by",
-            "predicted at depths",
+            "steps predict depths",
+            "with roundings",
             "seen at depths",
             "predicted wrong",
             "wrong pixels",
@@ -170,27 +172,35 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     );
     chapter.text(
         "For z the fight begins at depth f n (2^bits - 1) / (f - n) times the share, and everything beyond is \
-         lost; a buffer of w fights in front of a distance instead. Nothing is wrong nearer than predicted, \
-         which is certain for the integers; for an f32 the prediction knows only the step of storing, not the \
-         roundings before it. The tree compares no depths: it decides once on which side of a sheet the other \
+         lost; a buffer of w fights in front of a distance instead. The integers \
+         are right wherever the steps predict it. The pipeline before an f32 rounds as much as the f32 itself, \
+         so there it begins earlier. The column with roundings knows the planes as the pipeline sets them up, \
+         and bounds for what is rounded in each pixel: nothing is wrong at other depths, which the tests check \
+         in each format. The tree compares no depths: it decides once on which side of a sheet the other \
          lies, exactly, and no pixel is wrong however near they are.",
     );
     Ok(())
 }
 
-fn row(sheets: &Sheets, gap: &str, format: DepthFormat, fight: &Fight) -> [String; 6] {
+fn row(
+    sheets: &Sheets,
+    gap: &str,
+    format: DepthFormat,
+    fight: &Fight,
+) -> Result<[String; 7], Failure> {
     let span = |ends: Option<[f64; 2]>| {
         ends.map_or("none".to_owned(), |[low, high]| format!("{low:.1} to {high:.1}"))
     };
-    let predicted = sheets.predicted(format);
-    [
+    let predicted = sheets.predicted_with_roundings(format).map_err(failure)?;
+    Ok([
         format.to_string(),
         gap.to_owned(),
+        span(sheets.predicted(format).begin),
         span(predicted.begin),
         span(fight.seen),
         format!("{:.0}", predicted.wrong),
         fight.wrong.to_string(),
-    ]
+    ])
 }
 
 /// The picture of a fight: the further sheet orange, the nearer blue.

@@ -7,10 +7,10 @@ use binspace::{Bounds, BspTree, BuildOptions};
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, seen_points, zone};
 
 use super::chapter::{Chapter, Picture, percent};
-use super::radiosity;
+use super::{radiosity, shadow_pieces};
 use crate::failure::Failure;
 
-const SIZE: [u32; 2] = [240, 180];
+pub(super) const SIZE: [u32; 2] = [240, 180];
 /// Points along a side of the lamp: its corners alone, and more and more between them.
 const SIDES: [u32; 4] = [2, 3, 5, 7];
 
@@ -56,6 +56,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         Picture::new(SIZE, shown(&all[0]), "A rectangle by its corners"),
         Picture::new(SIZE, shown(&all[3]), "The same by 49 points"),
     ]);
+    shadow_pieces::fill(chapter, &scene, &camera, &middle, &all[0])?;
     radiosity::fill(chapter)
 }
 
@@ -94,11 +95,13 @@ fn table(chapter: &mut Chapter, all: &[Vec<Option<Zone>>; 4]) {
 }
 
 fn shown(zones: &[Option<Zone>]) -> Vec<u8> {
-    let colour = |zone: &Option<Zone>| match zone {
-        None => [255, 255, 255],
-        Some(Zone::Lit) => [250, 228, 160],
-        Some(Zone::Penumbra) => [140, 150, 175],
-        Some(Zone::Umbra) => [50, 45, 65],
-    };
-    zones.iter().flat_map(colour).collect()
+    zones.iter().flat_map(|zone| zone.map_or([255; 3], colour)).collect()
+}
+
+pub(super) fn colour(zone: Zone) -> [u8; 3] {
+    match zone {
+        Zone::Lit => [250, 228, 160],
+        Zone::Penumbra => [140, 150, 175],
+        Zone::Umbra => [50, 45, 65],
+    }
 }

@@ -6,7 +6,8 @@ use binspace::scene::{Builtin, Material, Scene};
 use binspace::{BuildOptions, Heuristic};
 use binspace_evidence::method::{Bsp, Centroid};
 use binspace_evidence::{
-    EIGHT_ORDER, GRID_OF_SIX, Worst, eight, eye_on_eight, letters, six_by_six, six_by_six_camera,
+    EIGHT_ORDER, GRID_OF_SIX, Worst, eight, eye_on_eight, letters, noisy_sphere, six_by_six,
+    six_by_six_camera,
 };
 
 use super::chapter::{Chapter, Part};
@@ -114,7 +115,7 @@ struct Line {
     heuristic: Heuristic,
 }
 
-const LINES: [Line; 8] = [
+const LINES: [Line; 9] = [
     Line {
         name: "sheets",
         style: Style::new([200, 30, 30], Marker::Square, 5),
@@ -171,6 +172,13 @@ const LINES: [Line; 8] = [
         sizes: &[2, 4, 8, 16],
         heuristic: Heuristic::Auto,
     },
+    Line {
+        name: "noisy sphere",
+        style: Style::new([220, 90, 160], Marker::Triangle, 4),
+        scene: |size| noisy_sphere(size, 1),
+        sizes: &[100, 1000, 10_000],
+        heuristic: Heuristic::Auto,
+    },
 ];
 
 fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
@@ -184,7 +192,9 @@ fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
          modeling\", 1990) show to be the worst for polygons that do not cross. Walls along x above walls \
          along y cut each other (n/2)² times, as long as only their own planes may be used; one plane between \
          them saves every cut. Surfaces of things are far from that: their polygons are small, and most of \
-         the others are nowhere near their planes.",
+         the others are nowhere near their planes. No scan of a thing can be shown here, for the sake of \
+         licences; in its place stands a noisy sphere: a closed surface with bulges, of small triangles whose \
+         corners are moved at random, so that hardly two are in one plane.",
     );
     let (mut series, mut rows) = (Vec::new(), Vec::new());
     for line in LINES {

@@ -41,6 +41,11 @@ fn all_chapters_are_on_one_page() {
         )
     );
     assert!(page.contains("36 of the 36 pixels"));
+    for part in ["Shadows as pieces of polygons", "noisy sphere", "<code>binspace report</code>"] {
+        assert!(page.contains(part), "{part}");
+    }
+    // A command is never left as it was typed.
+    assert!(!page.contains(">`") && !page.contains(" `"));
     // Without the pictures, whose letters may be anything.
     let texts =
         page.split("base64,").map(|part| part.split_once('"').map_or(part, |(_, text)| text));

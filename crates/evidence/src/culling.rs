@@ -1,9 +1,12 @@
 //! What is left of a scene by each step of culling.
 
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-use binspace::raster::Rays;
-use binspace::view::Camera;
+use binspace::glam::{DVec3, dvec3};
+use binspace::internals::paint_order;
+use binspace::raster::{Rays, compare, zbuffer};
+use binspace::view::{Camera, CameraError};
 use binspace::{Bounds, BspTree, CoverageMask, Culling, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
@@ -46,6 +49,44 @@ pub fn steps(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) -> V
     ]
 }
 
+/// What a step leaves, in figures.
+#[derive(Clone, Debug)]
+pub struct Left {
+    /// What it leaves out, in words.
+    pub name: &'static str,
+    /// The polygons that are left.
+    pub polygons: usize,
+    /// How long this step and those before it take together.
+    pub time: Duration,
+    /// How many pixels are drawn to paint them.
+    pub drawn: u64,
+    /// How many pixels of this picture are wrong.
+    pub wrong: usize,
+}
+
+/// The steps of culling in figures, each picture held against the exact one of all polygons.
+pub fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) -> Vec<Left> {
+    let truth = zbuffer(rays, tree.faces());
+    let left = |Step { name, left, time }| {
+        let painted = paint_order(tree, &left, rays);
+        let wrong = compare(rays, tree.faces(), &painted, truth.image()).wrong();
+        let polygons: BTreeSet<usize> =
+            left.iter().map(|&fragment| tree.fragment(fragment).polygon()).collect();
+        Left { name, polygons: polygons.len(), time, drawn: painted.drawn(), wrong }
+    };
+    steps(tree, bounds, camera, rays).into_iter().map(left).collect()
+}
+
+/// An eye over a crossing of streets of a city, above the highest roof.
+///
+/// # Errors
+///
+/// None is known.
+pub fn over_the_city(size: [u32; 2]) -> Result<Camera, CameraError> {
+    let eye = dvec3(2400.0, 2400.0, 130.0);
+    Camera::perspective(eye, eye + dvec3(1.0, 0.8, -0.3), DVec3::Z, 1.0, size)
+}
+
 /// The fragments that own a pixel, back to front, of those that are wanted.
 ///
 /// One walk from front to back finds them: it skips subtrees that are out of view or hidden by what it
@@ -83,11 +124,8 @@ pub fn unhidden(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
-
-    use binspace::glam::{DVec3, dvec3};
-    use binspace::internals::{SplitMix64, paint_order};
-    use binspace::raster::{NONE, compare, zbuffer};
+    use binspace::internals::SplitMix64;
+    use binspace::raster::NONE;
     use binspace::scene;
 
     /// Holds every step against the exact picture of all, and the last against its owners.

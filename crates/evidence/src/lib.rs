@@ -14,6 +14,7 @@ pub mod interior;
 pub mod layers;
 pub mod measure;
 pub mod method;
+mod noisy;
 pub mod overdraw;
 pub mod panes;
 pub mod patches;
@@ -34,6 +35,7 @@ pub use accuracy::{Accuracy, accuracy};
 pub use facing::Facing;
 pub use family::{Family, FamilyError};
 pub use hiding::{Hiding, overlaps_in_depth};
+pub use noisy::noisy_sphere;
 pub use rounded::{Float, FloatSplitter, FloatVertex, Precision};
 pub use tree::KernelTree;
 pub use worked::{

@@ -46,6 +46,30 @@ impl Plane {
         Self { normal, offset }
     }
 
+    /// The plane through three places in homogeneous coordinates, or along them where the weight is 0:
+    /// the minors of these three rows.
+    pub(crate) fn joining([p, q, r]: [&[BigInt; 4]; 3]) -> Self {
+        let minor = |i: usize, j: usize, k: usize| {
+            let of = |a: &BigInt, b: &BigInt, c: &BigInt| {
+                a * (&q[j] * &r[k] - &q[k] * &r[j]) - b * (&q[i] * &r[k] - &q[k] * &r[i])
+                    + c * (&q[i] * &r[j] - &q[j] * &r[i])
+            };
+            of(&p[i], &p[j], &p[k])
+        };
+        Self { normal: [minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3)], offset: minor(0, 1, 2) }
+    }
+
+    /// The same points with the other side in front.
+    pub(crate) fn flipped(&self) -> Self {
+        Self { normal: self.normal.each_ref().map(|c| -c), offset: -&self.offset }
+    }
+
+    /// The direction across it, in homogeneous coordinates.
+    pub(crate) fn direction(&self) -> [BigInt; 4] {
+        let [x, y, z] = self.normal.clone();
+        [x, y, z, BigInt::ZERO]
+    }
+
     /// The distance of a place times the length of the normal and the place's weight.
     pub(crate) fn at(&self, place: &Place) -> BigInt {
         dot(&self.normal, &place.coordinates) - &self.offset * &place.weight
@@ -96,7 +120,7 @@ impl Place {
 
     /// Corner `k` of a face; if it is off the face's plane, it is moved there along the plane's
     /// main axis.
-    fn corner(faces: &Faces, face: u32, plane: &Plane, k: usize) -> Self {
+    pub(crate) fn corner(faces: &Faces, face: u32, plane: &Plane, k: usize) -> Self {
         let point = faces.corners(face)[k];
         let mut place = Self { coordinates: point.map(integer), weight: BigInt::one() };
         if faces.reference_triangle(face).iter().any(|&c| faces.corner(c) == point) {
@@ -124,7 +148,7 @@ impl Place {
     }
 
     /// The point in which three planes meet, by Cramer's rule.
-    fn meeting([f, g, h]: [&Plane; 3]) -> Option<Self> {
+    pub(crate) fn meeting([f, g, h]: [&Plane; 3]) -> Option<Self> {
         let pairs = [(g, h), (h, f), (f, g)].map(|(a, b)| cross(&a.normal, &b.normal));
         let weight = dot(&f.normal, &pairs[0]);
         if weight.is_zero() {

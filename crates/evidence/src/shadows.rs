@@ -1,4 +1,10 @@
-//! Shadows: which points of surfaces a lamp lights, and which it does not.
+//! Shadows: which points of surfaces a lamp lights, and which it does not; and the parts of surfaces
+//! as pieces of polygons.
+
+mod pieces;
+mod shade;
+
+pub use pieces::{Piece, pieces};
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::internals::cuboid;

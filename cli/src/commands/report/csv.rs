@@ -33,6 +33,7 @@ struct Errors<'a> {
     area_error_worst: Option<String>,
     area_error_total: Option<String>,
     pieces: Option<usize>,
+    removed_share: Option<String>,
     decides_in: String,
     failure: Option<&'a str>,
 }
@@ -106,6 +107,7 @@ impl Errors<'_> {
             area_error_worst: area.map(|area| number(area.worst)),
             area_error_total: area.map(|area| number(area.total)),
             pieces: Some(figures.pieces),
+            removed_share: Some(number(figures.removed)),
             ..self
         }
     }

@@ -58,6 +58,8 @@ pub(super) struct Figures {
     pub(super) accuracy: Option<Accuracy>,
     /// Of methods that cut ahead of any view.
     pub(super) area: Option<AreaError>,
+    /// The mean share of faces that a step before the method leaves out.
+    pub(super) removed: f64,
     /// The share of the extent that a unit of the scene's grid is.
     pub(super) grid: f64,
     /// The most pieces drawn in a view.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use binspace::internals::{Exact, Faces, Kernel};
 use binspace::scene::{Builtin, Scene};
 use binspace::{BuildOptions, Heuristic, Viewpoint};
-use binspace_evidence::{Float, KernelTree, Worst};
+use binspace_evidence::{Float, KernelTree, Worst, noisy_sphere};
 
 use super::figures::EXACT;
 use crate::args::ReportArgs;
@@ -59,6 +59,7 @@ pub(super) fn run(
         let polygons = match subject {
             Subject::Builtin(scene) => scene.build(Some(size), args.seed),
             Subject::Worst(worst) => worst.scene(size),
+            Subject::NoisySphere => noisy_sphere(size, args.seed),
         };
         each(subject.name(), subject.heuristic(), &polygons)?;
     }
@@ -76,13 +77,16 @@ struct Case {
 enum Subject {
     Builtin(Builtin),
     Worst(Worst),
+    /// In place of a scan.
+    NoisySphere,
 }
 
 impl Subject {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Builtin(Builtin::Terrain),
         Self::Builtin(Builtin::City),
         Self::Builtin(Builtin::Sphere),
+        Self::NoisySphere,
         Self::Builtin(Builtin::Random),
         Self::Worst(Worst::Walls),
         Self::Worst(Worst::Saddle),
@@ -93,6 +97,7 @@ impl Subject {
         match self {
             Self::Builtin(scene) => scene.name(),
             Self::Worst(worst) => worst.name(),
+            Self::NoisySphere => "noisy sphere",
         }
     }
 
@@ -105,7 +110,7 @@ impl Subject {
     fn most(self) -> u32 {
         match self {
             Self::Builtin(Builtin::Random) => 3000,
-            Self::Builtin(_) => u32::MAX,
+            Self::Builtin(_) | Self::NoisySphere => u32::MAX,
             Self::Worst(Worst::Walls | Worst::Saddle) => 1000,
             Self::Worst(Worst::Sheets) => 100,
         }
@@ -118,7 +123,7 @@ fn cases(quick: bool) -> Vec<Case> {
     let small: &[u32] = if quick { &[10, 20, 50] } else { &[10, 20, 50, 100, 300, 1000] };
     let mut cases = Vec::new();
     for subject in Subject::ALL {
-        let sizes = if matches!(subject, Subject::Builtin(_)) { large } else { small };
+        let sizes = if matches!(subject, Subject::Worst(_)) { small } else { large };
         let sizes = sizes.iter().filter(|&&size| size <= subject.most());
         cases.extend(sizes.map(|&size| Case { subject, size }));
     }

@@ -2,11 +2,12 @@
 
 use binspace_evidence::Family;
 
+use super::culling::City;
 use super::drawings::Drawings;
 use super::figures::{Section, Subject};
 use super::growth::Growth;
 use super::sentences::sentence;
-use super::tables::{Table, details, grouped, steps};
+use super::tables::{Table, details, grouped, share, steps};
 use super::{Report, machine, summary};
 use crate::units::{bytes, time};
 
@@ -40,6 +41,7 @@ pub(super) fn report(report: &Report<'_>) -> String {
     }
     text += &scenes(&report.sections);
     text += &drawings(&report.drawings);
+    text += &report.city.as_ref().map_or_else(String::new, culling);
     text += &growth(&report.growth);
     text + MEASURES
 }
@@ -83,14 +85,16 @@ const METHODS: &str = "
 - *bsp exact*: the tree, by the exact kernel. *bsp f64 1e-9*, *bsp f32 1e-4*: the same builder by
   rounded numbers and an epsilon, in units of half the extent.
 - *input order*: nothing is removed; *fronts, input order*: only faces whose fronts are seen, which is
-  exact for a convex body and wrong where backs can be seen. *Decides in* follows Sutherland, Sproull
-  and Schumacker (1974): among the polygons (object space), in each pixel (image space), or both.
+  exact for a convex body and wrong where backs can be seen. *Removed by back faces* is the mean share of faces
+  that this step leaves out. *Decides in* follows Sutherland, Sproull and Schumacker (1974): among the polygons (object space), in each pixel (image space), or both.
 - *centroid*: painted by the depth of the faces' centroids. *newell*: the algorithm of Newell, Newell
   and Sancha in f64, with an epsilon of 1e-10 of half the extent and budgets for pieces and
   comparisons.
 - *z 16*, *z 24*: depth buffers of 16 and 24 bits after the perspective divide; *f32*: of floats,
   *reversed*: with 1 at the near plane; *w*: of depths before the divide; *incremental*: scanlines on
-  which depth grows by steps, others by edge functions. *z f64* judges, with exact arithmetic where
+  which depth grows by steps, *trapezoids*: by steps that begin anew at each vertex, *integer edges*:
+  between edges walked in integers, others by edge functions. *or equal*: of equal depths the later shows;
+  *larger nearer cleared*: 1 at the near plane, and cleared to the far one. *z f64* judges, with exact arithmetic where
   two depths are closer than its rounding.
 - Near and far planes are fitted to each view, the near one no closer than 2⁻⁴⁴ of the far one. An
   eye that touches a face, as in one view of `lattice`, leaves a buffer of depths after the divide
@@ -176,6 +180,30 @@ compared with that of the *list* of the tree's fragments, each with a stroke aga
 than *without reach*. *Wrong pixels* are those whose centre shows another polygon than the tree's picture does,
 of those where something shows and no outline passes within 4e-5 of a pixel.
 ";
+
+fn culling(city: &City) -> String {
+    let mut table =
+        Table::new(&["left out", "polygons left", "share", "time", "pixels drawn", "wrong pixels"]);
+    for left in &city.steps {
+        table.push(vec![
+            left.name.to_owned(),
+            grouped(left.polygons),
+            share(left.polygons, city.polygons),
+            time(left.time.as_secs_f64()),
+            grouped(left.drawn as usize),
+            grouped(left.wrong),
+        ]);
+    }
+    format!(
+        "\n## Culling\n\nA city of {} polygons, seen from above its roofs; its tree has {} fragments and was \
+         built in {}. Each step leaves out what those before it do, and more; its time is that of \
+         all of them together.\n\n{}",
+        grouped(city.polygons),
+        grouped(city.fragments),
+        time(city.build),
+        table.markdown()
+    )
+}
 
 fn growth(rows: &[Growth]) -> String {
     if rows.is_empty() {

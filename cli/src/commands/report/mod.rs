@@ -1,6 +1,7 @@
 //! `binspace report`: every way to decide visibility, its speed against its error.
 
 mod csv;
+mod culling;
 mod drawings;
 mod figures;
 mod growth;
@@ -23,6 +24,7 @@ use binspace::scene::Scene;
 use binspace_evidence::Family;
 use binspace_evidence::method::{Method, Newell, Options, all};
 
+use self::culling::City;
 use self::drawings::Drawings;
 use self::figures::{Row, Section, Subject};
 use self::growth::Growth;
@@ -64,6 +66,7 @@ pub(super) struct Report<'a> {
     sections: Vec<Section>,
     growth: Vec<Growth>,
     drawings: Vec<Drawings>,
+    city: Option<City>,
     /// Scenes that could not be measured.
     failed: Vec<String>,
     /// Whether it contains everything that was asked for.
@@ -86,6 +89,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
         sections: Vec::new(),
         growth: Vec::new(),
         drawings: Vec::new(),
+        city: None,
         failed: Vec::new(),
         complete: false,
     };
@@ -111,6 +115,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
             report.drawings.push(drawings);
             report.write()
         })?;
+        report.city = Some(culling::run(args.quick)?);
         growth::run(args, &scenes, |growth| {
             report.growth.push(growth);
             report.write()

@@ -177,6 +177,7 @@ mod tests {
                 picture,
                 accuracy: None,
                 area: None,
+                removed: 0.0,
                 grid: 0.0,
                 pieces: 1,
                 build: 0.0,

@@ -20,6 +20,8 @@ pub(super) struct Summary<'a> {
     misplaced: Option<usize>,
     drift: Option<f64>,
     pieces: usize,
+    /// The sum of the shares that a step before the method leaves out.
+    removed: f64,
     faces: usize,
     pub(super) ended: usize,
     failed: usize,
@@ -71,6 +73,7 @@ impl<'a> Summary<'a> {
             misplaced: None,
             drift: None,
             pieces: 0,
+            removed: 0.0,
             faces: 0,
             ended: 0,
             failed: 0,
@@ -103,6 +106,7 @@ impl<'a> Summary<'a> {
             self.drift = Some(self.drift.unwrap_or(0.0).max(drift));
         }
         self.pieces += figures.pieces;
+        self.removed += figures.removed;
         self.faces += row.faces;
         // A clock that stands still still says that it was quick.
         self.build += figures.build.max(1e-9).ln();
@@ -127,6 +131,14 @@ impl<'a> Summary<'a> {
 
     fn build_time(&self) -> f64 {
         (self.build / self.ended.max(1) as f64).exp()
+    }
+
+    /// The mean share of faces that are left out as they show no front; a dash where none is.
+    fn removed_share(&self) -> String {
+        match self.removed / self.ended.max(1) as f64 {
+            0.0 => "–".to_owned(),
+            share => format!("{:.0} %", 100.0 * share),
+        }
     }
 
     fn cells(&self) -> Vec<String> {
@@ -188,12 +200,13 @@ fn six(summaries: Vec<Summary<'_>>) -> Table {
 /// The table of all methods.
 pub(super) fn everything(sections: &[Section]) -> Table {
     let mut columns = COLUMNS.to_vec();
-    columns.extend(["most memory", "decides in"]);
+    columns.extend(["most memory", "removed by back faces", "decides in"]);
     let mut table = Table::new(&columns);
     for summary in Summary::of_families(sections) {
         let mut cells = summary.cells();
         cells.extend([
             bytes(summary.bytes),
+            summary.removed_share(),
             summary.space.map_or_else(String::new, |space| space.to_string()),
         ]);
         table.push(cells);

@@ -95,12 +95,14 @@ impl Trial {
             method.prepare(&self.faces).map(|prepared| (prepared, start.elapsed()))
         })?;
         let mut picture = PictureError::default();
-        let (mut orders, mut draws, mut pieces) = (Vec::new(), Vec::new(), 0);
+        let (mut orders, mut draws) = (Vec::new(), Vec::new());
+        let (mut pieces, mut removed) = (0, 0);
         for view in &self.views {
             let painted = paint(&mut *prepared, view)?;
             orders.push(painted.order);
             draws.push(painted.draw);
             pieces = pieces.max(painted.pieces);
+            removed += painted.removed;
             picture += PictureError::of(&view.rays, &self.faces, &painted.image, &view.truth);
         }
         let extent = extent(&self.faces);
@@ -109,6 +111,7 @@ impl Trial {
             picture,
             accuracy: prepared.accuracy(),
             area: area_error(&self.faces, |visit| prepared.for_each_piece(visit)),
+            removed: removed as f64 / (self.views.len() * self.faces.len()).max(1) as f64,
             grid: if extent > 0.0 { unit / extent } else { 0.0 },
             pieces,
             build: build.as_secs_f64(),

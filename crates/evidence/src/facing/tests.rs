@@ -140,6 +140,8 @@ fn of_closed_bodies_the_step_leaves_the_picture_as_it_is() {
         let (all, fronts) = (paint(&Newell::DEFAULT), paint(&FrontFaces(Newell::DEFAULT)));
         let found = compare(&rays, &faces, &fronts.image, zbuffer(&rays, &faces).image());
         assert_eq!(found.wrong(), 0, "{}", scene.name());
+        let facing = Facing::of(&faces, camera.viewpoint());
+        assert_eq!([all.removed, fronts.removed], [0, facing.removed()]);
         assert!(3 * fronts.pieces < 2 * all.pieces, "{} {}", fronts.pieces, all.pieces);
     }
 }

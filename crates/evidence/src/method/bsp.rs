@@ -96,7 +96,8 @@ impl Prepared for Ready<BspTree> {
         self.tree.back_to_front_into(camera.viewpoint(), &mut self.order);
         let order: Duration = begin.elapsed();
         let image = paint_order(&self.tree, &self.order, rays);
-        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces: self.order.len() })
+        let (draw, pieces) = (begin.elapsed() - order, self.order.len());
+        Ok(Painted { image, order, draw, pieces, removed: 0 })
     }
 
     fn bytes(&self) -> usize {
@@ -134,7 +135,8 @@ impl<K: Kernel> Prepared for Ready<KernelTree<K>> {
             painter.draw(Piece { face: self.tree.face(fragment), outline });
         }
         let image = painter.finish();
-        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces: self.order.len() })
+        let (draw, pieces) = (begin.elapsed() - order, self.order.len());
+        Ok(Painted { image, order, draw, pieces, removed: 0 })
     }
 
     fn bytes(&self) -> usize {

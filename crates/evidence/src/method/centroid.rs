@@ -78,7 +78,7 @@ impl Prepared for Ready<'_> {
             painter.draw(Piece { face, outline: Outline::Whole });
         }
         let (image, pieces) = (painter.finish(), self.keys.len());
-        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces })
+        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces, removed: 0 })
     }
 
     fn bytes(&self) -> usize {

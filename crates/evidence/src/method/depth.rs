@@ -12,6 +12,7 @@ mod range;
 mod rules;
 mod scanline;
 mod trapezoids;
+mod unstored;
 mod walk;
 mod whole;
 
@@ -30,6 +31,7 @@ pub use self::layered::{Layered, Layers};
 pub use self::options::{DepthBuffer, Sections};
 pub use self::precision::Stored;
 pub use self::rules::{Clear, DepthRules, DepthTest, Nearer};
+pub use self::unstored::{SetUp, Unstored};
 
 impl Method for DepthBuffer {
     fn name(&self) -> String {
@@ -40,6 +42,16 @@ impl Method for DepthBuffer {
             Interpolation::Trapezoids => " trapezoids",
             Interpolation::IntegerEdges => " integer edges",
         };
+        let rules = self.rules;
+        if rules.nearer == Nearer::Larger {
+            name += " larger nearer";
+        }
+        if matches!(rules.test, DepthTest::LessOrEqual | DepthTest::GreaterOrEqual) {
+            name += " or equal";
+        }
+        if rules.clear != Clear::Nothing {
+            name += " cleared";
+        }
         for (label, value) in [("near", self.near), ("far", self.far)] {
             if let Some(value) = value {
                 name += &format!(" {label} {value:e}");
@@ -98,6 +110,6 @@ impl Ready<'_> {
             self.bytes = self.keys.len() * (width * rows) as usize * 2 * size_of::<u32>();
         }
         let image = Image::from_faces(space.size, faces, drawn);
-        Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces })
+        Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces, removed: 0 })
     }
 }

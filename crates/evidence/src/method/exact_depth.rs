@@ -39,7 +39,7 @@ impl Prepared for Ready<'_> {
         // A face, a depth and its error.
         self.bytes = image.faces().len() * (size_of::<u32>() + 2 * size_of::<f64>());
         let (order, draw) = (Duration::ZERO, begin.elapsed());
-        Ok(Painted { image, order, draw, pieces: self.faces.len() })
+        Ok(Painted { image, order, draw, pieces: self.faces.len(), removed: 0 })
     }
 
     fn bytes(&self) -> usize {

@@ -1,8 +1,8 @@
 //! The field of competitors.
 
 use super::{
-    Bsp, Centroid, DepthBuffer, DepthFormat, ExactDepth, FrontFaces, InputOrder, Interpolation,
-    Method, Newell,
+    Bsp, Centroid, Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, ExactDepth, FrontFaces,
+    InputOrder, Interpolation, Method, Nearer, Newell,
 };
 use binspace::BuildOptions;
 
@@ -70,8 +70,17 @@ pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     for format in [Integer(16), Integer(24), Float, FloatReversed, LinearInteger(16), LinearFloat] {
         methods.push(Box::new(buffer(format)));
     }
-    let incremental = buffer(Integer(24)).with_interpolation(Interpolation::Incremental);
-    methods.push(Box::new(incremental));
+    let walks = Interpolation::ALL.into_iter().filter(|&how| how != Interpolation::EdgeFunctions);
+    for how in walks {
+        methods.push(Box::new(buffer(Integer(24)).with_interpolation(how)));
+    }
+    // Other conventions: the later of equal depths shows; larger is nearer, and the buffer is cleared
+    // to the far plane, so that what is there does not show.
+    let rules = DepthRules::DEFAULT;
+    let larger = rules.with_nearer(Nearer::Larger).with_test(DepthTest::Greater);
+    for rules in [rules.with_test(DepthTest::LessOrEqual), larger.with_clear(Clear::Smallest)] {
+        methods.push(Box::new(buffer(Integer(24)).with_rules(rules)));
+    }
     methods.push(Box::new(ExactDepth));
     methods
 }

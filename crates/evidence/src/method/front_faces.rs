@@ -33,27 +33,34 @@ impl<M: Method> Method for FrontFaces<M> {
     }
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
-        Ok(Box::new(Ready(self.0.prepare(faces)?)))
+        Ok(Box::new(Ready { method: self.0.prepare(faces)?, faces }))
     }
 }
 
-struct Ready<'a>(Box<dyn Prepared + 'a>);
+struct Ready<'a> {
+    method: Box<dyn Prepared + 'a>,
+    faces: &'a Faces,
+}
 
 impl Prepared for Ready<'_> {
     fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
-        self.0.paint(camera, &rays.clone().with_front_faces_only())
+        let rays = rays.clone().with_front_faces_only();
+        let painted = self.method.paint(camera, &rays)?;
+        let is_shown = shown(&rays, self.faces);
+        let removed = (0..self.faces.len() as u32).filter(|&face| !is_shown(face)).count();
+        Ok(Painted { removed, ..painted })
     }
 
     fn bytes(&self) -> usize {
-        self.0.bytes()
+        self.method.bytes()
     }
 
     fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
-        self.0.for_each_piece(visit);
+        self.method.for_each_piece(visit);
     }
 
     fn accuracy(&self) -> Option<Accuracy> {
-        self.0.accuracy()
+        self.method.accuracy()
     }
 }
 

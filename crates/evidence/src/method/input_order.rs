@@ -40,7 +40,7 @@ impl Prepared for Ready<'_> {
             pieces += 1;
         }
         let image = painter.finish();
-        Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces })
+        Ok(Painted { image, order: Duration::ZERO, draw: begin.elapsed(), pieces, removed: 0 })
     }
 
     fn bytes(&self) -> usize {

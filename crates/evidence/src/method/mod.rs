@@ -57,7 +57,7 @@ pub use centroid::{Centroid, centroid_order};
 pub use decides_in::Space;
 pub use depth::{
     Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, Interpolation, Layered, Layers, Nearer,
-    Sections, Stored,
+    Sections, SetUp, Stored, Unstored,
 };
 pub use error::MethodError;
 pub use exact_depth::ExactDepth;
@@ -128,4 +128,6 @@ pub struct Painted {
     pub draw: Duration,
     /// How many pieces were drawn, faces that were not cut included.
     pub pieces: usize,
+    /// How many faces a step before the method left out, as they do not show their fronts.
+    pub removed: usize,
 }

@@ -83,7 +83,7 @@ impl Prepared for Ready<'_> {
             painter.draw(Piece { face, outline });
         }
         let (image, pieces) = (painter.finish(), sorted.len());
-        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces })
+        Ok(Painted { image, order, draw: begin.elapsed() - order, pieces, removed: 0 })
     }
 
     fn bytes(&self) -> usize {

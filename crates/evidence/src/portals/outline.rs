@@ -90,6 +90,14 @@ fn rims(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
     })
 }
 
+/// How far points are from a polygon on a plane at least: the largest distance along its plane's normal
+/// or across one of its edges; no more than 0 if that tells nothing.
+pub(super) fn apart(points: &[DVec3], outline: &[DVec3], plane: &Plane) -> f64 {
+    let [low, high] = plane.range(points);
+    let beside = rims(outline, plane).map(|rim| rim.range(points)[0]);
+    beside.fold(low.max(-high), f64::max)
+}
+
 /// What is left of a polygon on a plane without another on the same plane, as convex pieces; those
 /// that are thinner than `thin` are left out.
 pub(super) fn without(outline: Outline, gone: &[DVec3], plane: &Plane, thin: f64) -> Vec<Outline> {

@@ -6,13 +6,19 @@ use binspace::Frustum;
 use binspace::glam::DVec3;
 
 use super::cells::{Cells, NOISE, Portal};
-use super::outline::{Outline, Plane, clip, holds, hull};
+use super::outline::{Outline, Plane, apart, clip, holds, hull};
 
 /// How far beyond a plane that bounds the lines of sight something still counts as in sight, as a
-/// share of the scene's extent: more than rounding moves these planes over the longest distance.
-const SLACK: f64 = 1e-8;
-/// How much further than known a visible part must reach to be looked at again.
-const MORE: f64 = 1e-9;
+/// share of the scene's extent.
+///
+/// Points of a source and of an opening are within 4 `NOISE` of where they are exactly: one each for the
+/// outlines, for cutting, for the test that the plane is between them, and for what is not looked at
+/// again. A line from the one to the other carries the sum of both on to the end of the box, which is no
+/// more than √3 · 1.02 / `NEAREST` times as far: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
+pub(super) const SLACK: f64 = 1e-7;
+/// Openings that are nearer to the source do not narrow the view: lines from the source through them
+/// would carry roundings too far. Larger: more is kept in vain; smaller: `SLACK` has to be larger.
+const NEAREST: f64 = 2e-4;
 /// How often a portal's visible part may grow before all of the portal counts as visible. Less:
 /// more is kept than can be seen; more: crowded scenes take longer.
 const GROWTHS: u32 = 24;
@@ -46,14 +52,19 @@ impl Cells {
     /// What an eye may see within a frustum, through portals that are within the portals before
     /// them (C. Jones 1971; D. Luebke and C. Georges 1995).
     pub fn seen_from(&self, eye: DVec3, frustum: &Frustum) -> Seen {
-        let ease = SLACK * self.extent;
+        self.seen_with(SLACK, eye, frustum)
+    }
+
+    /// The same with another slack, so that it can be shown what it is for.
+    pub(super) fn seen_with(&self, slack: f64, eye: DVec3, frustum: &Frustum) -> Seen {
+        let ease = slack * self.extent;
         let plane = |&(normal, offset): &(DVec3, f64)| {
             let length = normal.length();
             Plane { normal: normal / length, offset: offset / length }.eased(ease)
         };
         let bounds: Vec<Plane> = frustum.planes().iter().map(plane).collect();
         let mut seen = Seen::nothing(self);
-        Sight::new(self, &[eye], &bounds).look(&self.at(eye), &mut seen);
+        Sight::new(self, slack, &[eye], &bounds).look(&self.at(eye), &mut seen);
         seen
     }
 
@@ -65,7 +76,8 @@ impl Cells {
         self.look_around(cell, &[], &mut seen);
         for &(number, side) in &self.cells[cell].portals {
             let portal = &self.portals[number];
-            Sight::new(self, &portal.outline, &[]).look(&[portal.cells[1 - side]], &mut seen);
+            Sight::new(self, SLACK, &portal.outline, &[])
+                .look(&[portal.cells[1 - side]], &mut seen);
         }
         seen
     }
@@ -84,6 +96,7 @@ impl Cells {
 /// The search for what is seen from one source: an eye, or a portal.
 struct Sight<'a> {
     cells: &'a Cells,
+    slack: f64,
     source: &'a [DVec3],
     bounds: &'a [Plane],
     /// The visible part of each portal, first to the back, then to the front; and how often it grew.
@@ -93,9 +106,9 @@ struct Sight<'a> {
 }
 
 impl<'a> Sight<'a> {
-    fn new(cells: &'a Cells, source: &'a [DVec3], bounds: &'a [Plane]) -> Self {
+    fn new(cells: &'a Cells, slack: f64, source: &'a [DVec3], bounds: &'a [Plane]) -> Self {
         let parts = vec![<[(Outline, u32); 2]>::default(); cells.portals.len()];
-        Self { cells, source, bounds, parts, pending: VecDeque::new() }
+        Self { cells, slack, source, bounds, parts, pending: VecDeque::new() }
     }
 
     /// Marks all that is seen, where the source is in some cells or on their walls.
@@ -130,7 +143,7 @@ impl<'a> Sight<'a> {
             }
             let part = within(outline, planes);
             let (known, growths) = &mut self.parts[number][side];
-            if part.is_empty() || holds(known, plane, &part, MORE * self.cells.extent) {
+            if part.is_empty() || holds(known, plane, &part, noise) {
                 continue;
             }
             let has_part = !known.is_empty();
@@ -150,8 +163,12 @@ impl<'a> Sight<'a> {
     /// The planes that bound what is seen through the visible part of a portal.
     fn planes(&self, portal: usize, side: usize) -> Vec<Plane> {
         let part = &self.parts[portal][side].0;
+        let Portal { plane, .. } = &self.cells.portals[portal];
+        if apart(self.source, part, plane) < NEAREST * self.cells.extent {
+            return self.bounds.to_vec();
+        }
         let mut planes = between(self.source, part, NOISE * self.cells.extent);
-        let ease = SLACK * self.cells.extent;
+        let ease = self.slack * self.cells.extent;
         planes.iter_mut().for_each(|plane| *plane = plane.eased(ease));
         planes.extend(self.bounds);
         planes

@@ -1,7 +1,8 @@
 //! What is kept, against exact pictures.
 
 use super::Cells;
-use super::outline::{Plane, clip, hull, split, without};
+use super::outline::{Plane, apart, clip, hull, split, without};
+use super::sight::SLACK;
 use crate::interior;
 use binspace::BspTree;
 use binspace::glam::{DVec3, dvec3};
@@ -53,6 +54,61 @@ fn nothing_that_owns_a_pixel_is_left_out() {
     assert!(kept_by_cell < all / 2, "{kept_by_cell} of {all}");
 }
 
+/// Eyes all but in the planes of doors, where roundings are carried furthest.
+#[test]
+fn nothing_is_left_out_from_the_threshold_of_a_door() {
+    let level = interior::rooms(4);
+    let tree = BspTree::build(&level).unwrap();
+    let cells = Cells::new(&tree, level.len());
+    let mut random = SplitMix64::new(7);
+    let (mut owned, mut eyes) = (0, 0);
+    for portal in cells.portals.iter().step_by(5) {
+        let weights: Vec<f64> = portal.outline.iter().map(|_| random.range(0.05, 1.0)).collect();
+        let sum: DVec3 = portal.outline.iter().zip(&weights).map(|(&p, w)| p * *w).sum();
+        let foot = sum / weights.iter().sum::<f64>();
+        for power in [-3, -4, -6, -9, -11, -13] {
+            let eye = foot + portal.plane.normal * (10f64.powi(power) * cells.extent);
+            let target = eye + random.point(-1.0, 1.0);
+            let camera = Camera::perspective(eye, target, DVec3::Z, 1.3, [48, 36]).unwrap();
+            let seen = cells.seen_from(eye, &camera.frustum());
+            for polygon in owners(&tree, &camera) {
+                assert!(seen.polygons[polygon], "{polygon} from {eye}");
+                owned += 1;
+            }
+            eyes += 1;
+        }
+    }
+    assert!(eyes > 200 && owned > 1000, "{owned} from {eyes}");
+}
+
+/// Of a target behind a wall with an opening, no more is seen than a strip that is thinner than the
+/// slack: it counts as seen. With the view narrowed by as much instead, it would be left out.
+#[test]
+fn a_strip_along_the_rim_of_an_opening_is_seen() {
+    let wall = |x: [f64; 2], z: f64| {
+        let y = [-20.0, 20.0];
+        [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z)).to_vec()
+    };
+    let (eye, strip) = (DVec3::ZERO, 1e-6);
+    // What is seen through x from 1 to 2 at depth 1 is x from 10 to 20 at depth 10.
+    let scene = [
+        wall([-20.0, 1.0], 1.0),
+        wall([2.0, 20.0], 1.0),
+        wall([3.0, 10.0 + strip], 10.0),
+        wall([-20.0, 20.0], 20.0),
+        wall([-20.0, 20.0], -1.0),
+    ];
+    let tree = BspTree::build(&scene).unwrap();
+    let cells = Cells::new(&tree, scene.len());
+    let target = dvec3(10.0 + 0.5 * strip, 0.1, 10.0);
+    let camera = Camera::perspective(eye, target, DVec3::Y, 0.5, [1, 1]).unwrap();
+    assert_eq!(owners(&tree, &camera), [2]);
+    let frustum = camera.frustum();
+    assert!(strip < SLACK * cells.extent);
+    assert!(cells.seen_from(eye, &frustum).polygons[2]);
+    assert!(!cells.seen_with(-SLACK, eye, &frustum).polygons[2]);
+}
+
 /// A square with corners at `low` and `high` in the plane z = 0.
 fn square(low: f64, high: f64) -> Vec<DVec3> {
     [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| dvec3(x, y, 0.0)).to_vec()
@@ -80,4 +136,7 @@ fn outlines_by_hand() {
     assert_eq!(without(square(0.0, 1.0), &square(1.0, 2.0), &ground, 1e-9).len(), 1);
     let both = [square(0.0, 1.0), square(2.0, 3.0)].concat();
     assert!((area(&hull(both, &ground)) - 5.0).abs() < 1e-12);
+    // Above a square, beside it, and within it.
+    let far = |x: f64, z: f64| apart(&[dvec3(x, 0.5, z)], &square(0.0, 1.0), &ground);
+    assert_eq!([far(0.5, -3.0), far(3.0, 1.0), far(0.5, 0.0)], [3.0, 2.0, 0.0]);
 }

@@ -81,7 +81,12 @@ fn of_two_in_one_plane_painters_show_the_later_and_depth_buffers_the_earlier() {
     let b = points([[2.0, 0.0, 1.0], [6.0, 0.0, 1.0], [6.0, 6.0, 1.0], [2.0, 6.0, 1.0]]);
     for method in all(&Options::DEFAULT) {
         let name = method.name();
+        // All is at the far plane, to which that one is cleared.
+        if name.ends_with("cleared") {
+            continue;
+        }
         let is_buffer = (name.starts_with('z') || name.starts_with('w')) && name != "z f64";
+        let is_buffer = is_buffer && !name.ends_with("or equal");
         let row = if is_buffer { "AAAABB" } else { "AABBBB" };
         let expected = [row; 6].join(" ");
         assert_eq!(drawn(&*method, &vec![a.clone(), b.clone()], &camera()), expected, "{name}");
