@@ -49,6 +49,8 @@ enum Kind {
     OverlayPolygon {
         number: usize,
     },
+    #[cfg(feature = "drawing")]
+    OfCell,
     #[cfg(feature = "layers")]
     Layer {
         layer: usize,
@@ -156,6 +158,11 @@ impl Error {
     #[cfg(feature = "drawing")]
     pub(crate) const fn overlay_polygon(number: usize) -> Self {
         Self { kind: Kind::OverlayPolygon { number } }
+    }
+
+    #[cfg(feature = "drawing")]
+    pub(crate) const fn of_cell() -> Self {
+        Self { kind: Kind::OfCell }
     }
 
     #[cfg(feature = "layers")]
@@ -315,6 +322,10 @@ impl fmt::Display for Error {
                 f,
                 "polygon {number} of the overlay cannot be drawn: drawings take its lines and points \
                  alone, so give the polygons to the tree"
+            ),
+            #[cfg(feature = "drawing")]
+            Kind::OfCell => f.write_str(
+                "the tree is of a cell, but drawings are made of whole polygons: draw a tree of them",
             ),
             Kind::Cancelled => f.write_str("the build was cancelled"),
             #[cfg(feature = "layers")]

@@ -111,7 +111,7 @@ fn divide(
     let total = exchange::sum(world, share.polygons.len() as u64);
     // Which polygons are samples does not depend on who has them, so neither do the cells.
     let stride = total.div_ceil(SAMPLES).max(1);
-    let samples = share.polygons.iter().filter(|given| given.number.is_multiple_of(stride));
+    let samples = share.polygons.iter().filter(|given| mixed(given.number).is_multiple_of(stride));
     let own: Vec<f64> = samples.flat_map(|given| given.corners[0].to_array()).collect();
     let samples = exchange::gather(world, &own);
     let made = samples.map_or(Ok(Vec::new()), |samples| {
@@ -125,6 +125,12 @@ fn divide(
     });
     let bytes = exchange::broadcast(world, together(world, made)?);
     together(world, Partition::read(&bytes[..]).map_err(|error| error.to_string()))
+}
+
+/// Bits of a number, mixed: of numbers in any pattern, about as many are multiples of anything.
+fn mixed(number: u64) -> u64 {
+    let bits = (number ^ number >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
 }
 
 /// Sends each polygon to the ranks whose cells it reaches. Gives how many bytes this rank has sent, and the

@@ -94,7 +94,7 @@ fn tree_of_cell<P: Polygon>(
 ) -> Result<BspTree, Error> {
     let mut faces = partition.faces(cell);
     let mut preparer = Preparer::default();
-    let mut preparation = preparer.append(&mut faces, polygons, 0, watch)?;
+    let mut preparation = preparer.append(&mut faces, polygons, 0, options.max_fragments, watch)?;
     preparation.duplicates = preparer.duplicates_added(&faces, 0, watch)?;
     // What that needs is freed before the faces are divided.
     drop(preparer);

@@ -87,7 +87,8 @@ fn extend<P: Polygon>(
 ) -> Result<(), Error> {
     let (mut faces, mut preparation) = (tree.faces.try_clone()?, tree.preparation);
     let (before, mut preparer) = (faces.len(), Preparer::default());
-    let mut added = preparer.append(&mut faces, polygons, preparation.polygons, watch)?;
+    let mut added =
+        preparer.append(&mut faces, polygons, preparation.polygons, usize::MAX, watch)?;
     added.duplicates = preparer.duplicates_added(&faces, before, watch)?;
     preparation.add(&added);
     faces.shrink_to_fit();

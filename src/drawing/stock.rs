@@ -62,6 +62,9 @@ impl<'t> Stock<'t> {
         opacities: Vec<f64>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
+        if tree.is_of_cell() {
+            return Err(Error::of_cell());
+        }
         let faces = tree.faces();
         let frame = Frame { rays, faces };
         let mut order = Vec::new();

@@ -105,7 +105,7 @@ impl Overlay {
         if faces.is_empty() {
             *faces = tree.faces.try_clone()?;
         }
-        *preparation = preparer.append(faces, polygons, base.polygons, watch)?;
+        *preparation = preparer.append(faces, polygons, base.polygons, usize::MAX, watch)?;
         placer.begin_at(base.faces, faces.len());
         preparer.append_lines(faces, lines, segments, watch)?;
         preparer.append_points(faces, points, watch)?;

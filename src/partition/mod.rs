@@ -74,8 +74,8 @@ pub use extent::Extent;
 /// # Trees of cells
 ///
 /// A tree of a cell gives orders, fragments, meshes, boxes and hits as any other, of what is in the cell.
-/// What is made of whole polygons is not for it: `drawing`, and the depth buffer of `raster`, so `verify`
-/// as well. Its [`dropped`](crate::BspTree::dropped) polygons are also those of which nothing is in the
+/// What is made of whole polygons is not for it: `drawing`, where it is an error, and the depth buffer of
+/// `raster`, so `verify` as well. Its [`dropped`](crate::BspTree::dropped) polygons are also those of which nothing is in the
 /// cell. [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell.
 ///
 /// With the feature `save`, a partition is written and read, `Partition::write` and `Partition::read`, to

@@ -348,7 +348,8 @@ impl BspTree {
         &self.preparation
     }
 
-    /// The indices of the polygons without area, which have no fragments.
+    /// The indices of the polygons that have no fragments: those without area, and in a tree of a cell
+    /// those of which nothing is in it.
     pub fn dropped(&self) -> impl Iterator<Item = usize> + Clone {
         self.faces.dropped(self.preparation.polygons)
     }

@@ -201,3 +201,48 @@ fn a_cell_is_a_tree_as_any_other() {
     }
     assert!(hits[1] > 20, "{hits:?}");
 }
+
+/// More polygons or fragments than allowed, polygons without end among them, and a build that is
+/// cancelled.
+#[test]
+fn budgets_and_cancels_count_in_cells() {
+    use std::ops::ControlFlow;
+
+    let options = BuildOptions::DEFAULT;
+    let polygons = triangles(&mut Dice(21), 200, 30);
+    let scene = Divided::new(polygons, options, 3).unwrap();
+    let few = options.with_max_fragments(50);
+    let error = few.build_cell(&scene.partition, 1, &scene.polygons).unwrap_err();
+    assert!(error.is_over_budget(), "{error}");
+    let endless = std::iter::repeat(&scene.polygons[0]);
+    let error = few.build_cell(&scene.partition, 1, endless).unwrap_err();
+    assert!(error.is_over_budget(), "{error}");
+    let mut last = None;
+    let built =
+        options.build_cell_with_progress(&scene.partition, 1, &scene.polygons, |progress| {
+            last = Some(progress);
+            ControlFlow::Continue(())
+        });
+    let last = last.expect("it is called in the end");
+    assert!(last.done == last.total && last.total == built.unwrap().face_count());
+    let cancelled = options
+        .build_cell_with_progress(&scene.partition, 1, &scene.polygons, |_| ControlFlow::Break(()));
+    assert!(cancelled.is_err_and(|error| error.is_cancelled()));
+}
+
+/// A drawing would take the polygons of a cell whole.
+#[cfg(feature = "drawing")]
+#[test]
+fn a_drawing_of_a_cell_is_an_error() {
+    use binspace::drawing::VisibilityMap;
+    use binspace::raster::Rays;
+    use binspace::view::Camera;
+
+    let scene = Divided::new(triangles(&mut Dice(5), 30, 30), BuildOptions::DEFAULT, 2).unwrap();
+    let camera =
+        Camera::perspective(DVec3::splat(90.0), DVec3::ZERO, DVec3::Z, 0.7, [20, 20]).unwrap();
+    let tree = &scene.cells[0].tree;
+    assert!(tree.is_of_cell() && !BspTree::build(&scene.polygons).unwrap().is_of_cell());
+    let error = VisibilityMap::of(tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap_err();
+    assert!(error.to_string().contains("of a cell"), "{error}");
+}

@@ -24,16 +24,17 @@ impl Preparer {
     }
 
     /// Appends the faces of more polygons to those of a finished scene, on its lattice and with its
-    /// tolerance. The polygons are numbered from `first` on. After an error, some of their faces may
+    /// tolerance. More than `limit` are an error. The polygons are numbered from `first` on. After an error, some of their faces may
     /// have been appended.
     pub(crate) fn append<P: Polygon>(
         &mut self,
         faces: &mut Faces,
         polygons: impl IntoIterator<Item = P>,
         first: usize,
+        limit: usize,
         listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
-        self.input.read(polygons, usize::MAX, listener)?;
+        self.input.read(polygons, limit, listener)?;
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
             return Err(Error::off_grid(polygon));
         }

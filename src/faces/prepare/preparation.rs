@@ -10,7 +10,8 @@ pub struct Preparation {
     pub polygons: usize,
     /// Polygons without area, which become no face: those with fewer than three different corners,
     /// or with all corners on one line. This is decided exactly, after the corners are rounded to
-    /// the lattice. Corners that are on one line as decimal numbers need not be on one as `f64`.
+    /// the lattice. Corners that are on one line as decimal numbers need not be on one as `f64`. In a
+    /// tree of a cell, polygons of which nothing is in the cell are counted too.
     pub dropped: usize,
     /// Polygons with the same corners on the lattice as an earlier one, in the same cyclic order or
     /// its reverse. They are kept. The last of them shows, as coplanar polygons come in input
