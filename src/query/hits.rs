@@ -1,9 +1,11 @@
 //! The hits of a ray, the nearest first.
 
+use std::collections::BTreeMap;
 use std::iter::FusedIterator;
 
 use smallvec::SmallVec;
 
+use super::found::Found;
 use super::hit::Hit;
 use super::meeting::{Depth, Meeting};
 use super::probe::Probe;
@@ -14,7 +16,7 @@ use crate::tree::{Bounds, BspTree};
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
 /// It searches only as far along the ray as the next hit requires. Nothing is allocated
-/// unless dozens of parts of the tree, or more than eight hits at one place, are pending at once.
+/// unless dozens of parts of the tree, or more than eight fragments at one place, are pending at once.
 #[derive(Clone, Debug)]
 pub struct Hits<'t> {
     tree: &'t BspTree,
@@ -27,17 +29,40 @@ pub struct Hits<'t> {
 struct Search<'t> {
     probe: Probe,
     walk: Walk<'t>,
-    /// What the ray meets of what it has come to, the nearest last.
-    found: SmallVec<[Meeting; 8]>,
-    /// Of polygons that were hit: how far what was hit goes on.
-    hit: SmallVec<[Extent; 8]>,
+    /// What the ray meets of what it has come to.
+    found: Found,
+    reached: Reached,
 }
 
-/// How far along a ray something of a polygon reaches.
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    polygon: usize,
-    end: Depth,
+/// Of polygons that were hit: how far along the ray what was hit goes on.
+#[derive(Clone, Debug, Default)]
+struct Reached {
+    /// The last few.
+    few: SmallVec<[(usize, Depth); FEW]>,
+    /// Others that may have gone on when there were more than a few.
+    many: BTreeMap<usize, Depth>,
+}
+
+/// How many polygons at one place are looked through one by one. Smaller: more rays need a map, and
+/// allocate. Larger: looking through them takes longer than a map.
+const FEW: usize = 8;
+
+impl Reached {
+    /// Where what was hit of a polygon ends. Those that end before a depth may be forgotten.
+    fn get(&mut self, polygon: usize, from: &Depth) -> Option<&mut Depth> {
+        self.few.retain(|(_, end)| end.high >= from.low);
+        match self.few.iter_mut().find(|(of, _)| *of == polygon) {
+            Some((_, end)) => Some(end),
+            None => self.many.get_mut(&polygon),
+        }
+    }
+
+    fn insert(&mut self, polygon: usize, end: Depth) {
+        if self.few.len() == FEW {
+            self.many.extend(self.few.drain(..));
+        }
+        self.few.push((polygon, end));
+    }
 }
 
 impl Search<'_> {
@@ -46,37 +71,26 @@ impl Search<'_> {
         let Self { probe, walk, found, .. } = self;
         loop {
             // What comes no nearer than the nearest that is found need not be looked at.
-            let limit = found.last().map_or(f64::INFINITY, |nearest| nearest.enter.high);
-            let Some(fragment) = walk.next(limit) else { return found.pop() };
+            let limit = found.first().map_or(f64::INFINITY, |nearest| nearest.enter.high);
+            let Some(fragment) = walk.next(limit) else { return found.pop(probe, &tree.faces) };
             let fragment = tree.fragment(fragment);
             if let Some(meeting) = Meeting::new(probe, &fragment, &tree.faces) {
-                // By halves, as many may be at one place, where only integers compare them.
-                let mut places = 0..found.len();
-                while !places.is_empty() {
-                    let middle = places.start + places.len() / 2;
-                    if found[middle].compare(&meeting, probe, &tree.faces).is_lt() {
-                        places.end = middle;
-                    } else {
-                        places.start = middle + 1;
-                    }
-                }
-                found.insert(places.start, meeting);
+                found.push(meeting, probe, &tree.faces);
             }
         }
     }
 
     /// Whether a meeting is a hit, rather than more of what was hit.
     fn is_new(&mut self, tree: &BspTree, meeting: &Meeting) -> bool {
-        let Self { probe, hit, .. } = self;
-        hit.retain(|extent| extent.end.high >= meeting.enter.low);
+        let Self { probe, reached, .. } = self;
         let polygon = tree.faces.polygon(meeting.face);
-        let Some(known) = hit.iter_mut().find(|extent| extent.polygon == polygon) else {
-            hit.push(Extent { polygon, end: meeting.leave });
+        let Some(end) = reached.get(polygon, &meeting.enter) else {
+            reached.insert(polygon, meeting.leave);
             return true;
         };
-        let is_apart = known.end.compare(&meeting.enter, probe, &tree.faces).is_lt();
-        if is_apart || known.end.compare(&meeting.leave, probe, &tree.faces).is_lt() {
-            known.end = meeting.leave;
+        let is_apart = end.compare(&meeting.enter, probe, &tree.faces).is_lt();
+        if is_apart || end.compare(&meeting.leave, probe, &tree.faces).is_lt() {
+            *end = meeting.leave;
         }
         is_apart
     }
@@ -87,8 +101,8 @@ impl<'t> Hits<'t> {
         let search = Probe::new(ray, tree.faces.lattice()).map(|probe| Search {
             walk: Walk::new(tree, bounds, &probe),
             probe,
-            found: SmallVec::new(),
-            hit: SmallVec::new(),
+            found: Found::default(),
+            reached: Reached::default(),
         });
         Self { tree, ray, search }
     }
@@ -153,7 +167,9 @@ impl BspTree {
     ///
     /// It takes time for the nodes whose regions the ray crosses, as far as it is read, and for the fragments
     /// on the planes where it crosses them. These regions extend into empty space: for many rays in
-    /// a large scene, make [`Bounds`] once and ask [`Bounds::hits`].
+    /// a large scene, make [`Bounds`] once and ask [`Bounds::hits`]. Where k fragments are met at one place,
+    /// as in a stack of coplanar polygons, that adds O(k log k) for all of them, and the first is
+    /// there after O(k log k) in the worst case, O(k) if they are met in input order.
     pub fn hits(&self, ray: Ray) -> Hits<'_> {
         Hits::new(self, None, ray)
     }

@@ -8,6 +8,7 @@
 //! | `chord` | where a ray meets a fragment: exactly |
 //! | `filter` | the same in floats, where they are certain |
 //! | `meeting` | which of two meetings comes first |
+//! | `found` | which of many meetings comes first |
 //! | `hits` | what is one hit |
 //! | `blocked` | whether there is any |
 //! | `locate` | in which leaf a point is, and whose planes it is on |
@@ -17,6 +18,7 @@ mod blocked;
 mod boxes;
 mod chord;
 mod filter;
+mod found;
 mod hit;
 mod hits;
 mod locate;

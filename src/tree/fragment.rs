@@ -6,9 +6,9 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::BspTree;
 use super::parts::{Record, Stored};
-use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, Symbol, Vertex};
+use super::{BspTree, grid};
+use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, PlaneId, Symbol, Vertex};
 
 /// A convex piece of a polygon, or the whole polygon.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +69,24 @@ impl<'t> Fragment<'t> {
     #[doc(hidden)]
     pub fn face(&self) -> u32 {
         self.face
+    }
+
+    /// The unit normal of its plane, which points to the front: there its vertices run counter-clockwise.
+    /// All fragments of a polygon have the same bits, or, if that was triangulated, all of a triangle.
+    ///
+    /// It is that of the exact plane, each coordinate rounded a few times, to within 2⁻⁵⁰; of
+    /// however thin a polygon. [`grid_points`](Self::grid_points) give the plane exactly.
+    pub fn normal(&self) -> DVec3 {
+        grid::unit_normal(self.faces, PlaneId::face(self.face))
+    }
+
+    /// The distance of its plane from the origin along the normal, in the polygons' unit: the plane holds
+    /// the points p with `normal().dot(p) == offset()`, and its front is where the left side is larger.
+    ///
+    /// Rounded, to within 2⁻⁴⁸ of the largest coordinate of the polygon; infinite if it is too large for
+    /// `f64`.
+    pub fn offset(&self) -> f64 {
+        grid::offset(self.faces, PlaneId::face(self.face))
     }
 
     /// Whether it was never cut: it is a whole polygon, or a whole triangle of a polygon that was

@@ -59,6 +59,20 @@ impl Fragment<'_> {
     }
 }
 
+/// The unit normal of a plane: each coordinate is off by a few roundings.
+pub(super) fn unit_normal(faces: &Faces, plane: PlaneId) -> DVec3 {
+    faces.plane(plane).normal_f64().normalize()
+}
+
+/// The distance of a plane from the origin along its unit normal.
+pub(super) fn offset(faces: &Faces, plane: PlaneId) -> f64 {
+    let corner = match plane.kind() {
+        PlaneKind::Face(face) => faces.reference_triangle(face)[0],
+        PlaneKind::Axis(_, corner) => corner,
+    };
+    unit_normal(faces, plane).dot(faces.lattice().to_world(faces.corner(corner)))
+}
+
 /// Three lattice points of a plane, counter-clockwise seen from its front.
 pub(crate) fn plane_points(faces: &Faces, plane: PlaneId) -> [[i64; 3]; 3] {
     match plane.kind() {

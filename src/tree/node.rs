@@ -7,9 +7,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::BspTree;
 use super::node_record::Ranges;
 use super::walk::{Visit, Walk};
+use super::{BspTree, grid};
 use crate::exact::{Eye, PlaneId, PlaneKind};
 use crate::viewpoint::Viewpoint;
 
@@ -57,18 +57,13 @@ impl<'t> Node<'t> {
 
     /// The unit normal, which points to the front.
     pub fn normal(&self) -> DVec3 {
-        self.tree.faces.plane(self.plane()).normal_f64().normalize()
+        grid::unit_normal(&self.tree.faces, self.plane())
     }
 
     /// The distance of the plane from the origin along the normal, in the polygons' unit. Infinite
     /// if it is too large for `f64`.
     pub fn offset(&self) -> f64 {
-        let faces = &self.tree.faces;
-        let corner = match self.plane().kind() {
-            PlaneKind::Face(face) => faces.reference_triangle(face)[0],
-            PlaneKind::Axis(_, corner) => corner,
-        };
-        self.normal().dot(faces.lattice().to_world(faces.corner(corner)))
+        grid::offset(&self.tree.faces, self.plane())
     }
 
     /// The index, in the input, of the polygon in whose plane the node's plane is. If that polygon

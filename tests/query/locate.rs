@@ -112,3 +112,23 @@ fn a_tree_without_nodes_is_one_leaf() {
     assert!(location.node().is_none() && location.planes().is_empty());
     assert_eq!(location.fragments(), 0..0);
 }
+
+#[test]
+fn locations_are_equal_in_one_leaf_and_on_the_same_planes_only() {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let tree = BspTree::build([square(0.0), square(2.0)]).unwrap();
+    let at = |z: f64| tree.locate([0.2, 0.3, z]).unwrap();
+    // One node, whose front and back are leaves.
+    let height = tree.root().unwrap().offset();
+    assert_eq!(tree.nodes().len(), 1);
+    let heights = [height - 0.5, height, height + 0.5];
+    for (i, a) in heights.into_iter().enumerate() {
+        assert_eq!(at(a), tree.locate([7.0, -3.0, a]).unwrap());
+        for (j, b) in heights.into_iter().enumerate() {
+            assert_eq!(at(a).node(), at(b).node());
+            assert_eq!(at(a) == at(b), i == j, "{a} {b}");
+        }
+    }
+    let other = tree.clone();
+    assert!(heights.iter().all(|&z| at(z) != other.locate([0.2, 0.3, z]).unwrap()));
+}

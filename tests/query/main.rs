@@ -2,6 +2,7 @@
 //! against every polygon.
 
 mod cases;
+mod crowded;
 mod hard;
 mod large;
 mod locate;

@@ -7,6 +7,7 @@ mod occlusion;
 mod order;
 #[path = "../../examples/level/rooms.rs"]
 mod rooms;
+mod sides;
 #[path = "../support/mod.rs"]
 mod support;
 

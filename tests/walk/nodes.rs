@@ -102,6 +102,103 @@ fn planes_are_those_of_the_polygons_that_they_name() {
     assert!(named > 300 && free > 100, "{named} {free}");
 }
 
+/// Fragments have their own planes, whichever way they were cut, in rationals of the grid.
+#[test]
+fn fragments_tell_the_planes_of_their_faces() {
+    let (mut fragments, mut on_nodes) = (0, 0);
+    for tree in trees() {
+        let grid = tree.grid();
+        let two = rational::exact(2.0);
+        let step = num_traits::pow(two.clone(), grid.exponent.unsigned_abs() as usize);
+        let step = if grid.exponent < 0 { step.recip() } else { step };
+        let base = rational::point(grid.base);
+        for fragment in tree.fragments() {
+            let points = fragment.grid_points().map(|g| -> rational::Point {
+                std::array::from_fn(|i| {
+                    &base[i] + &step * rational::Rational::from_integer(g[i].into())
+                })
+            });
+            let plane = Plane::through(points.each_ref());
+            let largest = plane.normal.iter().map(Signed::abs).max().unwrap();
+            let scaled = plane.normal.each_ref().map(|c| c / &largest);
+            let unit = DVec3::from(scaled.each_ref().map(|c| c.to_f64().unwrap())).normalize();
+            let (normal, offset) = (fragment.normal(), fragment.offset());
+            assert!((normal - unit).abs().max_element() <= 3.0 * f64::EPSILON, "{normal} {unit}");
+            // The square of the exact offset, as roots are no fractions.
+            let square = |x: &rational::Rational| x * x;
+            let length = scaled.iter().map(square).sum::<rational::Rational>();
+            let exact = rational::scalar(&scaled, &points[0]);
+            let size = points.iter().flatten().map(Signed::abs).max().unwrap();
+            let slack = size * rational::exact(12.0 * f64::EPSILON);
+            let offset = rational::exact(offset);
+            let [low, high] = [&offset - &slack, &offset + &slack];
+            // low <= exact / root(length) <= high.
+            let signed = |x: &rational::Rational| x * x.abs();
+            assert!(signed(&low) * &length <= signed(&exact), "{fragment:?}");
+            assert!(signed(&exact) <= signed(&high) * &length, "{fragment:?}");
+            fragments += 1;
+        }
+        for node in tree.nodes() {
+            for index in node.on() {
+                let fragment = tree.fragment(index);
+                if node.polygon() == Some(fragment.polygon())
+                    && fragment.grid_points() == node.grid_points()
+                {
+                    assert_eq!(
+                        (fragment.normal(), fragment.offset()),
+                        (node.normal(), node.offset())
+                    );
+                    on_nodes += 1;
+                }
+            }
+        }
+    }
+    assert!(fragments > 3000 && on_nodes > 1000, "{fragments} {on_nodes}");
+}
+
+#[test]
+fn the_front_of_a_fragment_is_where_its_corners_run_counter_clockwise() {
+    let up = [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+    let [a, b, c] = up;
+    let tree = BspTree::build([up, [c, b, a]]).unwrap();
+    let of = |index: u32| (tree.fragment(index).normal(), tree.fragment(index).offset());
+    assert_eq!([of(0), of(1)], [(DVec3::Z, 2.0), (DVec3::NEG_Z, -2.0)]);
+}
+
+#[test]
+fn nodes_of_two_trees_are_never_equal() {
+    let trees =
+        [1, 1].map(|seed| BspTree::build(binspace::scene::city(30, seed).polygons()).unwrap());
+    let [ours, others] = trees.each_ref().map(|tree| tree.nodes().collect::<Vec<_>>());
+    assert!(ours.len() > 10 && ours.len() == others.len());
+    for (k, node) in ours.iter().enumerate() {
+        assert!(ours.iter().enumerate().all(|(j, other)| (node == other) == (j == k)));
+        assert!(others.iter().all(|other| node != other));
+    }
+}
+
+#[test]
+fn nodes_come_backwards_from_the_back() {
+    let mut mixed = 0;
+    for tree in trees() {
+        let forwards: Vec<Node<'_>> = tree.nodes().collect();
+        let mut backwards: Vec<Node<'_>> = tree.nodes().rev().collect();
+        backwards.reverse();
+        assert_eq!(forwards, backwards);
+        // From both ends in turn.
+        let (mut nodes, mut first, mut last) = (tree.nodes(), vec![], vec![]);
+        while let Some(node) = nodes.next() {
+            assert_eq!(nodes.len() + first.len() + last.len() + 1, forwards.len());
+            first.push(node);
+            last.extend(nodes.next_back());
+        }
+        mixed += last.len();
+        first.extend(last.into_iter().rev());
+        assert_eq!(first, forwards);
+    }
+    assert!(mixed > 500, "{mixed}");
+}
+
 #[test]
 fn a_node_tells_on_which_side_of_it_a_viewpoint_is() {
     use binspace::Viewpoint;

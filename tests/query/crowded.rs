@@ -1,0 +1,76 @@
+//! Thousands of polygons at one place. Were the time quadratic in their number, these would take minutes.
+
+use super::support::dice::Dice;
+use binspace::{BspTree, BuildOptions, Heuristic, Ray};
+
+fn polygons(tree: &BspTree, ray: Ray) -> Vec<usize> {
+    tree.hits(ray).map(|hit| hit.polygon()).collect()
+}
+
+/// Squares in one plane, each about all before it.
+fn nested(n: usize) -> impl Iterator<Item = [[f64; 3]; 4]> {
+    (0..n).map(move |i| {
+        let s = 1.0 + i as f64 / n as f64;
+        [[-s, -s, 0.0], [s, -s, 0.0], [s, s, 0.0], [-s, s, 0.0]]
+    })
+}
+
+#[test]
+fn squares_in_one_plane_are_hit_in_input_order_from_both_sides() {
+    let n = 200_000;
+    let tree = BspTree::build(nested(n)).unwrap();
+    let bounds = tree.bounds().unwrap();
+    for z in [-5.0, 5.0] {
+        let ray = Ray::new([0.1, 0.2, z], [0.0, 0.0, -z]);
+        assert_eq!(bounds.hits(&tree, ray).next().unwrap().polygon(), 0);
+        assert!(polygons(&tree, ray).into_iter().eq(0..n));
+        assert!(tree.is_blocked(ray));
+    }
+    let point = [0.1, 0.2, 0.0];
+    assert!(polygons(&tree, Ray::between(point, point)).into_iter().eq(0..n));
+    // Along the plane, each is entered where it begins.
+    let along = Ray::new([-9.0, 0.125, 0.0], [1.0, 0.0, 0.0]);
+    assert!(polygons(&tree, along).into_iter().eq((0..n).rev()));
+}
+
+#[test]
+fn a_ray_through_the_apex_of_a_fan_hits_all_of_it() {
+    let n = 100_000;
+    let rim = |k: usize| {
+        let (y, x) = (std::f64::consts::TAU * k as f64 / n as f64).sin_cos();
+        [x, y, 0.0]
+    };
+    let mut blades: Vec<[[f64; 3]; 3]> = (0..n).map(|k| [[0.0; 3], rim(k), rim(k + 1)]).collect();
+    let mut dice = Dice(5);
+    for k in (1..n).rev() {
+        blades.swap(k, dice.below(k + 1));
+    }
+    let tree = BspTree::build(&blades).unwrap();
+    assert_eq!(tree.len(), n);
+    let ray = Ray::new([0.5, 0.25, 1.0], [-0.5, -0.25, -1.0]);
+    assert!(polygons(&tree, ray).into_iter().eq(0..n));
+    assert!(tree.is_blocked(ray));
+}
+
+/// More than the few that are looked through one by one, each in two fragments at the ray.
+#[test]
+fn polygons_that_are_cut_where_the_ray_meets_them_are_hit_once() {
+    for n in [7, 8, 9, 30, 20_000] {
+        let upright = [[0.5, -9.0, -9.0], [0.5, 9.0, -9.0], [0.5, 9.0, 9.0], [0.5, -9.0, 9.0]];
+        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+        let tree = options.build(std::iter::once(upright).chain(nested(n))).unwrap();
+        assert_eq!(tree.len(), 2 * n + 1, "each is cut");
+        // Through the cut, from it, and in no length.
+        for (from, to) in [(1.0, -1.0), (0.0, -1.0), (1.0, 0.0), (0.0, 0.0)] {
+            let ray = Ray::between([0.5, 0.1, from], [0.5, 0.1, to]);
+            // The upright polygon is met where the ray begins.
+            assert!(polygons(&tree, ray).into_iter().eq(0..=n), "{from} {to}");
+        }
+        // Along the squares: from one fragment of each to the other.
+        let along = Ray::new([-9.0, 0.125, 0.0], [1.0, 0.0, 0.0]);
+        assert!(polygons(&tree, along).into_iter().eq((1..=n).rev().chain([0])));
+        // From where the cut is.
+        let along = Ray::new([0.5, 0.125, 0.0], [1.0, 0.0, 0.0]);
+        assert!(polygons(&tree, along).into_iter().eq(0..=n));
+    }
+}
