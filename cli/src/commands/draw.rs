@@ -25,7 +25,7 @@ use crate::format::{about_output, format};
 use crate::progress::Progress;
 use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
-use crate::terminal::say;
+use crate::terminal::{note, say};
 use crate::upright::note_z_up;
 use crate::{camera, coverage, drawn_pdf, drawn_svg, ink, job, png_file};
 
@@ -105,6 +105,9 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
             DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
             _ => drawn_svg::write(out, &drawn),
         })?;
+    }
+    if figures.visible == 0 {
+        note(&format!("{}: the picture shows nothing of it", scene.name()));
     }
     if args.json {
         say(serde_json::to_string(&figures).map_err(|error| Failure::about(scene.name(), error))?)?;

@@ -49,3 +49,20 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     let run = crate::run::Run::new(&folder.pipe(&format!("verify - {verify}"), block(false)));
     assert!(run.err.contains("standard input: it looks as if z pointed up"), "{}", run.err);
 }
+
+#[test]
+fn a_drawing_of_nothing_is_noted() {
+    let folder = Folder::new("notes_nothing");
+    folder.write("block.obj", block(true));
+    let says = |options: &str| {
+        let run = folder.run(&format!("draw block.obj --size 16x12 {options}"));
+        let says = run.err.contains("block.obj: the picture shows nothing of it");
+        run.good();
+        says
+    };
+    for output in ["p.svg", "p.pdf", "p.png", "p.svg --lines", "p.svg --translucent"] {
+        assert!(!says(&format!("-o {output}")), "{output}");
+        // Everything is behind the eye.
+        assert!(says(&format!("--eye 0,9,0 --target 0,20,1 -o {output}")), "{output}");
+    }
+}
