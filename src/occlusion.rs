@@ -57,6 +57,9 @@ impl<'t> CoverageMask<'t> {
 
     /// Whether nothing in a box owns a pixel: all that it may cover is covered, or it is outside of
     /// the picture.
+    ///
+    /// It looks at the rows of cells that the box may cover, up to the first open cell: at most a word of 64
+    /// cells at a time, and nothing in a row that is full.
     pub fn hides(&self, [low, high]: [DVec3; 2]) -> bool {
         let lattice = self.tree.faces().lattice();
         let corners: [[f64; 3]; 8] = std::array::from_fn(|k| {
@@ -68,6 +71,10 @@ impl<'t> CoverageMask<'t> {
 
     /// Covers the pixels of a fragment, and returns whether it owns some: whether it covers a pixel
     /// of a cell that was not covered yet.
+    ///
+    /// It takes the time to find the fragment's pixels, O(edges) a row of pixels, and that of the cells
+    /// in the rows that it reaches, in the mask's whole width, whether they are covered already or not: ask
+    /// [`hides`](Self::hides) first where a box is at hand.
     pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
         self.mask.cover(&self.rays, self.tree.faces(), self.buffers.piece(fragment))
     }

@@ -159,9 +159,9 @@ pub(crate) struct VerifyArgs {
 pub(crate) struct StatsArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// How to choose splitters: a heuristic, or all
-    #[arg(long, value_name = "H", default_value = "auto", value_parser = values::heuristics)]
-    pub(crate) heuristic: Heuristics,
+    /// How to choose splitters: a heuristic, or all [default: auto]
+    #[arg(long, value_name = "H", value_parser = values::heuristics)]
+    pub(crate) heuristic: Option<Heuristics>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// Print one JSON object per line for each heuristic
@@ -430,9 +430,9 @@ pub(crate) struct UpArgs {
 #[derive(Args, Debug)]
 pub(crate) struct BuildArgs {
     /// How to choose splitters: first, random(SEED), fewest-splits, balanced,
-    /// weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto
-    #[arg(long, value_name = "H", default_value = "auto")]
-    pub(crate) heuristic: Heuristic,
+    /// weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto [default: auto]
+    #[arg(long, value_name = "H")]
+    pub(crate) heuristic: Option<Heuristic>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
 }
@@ -445,16 +445,16 @@ pub(crate) struct LimitArgs {
     /// bounding box; at most 1/256 of the extent is used]
     #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
-    /// Give up if there are more fragments than this
-    #[arg(long, value_name = "N", default_value_t = BuildOptions::DEFAULT.max_fragments)]
-    pub(crate) max_fragments: usize,
+    /// Give up if there are more fragments than this [default: 33554432]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_fragments: Option<usize>,
 }
 
 impl LimitArgs {
     /// The options to build with.
     pub(crate) fn options(self, heuristic: Heuristic) -> BuildOptions {
-        let options =
-            BuildOptions::DEFAULT.with_heuristic(heuristic).with_max_fragments(self.max_fragments);
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        let options = self.max_fragments.map_or(options, |most| options.with_max_fragments(most));
         self.tolerance.map_or(options, |length| options.with_tolerance(length))
     }
 }
@@ -466,5 +466,18 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         super::Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn the_help_names_the_defaults() {
+        let command = super::Cli::command();
+        let build = command.find_subcommand("build").unwrap();
+        let help = |name: &str| {
+            let option = build.get_arguments().find(|option| option.get_id() == name).unwrap();
+            option.get_help().unwrap().to_string()
+        };
+        let default = super::BuildOptions::DEFAULT;
+        assert!(help("max_fragments").contains(&format!("[default: {}]", default.max_fragments)));
+        assert!(help("heuristic").contains(&format!("[default: {}]", default.heuristic)));
     }
 }

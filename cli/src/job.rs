@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use binspace::internals::Faces;
 use binspace::scene::Scene;
-use binspace::{BspTree, BuildOptions, Error, Heuristic, Preparation};
+use binspace::{BspTree, Error, Heuristic, Preparation};
 
 use crate::args::{BuildArgs, LimitArgs, SceneArgs};
 use crate::failure::Failure;
@@ -46,17 +46,20 @@ pub(crate) struct Made {
     pub(crate) seconds: f64,
     /// How the tree was built; `None` if it was read.
     pub(crate) heuristic: Option<Heuristic>,
+    /// The scene's name in a file of `binspace build`.
+    pub(crate) stored_name: String,
 }
 
 /// The same, with how it was made.
 pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure> {
     let mut begin = Instant::now();
-    let Loaded { scene, tree } = scene_arg::load(scene)?;
-    let options = build.limits.options(build.heuristic);
+    let Loaded { scene, tree, stored_name } = scene_arg::load(scene)?;
+    let heuristic = build.heuristic.unwrap_or_default();
+    let options = build.limits.options(heuristic);
     let is_built = tree.is_none();
     let tree = match tree {
         Some(tree) => {
-            refuse_options(&scene, &[build.heuristic], &build.limits)?;
+            refuse_options(&scene, build.heuristic.is_some(), &build.limits)?;
             tree
         }
         None => {
@@ -72,28 +75,26 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
-    Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(build.heuristic) })
+    Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(heuristic), stored_name })
 }
 
-/// An error if a tree that is in a file, and so is not built, is to be built in a certain way.
+/// An error if a tree that is in a file, and so is not built, is to be built in a certain way, be it
+/// the default one.
 pub(crate) fn refuse_options(
     scene: &Scene,
-    heuristics: &[Heuristic],
+    has_heuristic: bool,
     limits: &LimitArgs,
 ) -> Result<(), Failure> {
-    refuse_options_of(&scene.name(), heuristics, limits)
+    refuse_options_of(&scene.name(), has_heuristic, limits)
 }
 
 /// The same for trees of what is called `name`.
 pub(crate) fn refuse_options_of(
     name: &dyn Display,
-    heuristics: &[Heuristic],
+    has_heuristic: bool,
     limits: &LimitArgs,
 ) -> Result<(), Failure> {
-    let is_default = heuristics == [Heuristic::default()]
-        && limits.tolerance.is_none()
-        && limits.max_fragments == BuildOptions::DEFAULT.max_fragments;
-    if is_default {
+    if !has_heuristic && limits.tolerance.is_none() && limits.max_fragments.is_none() {
         return Ok(());
     }
     let problem = "its tree is built already: leave out --heuristic, --tolerance and \

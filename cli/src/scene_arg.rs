@@ -15,23 +15,33 @@ use crate::saved_file;
 use crate::standard_input;
 use crate::terminal::note;
 
-/// A scene, and its tree if that came with it.
+/// A scene, called what the user calls it, and its tree if that came with it.
 #[derive(Debug)]
 pub(crate) struct Loaded {
     pub(crate) scene: Scene,
     pub(crate) tree: Option<BspTree>,
+    /// The scene's name in a file of `binspace build`.
+    pub(crate) stored_name: String,
 }
 
 impl From<Scene> for Loaded {
     fn from(scene: Scene) -> Self {
-        Self { scene, tree: None }
+        Self { stored_name: stored_name(&scene), scene, tree: None }
     }
 }
 
-impl From<(Scene, BspTree)> for Loaded {
-    fn from((scene, tree): (Scene, BspTree)) -> Self {
-        Self { scene, tree: Some(tree) }
+impl Loaded {
+    /// What was read from a file of `binspace build`, by the name that the user gave.
+    pub(crate) fn saved(name: &str, (scene, tree): (Scene, BspTree)) -> Self {
+        let stored_name = stored_name(&scene);
+        Self { scene: scene.with_name(name), tree: Some(tree), stored_name }
     }
+}
+
+/// The name without folders: a file goes to people whom these do not concern.
+fn stored_name(scene: &Scene) -> String {
+    let name = Path::new(scene.name()).file_name();
+    name.map_or_else(|| scene.name().into(), OsStr::to_string_lossy).into_owned()
 }
 
 /// The scene that a name means.
@@ -57,7 +67,9 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Loaded, Failure> {
                            can be made; for all else, name the scene that it was built of";
             Err(Failure::about(name, problem))
         }
-        Source::File(path) if saved_file::is_saved(&path) => Ok(saved_file::open(&path)?.into()),
+        Source::File(path) if saved_file::is_saved(&path) => {
+            Ok(Loaded::saved(&name, saved_file::open(&path)?))
+        }
         Source::File(path) => {
             if let Ok(file) = path.metadata() {
                 memory::check_file(&name, file.len())?;

@@ -24,7 +24,7 @@ pub(crate) fn scene() -> Result<Loaded, Failure> {
     let progress = Progress::spinner(format!("reading {NAME}"));
     let bytes = bytes()?;
     if bytes.starts_with(saved_file::BEGINNING) {
-        return Ok(saved_file::read(NAME, &bytes[..])?.into());
+        return Ok(Loaded::saved(NAME, saved_file::read(NAME, &bytes[..])?));
     }
     let (scene, mut report) = Scene::from_obj(NAME, &bytes, |_| None)
         .map_err(|error| Failure::Message(error.to_string()))?;

@@ -1,13 +1,21 @@
-//! A walk through a level of rooms that looks only at what may be seen: front to back, without the
-//! subtrees that are outside of the view or behind what is painted already.
+//! A walk through a level of rooms with a door that swings: what is in view, what hides what, and who
+//! sees whom.
 //!
 //! ```sh
 //! cargo run --release --example level -- docs/level.png
 //! ```
 //!
-//! Each frame walks the tree from front to back. A subtree is skipped if its box is outside of the
-//! camera's frustum, or if a mask of the picture's pixels says that all it may cover is covered. What
-//! is left owns the pixels of the picture, and no visit depends on how large the rest of the level is.
+//! The level is a tree that is built once. For each frame
+//!
+//! - **culling**: the tree is walked from front to back. A subtree is skipped if its box is outside of
+//!   the camera's frustum, or if a mask of the picture's pixels says that all it may cover is covered.
+//!   Of closed bodies the backs are left out. What is left owns the pixels of the picture, and no visit
+//!   depends on how large the rest of the level is;
+//! - **the door** moves: it is in an overlay, which cuts it by the planes of the tree and gives one order
+//!   of both. The tree stays as it is;
+//! - **a sight line** from a guard to the camera is free if neither the level nor the door is in its way.
+//!   Two questions: the tree does not know what is in an overlay. The door has a small tree of its own.
+//!
 //! The picture shows a frame, and beside it a map: bright is what was painted, dark what was never
 //! looked at.
 //!
@@ -17,16 +25,20 @@
 
 #[path = "../canvas/mod.rs"]
 mod canvas;
+mod door;
+mod picture;
 mod rooms;
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, CoverageMask, Flow, Fragment, Part, Viewpoint};
+use binspace::{Bounds, BspTree, CoverageMask, Flow, Overlay, Part, Ray, Viewpoint};
 use canvas::Canvas;
+use door::Door;
+use picture::{paint_map, paint_view};
 use rooms::{Kind, Quad, ROOM};
 use std::error::Error;
-use std::f64::consts::FRAC_PI_8;
+use std::f64::consts::FRAC_PI_2;
 
 const ROOMS: usize = 14;
 const FRAMES: usize = 8;
@@ -35,12 +47,90 @@ const PICTURE: usize = 2;
 const VIEW: [u32; 2] = [640, 480];
 const MAP: f64 = 480.0;
 
+/// What stays, and what moves in it.
+struct Level {
+    polygons: Vec<(Kind, Quad)>,
+    tree: BspTree,
+    bounds: Bounds,
+    door: Door,
+    overlay: Overlay,
+}
+
 /// What a frame found.
 struct Frame {
     /// The fragments that own a pixel, front to back.
     seen: Vec<u32>,
     /// The subtrees and fragments that the walk came to.
     visits: usize,
+    /// What is painted, back to front: the numbers of what is seen, and of the door's pieces.
+    order: Vec<u32>,
+}
+
+impl Level {
+    fn new() -> Result<Self, Box<dyn Error>> {
+        let polygons = rooms::rooms(ROOMS);
+        let tree = BspTree::build(polygons.iter().map(|(_, quad)| quad))?;
+        let door = Door::nearest(&polygons, dvec3(4.0, 4.5, 0.0) * ROOM).ok_or("no doorway")?;
+        Ok(Self { bounds: tree.bounds()?, overlay: Overlay::new(&tree), polygons, tree, door })
+    }
+
+    /// A frame with the door opened by an angle.
+    fn frame(&mut self, camera: &Camera, angle: f64) -> Result<Frame, Box<dyn Error>> {
+        let (seen, visits) = self.walk(camera)?;
+        self.overlay.replace(&self.tree, [self.door.leaf(angle)])?;
+        let mut order = Vec::new();
+        self.overlay.back_to_front_into(&self.tree, camera.viewpoint(), &mut order)?;
+        // Of the tree what is seen, and all of the door: behind a wall, the wall is painted over it.
+        let mut is_painted = vec![false; self.tree.len()];
+        seen.iter().for_each(|&fragment| is_painted[fragment as usize] = true);
+        order.retain(|&number| is_painted.get(number as usize).copied().unwrap_or(true));
+        Ok(Frame { seen, visits, order })
+    }
+
+    /// The fragments of the tree that own a pixel, front to back, and how many parts were looked at.
+    /// What the door hides is among them.
+    fn walk(&self, camera: &Camera) -> Result<(Vec<u32>, usize), Box<dyn Error>> {
+        let Self { polygons, tree, bounds, .. } = self;
+        let frustum = camera.frustum();
+        let mut mask = CoverageMask::new(tree, &Rays::new(camera, tree.faces())?, 1);
+        let (mut seen, mut visits) = (Vec::new(), 0);
+        let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
+            visits += 1;
+            match part {
+                Part::Subtree(node) => {
+                    let region = bounds.of(node);
+                    if !frustum.meets(region) || mask.hides(region) {
+                        return Flow::Skip;
+                    }
+                }
+                Part::Fragment(fragment) => {
+                    // Walls are thin, and seen from both sides.
+                    let is_thin = polygons[fragment.polygon()].0 == Kind::Wall;
+                    let is_drawn = is_thin || fragment.facing(camera.viewpoint()).is_gt();
+                    if is_drawn && mask.cover(&fragment) {
+                        seen.push(fragment.index());
+                    }
+                }
+            }
+            if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
+        });
+        Ok((seen, visits))
+    }
+
+    /// Whether two points see each other while the door is opened by an angle.
+    fn is_in_sight(&self, from: DVec3, to: DVec3, angle: f64) -> Result<bool, Box<dyn Error>> {
+        let line = Ray::between(from, to);
+        // All that moves goes into one such tree a frame, for all sight lines.
+        let moving = BspTree::build([self.door.leaf(angle)])?;
+        Ok(!self.bounds.is_blocked(&self.tree, line) && !moving.is_blocked(line))
+    }
+
+    /// Somebody beyond the closed door, as high as a camera.
+    fn guard(&self) -> DVec3 {
+        let [hinge, end, ..] = self.door.leaf(0.0);
+        let behind = (end - hinge).cross(DVec3::Z).normalize();
+        ((hinge + end) * 0.5 + behind * 2.5).with_z(1.7)
+    }
 }
 
 /// The camera of a frame: from room to room, a step at a time, and looking around.
@@ -52,139 +142,37 @@ fn camera(frame: usize) -> Result<Camera, Box<dyn Error>> {
     Ok(Camera::perspective(eye, eye + look, DVec3::Z, 1.05, VIEW)?)
 }
 
-fn walk(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> Result<Frame, Box<dyn Error>> {
-    let frustum = camera.frustum();
-    let mut mask = CoverageMask::new(tree, &Rays::new(camera, tree.faces())?, 1);
-    let mut frame = Frame { seen: Vec::new(), visits: 0 };
-    let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
-        frame.visits += 1;
-        match part {
-            Part::Subtree(node) => {
-                let region = bounds.of(node);
-                if !frustum.meets(region) || mask.hides(region) {
-                    return Flow::Skip;
-                }
-            }
-            Part::Fragment(fragment) => {
-                if mask.cover(&fragment) {
-                    frame.seen.push(fragment.index());
-                }
-            }
-        }
-        if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
-    });
-    Ok(frame)
-}
-
-fn colour(kind: Kind) -> [f64; 3] {
-    match kind {
-        Kind::Floor => [0.66, 0.58, 0.48],
-        Kind::Ceiling => [0.80, 0.80, 0.78],
-        Kind::Wall => [0.86, 0.78, 0.62],
-        Kind::Pillar => [0.45, 0.60, 0.70],
-        Kind::Crate => [0.75, 0.45, 0.25],
-    }
-}
-
-/// The frame as it is seen, on the left.
-fn paint_view(
-    canvas: &mut Canvas,
-    tree: &BspTree,
-    level: &[(Kind, Quad)],
-    camera: &Camera,
-    frame: &Frame,
-) {
-    let Viewpoint::Eye(eye) = camera.viewpoint() else { return };
-    for &index in frame.seen.iter().rev() {
-        let fragment = tree.fragment(index);
-        let (kind, [a, b, c, _]) = level[fragment.polygon()];
-        let vertices: Vec<DVec3> = fragment.vertices().collect();
-        let middle = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
-        let normal = (b - a).cross(c - a).normalize();
-        // Lit from two sides, and darker with the distance.
-        let light = 0.72 + 0.18 * normal.x.abs() + 0.10 * normal.z.abs();
-        let light = light / (1.0 + (middle - eye).length() / 45.0);
-        let [r, g, b] = colour(kind).map(|c| c * light);
-        canvas.fill(&camera.clip(&vertices), |_| [r, g, b, 1.0]);
-    }
-}
-
-/// The level from above, on the right: what was painted is bright.
-fn paint_map(
-    canvas: &mut Canvas,
-    tree: &BspTree,
-    level: &[(Kind, Quad)],
-    camera: &Camera,
-    frame: &Frame,
-) {
-    let scale = (MAP - 20.0) / (ROOMS as f64 * ROOM);
-    let place = |p: DVec3| [f64::from(VIEW[0]) + 10.0 + p.x * scale, MAP - 10.0 - p.y * scale];
-    let mut draw = |fragment: Fragment<'_>, is_seen: bool| {
-        let kind = level[fragment.polygon()].0;
-        let vertices: Vec<DVec3> = fragment.vertices().collect();
-        let share = if is_seen { 1.0 } else { 0.3 };
-        let [r, g, b] = colour(kind).map(|c| c * share);
-        match kind {
-            Kind::Ceiling => {}
-            // Above a door.
-            Kind::Wall if vertices.iter().all(|p| p.z > 0.0) => {}
-            Kind::Floor => {
-                let outline: Vec<[f64; 2]> = vertices.into_iter().map(place).collect();
-                canvas.fill(&outline, |_| [0.7 * r, 0.7 * g, 0.7 * b, 1.0]);
-            }
-            _ => {
-                let (low, high) = vertices
-                    .iter()
-                    .fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)));
-                let ([x0, y1], [x1, y0]) = (place(low), place(high));
-                let outline = [
-                    [x0 - 0.8, y0 - 0.8],
-                    [x1 + 0.8, y0 - 0.8],
-                    [x1 + 0.8, y1 + 0.8],
-                    [x0 - 0.8, y1 + 0.8],
-                ];
-                canvas.fill(&outline, |_| [r, g, b, 1.0]);
-            }
-        }
-    };
-    let is_floor = |f: &Fragment<'_>| level[f.polygon()].0 == Kind::Floor;
-    let seen: Vec<Fragment<'_>> = frame.seen.iter().map(|&index| tree.fragment(index)).collect();
-    // Floors first: on a map, walls stand on them.
-    tree.fragments().filter(is_floor).for_each(|f| draw(f, false));
-    seen.iter().filter(|f| is_floor(f)).for_each(|&f| draw(f, true));
-    tree.fragments().filter(|f| !is_floor(f)).for_each(|f| draw(f, false));
-    seen.iter().filter(|f| !is_floor(f)).for_each(|&f| draw(f, true));
-    if let Viewpoint::Eye(eye) = camera.viewpoint() {
-        let [x, y] = place(eye);
-        let ring: Vec<[f64; 2]> = (0..16)
-            .map(|k| (f64::from(k) * FRAC_PI_8).sin_cos())
-            .map(|(s, c)| [x + 4.0 * s, y - 4.0 * c])
-            .collect();
-        canvas.fill(&ring, |_| [0.95, 0.2, 0.2, 1.0]);
-    }
+/// How far the door is open in a frame, in radians.
+fn angle(frame: usize) -> f64 {
+    FRAC_PI_2 * frame as f64 / (FRAMES - 1) as f64
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let level = rooms::rooms(ROOMS);
-    let tree = BspTree::build(level.iter().map(|(_, quad)| quad))?;
-    let bounds = tree.bounds()?;
-    let parts = tree.nodes().len() + tree.len();
-    println!("{} rooms, {} polygons, {} fragments", ROOMS * ROOMS, level.len(), tree.len());
+    let mut level = Level::new()?;
+    let parts = level.tree.nodes().len() + level.tree.len();
+    let (polygons, fragments) = (level.polygons.len(), level.tree.len());
+    println!("{} rooms, {polygons} polygons, {fragments} fragments", ROOMS * ROOMS);
     for number in 0..FRAMES {
-        let frame = walk(&tree, &bounds, &camera(number)?)?;
+        let (camera, angle) = (camera(number)?, angle(number));
+        let frame = level.frame(&camera, angle)?;
         let share = 100.0 * frame.visits as f64 / parts as f64;
+        let Viewpoint::Eye(eye) = camera.viewpoint() else { continue };
         println!(
-            "frame {number}: {} of {parts} visits ({share:.1} %), {} fragments seen",
+            "frame {number}: {} of {parts} visits ({share:.1} %), {} fragments seen; the door is open by \
+             {:.0} degrees, in {} pieces; the guard {} us",
             frame.visits,
-            frame.seen.len()
+            frame.seen.len(),
+            angle.to_degrees(),
+            level.overlay.len(),
+            if level.is_in_sight(level.guard(), eye, angle)? { "sees" } else { "does not see" },
         );
     }
     if let Some(path) = std::env::args().nth(1) {
         let camera = camera(PICTURE)?;
-        let frame = walk(&tree, &bounds, &camera)?;
+        let frame = level.frame(&camera, angle(PICTURE))?;
         let mut canvas = Canvas::new([VIEW[0] as usize + MAP as usize, MAP as usize], [0.06; 3]);
-        paint_view(&mut canvas, &tree, &level, &camera, &frame);
-        paint_map(&mut canvas, &tree, &level, &camera, &frame);
+        paint_view(&mut canvas, &level, &camera, &frame);
+        paint_map(&mut canvas, &level, &camera, &frame);
         canvas.write_png(&path)?;
     }
     Ok(())
@@ -192,25 +180,81 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn a_frame_looks_at_little_and_misses_nothing() {
-    let level = rooms::rooms(ROOMS);
-    let tree = BspTree::build(level.iter().map(|(_, quad)| quad)).unwrap();
-    let bounds = tree.bounds().unwrap();
-    let parts = tree.nodes().len() + tree.len();
+    let mut level = Level::new().unwrap();
+    let parts = level.tree.nodes().len() + level.tree.len();
     for number in 0..FRAMES {
         let camera = camera(number).unwrap();
-        let frame = walk(&tree, &bounds, &camera).unwrap();
+        let frame = level.frame(&camera, angle(number)).unwrap();
         assert!(frame.visits * 5 < parts, "{} of {parts}", frame.visits);
         // The whole order paints no face that the frame has not seen.
+        let tree = &level.tree;
         let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let whole = binspace::paint_tree(&tree, camera.viewpoint(), &rays);
+        let whole = binspace::paint_tree(tree, camera.viewpoint(), &rays);
         let is_seen =
             |polygon: usize| frame.seen.iter().any(|&f| tree.fragment(f).polygon() == polygon);
         let shown = whole.faces().iter().filter(|&&face| face != binspace::raster::NONE);
         assert!(shown.map(|&face| tree.faces().polygon(face)).all(is_seen));
     }
     let mut canvas = Canvas::new([VIEW[0] as usize + MAP as usize, MAP as usize], [0.06; 3]);
-    let frame = walk(&tree, &bounds, &camera(0).unwrap()).unwrap();
-    paint_view(&mut canvas, &tree, &level, &camera(0).unwrap(), &frame);
+    let camera = camera(0).unwrap();
+    let frame = level.frame(&camera, 0.0).unwrap();
+    paint_view(&mut canvas, &level, &camera, &frame);
     let background = canvas.pixel([900, 2]);
     assert!((0..480).step_by(60).all(|y| canvas.pixel([300, y]) != background));
+}
+
+/// The pixels in which the door shows, if outlines are painted one over the other.
+#[cfg(test)]
+fn door_pixels(camera: &Camera, outlines: impl Iterator<Item = (bool, Vec<DVec3>)>) -> Vec<bool> {
+    let mut canvas = Canvas::new(VIEW.map(|side| side as usize), [0.0; 3]);
+    for (is_door, outline) in outlines {
+        let light = if is_door { 1.0 } else { 0.0 };
+        canvas.fill(&camera.clip(&outline), |_| [light, light, light, 1.0]);
+    }
+    let pixels = (0..VIEW[1]).flat_map(|y| (0..VIEW[0]).map(move |x| [x as usize, y as usize]));
+    pixels.map(|pixel| canvas.pixel(pixel)[0] > 128).collect()
+}
+
+/// The picture is that of a tree of everything, built for this frame alone.
+#[test]
+fn the_door_shows_where_it_would_in_a_tree_of_its_own_frame() {
+    let mut level = Level::new().unwrap();
+    let mut shown = 0;
+    for number in 0..5 {
+        let (camera, angle) = (camera(number).unwrap(), angle(number));
+        let frame = level.frame(&camera, angle).unwrap();
+        let Level { tree, overlay, polygons, door, .. } = &level;
+        let painted = frame.order.iter().map(|&number| {
+            let piece = overlay.piece(number);
+            let fragment = piece.unwrap_or_else(|| tree.fragment(number));
+            (piece.is_some(), fragment.vertices().collect())
+        });
+        let painted = door_pixels(&camera, painted);
+        let quads = polygons.iter().map(|&(_, quad)| quad);
+        let all = BspTree::build(quads.chain([door.leaf(angle)])).unwrap();
+        let is_door = |polygon: usize| polygon == polygons.len();
+        let truth = all
+            .back_to_front(camera.viewpoint())
+            .map(|fragment| (is_door(fragment.polygon()), fragment.vertices().collect()));
+        let truth = door_pixels(&camera, truth);
+        // Edges of cuts are blended in other ways.
+        let wrong = painted.iter().zip(&truth).filter(|(a, b)| a != b).count();
+        let right = truth.iter().filter(|&&is_door| is_door).count();
+        assert!(wrong * 100 <= right, "frame {number}: {wrong} of {right}");
+        shown += right;
+    }
+    assert!(shown > 2000, "{shown}");
+}
+
+#[test]
+fn the_guard_sees_into_the_room_when_the_door_is_open() {
+    let level = Level::new().unwrap();
+    let [hinge, end, ..] = level.door.leaf(0.0);
+    let guard = level.guard();
+    let room = ((hinge + end) - guard).with_z(1.7);
+    assert!(!level.tree.is_blocked(Ray::between(guard, room)), "the doorway is free of walls");
+    assert!(!level.is_in_sight(guard, room, 0.0).unwrap());
+    assert!(level.is_in_sight(guard, room, FRAC_PI_2).unwrap());
+    // Through a wall, whatever the door does.
+    assert!(!level.is_in_sight(guard, room + DVec3::Z * 9.0, FRAC_PI_2).unwrap());
 }

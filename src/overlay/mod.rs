@@ -107,12 +107,23 @@ use crate::tree::{BspTree, Fragment};
 /// those of both. Coplanar polygons come in input order, those of the overlay after those of the
 /// tree. The tree's fragments come in the tree's own order, with pieces between them.
 ///
-/// Where lines cross each other or polygons in a picture, the nearer comes later; where a point and
-/// something else are in one place of it, too; but not if both lie in one plane with the eye. What is in
-/// one place in *space*, or in one plane that is seen edge-on, depends on the plane that it lies in: on
-/// one plane first come the polygons, then the lines in input order, then the points. So an axis drawn
-/// on a wall is painted over the wall. (Of markers on a grid that is seen exactly along one of its planes,
-/// the nearest may come first: move the eye a little, or give them in another order.) A line that goes
+/// Where two of them, or one and a polygon, are at one place of a picture but apart in space, the nearer
+/// comes later. The exception is a plane that divides: if it holds both, but for the tolerance, and goes
+/// through the eye (or along the direction of view), the order is the one below, whichever is nearer. Such
+/// planes are
+///
+/// - those of the tree, which are [`BspTree::nodes`], and those of the overlay's polygons;
+/// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
+///   point, and those of segments: through the next corner of the line, or else the one before, that is
+///   not in a row with the segment; or parallel to the z axis, or for a segment along z to the x axis.
+///
+/// So of an eye that is in no plane of a polygon, has another x, y and z than each corner and point, and is
+/// in no plane of a segment, nothing is excepted. (Of markers on a grid that is seen exactly along one of its
+/// planes, the nearest may come first: move the eye a little, or give them in another order.)
+///
+/// What is at one place in *space*, or in one such plane that is seen edge-on, depends on the plane that it
+/// lies in: on one plane first come the polygons, then the lines in input order, then the points. So an axis
+/// drawn on a wall is painted over the wall. A line that goes
 /// through a plane is cut there; a point at that place comes between its two parts. Only where lines and
 /// points meet between polygons, a point at a corner of a line comes after both segments there, if the
 /// line has no point at its next corners either way. That holds where a line is closed, and where corners

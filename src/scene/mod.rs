@@ -179,6 +179,12 @@ impl Scene {
         self
     }
 
+    /// Gives it another name.
+    #[must_use]
+    pub fn with_name(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
     /// The name given at the start; for a file its path.
     pub fn name(&self) -> &str {
         &self.name

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     let mut folder = NewFolder::create(&args.output)?;
     let polygons = Polygons::open(&args.scene)?;
     let (name, total) = (polygons.scene().name().to_owned(), polygons.len());
-    let options = args.build.limits.options(args.build.heuristic);
+    let options = args.build.limits.options(args.build.heuristic.unwrap_or_default());
     let about = |error| job::about(&polygons.scene(), &error);
     let (extent, samples) = polygons.extent_and_samples();
     let partition = options.partition(&extent, samples, cells).map_err(about)?;

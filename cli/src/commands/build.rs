@@ -4,8 +4,9 @@ use super::Outcome;
 use crate::args::BuildFileArgs;
 use crate::failure::Failure;
 use crate::files::Output;
+use crate::job::{self, Made};
 use crate::progress::Progress;
-use crate::{cells, job, saved_file};
+use crate::{cells, saved_file};
 
 /// Runs the command.
 pub(crate) fn run(args: &BuildFileArgs) -> Result<Outcome, Failure> {
@@ -18,7 +19,8 @@ pub(crate) fn run(args: &BuildFileArgs) -> Result<Outcome, Failure> {
         let problem = "a tree is not for a terminal: pipe it, or name a file";
         return Err(Failure::about("standard output", problem));
     }
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, stored_name, .. } = job::make(&args.scene, &args.build)?;
+    let scene = scene.with_name(stored_name);
     let _progress = Progress::spinner("writing");
     output.write(|out| saved_file::write(out, &scene, &tree))?;
     Ok(Outcome::Done)

@@ -22,7 +22,11 @@ pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
         None => args.eye.iter().copied().map(Viewpoint::Eye).collect(),
     };
     if let Some(path) = cells::folder::named(&args.scene.name) {
-        job::refuse_options_of(&path.display(), &[args.build.heuristic], &args.build.limits)?;
+        job::refuse_options_of(
+            &path.display(),
+            args.build.heuristic.is_some(),
+            &args.build.limits,
+        )?;
         cells::draw::order(args, path, &viewpoints, output)?;
         return Ok(Outcome::Done);
     }

@@ -29,7 +29,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         return Err(about_output(&args.output, problem));
     }
     if let Some(path) = cells::folder::named(&args.scene.name) {
-        job::refuse_options_of(&path.display(), &[args.build.heuristic], &args.build.limits)?;
+        job::refuse_options_of(
+            &path.display(),
+            args.build.heuristic.is_some(),
+            &args.build.limits,
+        )?;
         cells::draw::render(args, path, output, format)?;
         return Ok(Outcome::Done);
     }

@@ -16,6 +16,7 @@ use crate::scene_arg::Loaded;
 use crate::table::Table;
 use crate::terminal::{HEAD, note, say, styled};
 use crate::units::{bytes, count, three_digits, time};
+use crate::values::Heuristics;
 use crate::{cells, job, scene_arg};
 
 /// The width of the table's column of heuristics, in characters.
@@ -39,16 +40,18 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     if let Some(path) = cells::folder::named(&args.scene.name) {
         return of_cells(args, path);
     }
-    let Loaded { scene, tree } = scene_arg::load(&args.scene)?;
+    let Loaded { scene, tree, .. } = scene_arg::load(&args.scene)?;
     if let Some(tree) = tree {
         return of_file(args, &scene, &tree, begin.elapsed().as_secs_f64());
     }
     let (mut over_budget, mut is_first) = (0, true);
-    for &heuristic in &args.heuristic.0 {
+    let default = Heuristics(vec![Heuristic::default()]);
+    let Heuristics(heuristics) = args.heuristic.as_ref().unwrap_or(&default);
+    for &heuristic in heuristics {
         let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
             Ok(built) => built,
             // Another heuristic may stay within the budget.
-            Err(error) if error.is_over_budget() && args.heuristic.0.len() > 1 => {
+            Err(error) if error.is_over_budget() && heuristics.len() > 1 => {
                 note(&format!("{heuristic}: {error}"));
                 over_budget += 1;
                 continue;
@@ -85,7 +88,7 @@ fn of_file(
     tree: &BspTree,
     seconds: f64,
 ) -> Result<Outcome, Failure> {
-    job::refuse_options(scene, &args.heuristic.0, &args.limits)?;
+    job::refuse_options(scene, args.heuristic.is_some(), &args.limits)?;
     job::note_preparation(scene, tree.faces(), tree.preparation());
     let figures = Figures {
         heuristic: None,
@@ -100,7 +103,7 @@ fn of_file(
 
 /// The figures of the trees in a folder.
 fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
-    job::refuse_options_of(&path.display(), &args.heuristic.0, &args.limits)?;
+    job::refuse_options_of(&path.display(), args.heuristic.is_some(), &args.limits)?;
     let folder = Folder::open(path)?;
     for number in 0..folder.partition.cells() {
         let begin = Instant::now();

@@ -113,16 +113,17 @@ fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
         Projection::Parallel { centre, .. } => (centre, camera::FIELD_OF_VIEW),
     };
     let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
-    let limits = &args.build.limits;
+    let (build, limits) = (&args.build, &args.build.limits);
+    // Those that were given alone: trees in files take none.
+    let heuristic = build.heuristic.map_or(String::new(), |h| format!(" --heuristic='{h}'"));
     let tolerance = limits.tolerance.map_or(String::new(), |t| format!(" --tolerance={t:?}"));
+    let most = limits.max_fragments.map_or(String::new(), |n| format!(" --max-fragments={n}"));
     let cull = if args.cull.cull == Cull::Back { " --cull=back" } else { "" };
     format!(
-        "binspace render '{}' --difference -o difference.png --seed={} --heuristic='{}'{tolerance} \
-         --max-fragments={}{cull} --size={}x{} --fov={:?} --eye={} --target={} --up={}",
+        "binspace render '{}' --difference -o difference.png --seed={}{heuristic}{tolerance}{most}{cull} \
+         --size={}x{} --fov={:?} --eye={} --target={} --up={}",
         args.scene.name.to_string_lossy(),
         args.scene.seed,
-        args.build.heuristic,
-        limits.max_fragments,
         args.size[0],
         args.size[1],
         fov.to_degrees(),

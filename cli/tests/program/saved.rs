@@ -40,11 +40,15 @@ fn every_command_says_the_same_of_a_scene_and_of_its_tree_s_file() {
         let notes = |text: &str| -> Vec<String> {
             text.lines().filter(|line| !line.contains("tolerance")).map(str::to_owned).collect()
         };
-        assert_eq!(notes(&file.err), notes(&scene.err), "{command}");
+        // Each is called what the user calls it.
+        let renamed = |text: &str| text.replace("s.bsp", "s.obj");
+        assert_eq!(notes(&renamed(&file.err)), notes(&scene.err), "{command}");
+        assert!(!file.err.contains("s.obj"), "{}", file.err);
         assert!(scene.err.contains("(line 14)") || !command.contains("order"), "{}", scene.err);
-        assert_eq!(file.good(), scene.good(), "{command}");
+        assert_eq!(renamed(&file.good()), scene.good(), "{command}");
         let piped = folder.pipe(&command.replace("SCENE", "-"), read("s.bsp"));
-        assert_eq!(Run::new(&piped).good(), folder.run(&command.replace("SCENE", "s.bsp")).good());
+        let file = folder.run(&command.replace("SCENE", "s.bsp")).good();
+        assert_eq!(Run::new(&piped).good(), file.replace("s.bsp", "standard input"));
     }
     for name in ["s.obj", "s.bsp"] {
         folder.run(&format!("render {name} -o {name}.png --size 60x40 --samples 2")).good();
@@ -89,11 +93,40 @@ fn a_tree_that_is_built_is_not_built_in_another_way() {
         "render s.bsp -o a.png --max-fragments 5",
         "draw s.bsp -o a.svg --heuristic first",
         "build s.bsp -o b.bsp --tolerance 1",
+        // The defaults, too.
+        "stats s.bsp --heuristic auto",
+        "order s.bsp --eye=1,2,3 --heuristic auto",
+        "verify s.bsp --max-fragments 33554432",
     ] {
         let message = folder.run(command).refused();
-        assert!(message.contains("is built already"), "{command}: {message}");
+        assert!(message.contains("s.bsp: its tree is built already"), "{command}: {message}");
     }
     assert_eq!(folder.files(), ["m.mtl", "s.bsp", "s.obj"]);
+}
+
+#[test]
+fn messages_name_the_file_that_was_given_and_a_file_tells_no_folders() {
+    let folder = odd("saved_names");
+    let whole = folder.path("s.obj");
+    let built = folder.command("build").arg(&whole).args(["-o", "first.bsp"]).output().unwrap();
+    Run::new(&built).good();
+    fs::rename(folder.path("first.bsp"), folder.path("renamed.bsp")).unwrap();
+    let file = fs::read(folder.path("renamed.bsp")).unwrap();
+    let has = |text: &str| file.windows(text.len()).any(|bytes| bytes == text.as_bytes());
+    let name = folder.path("").file_name().unwrap().to_str().unwrap().to_owned();
+    assert!(has("s.obj") && !has(&name), "{name}");
+
+    let refused = folder.run("stats --heuristic all renamed.bsp").refused();
+    let order = folder.run("order renamed.bsp --eye=3,2,6").err;
+    let stats = folder.run("stats renamed.bsp").good();
+    for text in [refused, order, stats] {
+        assert!(text.contains("renamed.bsp: ") && !text.contains("s.obj"), "{text}");
+    }
+    let piped = Run::new(&folder.pipe("stats -", &file)).good();
+    assert!(piped.contains("standard input: "), "{piped}");
+    // Passed on, it keeps the scene's name.
+    folder.run("build ./renamed.bsp -o again.bsp").good();
+    assert_eq!(fs::read(folder.path("again.bsp")).unwrap(), file);
 }
 
 #[test]
