@@ -49,17 +49,40 @@ impl Figures {
             .chain(times.into_iter().map(|time| time.as_secs_f64()))
             .collect();
         let Some(all) = exchange::gather(world, &own).filter(|_| is_wanted) else { return };
-        println!(
-            "rank,given,received,polygons,fragments,layers,polygon_bytes,layer_bytes,peak_bytes,\
-             read_cpu_s,build_cpu_s,paint_cpu_s,exchange_s,composite_s,all_s"
-        );
-        for (rank, row) in all.chunks(own.len()).enumerate() {
-            let (counts, times) = row.split_at(counts.len());
-            let counts: Vec<String> = counts.iter().map(|count| format!("{count:.0}")).collect();
-            let times: Vec<String> = times.iter().map(|time| format!("{time:.3}")).collect();
-            println!("{rank},{},{}", counts.join(","), times.join(","));
-        }
+        // If standard output is closed, nobody reads them.
+        let _ = print(&all, own.len(), counts.len());
     }
+}
+
+const COLUMNS: [&str; 15] = [
+    "rank",
+    "given",
+    "received",
+    "polygons",
+    "fragments",
+    "layers",
+    "polygon_bytes",
+    "layer_bytes",
+    "peak_bytes",
+    "read_cpu_s",
+    "build_cpu_s",
+    "paint_cpu_s",
+    "exchange_s",
+    "composite_s",
+    "all_s",
+];
+
+/// Prints rows of so many figures, of which the first ones are counts, and the others seconds.
+fn print(all: &[f64], each: usize, counts: usize) -> csv::Result<()> {
+    let mut out = csv::Writer::from_writer(std::io::stdout().lock());
+    out.write_record(COLUMNS)?;
+    for (rank, row) in all.chunks(each).enumerate() {
+        let (counts, times) = row.split_at(counts);
+        let counts = counts.iter().map(|count| format!("{count:.0}"));
+        let times = times.iter().map(|time| format!("{time:.3}"));
+        out.write_record(std::iter::once(rank.to_string()).chain(counts).chain(times))?;
+    }
+    Ok(out.flush()?)
 }
 
 /// The time that this process has had of a processor; 0 where the system does not tell.

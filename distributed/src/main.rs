@@ -20,6 +20,7 @@ use std::time::Instant;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Extent, Partition};
+use clap::Parser;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::Communicator;
 
@@ -48,7 +49,16 @@ fn main() -> ExitCode {
 
 /// All that a rank does. After an error on any rank, all of them return.
 fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
-    let arguments = together(world, Arguments::parse(std::env::args().skip(1)))?;
+    let arguments = match Arguments::try_parse() {
+        // What was asked for, such as help, is no error: rank 0 says it.
+        Err(answer) if !answer.use_stderr() => {
+            if rank(world) == 0 {
+                print!("{answer}");
+            }
+            return Ok(());
+        }
+        parsed => together(world, parsed.map_err(|error| plain(&error)))?,
+    };
     let mut figures = Figures::default();
     let (start, begin) = (Instant::now(), processor_time());
     let share = Share::load(&arguments.scene, rank(world), ranks(world));
@@ -91,6 +101,12 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     figures.all = start.elapsed();
     figures.report(world, arguments.figures);
     Ok(())
+}
+
+/// What is wrong with a command line.
+fn plain(error: &clap::Error) -> String {
+    let text = error.to_string();
+    text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned()
 }
 
 fn rank(world: &SimpleCommunicator) -> usize {

@@ -1,11 +1,12 @@
 //! What a rank paints of its cell, and pictures in files.
 
-use std::io::Write;
+use std::io;
 use std::path::Path;
 
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, for_each_painted};
+use tempfile::NamedTempFile;
 
 use crate::polygon::Given;
 
@@ -93,20 +94,21 @@ impl Painted {
     }
 }
 
-/// Writes a picture, RGB, as PPM: completely or not at all.
-pub(crate) fn write(path: &Path, [width, height]: [u32; 2], pixels: &[u8]) -> Result<(), String> {
-    let part = path.with_extension("part");
-    let written = std::fs::File::create(&part).and_then(|mut file| {
-        write!(file, "P6\n{width} {height}\n255\n")?;
-        file.write_all(pixels)?;
-        file.sync_all()?;
-        std::fs::rename(&part, path)
-    });
-    written.map_err(|error| {
-        // Best effort: the reason is what matters.
-        let _ = std::fs::remove_file(&part);
-        format!("{}: cannot be written: {error}", path.display())
-    })
+/// Writes a picture, RGB, as PNG: completely or not at all.
+pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), String> {
+    let write = || -> io::Result<()> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let mut file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
+        let mut encoder = png::Encoder::new(&mut file, size[0], size[1]);
+        encoder.set_color(png::ColorType::Rgb);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(pixels)?;
+        writer.finish()?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().map_err(|error| format!("{}: cannot be written: {error}", path.display()))
 }
 
 #[cfg(test)]
