@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::edges::SHORTEST;
+use super::edge_run::SHORTEST;
 use super::halving::VISITED;
 use super::overlaid::{LineRun, Overlaid, sights, spots};
 use super::passes::{Pass, Passing, Pieces, passes};

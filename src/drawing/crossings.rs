@@ -1,7 +1,7 @@
 //! Lines in which polygons go through one another.
 
 use super::cell::Cell;
-use super::edges::{EdgeKind, EdgeRun, SHORTEST};
+use super::edge_run::{EdgeKind, EdgeRun, SHORTEST};
 use super::feet::Feet;
 use super::frame::is_same_line;
 use super::half::Half;

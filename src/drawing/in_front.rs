@@ -2,7 +2,8 @@
 //!
 //! (A. Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.)
 
-use super::edges::{EdgeRun, Runs, SHORTEST};
+use super::edge_run::{EdgeRun, SHORTEST};
+use super::edges::Runs;
 use super::halving::{LINES, VISITED};
 use super::map::VisibilityMap;
 use super::overlaid::{LineRun, sights};

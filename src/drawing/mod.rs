@@ -75,6 +75,7 @@
 // | `parts` | parts of polygons that are painted at once |
 // | `translucent` | drawings of translucent polygons |
 // | `reaches` | pieces in a part of the picture |
+// | `edge_run` | runs of edges and crossings |
 // | `edges` | visible and hidden runs of edges |
 // | `shared_edges` | edges, by the faces that have them |
 // | `crossings` | lines in which polygons go through one another |
@@ -93,6 +94,7 @@ mod between;
 mod cell;
 mod crossings;
 mod divided;
+mod edge_run;
 mod edges;
 mod feet;
 mod frame;
@@ -130,7 +132,7 @@ mod tile;
 mod translucent;
 mod visible;
 
-pub use edges::{EdgeKind, EdgeRun};
+pub use edge_run::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use overlaid::{LineRun, MarkerView};
 pub use paths::{Drawing, Path};

@@ -1,7 +1,7 @@
 //! What shows of an overlay's lines and points.
 
 use super::above::region;
-use super::edges::SHORTEST;
+use super::edge_run::SHORTEST;
 use super::halving::{CUT, VISITED, found_in};
 use super::lines::Lines;
 use super::map::VisibilityMap;

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::edges::EdgeKind;
+use super::edge_run::EdgeKind;
 use super::halving::{CUT, VISITED};
 use super::lines::Lines;
 use super::reporter::each;

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, side_on_line};
-use super::edges::SHORTEST;
+use super::edge_run::SHORTEST;
 use super::frame::{Exact, Image, meeting};
 use super::lines::Lines;
 use super::rect::{NOWHERE, Rect, are_apart};

@@ -3,7 +3,8 @@
 use smallvec::SmallVec;
 
 use super::cell::Cell;
-use super::edges::{EdgeKind, EdgeRun, parts};
+use super::edge_run::{EdgeKind, EdgeRun};
+use super::edges::parts;
 use super::half::Half;
 use super::halving::{CUT, LINES, NARROWED, VISITED, found_in};
 use super::in_front::in_layers;
