@@ -89,6 +89,12 @@ impl<'t> Fragment<'t> {
         grid::offset(self.faces, PlaneId::face(self.face))
     }
 
+    /// The exact plane of its polygon, or, if that was triangulated, of one of its triangles: three points of
+    /// the tree's [grid](BspTree::grid) on it, counter-clockwise seen from its front.
+    pub fn grid_points(&self) -> [[i64; 3]; 3] {
+        grid::plane_points(self.faces, PlaneId::face(self.face))
+    }
+
     /// Whether it was never cut: it is a whole polygon, or a whole triangle of a polygon that was
     /// triangulated.
     pub fn is_whole(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{BspTree, Fragment, Node};
+use super::BspTree;
 use crate::exact::{Faces, PlaneId, PlaneKind, integers};
 
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
@@ -40,22 +40,6 @@ impl BspTree {
     pub fn grid(&self) -> Grid {
         let lattice = self.faces.lattice();
         Grid { base: lattice.to_world([0.0; 3]), exponent: -lattice.exponent() }
-    }
-}
-
-impl Node<'_> {
-    /// The exact plane: three points of the tree's [grid](BspTree::grid) on it, counter-clockwise seen from
-    /// its front.
-    pub fn grid_points(&self) -> [[i64; 3]; 3] {
-        plane_points(&self.tree.faces, self.plane())
-    }
-}
-
-impl Fragment<'_> {
-    /// The exact plane of its polygon, or, if that was triangulated, of one of its triangles: three points of
-    /// the tree's [grid](BspTree::grid) on it, counter-clockwise seen from its front.
-    pub fn grid_points(&self) -> [[i64; 3]; 3] {
-        plane_points(self.faces, PlaneId::face(self.face))
     }
 }
 

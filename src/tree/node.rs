@@ -66,6 +66,12 @@ impl<'t> Node<'t> {
         grid::offset(&self.tree.faces, self.plane())
     }
 
+    /// The exact plane: three points of the tree's [grid](BspTree::grid) on it, counter-clockwise seen from
+    /// its front.
+    pub fn grid_points(&self) -> [[i64; 3]; 3] {
+        grid::plane_points(&self.tree.faces, self.plane())
+    }
+
     /// The index, in the input, of the polygon in whose plane the node's plane is. If that polygon
     /// was triangulated, it is the plane of one of the triangles.
     ///
