@@ -1,0 +1,63 @@
+//! What several commands are told.
+
+use std::ffi::OsString;
+
+use binspace::glam::DVec3;
+use binspace::{BuildOptions, Heuristic};
+use clap::Args;
+
+use crate::values;
+
+#[derive(Args, Debug)]
+pub(crate) struct SceneArgs {
+    /// An OBJ file, a file of `binspace build`, - for either on standard input, or a built-in scene
+    /// such as sphere:100000; for render, order and stats also a folder of `binspace build --cells`
+    ///
+    /// A name that ends in .obj or .bsp or contains a path separator is a file. Any other is a built-in
+    /// scene, with an optional size after a colon, or, if there is none of that name, a file.
+    /// `binspace scenes` lists the built-in scenes.
+    #[arg(value_name = "SCENE")]
+    pub(crate) name: OsString,
+    /// Seed of built-in scenes that are random, and of random views
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct UpArgs {
+    /// Direction that points up: x, y, z, or X,Y,Z [default: the scene's up; y for files]
+    #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
+    pub(crate) up: Option<DVec3>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct BuildArgs {
+    /// How to choose splitters: first, random(SEED), fewest-splits, balanced,
+    /// weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto [default: auto]
+    #[arg(long, value_name = "H")]
+    pub(crate) heuristic: Option<Heuristic>,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct LimitArgs {
+    /// Coplanar tolerance, a length: points this near to a plane count as on it, and layers up to
+    /// twice as far apart may be exchanged [default: four units in the last decimal that an OBJ file's
+    /// coordinates need, but between 1e-9 and 1e-5 of the extent, the longest side of the scene's
+    /// bounding box; at most 1/256 of the extent is used]
+    #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// Give up if there are more fragments than this [default: 33554432]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_fragments: Option<usize>,
+}
+
+impl LimitArgs {
+    /// The options to build with.
+    pub(crate) fn options(self, heuristic: Heuristic) -> BuildOptions {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        let options = self.max_fragments.map_or(options, |most| options.with_max_fragments(most));
+        self.tolerance.map_or(options, |length| options.with_tolerance(length))
+    }
+}
