@@ -63,8 +63,8 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Loaded, Failure> {
             Ok(spec.build(args.seed).into())
         }
         Source::File(path) if path.is_dir() => {
-            let problem = "a folder: of those of `binspace build --cells`, `render`, `order` and `stats` \
-                           can be made; for all else, name the scene that it was built of";
+            let problem = "cannot be read: it is a folder; `render`, `order` and `stats` take those \
+                           of `binspace build --cells`, all else the scene that it was built of";
             Err(Failure::about(name, problem))
         }
         Source::File(path) if saved_file::is_saved(&path) => {

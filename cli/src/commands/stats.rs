@@ -103,8 +103,8 @@ fn of_file(
 
 /// The figures of the trees in a folder.
 fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
-    job::refuse_options_of(&path.display(), args.heuristic.is_some(), &args.limits)?;
     let folder = Folder::open(path)?;
+    job::refuse_options_of(&path.display(), args.heuristic.is_some(), &args.limits)?;
     for number in 0..folder.partition.cells() {
         let begin = Instant::now();
         let cell = folder.cell(number)?;
