@@ -54,8 +54,10 @@ impl BspTree {
     /// along a floor should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not
     /// `Equal`.
     ///
-    /// It stops at the first polygon that it finds, which need not be the nearest. Nothing is allocated
-    /// unless dozens of parts of the tree are pending at once.
+    /// It stops at the first polygon that it finds, which need not be the nearest. Until then it takes time
+    /// for the nodes whose regions the segment crosses and for the fragments on their planes where it does,
+    /// however many lie at one place. Nothing is allocated unless dozens of parts of the tree are pending at
+    /// once.
     pub fn is_blocked(&self, ray: Ray) -> bool {
         is_blocked(self, None, ray)
     }
