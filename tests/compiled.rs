@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// Folders whose files must all be reached.
-const FOLDERS: [&str; 6] = ["src", "tests", "crates", "benches", "cli", "fuzz"];
+const FOLDERS: [&str; 7] = ["src", "tests", "crates", "benches", "cli", "fuzz", "distributed/src"];
 
 /// Where packages are; what their manifests name, and what cargo finds by itself, is compiled.
-const PACKAGES: [&str; 6] = ["", "benches", "cli", "crates/evidence", "fuzz", "tests/alone"];
+const PACKAGES: [&str; 7] =
+    ["", "benches", "cli", "crates/evidence", "distributed", "fuzz", "tests/alone"];
 
 fn package() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

@@ -30,7 +30,7 @@ use figures::{Figures, processor_time};
 use polygon::Given;
 use share::Share;
 
-/// So many samples choose the planes between cells, at most. More: time; fewer: cells differ in size.
+/// About so many samples choose the planes between cells. More: time; fewer: cells differ in size.
 const SAMPLES: u64 = 1 << 16;
 
 fn main() -> ExitCode {

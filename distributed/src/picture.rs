@@ -1,12 +1,13 @@
 //! What a rank paints of its cell, and pictures in files.
 
+use std::fs::{self, Permissions};
 use std::io;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, for_each_painted};
-use tempfile::NamedTempFile;
 
 use crate::polygon::Given;
 
@@ -97,18 +98,29 @@ impl Painted {
 /// Writes a picture, RGB, as PNG: completely or not at all.
 pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), String> {
     let write = || -> io::Result<()> {
+        // Devices and pipes are written to; what else is there is replaced, behind a link too.
+        if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+            return encode(fs::OpenOptions::new().write(true).open(path)?, size, pixels);
+        }
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let mut file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
-        let mut encoder = png::Encoder::new(&mut file, size[0], size[1]);
-        encoder.set_color(png::ColorType::Rgb);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(pixels)?;
-        writer.finish()?;
+        // As other files, it can be read by those whom the system's mask allows.
+        let builder = tempfile::Builder::new().permissions(Permissions::from_mode(0o666));
+        let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+        encode(file.as_file(), size, pixels)?;
         file.as_file().sync_all()?;
         file.persist(path)?;
         Ok(())
     };
     write().map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+}
+
+fn encode(out: impl io::Write, size: [u32; 2], pixels: &[u8]) -> io::Result<()> {
+    let mut encoder = png::Encoder::new(out, size[0], size[1]);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    Ok(writer.finish()?)
 }
 
 #[cfg(test)]
@@ -117,6 +129,21 @@ mod tests {
 
     fn layer(pixel: u32, opacity: f32) -> Layer {
         Layer { pixel, colour: [pixel as u8, 2, 3], opacity }
+    }
+
+    #[test]
+    fn pictures_replace_files_and_are_written_into_devices() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.png");
+        fs::write(&path, "older").unwrap();
+        std::os::unix::fs::symlink(&path, folder.path().join("link")).unwrap();
+        write(&folder.path().join("link"), [2, 1], &[9; 6]).unwrap();
+        assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+        // The mask is unknown, but its owner can write it in any.
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o600, 0o600);
+        write(Path::new("/dev/null"), [2, 1], &[9; 6]).unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }
 
     #[test]

@@ -56,9 +56,11 @@ impl Share {
         let stream = ObjStream::open(path).map_err(about)?;
         let (precision, mut number) = (stream.scene().precision(), (file as u64) << 32);
         let flow = stream.read(|corners, material| {
-            let look = &stream.scene().materials()[material as usize];
-            let colour = look.color.map(|channel| (channel * 255.0).round() as u8);
-            let (opacity, corners) = (look.opacity, corners.to_vec());
+            // There are fewer if the file changes while it is read, which is an error at its end.
+            let look = stream.scene().materials().get(material as usize);
+            let colour = look.map_or([0.0; 3], |look| look.color);
+            let colour = colour.map(|channel| (channel * 255.0).round() as u8);
+            let (opacity, corners) = (look.map_or(1.0, |look| look.opacity), corners.to_vec());
             // Faces without corners show nowhere.
             if !corners.is_empty() {
                 self.polygons.push(Given { number, colour, opacity, precision, corners });

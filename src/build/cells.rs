@@ -2,10 +2,13 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
+
 use super::driver::tree_of_faces;
 use super::options::BuildOptions;
 use super::progress::{Progress, Watch, one_at_a_time};
 use crate::error::Error;
+use crate::exact::Faces;
 use crate::faces::Preparer;
 use crate::input::{Point, Polygon};
 use crate::partition::{Extent, Partition};
@@ -35,8 +38,12 @@ impl BuildOptions {
         cells: usize,
     ) -> Result<Partition, Error> {
         let mut extent = *extent;
-        if let Some(bounds) = &self.bounds {
-            extent.include(&bounds[..]);
+        if let Some([corner, opposite]) = self.bounds {
+            // Bounds are room, and say nothing of how precise polygons are.
+            let is_finite = corner.is_finite() && opposite.is_finite();
+            let whole = |c: DVec3| if is_finite { c } else { DVec3::NAN };
+            let [low, high] = [corner.min(opposite), corner.max(opposite)].map(whole);
+            extent.merge(&Extent { low, high, precision: 0.0 });
         }
         Partition::new(&extent, self.tolerance, samples, cells)
     }
@@ -82,6 +89,20 @@ impl BuildOptions {
     ) -> Result<BspTree, Error> {
         let progress = one_at_a_time(progress);
         tree_of_cell(self, partition, cell, polygons, &Watch::new(&progress))
+    }
+}
+
+impl Partition {
+    /// Whether a tree is one of this cell: on the partition's grid, with its tolerance, and cut to the cell.
+    /// One that was built of other polygons is, too.
+    ///
+    /// # Panics
+    ///
+    /// If `cell` is not less than [`cells`](Self::cells).
+    pub fn is_tree_of(&self, cell: usize, tree: &BspTree) -> bool {
+        let [own, found] = [&self.faces(cell), tree.faces()];
+        let key = |faces: &Faces| (*faces.lattice(), faces.tolerance());
+        key(own) == key(found) && own.cell() == found.cell()
     }
 }
 

@@ -24,7 +24,7 @@ const FACE: u64 = 1 << 32;
 ///
 /// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so
 /// far. From then on `total` is the number of faces and does not change, and `done` never decreases.
-/// At the end both are equal.
+/// At the end both are equal. (What is asked of a `VisibilityMap` counts parts of its work instead.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {

@@ -47,9 +47,10 @@ impl VisibilityMap<'_> {
     /// A point is on a crossing if both polygons show at it, one on each side. This is read off the map,
     /// so it is as exact: only the ends of runs are rounded. Where an edge of a polygon only touches
     /// another, [`edges`](Self::edges) has it; and [`crossings_in_layers`](Self::crossings_in_layers) what is hidden
-    /// of crossings.
+    /// of crossings. A crossing along an edge that triangulation made of one of the polygons is missing.
     ///
-    /// O(n log n) for n cells.
+    /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
+    /// [`regions`](Self::regions) are found as well.
     ///
     /// # Errors
     ///

@@ -120,20 +120,20 @@ impl VisibilityMap<'_> {
     ) -> Result<(), Error> {
         let count = self.leaves.len();
         for (i, leaf) in self.leaves.iter().enumerate() {
-            finish_item(watch, i, count);
             if is_opaque(leaf, &self.stock) {
                 for visible in each(watch, CUT, &leaf.cells) {
                     let Visible { item, cell } = visible?;
                     see(*item, cell)?;
                 }
-                continue;
-            }
-            let divided = Divided::new(leaf, &self.stock, &self.rims.lines, watch)?;
-            for part in &divided.parts {
-                for item in each(watch, CUT, divided.items(part)) {
-                    see(item?, &part.cell)?;
+            } else {
+                let divided = Divided::new(leaf, &self.stock, &self.rims.lines, watch)?;
+                for part in &divided.parts {
+                    for item in each(watch, CUT, divided.items(part)) {
+                        see(item?, &part.cell)?;
+                    }
                 }
             }
+            finish_item(watch, i, count);
         }
         Ok(())
     }

@@ -6,8 +6,8 @@
 pub enum EdgeKind {
     /// No other polygon has the same edge, or several do.
     Border,
-    /// One polygon at the edge is seen from its front, the other from behind, or one of them edge-on:
-    /// a body ends there, as seen from the eye.
+    /// One polygon at the edge is seen from its front, the other from behind, or one of them edge-on; or so
+    /// are two parts of one polygon that is not planar: a body ends there, as seen from the eye.
     Silhouette,
     /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
     /// back on the other.
@@ -28,7 +28,7 @@ pub struct EdgeRun {
     /// What the line is.
     pub kind: EdgeKind,
     /// Where the run begins and ends in the picture, in pixels from the centre of the first one: in the direction
-    /// in which the polygon runs along the edge.
+    /// in which the polygon runs along the edge; a crossing has either.
     pub ends: [[f64; 2]; 2],
     /// Whether it shows.
     pub is_visible: bool,

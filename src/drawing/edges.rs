@@ -101,7 +101,6 @@ impl VisibilityMap<'_> {
         }
         let count = self.leaves.len();
         for (i, leaf) in self.leaves.iter().enumerate() {
-            finish_item(watch, i, count);
             for visible in each(watch, SIDES, &leaf.cells) {
                 let Visible { item, cell } = visible?;
                 let face = stock.face(*item);
@@ -116,6 +115,7 @@ impl VisibilityMap<'_> {
                     }
                 }
             }
+            finish_item(watch, i, count);
         }
         Ok(())
     }

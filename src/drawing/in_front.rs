@@ -48,8 +48,8 @@ impl VisibilityMap<'_> {
     /// number of polygons in front of them changes.
     ///
     /// All polygons count that show a side to the camera, once each, be they hidden themselves; but not
-    /// those that the edge lies on. One counts at least, as where the edge of a shelf lies on the wall that
-    /// hides the shelf. Time goes with how many lie in front of hidden edges.
+    /// those of which a face has the edge. One counts at least, as where the edge of a shelf lies on the wall that
+    /// hides the shelf. Time and memory go with how many lie in front of hidden edges.
     ///
     /// # Errors
     ///
@@ -122,18 +122,21 @@ impl VisibilityMap<'_> {
         is_own: impl Fn(u32, u32) -> bool,
         watch: &Watch<'_>,
     ) -> Result<Steps, Error> {
+        if sights.is_empty() {
+            return Ok(Steps { begins: vec![0], ..Steps::default() });
+        }
         let (stock, faces) = (&self.stock, self.stock.frame.faces);
         let mut reaches = Reaches::default();
         // Polygons that do not show hide edges too.
         let mut rims = Rims::new(stock);
         for face in 0..faces.len() {
-            finish_item(watch, face, faces.len());
-            let face = face as u32;
+            let number = face as u32;
             watch.work(1)?;
-            if stock.sees(face) {
+            if stock.sees(number) {
                 watch.work(LINES)?;
-                reaches.push(face, rims.outline(stock, face)?)?;
+                reaches.push(number, rims.outline(stock, number)?)?;
             }
+            finish_item(watch, face, faces.len());
         }
         let around = |face: u32| stock.views[face as usize].region;
         let pieces = Pieces { lines: &rims.lines, reaches, face: &|face| face, around: &around };

@@ -112,13 +112,12 @@ impl Parts {
         let count = ordered.order.len();
         for (i, part) in ordered.order.into_iter().enumerate() {
             watch.work(CUT)?;
-            finish_item(watch, i, count);
             let items = &self.items[part as usize];
             let shown = cells.as_ref().map(|cells| &cells[part as usize]);
             let is_clipped = ordered.is_clipped[part as usize];
             edges.clear();
             match shown {
-                Some(cells) if cells.is_empty() => continue,
+                Some(cells) if cells.is_empty() => {}
                 Some(cells) if is_clipped => {
                     for cell in each(watch, VISITED, cells) {
                         add_sides(cell?, &mut edges)?;
@@ -133,6 +132,7 @@ impl Parts {
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
                 drawing.push(polygon, is_part, &edges, watch)?;
             }
+            finish_item(watch, i, count);
         }
         Ok((drawing, path_of))
     }

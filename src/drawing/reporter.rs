@@ -68,16 +68,35 @@ pub(super) fn each<T>(
     pieces: usize,
     items: impl IntoIterator<Item = T>,
 ) -> impl Iterator<Item = Result<T, Error>> {
-    let (mut items, mut work) = (items.into_iter(), 0);
+    let mut items = items.into_iter();
+    let mut done = Done { watch, work: 0 };
     std::iter::from_fn(move || {
         let item = items.next();
-        work += pieces;
-        if work >= STRETCH || item.is_none() {
-            let worked = watch.work(std::mem::take(&mut work));
-            return worked.err().map(Err).or(item.map(Ok));
+        done.work += pieces;
+        if done.work >= STRETCH || item.is_none() {
+            return done.tell().err().map(Err).or(item.map(Ok));
         }
         item.map(Ok)
     })
+}
+
+/// Work that is done and not yet counted. It is counted too where a loop is left early.
+struct Done<'w, 'c> {
+    watch: &'w Watch<'c>,
+    work: usize,
+}
+
+impl Done<'_, '_> {
+    fn tell(&mut self) -> Result<(), Error> {
+        self.watch.work(std::mem::take(&mut self.work))
+    }
+}
+
+impl Drop for Done<'_, '_> {
+    fn drop(&mut self) {
+        // If it was cancelled, the next one to ask hears it.
+        let _ = self.tell();
+    }
 }
 
 /// Sorts a list, stably, and hears cancellation.

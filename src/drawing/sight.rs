@@ -284,6 +284,9 @@ fn cut(lines: &Lines<'_>, faces: [u32; 2]) -> Exact {
     one.cut(&other)
 }
 
+/// One over the largest error of a projected point, in pixels, that counts as none.
+const FAR: f64 = (1u64 << 30) as f64;
+
 /// What floats tell of the segment between two lattice points. (Most are inside or outside.)
 fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: &Rect) -> Certain {
     let projected = ends.map(|end| lines.frame.rays.project(end));
@@ -303,7 +306,9 @@ fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: &Rect) -> C
         return Certain::Outside;
     }
     let is_in = |&(value, off): &(f64, f64)| value > off;
-    match a.iter().chain(&b).all(is_in) {
+    // Near the eye, errors that are small for the scene are large in the picture.
+    let is_fine = |([_, _, z], errors): &([f64; 3], [f64; 3])| errors.iter().all(|e| e * FAR < *z);
+    match a.iter().chain(&b).all(is_in) && projected.iter().all(is_fine) {
         true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
         false => Certain::Nothing,
     }

@@ -49,11 +49,11 @@ impl VisibilityMap<'_> {
     /// [`edges_in_layers`](Self::edges_in_layers) has edges, cut where the number of polygons in front of them
     /// changes. A crossing of polygons in several faces is in several runs at least.
     ///
-    /// Polygons go through one another if both have corners on both sides of the other, further from it than the
-    /// tolerance.
+    /// Hidden are those of polygons that both have corners on both sides of the other, further from it than the
+    /// tolerance. A crossing along an edge that triangulation made is missing, as in `crossings`.
     ///
-    /// O(n log n) for n faces, and for each pair that goes through one another as for an edge, unless there are
-    /// many with overlapping boxes.
+    /// O(n log n) for n faces, and for each pair that goes through one another time and memory as for an edge,
+    /// unless there are many with overlapping boxes, as at the tip of a cone of many faces.
     ///
     /// # Errors
     ///
@@ -63,7 +63,14 @@ impl VisibilityMap<'_> {
             let (stock, faces) = (&self.stock, self.stock.frame.faces);
             let mut shown = self.common_sides(watch)?;
             sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
-            let pairs = straddling(stock, watch)?;
+            let mut pairs = straddling(stock, watch)?;
+            // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
+            for side in each(watch, VISITED, &shown) {
+                let [below, above] = side?.faces;
+                push(&mut pairs, Pair { below, above })?;
+            }
+            sort_by(&mut pairs, watch, Ord::cmp)?;
+            pairs.dedup();
             let (mut crossings, mut sights) = (Vec::new(), Vec::new());
             for crossing in crossings_of(&pairs, stock, watch)? {
                 watch.work(CUT)?;

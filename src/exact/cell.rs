@@ -32,13 +32,19 @@ impl Faces {
         self.faces.first().map_or(self.corners.len(), |face| face.start as usize)
     }
 
+    /// The two corners of the cell; none if these faces are not of one.
+    pub(crate) fn cell(&self) -> &[[f64; 3]] {
+        &self.corners[..self.corners_of_cell()]
+    }
+
     /// The planes that bound the cell, and on which side of each it lies.
     pub(crate) fn planes_of_cell(&self) -> impl Iterator<Item = (PlaneId, Side)> {
-        let corners = &self.corners[..self.corners_of_cell()];
-        corners.iter().zip([(0, Side::Front), (1, Side::Back)]).flat_map(|(corner, (k, side))| {
-            let axes = (0..3).filter(|&axis| corner[axis].abs() < OPEN);
-            axes.map(move |axis| (PlaneId::axis(axis, k), side))
-        })
+        self.cell().iter().zip([(0, Side::Front), (1, Side::Back)]).flat_map(
+            |(corner, (k, side))| {
+                let axes = (0..3).filter(|&axis| corner[axis].abs() < OPEN);
+                axes.map(move |axis| (PlaneId::axis(axis, k), side))
+            },
+        )
     }
 
     /// Whether some corners can be those of a cell.

@@ -57,7 +57,8 @@ pub use extent::Extent;
 ///
 /// Polygons are cut by the planes of a cell first, exactly, as by the planes of a tree. The two cells
 /// beside a plane have the vertices that it makes bit for bit in common, and so have faces on one side of
-/// it that share an edge. (As in one tree, further cuts end in T-junctions.) Each point of each polygon is
+/// it that share an edge, where both are cut and the tolerance moved no corner of one. (As in one tree,
+/// further cuts end in T-junctions.) Each point of each polygon is
 /// in one cell: what lies in a plane between two, or within the tolerance of it, is in the one on the side
 /// of larger coordinates.
 ///
@@ -69,14 +70,17 @@ pub use extent::Extent;
 /// It is one length for all cells, that of the [options](crate::BuildOptions::partition) with which the
 /// partition was made: by default it follows the extent and the precision of all polygons, as in one tree
 /// of them. The options with which a cell is built have no say in it. Across the planes between cells,
-/// orders are right up to the tolerance as across those of a tree.
+/// orders are right up to the tolerance as across those of a tree: polygons that are nearer to one another
+/// than that without lying in one plane may be exchanged, as they may in another tree of the scene.
 ///
 /// # Trees of cells
 ///
 /// A tree of a cell gives orders, fragments, meshes, boxes and hits as any other, of what is in the cell.
 /// What is made of whole polygons is not for it: `drawing`, where it is an error, and the depth buffer of
-/// `raster`, so `verify` as well. Its [`dropped`](crate::BspTree::dropped) polygons are also those of which nothing is in the
-/// cell. [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell.
+/// `raster`, so `verify` as well. Its [`dropped`](crate::BspTree::dropped) polygons are also those of which
+/// nothing is in the cell; other counts of its [preparation](crate::BspTree::preparation) are of all that it
+/// was given. [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell. An
+/// [`Overlay`](crate::Overlay) on it is not cut: what moves there is in each cell that is given it.
 ///
 /// With the feature `save`, a partition is written and read, `Partition::write` and `Partition::read`, to
 /// send it to others.

@@ -43,6 +43,9 @@ impl NewFolder {
         if target == Path::new(STANDARD) {
             return Err(about("with `--cells` a folder is written: name it".to_owned()));
         }
+        if target.symlink_metadata().is_ok_and(|found| found.is_symlink()) {
+            return Err(about("it is a link: name the folder itself".to_owned()));
+        }
         match std::fs::read_dir(target).map(Iterator::count) {
             Ok(0) => {}
             Ok(_) => {
@@ -154,8 +157,12 @@ impl Folder {
             read.map_err(|_| Failure::about(&name, "it ends within its numbers: it is cut short"))?;
             numbers.push(u64::from_le_bytes(bytes) as usize);
         }
-        if !numbers.is_sorted_by(|a, b| a < b) || has_more(&mut input) {
-            return Err(Failure::about(name, "it is no cell of a folder: build it again"));
+        let is_own = self.partition.is_tree_of(number, &tree);
+        if !is_own || !numbers.is_sorted_by(|a, b| a < b) || has_more(&mut input) {
+            return Err(Failure::about(
+                name,
+                "it is not this cell of the folder: build the folder again",
+            ));
         }
         Ok(Cell { tree, scene, numbers })
     }

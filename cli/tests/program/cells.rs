@@ -164,8 +164,13 @@ fn what_a_folder_is_not_for_is_refused() {
     }
     assert!(folder.run("order d/cell-0001.bsp --eye=1,2,3").refused().contains("name the folder"));
     assert!(folder.run("verify d").refused().contains("render"));
-    // Cells of another folder, damaged or missing.
-    let cell = folder.path("d/cell-0001.bsp");
+    // Cells of another place, damaged or missing.
+    let [first, cell] = ["d/cell-0000.bsp", "d/cell-0001.bsp"].map(|name| folder.path(name));
+    let kept = fs::read(&first).unwrap();
+    fs::copy(&cell, &first).unwrap();
+    let message = folder.run("render d -o a.png").refused();
+    assert!(message.contains("cell-0000.bsp: it is not this cell"), "{message}");
+    fs::write(&first, kept).unwrap();
     let file = fs::read(&cell).unwrap();
     fs::write(&cell, &file[..file.len() - 3]).unwrap();
     assert!(folder.run("render d -o a.png").refused().contains("cell-0001.bsp"));
