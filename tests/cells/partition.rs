@@ -1,7 +1,7 @@
 //! Partitions: which cells there are, and which polygons reach them.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Extent, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, Extent, Polygon, Viewpoint, scene};
 
 use crate::divided::{Divided, extent, tiles, triangles};
 use crate::support::dice::Dice;
@@ -150,6 +150,61 @@ fn what_is_added_is_cut_to_the_cell() {
         let all = options.build_cell(&scene.partition, cell, &polygons).unwrap();
         assert_eq!(own(&tree), own(&all));
         assert_eq!(tree.preparation().dropped, all.preparation().dropped);
+    }
+}
+
+/// A square in numbers of which all digits are right.
+struct Exact(Corners);
+
+impl Polygon for Exact {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.0.iter().copied()
+    }
+}
+
+/// Far from the origin, numbers are less precise than a small scene's tolerance: which does not follow bounds.
+#[test]
+fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
+    let at = DVec3::splat(5e6);
+    let square = |x: f64| {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        Exact(corners.map(|[y, z]| at + DVec3::new(x, y, z)).to_vec())
+    };
+    let squares = [square(0.0), square(0.5)];
+    let mut extent = Extent::default();
+    squares.iter().for_each(|square| extent.include(square));
+    let samples = [at, at + 0.5];
+    for options in
+        [BuildOptions::DEFAULT, BuildOptions::DEFAULT.with_bounds(at + DVec3::splat(2.0), at)]
+    {
+        let whole = options.build(&squares).unwrap();
+        let partition = options.partition(&extent, samples, 2).unwrap();
+        let cell = options.build_cell(&partition, 0, &squares).unwrap();
+        let (found, expected) = (cell.faces(), whole.faces());
+        assert_eq!((cell.grid(), found.tolerance()), (whole.grid(), expected.tolerance()));
+        let length = expected.lattice().length_to_world(expected.tolerance());
+        assert_eq!(partition.tolerance(), length);
+    }
+}
+
+#[test]
+fn a_tree_is_of_its_own_cell_alone() {
+    let square = |x: f64| -> Corners {
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(x, y, z)).to_vec()
+    };
+    let squares: Vec<Corners> = (0..9).map(|x| square(f64::from(x))).collect();
+    let whole = BspTree::build(&squares).unwrap();
+    for cells in [1, 2, 5] {
+        let scene = Divided::new(squares.clone(), BuildOptions::DEFAULT, cells).unwrap();
+        let other = BuildOptions::DEFAULT.with_tolerance(1e-3);
+        let other = Divided::new(squares.clone(), other, cells).unwrap();
+        for (cell, own) in scene.cells.iter().enumerate() {
+            for place in 0..cells {
+                assert_eq!(scene.partition.is_tree_of(place, &own.tree), place == cell);
+            }
+            assert!(!scene.partition.is_tree_of(cell, &whole));
+            assert!(!other.partition.is_tree_of(cell, &own.tree));
+        }
     }
 }
 

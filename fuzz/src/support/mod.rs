@@ -6,6 +6,8 @@ pub(crate) mod decode;
 pub(crate) mod dice;
 #[path = "../../../tests/support/fill.rs"]
 pub(crate) mod fill;
+#[path = "../../../tests/support/fragment_pixels.rs"]
+pub(crate) mod fragment_pixels;
 #[path = "../../../tests/support/hits.rs"]
 pub(crate) mod hits;
 #[path = "../../../tests/support/homogeneous.rs"]
