@@ -143,19 +143,18 @@ impl<'t> Rims<'t> {
         if let Some(&ends) = self.of_items.get(&item) {
             return Ok(ends);
         }
-        let Item { face, ref region, .. } = stock.items[item as usize];
+        let Item { face, .. } = stock.items[item as usize];
         let rim = self.outline_place(stock, face)?;
         let fragment = stock.fragment(item);
         if fragment.is_whole() {
             return Ok(rim);
         }
         let start = self.halves.len();
-        // Edges of the face that do not touch the piece's box bound nothing of it.
+        // All edges of the face: one that passes by the piece's box may still be what keeps a piece out that
+        // is beside the picture, whose box is not empty.
         for place in rim[0]..rim[1] {
             let half = self.halves[place as usize];
-            if self.lines.across(half, region) != Across::Inside {
-                push(&mut self.halves, half)?;
-            }
+            push(&mut self.halves, half)?;
         }
         let View { is_positive, .. } = stock.views[face as usize];
         for line in fragment.lines() {

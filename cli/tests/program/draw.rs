@@ -471,7 +471,7 @@ fn figures_of_the_readme_are_so() {
     for (arguments, expected) in [
         ("random:500 -o a.svg", [("fragments", 3413), ("paths", 282), ("lines", 0)]),
         ("city:2000 -o a.svg", [("fragments", 2001), ("paths", 649), ("lines", 0)]),
-        ("teapot --lines -o a.svg", [("paths", 0), ("runs", 425), ("lines", 68)]),
+        ("teapot --lines -o a.svg", [("paths", 0), ("runs", 428), ("lines", 65)]),
     ] {
         let output = folder.run(&format!("draw {arguments} --json")).good();
         for (name, value) in expected {

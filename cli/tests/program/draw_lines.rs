@@ -99,7 +99,7 @@ fn step(data: &str, units: f64) -> [f64; 4] {
 #[test]
 fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
     let folder = Folder::new("lines_hidden");
-    let (mut hidden, mut total, mut crossings) = (0, 0, 0);
+    let (mut hidden, mut total, mut crossings) = (0, 0, [0; 2]);
     for view in views().into_iter().take(5) {
         let (figures, svg) = drawn(&folder, &view, "--lines --edges all --hidden dashed --ids");
         assert_eq!(figures["runs"], svg.lines.len(), "{figures}");
@@ -112,14 +112,18 @@ fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
         for (line, &is_hidden) in svg.lines.iter().zip(&is_hidden) {
             match line.crossing {
                 Some([polygon, other]) => {
-                    assert!(polygon < other && line.edge.is_none() && !is_hidden, "{line:?}");
+                    assert!(polygon < other && line.edge.is_none(), "{line:?}");
                     assert_eq!(line.classes[1], "crossing");
-                    crossings += 1;
+                    crossings[usize::from(is_hidden)] += 1;
                 }
                 None => {
-                    let [polygon, edge] = line.edge.unwrap();
-                    assert!(edge < view.corners_of(polygon), "{line:?}");
-                    assert!(["border", "crease", "silhouette"].contains(&&*line.classes[1]));
+                    let kind = &*line.classes[1];
+                    match line.edge {
+                        Some([polygon, edge]) => assert!(edge < view.corners_of(polygon)),
+                        // Where a polygon that is not planar turns away.
+                        None => assert_eq!(kind, "silhouette"),
+                    }
+                    assert!(["border", "crease", "silhouette"].contains(&kind));
                 }
             }
             // Pictures of less than 480 pixels have five hundred units a pixel.
@@ -146,8 +150,9 @@ fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
         let (_, visible) = drawn(&folder, &view, "--lines --edges all --hidden none");
         assert!(!visible.text.contains("dash") && !visible.text.contains("hidden"));
     }
-    let counts = format!("{hidden} {total} {crossings}");
-    assert!(hidden > 1_000 && total > 3_000 && crossings > 50, "{counts}");
+    let counts = format!("{hidden} {total} {crossings:?}");
+    assert!(hidden > 1_000 && total > 3_000, "{counts}");
+    assert!(crossings[0] > 50 && crossings[1] > 50, "{counts}");
 }
 
 #[test]
