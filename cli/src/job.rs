@@ -59,7 +59,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     let is_built = tree.is_none();
     let tree = match tree {
         Some(tree) => {
-            refuse_options(&scene, build.heuristic.is_some(), &build.limits)?;
+            refuse_options(scene.name(), build.heuristic.is_some(), &build.limits)?;
             tree
         }
         None => {
@@ -81,16 +81,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
 /// An error if a tree that is in a file, and so is not built, is to be built in a certain way, be it
 /// the default one.
 pub(crate) fn refuse_options(
-    scene: &Scene,
-    has_heuristic: bool,
-    limits: &LimitArgs,
-) -> Result<(), Failure> {
-    refuse_options_of(&scene.name(), has_heuristic, limits)
-}
-
-/// The same for trees of what is called `name`.
-pub(crate) fn refuse_options_of(
-    name: &dyn Display,
+    name: impl Display,
     has_heuristic: bool,
     limits: &LimitArgs,
 ) -> Result<(), Failure> {

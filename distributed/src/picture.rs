@@ -105,8 +105,9 @@ pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), St
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         // As other files, it can be read by those whom the system's mask allows.
-        let builder = tempfile::Builder::new().permissions(Permissions::from_mode(0o666));
-        let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+        let file = tempfile::Builder::new()
+            .permissions(Permissions::from_mode(0o666))
+            .tempfile_in(folder.unwrap_or(Path::new(".")))?;
         encode(file.as_file(), size, pixels)?;
         file.as_file().sync_all()?;
         file.persist(path)?;

@@ -7,16 +7,13 @@ use std::ops::ControlFlow;
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
-use crate::memory::reserve;
 
 /// Each phase of an operation has so many parts.
 const PARTS: usize = 64;
 /// Loops look for cancellation each time they have worked as long as a build takes to examine so many pieces: a
 /// tenth of a millisecond.
 const STRETCH: usize = 1 << 12;
-/// Lists are sorted in runs of this length, which are merged.
-const RUN: usize = 1 << 13;
-/// To sort a run takes, for each of its items, as long as a build takes to examine so many pieces.
+/// To sort a list takes, for each of its items, as long as a build takes to examine so many pieces.
 const SORTED: usize = 6;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
@@ -99,58 +96,20 @@ impl Drop for Done<'_, '_> {
     }
 }
 
-/// Sorts a list, stably, and hears cancellation.
-pub(super) fn sort_by<T: Copy>(
-    list: &mut Vec<T>,
+/// Sorts a list, stably, unless it was cancelled before.
+pub(super) fn sort_by<T>(
+    list: &mut [T],
     watch: &Watch<'_>,
     compare: impl Fn(&T, &T) -> Ordering,
 ) -> Result<(), Error> {
-    for run in list.chunks_mut(RUN) {
-        watch.work(run.len() * SORTED)?;
-        run.sort_by(&compare);
-    }
-    let (mut length, mut merged) = (RUN, Vec::new());
-    while length < list.len() {
-        merged.clear();
-        reserve(&mut merged, list.len())?;
-        for runs in list.chunks(2 * length) {
-            let (mut first, mut second) = runs.split_at(length.min(runs.len()));
-            let next = std::iter::from_fn(|| {
-                let from = match (first.first(), second.first()) {
-                    (Some(a), Some(b)) if compare(b, a).is_lt() => &mut second,
-                    (None, _) => &mut second,
-                    _ => &mut first,
-                };
-                let (next, rest) = from.split_first()?;
-                *from = rest;
-                Some(*next)
-            });
-            for item in each(watch, 1, next) {
-                merged.push(item?);
-            }
-        }
-        std::mem::swap(list, &mut merged);
-        length *= 2;
-    }
+    watch.work(list.len() * SORTED)?;
+    list.sort_by(compare);
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::SplitMix64;
-
-    #[test]
-    fn lists_are_sorted_as_by_the_standard_library() {
-        let mut random = SplitMix64::new(1);
-        for len in [0, 1, 2, 1000, RUN, RUN + 1, 2 * RUN, 5 * RUN + 17] {
-            let list: Vec<(u64, usize)> = (0..len).map(|i| (random.next() % 1000, i)).collect();
-            let (mut expected, mut found) = (list.clone(), list);
-            expected.sort_by_key(|item| item.0);
-            sort_by(&mut found, &Watch::default(), |a, b| a.0.cmp(&b.0)).unwrap();
-            assert!(found == expected, "{len}");
-        }
-    }
 
     /// Calls the callback at each step and cancels at one: nothing more is done.
     #[test]

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use binspace::scene::Scene;
 use binspace::{BspTree, LoadError, Partition};
 
+use crate::args::{BuildArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD};
-use crate::{saved_file, unfinished};
+use crate::{job, saved_file, unfinished};
 
 /// The name of the file with the partition, and behind it a scene of one polygon: the ends of a diagonal
 /// of the bounding box.
@@ -128,6 +129,18 @@ pub(crate) struct Folder {
 /// The folder that a scene's name means, if it is one.
 pub(crate) fn named(name: &std::ffi::OsStr) -> Option<&Path> {
     Some(Path::new(name)).filter(|path| path.is_dir())
+}
+
+/// The same, with an error if its trees are to be built in a certain way.
+pub(crate) fn asked<'a>(
+    scene: &'a SceneArgs,
+    build: &BuildArgs,
+) -> Result<Option<&'a Path>, Failure> {
+    let path = named(&scene.name);
+    if let Some(path) = path {
+        job::refuse_options(path.display(), build.heuristic.is_some(), &build.limits)?;
+    }
+    Ok(path)
 }
 
 impl Folder {

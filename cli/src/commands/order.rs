@@ -21,12 +21,7 @@ pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
         Some(direction) => vec![Viewpoint::Direction(direction)],
         None => args.eye.iter().copied().map(Viewpoint::Eye).collect(),
     };
-    if let Some(path) = cells::folder::named(&args.scene.name) {
-        job::refuse_options_of(
-            &path.display(),
-            args.build.heuristic.is_some(),
-            &args.build.limits,
-        )?;
+    if let Some(path) = cells::folder::asked(&args.scene, &args.build)? {
         cells::draw::order(args, path, &viewpoints, output)?;
         return Ok(Outcome::Done);
     }

@@ -28,12 +28,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         let problem = "a PNG is not for a terminal: pipe it, or name a file";
         return Err(about_output(&args.output, problem));
     }
-    if let Some(path) = cells::folder::named(&args.scene.name) {
-        job::refuse_options_of(
-            &path.display(),
-            args.build.heuristic.is_some(),
-            &args.build.limits,
-        )?;
+    if let Some(path) = cells::folder::asked(&args.scene, &args.build)? {
         cells::draw::render(args, path, output, format)?;
         return Ok(Outcome::Done);
     }

@@ -88,7 +88,7 @@ fn of_file(
     tree: &BspTree,
     seconds: f64,
 ) -> Result<Outcome, Failure> {
-    job::refuse_options(scene, args.heuristic.is_some(), &args.limits)?;
+    job::refuse_options(scene.name(), args.heuristic.is_some(), &args.limits)?;
     job::note_preparation(scene, tree.faces(), tree.preparation());
     let figures = Figures {
         heuristic: None,
@@ -104,7 +104,7 @@ fn of_file(
 /// The figures of the trees in a folder.
 fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
     let folder = Folder::open(path)?;
-    job::refuse_options_of(&path.display(), args.heuristic.is_some(), &args.limits)?;
+    job::refuse_options(path.display(), args.heuristic.is_some(), &args.limits)?;
     for number in 0..folder.partition.cells() {
         let begin = Instant::now();
         let cell = folder.cell(number)?;

@@ -5,13 +5,13 @@ use std::fs;
 use binspace::drawing::{Shown, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::{NONE, Rays};
-use binspace::scene::{Builtin, Material, Scene};
+use binspace::scene::Builtin;
 use binspace::view::Camera;
 use binspace::{BspTree, paint_tree};
 use serde_json::Value;
 
 use crate::png_picture::Picture;
-use crate::run::{CROSSING, Folder, Run};
+use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 
 pub(crate) const WHITE: [u8; 3] = [255; 3];
@@ -292,37 +292,6 @@ fn what_is_behind_glass_is_drawn_and_what_is_behind_wood_is_not() {
 }
 
 #[test]
-fn opacities_that_are_none_are_refused_or_left_out() {
-    let folder = Folder::new("draw_opacities");
-    folder.write("s.obj", format!("mtllib m.mtl\nusemtl odd\n{CROSSING}"));
-    // When a file is read, what is no number is skipped, and others are brought between 0 and 1.
-    for (opacity, is_drawn) in
-        [("nan", true), ("inf", true), ("-1", false), ("7", true), ("0", false), ("1", true)]
-    {
-        folder.write("m.mtl", format!("newmtl odd\nKd 1 0 0\nd {opacity}\n"));
-        folder.run("draw s.obj -o a.svg").good();
-        let svg = Svg::read(&folder.path("a.svg"));
-        assert_eq!(!svg.paths.is_empty(), is_drawn, "{opacity}");
-        assert!(!svg.text.contains("opacity"), "{opacity}");
-    }
-    // A saved scene has whatever its maker wrote.
-    for wrong in [f32::NAN, 1.5, -0.5] {
-        let mut scene = Scene::new("odd", DVec3::Z);
-        let odd = scene.add_material(Material::new("odd", [1.0; 3]).with_opacity(wrong));
-        scene.push([DVec3::ZERO, DVec3::X, DVec3::Y], odd);
-        let mut saved = Vec::new();
-        BspTree::build(scene.polygons()).unwrap().write(&mut saved).unwrap();
-        scene.write(&mut saved).unwrap();
-        folder.write("b.bsp", saved);
-        for options in ["-o b.svg", "-o b.svg --translucent", "-o b.png"] {
-            let message = folder.run(&format!("draw b.bsp {options}")).refused();
-            assert!(message.contains(&format!("has opacity {wrong}")), "{message}");
-        }
-        folder.run("draw b.bsp -o b.svg --opaque").good();
-    }
-}
-
-#[test]
 fn walls_that_turn_their_backs_are_left_out() {
     let folder = Folder::new("draw_cull");
     folder.run("draw cornell --eye=278,900,1500 --target=278,200,280 -o a.svg --cull back").good();
@@ -350,66 +319,6 @@ fn views_of_nothing_and_of_one_pixel_are_drawn() {
     // On a polygon, which is seen edge-on.
     let (on, _) = draw("--eye=0,0,0.1 --target=0,0,-3 --up y --size 65535x3");
     assert!(on["visible"].as_u64() > Some(0));
-}
-
-#[test]
-fn what_cannot_be_drawn_is_said_at_once() {
-    let folder = Folder::new("draw_bad");
-    for (options, problem) in [
-        ("", "--output"),
-        ("-o p.gif", "p.gif: name a file that ends in one of .svg, .pdf, .png"),
-        ("-o p", "p: name a file that ends in one of .svg, .pdf, .png, or give --format"),
-        ("-o p.svg --format pdf", "p.svg: its name and --format are of different formats"),
-        ("-o p.svg --format gif", "--format"),
-        ("-o p.svg --lines --edges none", "there is nothing to draw"),
-        ("-o p.svg --hidden dashed", "--hidden is for lines: add --lines, or --edges"),
-        ("-o p.svg --hidden layers --edges none", "--hidden is for lines"),
-        ("-o p.svg --lines --hidden dotted", "--hidden"),
-        ("-o p.svg --lines --colours polygon", "cannot be used with"),
-        ("-o p.svg --edges creases=x", "from 0 to 180 degrees, as in creases=20"),
-        ("-o p.svg --edges outlines", "none, all, creases, creases=DEG or silhouettes"),
-        ("-o p.png --ids", "--ids is for SVG"),
-        ("-o p.pdf --ids", "--ids is for SVG"),
-        ("-o p.png --min-size 0", "--min-size is for SVG, PDF and lines"),
-        ("-o p.pdf --size 14401x2", "a PDF has at most 14400 points each way"),
-        ("-o missing/p.pdf", "cannot be written"),
-        ("-o missing/p.png", "cannot be written"),
-        ("-o missing/p.svg", "cannot be written"),
-        ("-o - --json", "standard output: the drawing and the figures"),
-        ("-o p.svg --samples 2", "--samples"),
-        ("-o p.svg --z-buffer", "--z-buffer"),
-        ("-o p.svg --depth", "--depth"),
-        ("-o p.svg --cull front", "--cull"),
-        ("-o p.svg --min-size=-1", "0 or more"),
-        ("-o p.svg --min-size nan", "not a finite number"),
-        ("-o p.svg --min-size", "--min-size"),
-        ("-o p.svg --direction=0,0,1 --eye=0,0,1", "cannot be used with"),
-        ("-o p.svg --direction=0,0,1 --fov 30", "cannot be used with"),
-        ("-o p.svg --eye=0,0,0 --target=0,0,0", "looks nowhere"),
-        ("-o p.svg --eye=0,0,9 --target=0,0,0 --up z", "up vector"),
-        ("-o p.svg --eye=0,0,1e300 --target=0,0,0", "too far"),
-        ("-o p.svg --size 0x5", "such as 640x480"),
-        ("-o p.svg --max-fragments 3", "fragments"),
-    ] {
-        let message = folder.run(&format!("draw newell {options}")).refused();
-        assert!(message.contains(problem), "{options}: {message}");
-    }
-    assert!(folder.files().is_empty(), "{:?}", folder.files());
-}
-
-#[test]
-fn a_drawing_is_written_completely_or_not_at_all() {
-    let folder = Folder::new("draw_whole");
-    folder.write("s.obj", CROSSING);
-    let piped = Run::new(&folder.pipe("draw - -o -", CROSSING)).good();
-    folder.run("draw s.obj -o a.SVG").good();
-    let kept = fs::read_to_string(folder.path("a.SVG")).unwrap();
-    assert_eq!(kept, piped);
-    for scene in ["missing.obj", "random --max-fragments 10", "s.obj --eye=0,0,1e300"] {
-        folder.run(&format!("draw {scene} -o a.SVG")).refused();
-        assert_eq!(fs::read_to_string(folder.path("a.SVG")).unwrap(), kept);
-    }
-    assert_eq!(folder.files(), ["a.SVG", "s.obj"]);
 }
 
 /// A wall of many parts, all of one colour: where they meet, neither the background nor what was

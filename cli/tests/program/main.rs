@@ -9,6 +9,7 @@ mod draw_ink;
 mod draw_lines;
 mod draw_pdf;
 mod draw_png;
+mod draw_refused;
 mod draw_seams;
 mod draw_translucent;
 #[path = "../../../tests/support/fragment_pixels.rs"]
