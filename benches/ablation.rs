@@ -10,7 +10,7 @@
 
 use binspace::BuildOptions;
 use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::internals::{Faces, Tuning, tree_of};
+use binspace::internals::{Faces, Quick, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
 use support::pages::Page;
@@ -65,8 +65,8 @@ macro_rules! changes {
 const MOST: usize = usize::MAX;
 
 const CHANGES: [Change; 43] = changes! {
-    table: "32" => 32;
-    probes: "4" => 4;
+    quick: "table alone" => Some(Quick { crossings: 0, probes: 0, ..Quick::FRAMES }),
+        "probes alone" => Some(Quick { table: 0, crossings: 0, ..Quick::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
@@ -84,13 +84,19 @@ const CHANGES: [Change; 43] = changes! {
 };
 
 /// Those that frames have of their own.
-const OF_FRAMES: [Change; 11] = changes! {
-    table: "0" => 0, "½" => 16;
-    crossings: "0" => 0, "½" => 1, "all" => MOST;
-    probes: "0" => 0, "×2" => 8;
-    trusted_share: "½" => 0.125, "×2" => 0.5;
-    coarse: "0" => 0.0, "∞" => f64::INFINITY;
-};
+const OF_FRAMES: [Change; 11] = [
+    ("table", "0", |t| t.quick = Some(Quick { table: 0, ..Quick::FRAMES })),
+    ("table", "½", |t| t.quick = Some(Quick { table: 16, ..Quick::FRAMES })),
+    ("crossings", "0", |t| t.quick = Some(Quick { crossings: 0, ..Quick::FRAMES })),
+    ("crossings", "½", |t| t.quick = Some(Quick { crossings: 1, ..Quick::FRAMES })),
+    ("crossings", "all", |t| t.quick = Some(Quick { crossings: MOST, ..Quick::FRAMES })),
+    ("probes", "0", |t| t.quick = Some(Quick { probes: 0, ..Quick::FRAMES })),
+    ("probes", "×2", |t| t.quick = Some(Quick { probes: 8, ..Quick::FRAMES })),
+    ("trusted_share", "½", |t| t.quick = Some(Quick { trusted_share: 0.125, ..Quick::FRAMES })),
+    ("trusted_share", "×2", |t| t.quick = Some(Quick { trusted_share: 0.5, ..Quick::FRAMES })),
+    ("coarse", "0", |t| t.quick = Some(Quick { coarse: 0.0, ..Quick::FRAMES })),
+    ("coarse", "∞", |t| t.quick = Some(Quick { coarse: f64::INFINITY, ..Quick::FRAMES })),
+];
 
 fn main() {
     print_head("Ablation of choosing", "cargo bench -p binspace-benches --bench ablation");

@@ -1,8 +1,8 @@
-//! The error of a build, and of a mesh.
+//! The library's error.
 
 use std::fmt;
 
-/// The reason why a tree or a mesh could not be built, and the polygon to blame if there is one.
+/// Why something could not be built, written or finished, and the polygon to blame if there is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     kind: Kind,
@@ -241,8 +241,8 @@ impl Error {
         matches!(self.kind, Kind::OutOfMemory)
     }
 
-    /// Whether the caller cancelled the build; see
-    /// [`build_with_progress`](crate::BuildOptions::build_with_progress).
+    /// Whether the caller's callback cancelled it, as that of
+    /// [`build_with_progress`](crate::BuildOptions::build_with_progress) can.
     pub const fn is_cancelled(&self) -> bool {
         matches!(self.kind, Kind::Cancelled)
     }
@@ -311,8 +311,8 @@ impl fmt::Display for Error {
             ),
             Kind::OffGrid { shape, number } => write!(
                 f,
-                "{shape} {number} reaches beyond the tree's grid: build the tree with bounds that \
-                 hold all that will move (`with_bounds`), or cells of an extent that holds all"
+                "{shape} {number} reaches beyond the tree's grid: build the tree with bounds \
+                 (`with_bounds`), or a cell with an extent, that hold everything that will be added or moved"
             ),
             Kind::OverlaidTree => f.write_str(
                 "the tree is not the one that the overlay was made for: make an overlay for it",
@@ -325,9 +325,10 @@ impl fmt::Display for Error {
             ),
             #[cfg(feature = "drawing")]
             Kind::OfCell => f.write_str(
-                "the tree is of a cell, but drawings are made of whole polygons: draw a tree of them",
+                "the tree is of one cell of a partition, but drawings need whole polygons: build one tree of \
+                 the scene",
             ),
-            Kind::Cancelled => f.write_str("the build was cancelled"),
+            Kind::Cancelled => f.write_str("cancelled by the progress callback"),
             #[cfg(feature = "layers")]
             Kind::Layer { layer } => write!(
                 f,

@@ -4,18 +4,20 @@
 //!
 //! | | |
 //! |---|---|
-//! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built |
+//! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built, and how far it is |
 //! | [`FrameBuilder`] | trees built anew every frame |
 //! | [`Overlay`], [`Shapes`], [`Shape`], [`Overlaid`] | polygons that move, lines and points, in one order with a tree that stays |
 //! | [`Segment`], [`Marker`] | what lines and points become there |
-//! | [`Polygon`], [`Point`] | what it is built from |
+//! | [`Polygon`], [`Point`] | the input of a tree |
 //! | [`Partition`], [`Extent`] | scenes too large for one tree: cells, each with a tree of its own |
-//! | [`Viewpoint`] | what it is ordered for |
-//! | [`Fragment`], [`Node`] | what it consists of |
+//! | [`Viewpoint`] | an eye or a direction, for which a tree is ordered |
+//! | [`Fragment`], [`Node`] | the parts of a tree |
 //! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
 //! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
-//! | [`Grid`] | the exact numbers behind it |
-//! | [`Mesh`], [`Triangles`] | vertex and index buffers of it |
+//! | [`Grid`] | the grid of a tree's exact numbers |
+//! | [`Tolerance`], [`Preparation`], [`Stats`] | what counts as coplanar, how the input was prepared, a tree's figures |
+//! | [`Error`] | why something failed, and at which polygon |
+//! | [`Mesh`], [`Triangles`] | vertex and index buffers |
 //!
 //! # Conventions
 //!
@@ -65,8 +67,6 @@ mod ray;
 mod save;
 #[cfg(feature = "scene")]
 pub mod scene;
-#[cfg(feature = "parallel")]
-mod threads;
 mod tree;
 #[cfg(feature = "raster")]
 mod verify;
@@ -105,7 +105,7 @@ pub use viewpoint::Viewpoint;
 /// any release.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::build::choose::Tuning;
+    pub use crate::build::choose::{Quick, Tuning};
     pub use crate::build::driver::{parts, tree_of};
     pub use crate::exact::{
         Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Kernel, LATTICE_LIMIT, Lattice,

@@ -1,4 +1,5 @@
-//! Work on all threads: a function mapped over items, and two functions at the same time.
+//! Work on all threads: a function mapped over items, and two functions at the same time. (Subtrees are
+//! built by `build/jobs.rs`.)
 
 /// Maps a function over items; the results are in the order of the items.
 #[cfg(feature = "parallel")]
@@ -6,7 +7,7 @@ pub(crate) fn map<T: Send, U: Send>(items: Vec<T>, function: impl Fn(T) -> U + S
     use rayon::prelude::*;
 
     // A single item needs no other thread, and waking one takes time.
-    if items.len() < 2 || !crate::threads::are_running() {
+    if items.len() < 2 || !are_running() {
         return items.into_iter().map(function).collect();
     }
     items.into_par_iter().map(&function).collect()
@@ -25,7 +26,7 @@ pub(crate) fn beside<T>(
     other: impl FnOnce() + Send,
     here: impl FnOnce() -> T,
 ) -> T {
-    if is_worth_it && crate::threads::are_running() {
+    if is_worth_it && are_running() {
         return rayon::in_place_scope(|scope| {
             scope.spawn(|_| other());
             here()
@@ -40,4 +41,25 @@ pub(crate) fn beside<T>(
 pub(crate) fn beside<T>(_: bool, other: impl FnOnce(), here: impl FnOnce() -> T) -> T {
     other();
     here()
+}
+
+/// Whether rayon's threads run; if not, all work is for the calling thread.
+///
+/// They are started here at the first use: where that fails, because memory for their stacks or a
+/// limit on threads is lacking, rayon itself would panic.
+#[cfg(feature = "parallel")]
+pub(crate) fn are_running() -> bool {
+    static ARE_RUNNING: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
+    // For targets without threads rayon uses the calling one.
+    cfg!(target_family = "wasm")
+        || rayon::current_thread_index().is_some()
+        || *ARE_RUNNING.get_or_init(start)
+}
+
+/// If the program itself tried to start rayon's threads before, and failed, this cannot tell.
+#[cfg(feature = "parallel")]
+fn start() -> bool {
+    // An error without a cause means that they run already.
+    let started = rayon::ThreadPoolBuilder::new().build_global();
+    started.map_or_else(|error| std::error::Error::source(&error).is_none(), |()| true)
 }

@@ -15,7 +15,7 @@ use glam::DVec3;
 /// | a direction of zeros | (0, 0, −1), as seen from the side of positive z |
 ///
 /// Eyes are rounded to the scene's grid, or, beyond 500 extents, to one part in 2⁶¹ of their distance;
-/// directions to one part in 2⁵². Of eyes beyond about 2³⁶⁰ extents only the direction counts, and a
+/// directions to one part in 2⁵². Of eyes beyond about 2³⁷⁰ extents only the direction counts, and a
 /// coordinate beyond about 2⁹⁷⁰ extents counts as infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {

@@ -4,9 +4,9 @@ mod arena;
 mod divide;
 mod emit;
 mod leaf;
-mod small;
 mod state;
 mod table;
+mod tabled;
 
 use super::assemble::Output;
 use super::choose::{Choice, Set};
@@ -54,8 +54,10 @@ impl<K: Kernel> Builder<'_, K> {
         if !set.is_empty() {
             self.shared.budget.check_depth(depth)?;
         }
-        if !is_leaf(set) && self.shared.rules.is_small(set.len()) {
-            return self.divide_small(start, pending.depth);
+        if !is_leaf(set)
+            && let Some(quick) = self.shared.rules.tabled(set.len())
+        {
+            return self.divide_tabled(start, pending.depth, quick);
         }
         let plane = if is_leaf(set) {
             // Only the root can be a leaf here: other leaves were stored with their parents.

@@ -158,7 +158,7 @@ fn prepared<P: Polygon>(
     Ok((faces, preparation))
 }
 
-/// What trees are built in, kept for the next.
+/// Memory that trees are built in, one frame after the other.
 #[derive(Default)]
 pub(super) struct Workshop {
     preparer: Preparer,

@@ -56,7 +56,7 @@ pub(super) fn run<K: Kernel>(
         Ok(slots.len() - 1)
     }
 
-    if job.is_the_last() || !crate::threads::are_running() {
+    if job.is_the_last() || !crate::parallel_map::are_running() {
         return in_turn(shared, job, memory);
     }
     let slots = Mutex::new(vec![None]);

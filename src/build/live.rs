@@ -1,6 +1,8 @@
 //! Pieces of faces while the tree is built.
 
+use crate::Error;
 use crate::exact::{Faces, Kernel, Piece, SymbolKind, Vertex};
+use crate::memory::reserve;
 
 /// A piece of a face on its way down the tree.
 #[derive(Clone, Copy, Debug)]
@@ -91,9 +93,13 @@ impl Live {
         Piece { face: self.face, cut }
     }
 
-    /// The same piece, with its vertices elsewhere in an arena.
-    pub(crate) fn moved_to(self, start: usize) -> Self {
-        Self { start: start as u32, ..self }
+    /// The same piece, with its vertices copied from one arena to the end of another.
+    pub(crate) fn copied<V: Copy>(self, from: &[V], to: &mut Vec<V>) -> Result<Self, Error> {
+        let start = to.len() as u32;
+        let vertices = self.piece(from).cut.unwrap_or_default();
+        reserve(to, vertices.len())?;
+        to.extend_from_slice(vertices);
+        Ok(Self { start, ..self })
     }
 
     /// Whether a corner of the face lies on the box's lower side along an axis.

@@ -1,10 +1,21 @@
-//! Building a tree: options, progress, the driver, the jobs of its threads, the choice of planes.
+//! Building a tree.
+//!
+//! | file | decides |
+//! |---|---|
+//! | `options`, `heuristic` | what users ask for |
+//! | `driver` | the steps from polygons to a tree |
+//! | `builder` | how a set of pieces becomes a node: a leaf, a plane, layers that are peeled off |
+//! | `choose` | which plane divides a set |
+//! | `knife`, `live` | what a piece is on its way down, and how it is cut |
+//! | `job`, `jobs` | which subtrees threads are given, and in which order they work |
+//! | `assemble` | how the subtrees become one tree |
+//! | `budget`, `progress` | when a build ends early |
+//! | `frame_builder`, `extend`, `build_cell`, `overlay_builder` | trees of frames, of more polygons, of a cell of a scene, and of what an overlay has in one place |
 
 mod assemble;
 mod budget;
+mod build_cell;
 mod builder;
-pub(crate) mod cell;
-mod cells;
 pub(crate) mod choose;
 pub(crate) mod driver;
 mod extend;
@@ -15,6 +26,7 @@ mod jobs;
 pub(crate) mod knife;
 pub(crate) mod live;
 mod options;
+pub(crate) mod overlay_builder;
 pub(crate) mod progress;
 
 pub use frame_builder::FrameBuilder;

@@ -1,8 +1,7 @@
 //! Lines of the picture in floats.
 
 use super::frame::Exact;
-use crate::exact::exact_ray::scaled;
-use crate::exact::lattice::exponent_of;
+use crate::exact::lattice::{exponent_of, scaled};
 
 /// The relative error of one rounding.
 pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;

@@ -95,7 +95,7 @@ impl Faces {
 
     /// The axis in which the line where a plane cuts a face is longest.
     pub(crate) fn axis_of_cut(&self, face: u32, plane: PlaneId) -> usize {
-        let own = Plane::through(self.reference_triangle(face).map(|c| self.corner(c))).normal();
+        let own = Plane::through(self.triangle(face)).normal();
         let other = self.plane(plane).normal();
         let product = |j: usize, k: usize| Int::<2>::from(own[j]).times::<2, 4>(&other[k].into());
         let length = |i: usize| {

@@ -9,7 +9,7 @@ use super::exact_kernel::Exact;
 use super::filter::{ExactSplitter, ExactVertex};
 use super::kernel::{Kernel, Piece, Side};
 use super::label::PlaneId;
-use super::lattice::LIMIT;
+use super::lattice::{LIMIT, MAX_TOLERANCE};
 use super::{Faces, Lattice, split};
 
 /// A box by its lower and its upper corner, in lattice units.
@@ -17,7 +17,7 @@ pub(crate) type Cell = [[f64; 3]; 2];
 
 /// The coordinate, with either sign, of a side without a plane. Beyond all lattice points, and within
 /// what the predicates hold.
-const OPEN: f64 = LIMIT + LIMIT / 128.0;
+const OPEN: f64 = LIMIT + MAX_TOLERANCE;
 /// A cell without planes: all of the lattice.
 pub(crate) const EVERYWHERE: Cell = [[-OPEN; 3], [OPEN; 3]];
 
@@ -120,8 +120,7 @@ impl<'f> Clipper<'f> {
         Self { faces, planes, outline: vec![], front: vec![], back: vec![] }
     }
 
-    /// The vertices of what is in the cell of a face: none if that is the whole face; `None` if nothing
-    /// of it is.
+    /// The part of a face in the cell, by its vertices: an empty list is the whole face, `None` no part.
     pub(crate) fn clip(&mut self, face: u32) -> Option<&[ExactVertex]> {
         let Self { faces, planes, outline, front, back } = self;
         outline.clear();

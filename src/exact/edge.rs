@@ -22,12 +22,6 @@ pub(super) struct Moved {
 }
 
 impl Faces {
-    /// The corners that define a face's plane.
-    #[inline]
-    pub(super) fn triangle(&self, face: u32) -> [[f64; 3]; 3] {
-        self.reference_triangle(face).map(|corner| self.corner(corner))
-    }
-
     /// The edge of a face that begins at its corner `k`.
     #[inline]
     pub(super) fn edge(&self, face: u32, k: u32) -> Edge {

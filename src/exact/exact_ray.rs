@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 
 use super::Int;
-use super::lattice::{Lattice, exponent_of};
+use super::lattice::{Lattice, exponent_of, scaled};
 use super::plane::Plane;
 use crate::ray::Ray;
 
@@ -181,14 +181,4 @@ fn quotient(numerator: Int<6>, denominator: Int<4>) -> f64 {
         scaled((numerator.shifted(-exponent as u32) - whole).to_f64() / below, exponent)
     };
     first + rest
-}
-
-/// A number times a power of two that may be beyond the range of `f64`.
-pub(crate) fn scaled(mut value: f64, mut exponent: i32) -> f64 {
-    while exponent != 0 {
-        let step = exponent.clamp(-1000, 1000);
-        value *= 2f64.powi(step);
-        exponent -= step;
-    }
-    value
 }

@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::exact_ray::scaled;
-use super::lattice::exponent_of;
+use super::lattice::{exponent_of, scaled};
 use super::{Lattice, Plane};
 use crate::viewpoint::Viewpoint;
 
@@ -12,7 +11,7 @@ use crate::viewpoint::Viewpoint;
 ///
 /// Within about 500 extents of the scene the rounding is that of the lattice itself, 2⁻⁵² of the
 /// extent; beyond, it is one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵²
-/// of their largest component. Eyes beyond 2³⁶⁰ lattice units are treated as directions. If the
+/// of their largest component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the
 /// direction runs along a plane, the eye is on the side on which the lattice's origin lies. A NaN
 /// coordinate counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +25,7 @@ pub struct Eye {
 const NEAR: f64 = (1u64 << 61) as f64;
 /// The largest shift. For eyes further away the planes' offsets no longer matter: only the
 /// direction does.
-const FAR: u32 = 360;
+const LARGEST_SHIFT: u32 = 360;
 
 /// The largest component of a direction is from two to this power to the next one.
 const DIRECTION_BITS: i32 = 52;
@@ -50,7 +49,7 @@ impl Eye {
         while size * unit > NEAR {
             shift += 1;
             unit *= 0.5;
-            if shift > FAR {
+            if shift > LARGEST_SHIFT {
                 return Self::towards(point);
             }
         }

@@ -4,6 +4,9 @@
 mod saved;
 
 use super::Lattice;
+use super::label::MAX_LABELS;
+use crate::Error;
+use crate::memory::{push, reserve};
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
 /// polygon.
@@ -127,7 +130,8 @@ impl Faces {
         self.faces[face].start as usize..end
     }
 
-    /// How many of a face's corners, from the first on, are part of it: all, but two of a segment.
+    /// How many of a face's corners, from the first on, are part of it: all; two of a segment; one of a
+    /// point.
     pub(crate) fn reach(&self, face: u32) -> usize {
         let Thin { segments, points } = self.thin;
         let from_end = self.len() - face as usize;
@@ -162,6 +166,28 @@ impl Faces {
     pub fn reference_triangle(&self, face: u32) -> [u32; 3] {
         let face = &self.faces[face as usize];
         face.frame.triangle().map(|k| face.start + k)
+    }
+
+    /// Adds a face.
+    pub(crate) fn push(
+        &mut self,
+        polygon: usize,
+        corners: impl ExactSizeIterator<Item = [f64; 3]>,
+        frame: Frame,
+    ) -> Result<(), Error> {
+        let start = self.corners.len();
+        if start + corners.len() >= MAX_LABELS {
+            return Err(Error::too_many_corners(MAX_LABELS));
+        }
+        reserve(&mut self.corners, corners.len())?;
+        self.corners.extend(corners);
+        push(&mut self.faces, Face { start: start as u32, polygon: polygon as u32, frame })
+    }
+
+    /// The lattice points of these.
+    #[inline]
+    pub(crate) fn triangle(&self, face: u32) -> [[f64; 3]; 3] {
+        self.reference_triangle(face).map(|corner| self.corner(corner))
     }
 
     /// The numbers of the polygons that have no face; `polygons` is how many were prepared.

@@ -32,7 +32,7 @@ impl ExactSplitter {
                 ExactSplitter { plane, normal, offset, bound: AXIS_ERROR, band }
             }
             PlaneKind::Face(face) => {
-                let corners = faces.reference_triangle(face).map(|c| faces.corner(c));
+                let corners = faces.triangle(face);
                 let RoundedNormal { normal, size } = RoundedNormal::through(corners);
                 let ([x, y, z], p) = (normal, corners[0]);
                 let offset = x * p[0] + y * p[1] + z * p[2];

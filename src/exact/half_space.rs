@@ -74,7 +74,7 @@ pub(crate) fn meets(
     outline: impl Iterator<Item = (Symbol, LineValues)>,
     half_spaces: &[&ExactHalfSpace],
 ) -> bool {
-    let triangle = faces.reference_triangle(face).map(|corner| faces.corner(corner));
+    let triangle = faces.triangle(face);
     let mut lines = SmallVec::<[LineValues; 12]>::new();
     let mut part = SmallVec::<[(Corner, usize); 12]>::new();
     for (symbol, line) in outline {

@@ -15,6 +15,13 @@ pub const LIMIT: f64 = (1u64 << 51) as f64;
 /// they did; smaller: a scene far out loses coordinates that differ.
 const FAR: f64 = (1u128 << 110) as f64;
 
+/// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
+/// it, so that corners moved onto a plane fit the integers of the exact predicates.
+pub(crate) const MAX_TOLERANCE: f64 = LIMIT / 128.0;
+/// More than the largest coordinate of any corner or vertex: the largest tolerance moves a corner by √3 of
+/// it at most, which makes 1.0136 times the limit.
+pub(crate) const MAX_CORNER: f64 = 1.014 * LIMIT;
+
 /// A cubic grid laid over a scene, fine enough that rounding its corners to it moves none by more
 /// than 2⁻⁵² of the scene's extent.
 ///
@@ -145,6 +152,16 @@ pub(crate) fn integers(point: [f64; 3]) -> [i64; 3] {
 pub(crate) fn exponent_of(value: f64) -> i32 {
     let bits = (value.to_bits() >> 52) as i32;
     if bits > 0 { bits - 1023 } else { exponent_of(value * 2f64.powi(64)) - 64 }
+}
+
+/// A number times a power of two that may be beyond the range of `f64`.
+pub(crate) fn scaled(mut value: f64, mut exponent: i32) -> f64 {
+    while exponent != 0 {
+        let step = exponent.clamp(-1000, 1000);
+        value *= 2f64.powi(step);
+        exponent -= step;
+    }
+    value
 }
 
 /// A power of two that may be beyond the range of `f64`, as two factors within it, and the inverses

@@ -3,16 +3,22 @@
 //! | file | decides |
 //! |---|---|
 //! | `lattice` | how corners are rounded to the grid |
+//! | `faces` | which corners make a face, and which plane it has |
+//! | `label` | by which points and planes a vertex is named |
+//! | `plane` | the integers of a plane |
 //! | `vertex` | on which side of a plane a vertex lies, in integers |
 //! | `rounded_vertex` | where a vertex is, rounded |
 //! | `normal` | how a face's plane lies, rounded |
-//! | `filter` | the same side by rounded distances, where they are certain |
+//! | `filter` | on which side a vertex lies, by floats where they are certain |
 //! | `tolerance` | where a piece lies against a plane |
 //! | `edge` | what an edge of a face is |
 //! | `flatten` | where corners off their face's plane are moved |
 //! | `split` | how a piece is cut |
+//! | `kernel` | what a tree is built with; `exact_kernel` is the one that the library uses |
+//! | `barycentric` | of which corners, and with which weights, a vertex consists |
+//! | `int` | integers of fixed width |
 //! | `cell` | which part of a face is in a cell of a larger scene |
-//! | `convex` | whether an outline is convex |
+//! | `convex_outline` | whether an outline is convex |
 //! | `along` | in which order points of one line come |
 //! | `eye` | how a viewpoint is rounded, and on which side of a plane it lies |
 //! | `exact_ray` | where a ray meets planes, and in which order |
@@ -21,7 +27,7 @@
 pub(crate) mod along;
 mod barycentric;
 pub(crate) mod cell;
-mod convex;
+mod convex_outline;
 mod edge;
 pub(crate) mod exact_kernel;
 pub(crate) mod exact_ray;
@@ -41,7 +47,7 @@ mod split;
 mod tolerance;
 pub(crate) mod vertex;
 
-pub(crate) use convex::is_convex;
+pub(crate) use convex_outline::{is_convex, turns_one_way};
 pub use exact_kernel::{Exact, ExactStored};
 pub use eye::Eye;
 pub use faces::Faces;

@@ -6,7 +6,8 @@ use super::faces::Faces;
 use super::label::PlaneId;
 use super::plane::cross;
 
-/// Larger: normals are taken that are off by more than the bounds of those who use them allow;
+/// A rounded normal is used if its `size` is at most this many times its longest component; of others,
+/// too many bits were cancelled, and integers compute them. Larger: normals are taken that are off by more than the bounds of those who use them allow;
 /// smaller: more of them are computed in integers.
 const CANCELLED: f64 = (1u64 << 18) as f64;
 
@@ -64,7 +65,7 @@ impl Faces {
     /// The normal of a face's plane: each component is within 2⁻³⁴ of the longest of them.
     #[inline]
     pub(crate) fn normal(&self, face: u32) -> DVec3 {
-        let corners = self.reference_triangle(face).map(|corner| self.corner(corner));
+        let corners = self.triangle(face);
         let RoundedNormal { normal, size } = RoundedNormal::through(corners);
         let normal = DVec3::from_array(normal);
         if size <= CANCELLED * normal.abs().max_element() {

@@ -86,7 +86,7 @@ fn classify_exactly(
         (true, true) => Side::Spanning,
         (true, false) => Side::Front,
         (false, true) => Side::Back,
-        // This does not occur: the piece has vertices that span it, and its face is not coplanar.
+        // Not reached: a convex piece with an area lies in the plane only if its face does.
         (false, false) => Side::Coplanar,
     }
 }

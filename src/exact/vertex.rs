@@ -62,9 +62,7 @@ impl Faces {
     /// A partition plane in integers.
     pub(crate) fn plane(&self, plane: PlaneId) -> Plane {
         match plane.kind() {
-            PlaneKind::Face(face) => {
-                Plane::through(self.reference_triangle(face).map(|c| self.corner(c)))
-            }
+            PlaneKind::Face(face) => Plane::through(self.triangle(face)),
             PlaneKind::Axis(axis, corner) => Plane::axis(axis, self.corner(corner)),
         }
     }

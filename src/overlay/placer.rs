@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::anchors::Anchors;
 use super::region::{Cell, Region};
 use super::skeleton::{Place, Skeleton};
-use crate::build::cell::CellBuilder;
 use crate::build::knife::Knife;
 use crate::build::live::Live;
+use crate::build::overlay_builder::OverlayBuilder;
 use crate::build::progress::Watch;
 use crate::exact::{ExactStored, ExactVertex, Faces};
 use crate::tree::BspTree;
@@ -26,7 +26,7 @@ pub(super) struct Pending {
 /// Places polygons, lines and points in a tree; its lists are kept to be used again.
 #[derive(Default)]
 pub(super) struct Placer {
-    pub(super) cells: CellBuilder,
+    pub(super) cells: OverlayBuilder,
     pub(super) cell: Cell,
     pub(super) anchors: Anchors,
     /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:

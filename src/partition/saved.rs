@@ -3,6 +3,7 @@
 use std::io::{self, Read, Write};
 
 use super::{Partition, Wall};
+use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, LoadError, Reader, Writer, u32_at, u64_at};
 
@@ -57,7 +58,7 @@ impl Partition {
         })?;
         file.finish()?;
         lattice.check()?;
-        if !(0.0..=LATTICE_LIMIT / 128.0).contains(&tolerance) {
+        if !(0.0..=MAX_TOLERANCE).contains(&tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
         let is_wrong = |wall: &Wall| wall.axis > 2 || wall.at.abs() > LATTICE_LIMIT;

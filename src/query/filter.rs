@@ -40,7 +40,7 @@ const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 impl RoundedAtRay {
     #[inline]
     fn face(probe: &Probe, faces: &Faces, face: u32) -> (Self, RoundedNormal) {
-        let corners = faces.reference_triangle(face).map(|c| faces.corner(c));
+        let corners = faces.triangle(face);
         let rounded = RoundedNormal::through(corners);
         let mut at = Self { start: 0.0, slope: 0.0, size: rounded.size };
         for (i, c) in rounded.normal.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a ray meets of what a walk has come to, the nearest at hand.
+//! Where a ray meets the fragments that a walk has reached, the nearest first: a heap.
 
 use smallvec::SmallVec;
 
@@ -9,8 +9,8 @@ use crate::exact::Faces;
 /// A binary heap: each meeting comes before the two below it. (That of the standard library compares
 /// without the ray, by which these are compared.)
 ///
-/// A meeting is put in by a few comparisons if it comes later than most, as those at one place do
-/// where their faces are come to in input order, and taken out by one or two a level.
+/// To push takes a few comparisons if the meeting comes later than most, as at one place, where faces
+/// are reached in input order; to pop takes one or two a level.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
     heap: SmallVec<[Meeting; 8]>,

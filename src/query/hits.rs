@@ -34,7 +34,7 @@ struct Search<'t> {
     reached: Reached,
 }
 
-/// Of polygons that were hit: how far along the ray what was hit goes on.
+/// For each polygon hit so far, the depth at which the hit ends.
 #[derive(Clone, Debug, Default)]
 struct Reached {
     /// The last few.

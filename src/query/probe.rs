@@ -1,8 +1,8 @@
 //! A ray, prepared to be held against a tree.
 
-use crate::exact::exact_ray::{ExactRay, Parameter, scaled};
-use crate::exact::lattice::exponent_of;
-use crate::exact::{LATTICE_LIMIT, Lattice};
+use crate::exact::Lattice;
+use crate::exact::exact_ray::{ExactRay, Parameter};
+use crate::exact::lattice::{MAX_CORNER, exponent_of, scaled};
 use crate::ray::Ray;
 
 /// A ray in lattice units, rounded, and in integers as soon as they are needed.
@@ -26,9 +26,6 @@ pub(super) struct Probe {
 
 /// Bits of the largest coordinate of an endless ray's rounded direction.
 const SPEED_BITS: i32 = 52;
-
-/// Corners, moved by the tolerance or not, have no coordinates beyond this.
-pub(super) const CORNERS: f64 = 1.02 * LATTICE_LIMIT;
 
 /// The grid of a segment's ends has steps of up to 2⁻¹²² of its largest coordinate. Segments that are
 /// shorter than this share of it lose more of their direction than a thousandth of a rounding.
@@ -64,7 +61,7 @@ impl Probe {
         };
         let origin = lattice.to_lattice(from);
         let largest = |v: [f64; 3]| v.into_iter().fold(0.0, |max: f64, c| max.max(c.abs()));
-        let (reach, speed) = (largest(origin) + CORNERS, largest(direction));
+        let (reach, speed) = (largest(origin) + MAX_CORNER, largest(direction));
         Some(Self {
             ray,
             lattice: *lattice,

@@ -117,7 +117,7 @@ fn outline<'f>(
     faces: &'f Faces,
 ) -> impl Iterator<Item = (crate::exact::Symbol, LineValues)> + use<'f> {
     let face = fragment.face();
-    let triangle = faces.reference_triangle(face).map(|corner| faces.corner(corner));
+    let triangle = faces.triangle(face);
     let values = move |line: Line| {
         let plane = match line.as_cut() {
             Some(plane) => faces.plane(plane),

@@ -11,8 +11,9 @@ use std::ops::Range;
 use smallvec::SmallVec;
 
 use super::boxes::Boxes;
-use super::probe::{CORNERS, Probe};
+use super::probe::Probe;
 use crate::exact::LATTICE_LIMIT;
+use crate::exact::lattice::MAX_CORNER;
 use crate::tree::node_record::Ranges;
 use crate::tree::{Bounds, BspTree};
 
@@ -49,8 +50,8 @@ struct Part {
 const LEAF: u32 = u32::MAX;
 
 /// Error bound of a plane that is rounded to `f32`, at points of the scene, in units of 2⁵¹ lattice
-/// steps: 2⁻²⁴ of the normal's coordinates, which the point's are at most 1.02 times, and of the offset.
-/// With a unit normal that is 2⁻²⁴ · 1.02 · (√3 + √3).
+/// steps: 2⁻²⁴ of the normal's coordinates, which the point's are at most 1.014 times, and of the offset.
+/// With a unit normal that is 2⁻²⁴ · 1.014 · (√3 + √3).
 const PLANE_ERROR: f64 = 2.2e-7;
 
 /// Rounding of a plane's distance at a point of the ray, as a share of the probe's reach.
@@ -175,7 +176,7 @@ impl<'t> Walk<'t> {
 
     /// The parameters between which the ray is where corners can be; `None` if it never is.
     fn within_reach(&self, probe: &Probe) -> Option<[f64; 2]> {
-        let reach = CORNERS / LATTICE_LIMIT + self.slack;
+        let reach = MAX_CORNER / LATTICE_LIMIT + self.slack;
         // An endless ray without a direction is a point as well.
         let is_endless = probe.is_endless && probe.speed > 0.0;
         let (mut from, mut to) = (0.0_f64, if is_endless { f64::INFINITY } else { 1.0 });

@@ -52,7 +52,7 @@ pub fn picture(
 
 /// The normal of a face, of length 1.
 pub(super) fn flat_normal(faces: &Faces, face: u32) -> DVec3 {
-    let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
+    let triangle = faces.triangle(face);
     DVec3::from_array(normal_of(triangle).0).normalize_or_zero()
 }
 

@@ -34,7 +34,7 @@ impl Sheet {
     pub(crate) fn new(rays: &Rays, faces: &Faces, plane: PlaneId) -> Self {
         match plane.kind() {
             PlaneKind::Face(face) => {
-                let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
+                let triangle = faces.triangle(face);
                 let (normal, size) = normal_of(triangle);
                 Self::with(rays, normal, size, triangle[0])
             }

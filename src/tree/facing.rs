@@ -47,7 +47,7 @@ const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// Which side of a face an eye sees: by floats where the bound allows, else exactly.
 pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
-    let [p, q, r] = faces.reference_triangle(face).map(|corner| faces.corner(corner));
+    let [p, q, r] = faces.triangle(face);
     let (at, w) = eye.homogeneous();
     let (mut distance, mut size) = (0.0, 0.0);
     for i in 0..3 {

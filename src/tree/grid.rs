@@ -60,9 +60,7 @@ pub(super) fn offset(faces: &Faces, plane: PlaneId) -> f64 {
 /// Three lattice points of a plane, counter-clockwise seen from its front.
 pub(crate) fn plane_points(faces: &Faces, plane: PlaneId) -> [[i64; 3]; 3] {
     match plane.kind() {
-        PlaneKind::Face(face) => {
-            faces.reference_triangle(face).map(|corner| integers(faces.corner(corner)))
-        }
+        PlaneKind::Face(face) => faces.triangle(face).map(integers),
         PlaneKind::Axis(axis, corner) => {
             let point = integers(faces.corner(corner));
             [point, along(point, (axis + 1) % 3), along(point, (axis + 2) % 3)]

@@ -78,7 +78,7 @@ fn a_build_is_cancelled_from_the_first_call_before_it_reads_its_polygons() {
     });
     let error = result.expect_err("cancelled");
     assert!(error.is_cancelled() && !error.is_over_budget(), "{error}");
-    assert_eq!((calls, error.to_string().as_str()), (1, "the build was cancelled"));
+    assert_eq!((calls, error.to_string().as_str()), (1, "cancelled by the progress callback"));
     assert!(read <= 1, "{read}");
 }
 

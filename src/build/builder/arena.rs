@@ -6,7 +6,7 @@ use super::state::{Builder, COMPACT};
 use crate::Error;
 use crate::build::job::Job;
 use crate::exact::Kernel;
-use crate::memory::{collect, reserve};
+use crate::memory::collect;
 
 impl<K: Kernel> Builder<'_, K> {
     /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
@@ -16,11 +16,7 @@ impl<K: Kernel> Builder<'_, K> {
         for pending in &mut self.pending {
             if pending.job.is_none() {
                 for live in &mut self.pieces[pending.range.clone()] {
-                    let start = arena.len();
-                    let vertices = live.piece(&self.arena).cut.unwrap_or_default();
-                    reserve(&mut arena, vertices.len())?;
-                    arena.extend_from_slice(vertices);
-                    *live = live.moved_to(start);
+                    *live = live.copied(&self.arena, &mut arena)?;
                 }
             }
             pending.arena = arena.len();
@@ -38,11 +34,7 @@ impl<K: Kernel> Builder<'_, K> {
         let mut pieces =
             if start == 0 { take(&mut self.pieces) } else { collect(self.pieces.drain(start..))? };
         for live in &mut pieces {
-            let start = arena.len();
-            let vertices = live.piece(&self.arena).cut.unwrap_or_default();
-            reserve(&mut arena, vertices.len())?;
-            arena.extend_from_slice(vertices);
-            *live = live.moved_to(start);
+            *live = live.copied(&self.arena, &mut arena)?;
         }
         pieces.shrink_to_fit();
         Ok(Job { pieces, arena, depth })

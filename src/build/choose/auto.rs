@@ -1,15 +1,15 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
-use super::choice::Choice;
-use super::cost::{Candidate, Cost};
+use super::cost::{Candidate, Cost, Terms};
 use super::free::Sweep;
-use super::own::{Contest, Shares, Terms, trusted_share};
+use super::own::Contest;
 use super::peel::{Peeler, arrange};
-use super::rules::Rules;
+use super::quick::{Middle, even_plane};
 use super::sample::Sample;
 use super::set::Set;
 use super::sketch::LANES;
 use super::tuning::Tuning;
+use super::{Choice, Rules};
 use crate::Error;
 use crate::build::live::Live;
 use crate::build::progress::AT_ONCE;
@@ -25,7 +25,10 @@ pub(super) struct Auto {
 }
 
 impl Auto {
-    /// A plane that cuts nothing, if one is found, else the best of free planes and own ones.
+    /// The first that applies of: the plane on which all pieces lie; of two pieces, the plane of one that
+    /// does not cut the other; in frames, an own plane that cuts nothing and divides evenly; a free plane
+    /// that cuts nothing; in frames, a plane in the middle that cuts only what crosses it; pieces that are
+    /// peeled off; the plane of least cost.
     pub(super) fn choose<K: Kernel>(
         &mut self,
         rules: &Rules<'_>,
@@ -41,8 +44,9 @@ impl Auto {
         {
             return Ok(Choice::Split(plane));
         }
-        if set.len() < tuning.small
-            && let Some(plane) = even_plane(set, tuning)
+        let quick = tuning.quick.filter(|_| set.len() < tuning.small);
+        if let Some(quick) = quick
+            && let Some(plane) = even_plane(set, tuning, &quick)
         {
             return Ok(Choice::Split(plane));
         }
@@ -56,8 +60,8 @@ impl Auto {
         {
             return Ok(Choice::Split(free.plane));
         }
-        if set.len() < tuning.small && tuning.probes > 0 {
-            let middle = Middle::of(set, tuning);
+        if let Some(quick) = quick.filter(|quick| quick.probes > 0) {
+            let middle = Middle::of(set, &quick);
             if !matches!(middle, Middle::Taken)
                 && set.len() >= tuning.clean_below
                 && let Some(gap) = self.sweep.clean(set, tuning)?
@@ -197,65 +201,6 @@ fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Cand
         (Some(one), _) | (None, Some(one)) => one.plane,
         (None, None) => set.own_plane(0),
     })
-}
-
-/// An own plane that cuts nothing and divides the set evenly, among those of a few pieces. Layers of a
-/// stack have such planes; in other sets a few pieces are enough to see that one is cut.
-fn even_plane<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Option<PlaneId> {
-    let least = set.len() / tuning.uneven;
-    let shares = Shares::of(set.size());
-    let least_share = trusted_share(set.faces, tuning);
-    let is_trusted = |&piece: &usize| shares.get(&set.pieces[piece]) >= least_share;
-    let mut planes = set.sample(tuning.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
-    planes.find(|&plane| {
-        let splitter = set.splitter(plane);
-        let (mut front, mut back) = (0, 0);
-        let is_whole = (0..set.len()).all(|piece| {
-            let side = set.classify(&splitter, piece);
-            front += usize::from(side == Side::Front);
-            back += usize::from(side == Side::Back);
-            // If all of a first sample is on one side, so is nearly all of the set.
-            side != Side::Spanning && (piece < tuning.first_sample || front.min(back) > 0)
-        });
-        is_whole && front.min(back) >= least
-    })
-}
-
-/// What is in the middle of a set along the longest side of its box. Without the pieces there, as
-/// those on two sides of a ring, the set comes apart in halves.
-enum Middle {
-    Gap,
-    /// A piece whose plane cuts others, but only such as cross the piece: any tree has to cut them, or
-    /// it.
-    Crossing(PlaneId),
-    /// Pieces with planes that cut nothing, or more than they have to.
-    Taken,
-}
-
-impl Middle {
-    fn of<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        let (axis, middle) = set.middle();
-        let is_there = |&own: &usize| {
-            let piece = &set.pieces[own];
-            piece.min[axis] < middle && middle < piece.max[axis]
-        };
-        let cuts_what_crosses = |&own: &usize| {
-            let splitter = set.splitter(set.own_plane(own));
-            let mut cuts = 0;
-            let is_needed = (0..set.len()).all(|piece| {
-                let spans = set.classify(&splitter, piece) == Side::Spanning;
-                cuts += usize::from(spans);
-                !spans || set.cross(own, piece)
-            });
-            is_needed && cuts > 0
-        };
-        let mut there = (0..set.len()).filter(is_there).take(tuning.probes).peekable();
-        if there.peek().is_none() {
-            return Self::Gap;
-        }
-        let own = there.find(cuts_what_crosses);
-        own.map_or(Self::Taken, |own| Self::Crossing(set.own_plane(own)))
-    }
 }
 
 #[cfg(test)]

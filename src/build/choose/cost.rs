@@ -3,7 +3,9 @@
 use std::cmp::Ordering;
 use std::ops::AddAssign;
 
-use crate::exact::PlaneId;
+use super::set::Set;
+use super::tuning::Tuning;
+use crate::exact::{Kernel, PlaneId};
 
 /// How many pieces lie in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +69,61 @@ impl Cost {
     }
 }
 
+/// What decides between candidates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Terms {
+    /// What a polygon that fills the box is worth.
+    reward: f64,
+    /// How many pieces there are.
+    pub(super) pieces: f64,
+    /// In a large set, a plane that cuts nothing is passed over unless both sides, or the plane
+    /// itself, get at least this many pieces.
+    least: Option<f64>,
+}
+
+impl Terms {
+    /// Of a small set: what cuts nothing is preferred.
+    pub(super) fn small<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+        Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
+    }
+
+    /// Of so many pieces, cut so many times together.
+    pub(super) fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
+        let pieces = pieces as f64;
+        let mean = cuts as f64 / pieces;
+        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
+    }
+
+    /// Of a large set. Whether a plane cuts is left out: the first rounds see a sample, in which many
+    /// planes cut nothing that cut much of the set.
+    pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+        let least = Some((set.len() / tuning.least_share) as f64);
+        Self { least, ..Self::small(set, tuning) }
+    }
+
+    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
+    /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
+    pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
+        let ratio = looked as f64 / all as f64;
+        Self {
+            reward: self.reward * work(looked) / work(all),
+            pieces: looked as f64,
+            least: self.least.map(|least| least * ratio),
+        }
+    }
+
+    #[inline]
+    pub(super) fn cost(&self, counts: &Counts, share: f64) -> Cost {
+        let cost = Cost::of(counts);
+        let amount = cost.amount - self.reward * share;
+        let Some(least) = self.least else { return Cost { amount, ..cost } };
+        let [front, back] = [counts.front, counts.back].map(f64::from);
+        let on = self.pieces - front - back;
+        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;
+        Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
+    }
+}
+
 /// A plane with what it costs to divide a set by it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
@@ -110,13 +167,55 @@ const fn sqrt(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::work;
+    use super::{Counts, Terms, work};
 
     #[test]
     fn work_is_a_power() {
         for n in [0, 1, 2, 3, 100, 1023, 1024, 5000, 1 << 28] {
             let expected = (n as f64).powf(1.25);
             assert!((work(n) - expected).abs() <= expected * 1e-14, "{n}: {}", work(n));
+        }
+    }
+
+    #[test]
+    fn a_large_set_passes_over_planes_that_take_little_off() {
+        let terms = Terms { reward: 0.0, pieces: 100.0, least: Some(10.0) };
+        let is_passed_over = |terms: &Terms, [front, back, splits]: [u32; 3]| {
+            terms.cost(&Counts { front, back, splits }, 0.0).amount.is_infinite()
+        };
+        for (counts, expected) in [
+            ([99, 0, 0], true),
+            ([0, 99, 0], true),
+            ([91, 9, 0], true),
+            ([90, 10, 0], false),
+            ([10, 90, 0], false),
+            // Many are on the plane.
+            ([90, 0, 0], false),
+            ([0, 90, 0], false),
+            ([45, 45, 0], false),
+            // It cuts something.
+            ([98, 0, 1], false),
+        ] {
+            assert_eq!(is_passed_over(&terms, counts), expected, "{counts:?}");
+            // The tenth of a set, of which a tenth of all counts.
+            let few = Terms { pieces: 1000.0, least: Some(100.0), ..terms }.of_sample(100, 1000);
+            assert_eq!(is_passed_over(&few, counts), expected, "{counts:?} of a sample");
+        }
+    }
+
+    /// Half of a set, and half of each count: all costs are less by the same factor.
+    #[test]
+    fn costs_of_samples_compare_as_those_of_all() {
+        let terms = Terms { reward: 300.0, pieces: 400.0, least: None };
+        let half = terms.of_sample(200, 400);
+        for (front, back, splits, share) in
+            [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)]
+        {
+            let all = terms.cost(&Counts { front, back, splits }, share);
+            let [front, back, splits] = [front, back, splits].map(|count| count / 2);
+            let sample = half.cost(&Counts { front, back, splits }, share);
+            let expected = all.amount * work(200) / work(400);
+            assert!((sample.amount - expected).abs() < 1e-9, "{sample:?}, not {expected}");
         }
     }
 }

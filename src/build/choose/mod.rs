@@ -1,13 +1,25 @@
 //! Choosing the splitter of a set of pieces.
+//!
+//! | file | decides |
+//! |---|---|
+//! | `auto` | the default heuristic: what is tried, and in which order |
+//! | `cost` | what a plane costs; the lowest cost wins |
+//! | `free` | which planes perpendicular to the axes are candidates |
+//! | `own` | which of the pieces' own planes is best, by successive halving |
+//! | `quick` | in frames: which own plane of a small set is good enough to end the search |
+//! | `peel` | which pieces are taken off one after the other, cutting nothing |
+//! | `sample`, `sketch` | with which pieces planes are compared, and on which side these are, rounded |
+//! | `scored` | the heuristics that count what each own plane does to all pieces |
+//! | `set`, `places` | what is known of a set and of its pieces |
+//! | `tuning` | the numbers |
 
 mod auto;
-mod choice;
 mod cost;
 mod free;
 mod own;
 mod peel;
 mod places;
-mod rules;
+mod quick;
 mod sample;
 mod scored;
 mod set;
@@ -17,19 +29,49 @@ mod tests;
 mod tuning;
 
 use super::heuristic::{DEFAULT_WEIGHTS, Heuristic};
+use super::progress::Watch;
 use crate::Error;
 use crate::exact::{Kernel, PlaneId};
 use crate::random::mix;
 use auto::Auto;
-pub(super) use choice::Choice;
 use free::Sweep;
-pub(super) use own::Best;
 pub(super) use peel::Peeled;
 pub(super) use places::Places;
-pub(super) use rules::{MOST_IN_TABLE, Rules};
+pub(super) use quick::Best;
 use scored::Scored;
 pub(super) use set::Set;
-pub use tuning::Tuning;
+pub use tuning::{Quick, Tuning};
+
+/// The most pieces of a set that is divided from a table: half as many as a table has room for.
+pub(super) const MOST_IN_TABLE: usize = 32;
+
+/// What is to be done with a set.
+#[derive(Debug)]
+pub(super) enum Choice {
+    /// It is divided by this plane.
+    Split(PlaneId),
+    /// These pieces are taken off it.
+    Peel(Peeled),
+}
+
+/// The settings of the chooser.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules<'a> {
+    pub(super) heuristic: Heuristic,
+    pub(super) tuning: &'a Tuning,
+    /// Once a build is cancelled, any plane is chosen, quickly.
+    pub(super) watch: &'a Watch<'a>,
+}
+
+impl<'a> Rules<'a> {
+    /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
+    pub(super) fn tabled(&self, pieces: usize) -> Option<&'a Quick> {
+        let quick = self.tuning.quick.as_ref()?;
+        let is_tabled =
+            self.heuristic == Heuristic::Auto && pieces <= quick.table.min(MOST_IN_TABLE);
+        is_tabled.then_some(quick)
+    }
+}
 
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -40,8 +82,9 @@ pub(super) struct Chooser {
 }
 
 impl Chooser {
-    /// Chooses what to do with a set of at least one piece. `is_peeled`: peeling has just been tried
-    /// on it. Not every plane chosen makes progress; the builder checks.
+    /// Chooses what to do with a set of at least one piece. `is_peeled`: it is what peeling left; then
+    /// peeling is not tried again if the set is small. Not every plane chosen makes progress; the
+    /// builder checks.
     pub(super) fn choose<K: Kernel>(
         &mut self,
         rules: &Rules<'_>,

@@ -3,14 +3,14 @@
 #[cfg(test)]
 mod tests;
 
-use super::cost::{Candidate, Cost, Counts, work};
+use super::cost::{Candidate, Cost, Counts, Terms};
 use super::sample::Sample;
 use super::set::Set;
 use super::sketch::{LANES, SketchPlane};
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
-use crate::exact::{Faces, Kernel, LATTICE_LIMIT};
+use crate::exact::Kernel;
 
 /// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]
@@ -24,61 +24,6 @@ struct Entrant {
     plane: SketchPlane,
     /// Of the pieces that it was compared with.
     counts: Counts,
-}
-
-/// What decides between candidates.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Terms {
-    /// What a polygon that fills the box is worth.
-    reward: f64,
-    /// How many pieces there are.
-    pieces: f64,
-    /// In a large set, a plane that cuts nothing is passed over unless both sides, or the plane
-    /// itself, get at least this many pieces.
-    least: Option<f64>,
-}
-
-impl Terms {
-    /// Of a small set: what cuts nothing is preferred.
-    pub(super) fn small<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
-    }
-
-    /// Of so many pieces, cut so many times together.
-    fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
-        let pieces = pieces as f64;
-        let mean = cuts as f64 / pieces;
-        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
-    }
-
-    /// Of a large set. Whether a plane cuts is left out: the first rounds see a sample, in which many
-    /// planes cut nothing that cut much of the set.
-    pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        let least = Some((set.len() / tuning.least_share) as f64);
-        Self { least, ..Self::small(set, tuning) }
-    }
-
-    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
-    /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
-    fn of_sample(&self, looked: usize, all: usize) -> Self {
-        let ratio = looked as f64 / all as f64;
-        Self {
-            reward: self.reward * work(looked) / work(all),
-            pieces: looked as f64,
-            least: self.least.map(|least| least * ratio),
-        }
-    }
-
-    #[inline]
-    fn cost(&self, counts: &Counts, share: f64) -> Cost {
-        let cost = Cost::of(counts);
-        let amount = cost.amount - self.reward * share;
-        let Some(least) = self.least else { return Cost { amount, ..cost } };
-        let [front, back] = [counts.front, counts.back].map(f64::from);
-        let on = self.pieces - front - back;
-        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;
-        Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
-    }
 }
 
 /// How much of its set's bounding box a piece fills along its two longer sides, 0 to 1.
@@ -101,94 +46,6 @@ impl Shares {
         });
         // The largest product of two of the three.
         (x * y).max(y * z).max(z * x)
-    }
-}
-
-/// The share of its set's box that a piece has to fill for its plane to be trusted at once.
-///
-/// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have planes of
-/// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
-/// others that belong together.
-pub(super) fn trusted_share(faces: &Faces, tuning: &Tuning) -> f64 {
-    let is_coarse = faces.tolerance() > tuning.coarse * LATTICE_LIMIT;
-    if is_coarse { tuning.trusted_share } else { 0.0 }
-}
-
-/// The best own plane of a small set, by exact counts of all its pieces.
-#[derive(Debug)]
-pub(in crate::build) struct Best {
-    terms: Terms,
-    shares: Shares,
-    trusted_share: f64,
-    cost: Cost,
-    slot: usize,
-    is_trusted: bool,
-    is_good: bool,
-    uneven: usize,
-}
-
-impl Best {
-    pub(in crate::build) fn new<'a>(
-        pieces: impl Iterator<Item = &'a Live>,
-        faces: &Faces,
-        tuning: &Tuning,
-    ) -> Self {
-        let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        let (mut count, mut cuts) = (0, 0);
-        for piece in pieces {
-            count += 1;
-            cuts += usize::from(piece.cuts);
-            for axis in 0..3 {
-                let (low, high) = (piece.min[axis], piece.max[axis]);
-                min[axis] = if low < min[axis] { low } else { min[axis] };
-                max[axis] = if high > max[axis] { high } else { max[axis] };
-            }
-        }
-        let size = std::array::from_fn(|axis| max[axis] - min[axis]);
-        let terms = Terms::of(count, cuts, tuning);
-        let shares = Shares::of(size);
-        Self {
-            terms,
-            shares,
-            trusted_share: trusted_share(faces, tuning),
-            cost: Cost::MOST,
-            slot: 0,
-            is_trusted: false,
-            is_good: false,
-            uneven: tuning.uneven,
-        }
-    }
-
-    /// Compares the plane of a piece, by which pieces reach in front of it, and which behind.
-    pub(in crate::build) fn see(&mut self, slot: usize, piece: &Live, [front, back]: [u64; 2]) {
-        let cut = front & back;
-        // Counting bits takes a while on processors without an instruction for it.
-        let splits = if cut == 0 { 0 } else { cut.count_ones() };
-        let [front, back] = [front, back].map(u64::count_ones);
-        let counts = Counts { front: front - splits, back: back - splits, splits };
-        let share = self.shares.get(piece);
-        let cost = self.terms.cost(&counts, share);
-        if cost.is_less(&self.cost) {
-            (self.cost, self.slot) = (cost, slot);
-            let pieces = self.terms.pieces as usize;
-            self.is_trusted = share >= self.trusted_share;
-            self.is_good = self.is_trusted && Cost::of(&counts).divides_evenly(pieces, self.uneven);
-        }
-    }
-
-    /// Whether the best plane can be trusted, cuts nothing, and leaves enough on both sides.
-    pub(in crate::build) fn is_good(&self) -> bool {
-        self.is_good
-    }
-
-    /// Whether it can be trusted, and cuts nothing.
-    pub(in crate::build) fn is_sure(&self) -> bool {
-        self.is_trusted && !self.cost.cuts
-    }
-
-    /// The slot of the piece with the best plane.
-    pub(in crate::build) fn slot(&self) -> usize {
-        self.slot
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) struct Peeled {
 #[derive(Debug)]
 pub(crate) struct Layer {
     pub(crate) plane: PlaneId,
-    /// Where all others are that are not yet taken.
+    /// The side on which all pieces are that are left.
     pub(crate) rest: Side,
     /// Where its pieces stand among those of all layers.
     range: Range<usize>,

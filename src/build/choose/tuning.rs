@@ -4,22 +4,9 @@
 /// `benches/ABLATION.md` says what each is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
-    /// Sets of at most so many pieces, 32 at most, are divided down to the leaves from a table of
-    /// where each piece lies against each plane. Larger: the table takes longer than it saves;
-    /// smaller: planes are chosen anew for every set. Own planes come first in it, which makes trees
-    /// quickly; trees by free planes are laid out in fewer parts, which makes orders quick.
-    pub table: usize,
-    /// The plane of a piece in a table is taken at once if it cuts at most so many pieces, at least one,
-    /// and each of them crosses the piece: any tree has to cut them, or it. More: polygons that
-    /// cross at random are cut by worse planes; fewer: all planes of rings are compared again and again.
-    pub crossings: usize,
     /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
     /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
     pub clean_below: usize,
-    /// Own planes of a small set that are tried first, and taken at once if they cut nothing and
-    /// divide the set evenly. More: time where each plane cuts something; fewer: stacks of layers are
-    /// searched for the best plane, though any will do.
-    pub probes: usize,
     /// Sets of fewer pieces try more own planes, and pieces that need no cut are peeled off them.
     /// Larger: slightly fewer fragments, but more time and deeper trees; smaller: more fragments on
     /// scans, whose surfaces no free plane follows.
@@ -55,16 +42,6 @@ pub struct Tuning {
     /// itself, get at least 1/`least_share` of the pieces. Otherwise planes at the rim would take off
     /// one piece a search. Larger: long lists; smaller: good planes are rejected.
     pub least_share: usize,
-    /// The share of its set's box that a piece has to fill for its plane to be trusted at once, where
-    /// the tolerance is coarse. Corners in `f32` are rounded, so small polygons that were meant to lie
-    /// in one plane have planes of their own, which separate others that belong together. Less: of 400
-    /// pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50; more:
-    /// each set of layers in `f32` is searched for its best plane.
-    pub trusted_share: f64,
-    /// A tolerance is coarse if it is a larger share of the extent: above that of numbers in `f64`,
-    /// and below that of `f32`. Less: planes of layers in `f64` are searched for, which takes stacks
-    /// 1.4 times as long; more: small cards in `f32` lose their order.
-    pub coarse: f64,
     /// Mean number of pieces per bin of the free-plane search. More: more to sort; fewer: more bins to
     /// bound.
     pub per_bin: usize,
@@ -74,15 +51,14 @@ pub struct Tuning {
     /// one; fewer: more boxes to build, which tell nothing in small sets (of fewer than `small`
     /// pieces): their groups are not near one another.
     pub groups_per_box: usize,
+    /// How small sets are divided quickly; `None` in trees that stay. With it, orders take a fifth longer.
+    pub quick: Option<Quick>,
 }
 
 impl Tuning {
     /// What trees are built with that stay.
     pub const DEFAULT: Self = Self {
-        table: 0,
-        crossings: 0,
         clean_below: 64,
-        probes: 0,
         small: 256,
         own_planes: 96,
         few_own_planes: 16,
@@ -93,14 +69,46 @@ impl Tuning {
         rate: 4,
         reward: 0.35,
         least_share: 8,
-        trusted_share: 0.25,
-        coarse: 1e-8,
         per_bin: 2,
         most_bins: 1024,
         groups_per_box: 64,
+        quick: None,
     };
 
-    /// What frames are built with, of which each is ordered once or twice: small sets are divided
-    /// quickly.
-    pub const FRAMES: Self = Self { table: 32, crossings: 2, probes: 4, ..Self::DEFAULT };
+    /// What frames are built with, of which each is ordered once or twice.
+    pub const FRAMES: Self = Self { quick: Some(Quick::FRAMES), ..Self::DEFAULT };
+}
+
+/// What decides how small sets are divided quickly, in numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Quick {
+    /// Sets of at most so many pieces, 32 at most, are divided down to the leaves from a table of
+    /// where each piece lies against each plane. Larger: the table takes longer than it saves;
+    /// smaller: planes are chosen anew for every set. Own planes come first in it, which makes trees
+    /// quickly; trees by free planes are laid out in fewer parts, which makes orders quick.
+    pub table: usize,
+    /// The plane of a piece in a table is taken at once if it cuts at most so many pieces, at least one,
+    /// and each of them crosses the piece: any tree has to cut them, or it. More: polygons that
+    /// cross at random are cut by worse planes; fewer: all planes of rings are compared again and again.
+    pub crossings: usize,
+    /// Own planes of a small set that are tried first, and taken at once if they cut nothing and
+    /// divide the set evenly. More: time where each plane cuts something; fewer: stacks of layers are
+    /// searched for the best plane, though any will do.
+    pub probes: usize,
+    /// The share of its set's box that a piece has to fill for its plane to be trusted at once, where
+    /// the tolerance is coarse. Corners in `f32` are rounded, so small polygons that were meant to lie
+    /// in one plane have planes of their own, which separate others that belong together. Less: of 400
+    /// pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50; more:
+    /// each set of layers in `f32` is searched for its best plane.
+    pub trusted_share: f64,
+    /// A tolerance is coarse if it is a larger share of the extent: above that of numbers in `f64`,
+    /// and below that of `f32`. Less: planes of layers in `f64` are searched for, which takes stacks
+    /// 1.4 times as long; more: small cards in `f32` lose their order.
+    pub coarse: f64,
+}
+
+impl Quick {
+    /// That of frames.
+    pub const FRAMES: Self =
+        Self { table: 32, crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };
 }

@@ -6,18 +6,13 @@ use std::ops::Range;
 use super::{Face, Faces, Frame, INNER};
 use crate::exact::label::MAX_LABELS;
 use crate::exact::label::bits::Known;
-use crate::exact::lattice::LIMIT;
+use crate::exact::lattice::{LIMIT, MAX_CORNER, MAX_TOLERANCE};
 use crate::exact::{Lattice, Plane, RoundedNormal, have_area, is_convex};
 use crate::parallel_map;
 use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
 
-/// The largest coordinate: a corner that the tolerance moves can leave the lattice by a little, see
-/// the bounds of the filter.
-const LARGEST: f64 = 1.014 * LIMIT;
 /// How many faces one thread checks at a time.
 const PART: usize = 4096;
-/// The largest tolerance, as the preparation limits it.
-const LARGEST_TOLERANCE: f64 = LIMIT / 128.0;
 
 impl Faces {
     pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
@@ -91,7 +86,7 @@ impl Faces {
     /// their planes, within the lattice. O(corners).
     pub(crate) fn check(&self) -> Result<(), LoadError> {
         self.lattice.check()?;
-        if !(0.0..=LARGEST_TOLERANCE).contains(&self.tolerance) {
+        if !(0.0..=MAX_TOLERANCE).contains(&self.tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
         if !Self::is_cell(&self.corners[..self.corners_of_cell()]) {
@@ -109,7 +104,7 @@ impl Faces {
         let range = self.corner_range(face as u32);
         let corners = &self.corners[range.clone()];
         // Before all else: what follows is computed in integers that hold these.
-        let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > LARGEST);
+        let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > MAX_CORNER);
         if let Some(k) = corners.iter().position(is_outside) {
             return Err(invalid("corner", range.start + k, "is outside the grid"));
         }

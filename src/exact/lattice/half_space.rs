@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Lattice, exponent_of};
+use super::{Lattice, exponent_of, scaled};
 use crate::exact::Int;
-use crate::exact::exact_ray::scaled;
 
 /// A half-space in integers: it has the lattice points p with normal·p ≥ offset. Components of the
 /// normal are at most 2¹¹⁷ in magnitude, and the offset is at most 2¹⁸⁰.

@@ -11,8 +11,8 @@ use super::default_tolerance::Ground;
 use super::preparation::Preparation;
 use super::quad::Quad;
 use crate::Error;
-use crate::exact::faces::{Face, Frame, INNER};
-use crate::exact::{Faces, MAX_LABELS, Plane, cross};
+use crate::exact::faces::{Frame, INNER};
+use crate::exact::{Faces, Plane, cross};
 use crate::faces::duplicates::Outlines;
 use crate::faces::listener::Listener;
 use crate::faces::triangulate;
@@ -202,15 +202,8 @@ impl Builder {
         kept: impl ExactSizeIterator<Item = usize> + Clone,
         frame: Frame,
     ) -> Result<(), Error> {
-        let faces = &mut self.faces;
-        let start = faces.corners.len();
-        if start + kept.len() >= MAX_LABELS {
-            return Err(Error::too_many_corners(MAX_LABELS));
-        }
-        reserve(&mut faces.corners, kept.len())?;
-        reserve(&mut faces.faces, 1)?;
-        faces.corners.extend(kept.clone().map(|k| self.corners.kept[k].0));
-        faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
+        let corners = kept.clone().map(|k| self.corners.kept[k].0);
+        self.faces.push(polygon, corners, frame)?;
         // Most polygons become one face with the same corners, which needs no numbers.
         if kept.len() < self.corners.given {
             self.number_last(kept)?;

@@ -7,11 +7,33 @@ use crate::Error;
 use crate::exact::{Lattice, Plane, cross, have_area, is_convex};
 use crate::memory::reserve;
 
+/// A corner on the lattice, and its number.
+pub(super) type Corner = ([f64; 3], u32);
+
+/// Replaces `kept` by the corners of an outline or a line, without those that equal the one before. Of equal
+/// ones the last is kept: its edge is the one that leads on from there.
+pub(super) fn keep_distinct(
+    points: &[DVec3],
+    lattice: &Lattice,
+    kept: &mut Vec<Corner>,
+) -> Result<(), Error> {
+    kept.clear();
+    reserve(kept, points.len())?;
+    for (number, &point) in (0..).zip(points) {
+        let point = lattice.snap(point);
+        match kept.last_mut() {
+            Some((last, kept)) if *last == point => *kept = number,
+            _ => kept.push((point, number)),
+        }
+    }
+    Ok(())
+}
+
 /// The corners of a polygon on the lattice.
 #[derive(Debug, Default)]
 pub(super) struct Corners {
     /// The corners, each with its number. Of equal corners in a row one is kept.
-    pub(super) kept: Vec<([f64; 3], u32)>,
+    pub(super) kept: Vec<Corner>,
     /// How many corners it was given with.
     pub(super) given: usize,
     /// For each kept corner, how many corners the straight run of the outline that begins there
@@ -26,18 +48,9 @@ impl Corners {
         points: &[DVec3],
         lattice: &Lattice,
     ) -> Result<(), Error> {
-        self.kept.clear();
         self.runs.clear();
         self.given = points.len();
-        reserve(&mut self.kept, points.len())?;
-        for (number, &point) in points.iter().enumerate() {
-            let point = lattice.snap(point);
-            match self.kept.last_mut() {
-                // Of equal corners the last is kept: its edge is the one that leads on from here.
-                Some((last, kept)) if *last == point => *kept = number as u32,
-                _ => self.kept.push((point, number as u32)),
-            }
-        }
+        keep_distinct(points, lattice, &mut self.kept)?;
         while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
             self.kept.pop();
         }

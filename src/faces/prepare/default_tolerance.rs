@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::Error;
+use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{Faces, LATTICE_LIMIT, Lattice};
 
 /// The least default tolerance as a share of the scene's extent, the longest side of its bounding
@@ -19,10 +20,6 @@ const LARGEST_ROUNDING: f64 = 1e-5;
 /// Four steps of `f32`, as a share of the largest coordinate: far from the origin that is more than
 /// `LARGEST_ROUNDING` of the extent, and nothing finer than one step is in such numbers.
 const STEPS_OF_F32: f64 = 4.0 * f32::EPSILON as f64;
-
-/// The largest tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
-/// it, so that corners moved onto a plane fit the integers of the exact predicates.
-const LARGEST: f64 = LATTICE_LIMIT / 128.0;
 
 /// The coplanar tolerance: how far polygons may reach from a plane and yet count as lying on it.
 ///
@@ -102,8 +99,8 @@ impl Ground {
             Tolerance::Length(length) => lattice.length_to_lattice(length),
             Tolerance::Relative(share) => share * extent,
         };
-        let coarse = lattice.length_to_lattice(precision).min(LARGEST);
-        Self { lattice, tolerance: tolerance.min(LARGEST), rounding: rounding.max(coarse) }
+        let coarse = lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
+        Self { lattice, tolerance: tolerance.min(MAX_TOLERANCE), rounding: rounding.max(coarse) }
     }
 }
 

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use crate::Error;
-use crate::exact::faces::{Face, Frame};
-use crate::exact::{Faces, Flattener, MAX_LABELS, RoundedNormal};
-use crate::memory::reserve;
+use crate::exact::faces::Frame;
+use crate::exact::{Faces, Flattener, RoundedNormal, turns_one_way};
+use crate::memory::push;
 
 /// A convex quadrilateral with its frame, as the general rules make it.
 #[derive(Debug)]
@@ -24,25 +24,9 @@ impl Quad {
         let [second, third] = widest(&corners);
         let plane = RoundedNormal::through([0, second, third].map(|k| corners[k]));
         let quad = Self { corners, second, third, axis: plane.certain_axis()? };
-        quad.is_convex().then_some(quad)
-    }
-
-    /// Whether it certainly turns one way at all corners, seen along the axis. Then it winds once: at
-    /// four corners it cannot turn all the way round twice.
-    fn is_convex(&self) -> bool {
-        let (x, y) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
-        let [a, b, c, d] = self.corners.map(|corner| [corner[x], corner[y]]);
-        let step = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
-        let steps = [step(a, b), step(b, c), step(c, d), step(d, a)];
-        let (mut left, mut right) = (0, 0);
-        for (a, b) in [(0, 1), (1, 2), (2, 3), (3, 0)] {
-            let products = [steps[a][0] * steps[b][1], steps[a][1] * steps[b][0]];
-            let (turn, size) = (products[0] - products[1], products[0].abs() + products[1].abs());
-            // Two products and their difference are rounded.
-            left += usize::from(turn > f64::EPSILON * size);
-            right += usize::from(turn < -f64::EPSILON * size);
-        }
-        left == 4 || right == 4
+        // Seen along the axis.
+        let (x, y) = ((quad.axis + 1) % 3, (quad.axis + 2) % 3);
+        turns_one_way(corners.map(|corner| [corner[x], corner[y]])).then_some(quad)
     }
 }
 
@@ -78,19 +62,12 @@ impl Quad {
             return Ok(None);
         }
         let start = faces.corners.len();
-        if start + corners.len() >= MAX_LABELS {
-            return Err(Error::too_many_corners(MAX_LABELS));
-        }
-        reserve(&mut faces.corners, corners.len())?;
-        reserve(&mut faces.faces, 1)?;
-        if off.steps != 0.0 {
-            reserve(&mut faces.moved, 1)?;
-            faces.moved.push(((start + spare) as u32, given));
-            corners[spare][axis] -= off.steps;
-        }
-        faces.corners.extend_from_slice(&corners);
+        corners[spare][axis] -= off.steps;
         let frame = Frame::new(second, third, (off.distance > 0.0).then_some(axis));
-        faces.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
+        faces.push(polygon, corners.into_iter(), frame)?;
+        if off.steps != 0.0 {
+            push(&mut faces.moved, ((start + spare) as u32, given))?;
+        }
         Ok(Some(off.distance))
     }
 }

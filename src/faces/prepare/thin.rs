@@ -1,12 +1,11 @@
 //! Segments and points behind the faces of a finished scene.
 
-use glam::DVec3;
-
 use super::Preparer;
+use super::corners::{Corner, keep_distinct};
 use crate::Error;
 use crate::error::InputKind;
-use crate::exact::faces::{Face, Frame};
-use crate::exact::{Faces, LATTICE_LIMIT, Lattice, MAX_LABELS, cross};
+use crate::exact::faces::Frame;
+use crate::exact::{Faces, LATTICE_LIMIT, cross};
 use crate::faces::listener::Listener;
 use crate::input::{Point, Polygon};
 use crate::memory::reserve;
@@ -37,7 +36,7 @@ impl Preparer {
             for (k, ends) in corners.windows(2).enumerate() {
                 let [(from, number), (to, _)] = *ends else { continue };
                 let third = third_corner([from, to], neighbours(&corners, k).into_iter().flatten());
-                push(faces, &[from, to, third], line as u32, Frame::TRIANGLE)?;
+                faces.push(line, [from, to, third].into_iter(), Frame::TRIANGLE)?;
                 numbers.push(number);
             }
         }
@@ -55,9 +54,9 @@ impl Preparer {
         let points = points.into_iter().map(|point| [point]);
         self.read_thin(faces, points, InputKind::Point, listener)?;
         for number in 0..self.input.len() {
-            let at = self.input.polygon(number).iter().map(|&point| faces.lattice.snap(point));
-            let at = at.collect::<smallvec::SmallVec<[_; 1]>>();
-            push(faces, &at, number as u32, Frame::POINT)?;
+            let lattice = faces.lattice;
+            let at = self.input.polygon(number).iter().map(|&point| lattice.snap(point));
+            faces.push(number, at, Frame::POINT)?;
         }
         faces.thin.points = self.input.len();
         Ok(())
@@ -76,27 +75,6 @@ impl Preparer {
             None => Ok(()),
         }
     }
-}
-
-/// A corner of a line on the lattice, and its number. Of equal corners in a row the last is kept: its
-/// segment is the one that leads on from there.
-type Corner = ([f64; 3], u32);
-
-fn keep_distinct(
-    given: &[DVec3],
-    lattice: &Lattice,
-    corners: &mut Vec<Corner>,
-) -> Result<(), Error> {
-    corners.clear();
-    reserve(corners, given.len())?;
-    for (number, &point) in (0..).zip(given) {
-        let point = lattice.snap(point);
-        match corners.last_mut() {
-            Some((last, kept)) if *last == point => *kept = number,
-            _ => corners.push((point, number)),
-        }
-    }
-    Ok(())
 }
 
 /// The corner behind a segment's end, and the one ahead of its beginning. Where a line is closed, they
@@ -129,16 +107,4 @@ fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]
     };
     let is_off = |third: &[f64; 3]| cross(p, q, *third) != [0; 3];
     neighbours.chain([along(2)]).find(is_off).unwrap_or_else(|| along(0))
-}
-
-fn push(faces: &mut Faces, corners: &[[f64; 3]], shape: u32, frame: Frame) -> Result<(), Error> {
-    let start = faces.corners.len();
-    if start + corners.len() >= MAX_LABELS {
-        return Err(Error::too_many_corners(MAX_LABELS));
-    }
-    reserve(&mut faces.corners, corners.len())?;
-    reserve(&mut faces.faces, 1)?;
-    faces.corners.extend_from_slice(corners);
-    faces.faces.push(Face { start: start as u32, polygon: shape, frame });
-    Ok(())
 }

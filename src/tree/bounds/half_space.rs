@@ -17,15 +17,16 @@ pub(crate) struct HalfSpace {
 }
 
 /// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's
-/// magnitudes: coordinates are at most 1.02, and the normal, products and sums are rounded, which makes
-/// 4 · 1.02 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off.
+/// magnitudes: coordinates are at most 1.014, and the normal, products and sums are rounded, which makes
+/// 4 · 1.014 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off.
 /// Smaller: boxes that reach over the plane are behind; larger: more of those near it are not.
 const ROUNDED: f64 = 4.2 / (1_u64 << 24) as f64;
 
 /// Roundings in the place of the plane, by `f64`.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
-/// Further than any corner from the scene's middle, along a normal whose largest coordinate is 1.
+/// More than the distance of any corner from the scene's middle, along a normal whose largest coordinate
+/// is 1.
 const OUTSIDE: f64 = 4.0;
 
 impl HalfSpace {

@@ -14,7 +14,7 @@ pub(in crate::tree) struct Normals {
     high: [f32; 3],
 }
 
-/// More than a unit normal's coordinate is off in `f32`. Smaller: a box may be without the exact
+/// A bound on the error of a unit normal's coordinate in `f32`. Smaller: a box may be without the exact
 /// normal; larger: fewer subtrees are decided at once.
 const ROUNDED: f32 = 2.0 * f32::EPSILON;
 

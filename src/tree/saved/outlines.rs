@@ -4,7 +4,8 @@
 //! meet by name: a plane that passes exactly through a vertex makes no new one. So it is checked that
 //! it *is* there, exactly.
 
-use crate::exact::{Exact, ExactStored, ExactVertex, Faces, Kernel, LATTICE_LIMIT};
+use crate::exact::lattice::MAX_CORNER;
+use crate::exact::{Exact, ExactStored, ExactVertex, Faces, Kernel};
 use crate::exact::{Line, PlaneId, SymbolKind, Vertex};
 use crate::parallel_map;
 use crate::save::{LoadError, invalid};
@@ -12,9 +13,6 @@ use crate::tree::parts::{Parts, Record};
 
 /// How many fragments one thread checks at a time.
 const PART: usize = 4096;
-/// The largest coordinate of a vertex: corners can be outside the lattice by a little, and vertices
-/// are rounded.
-const LARGEST: f64 = 1.02 * LATTICE_LIMIT;
 
 /// An error unless each face has fragments, which are all of it or have outlines. If `keep`, writes
 /// down where their vertices are.
@@ -107,7 +105,8 @@ impl Outline<'_> {
         self.vertices.clear();
         self.vertices.extend(stored.iter().map(|stored| Exact.restore(faces, face, stored)));
         // Where lines are parallel, this is infinite or no number.
-        let is_point = |vertex: &ExactVertex| vertex.position().iter().all(|c| c.abs() <= LARGEST);
+        let is_point =
+            |vertex: &ExactVertex| vertex.position().iter().all(|c| c.abs() <= MAX_CORNER);
         if !self.vertices.iter().all(is_point) {
             return Err("has a vertex outside the grid");
         }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Candidate, Cost, Counts, work};
+use super::super::cost::{Candidate, Cost, work};
 use super::super::sample::Sample;
 use super::super::set::Set;
 use super::super::tests::{Fixture, triangles};
@@ -134,44 +134,4 @@ fn one_sided_are_those_with_all_others_on_one_side() {
         }
     }
     assert!(found > 10, "{found}");
-}
-
-#[test]
-fn a_large_set_passes_over_planes_that_take_little_off() {
-    let terms = Terms { reward: 0.0, pieces: 100.0, least: Some(10.0) };
-    let is_passed_over = |terms: &Terms, [front, back, splits]: [u32; 3]| {
-        terms.cost(&Counts { front, back, splits }, 0.0).amount.is_infinite()
-    };
-    for (counts, expected) in [
-        ([99, 0, 0], true),
-        ([0, 99, 0], true),
-        ([91, 9, 0], true),
-        ([90, 10, 0], false),
-        ([10, 90, 0], false),
-        // Many are on the plane.
-        ([90, 0, 0], false),
-        ([0, 90, 0], false),
-        ([45, 45, 0], false),
-        // It cuts something.
-        ([98, 0, 1], false),
-    ] {
-        assert_eq!(is_passed_over(&terms, counts), expected, "{counts:?}");
-        // The tenth of a set, of which a tenth of all counts.
-        let few = Terms { pieces: 1000.0, least: Some(100.0), ..terms }.of_sample(100, 1000);
-        assert_eq!(is_passed_over(&few, counts), expected, "{counts:?} of a sample");
-    }
-}
-
-/// Half of a set, and half of each count: all costs are less by the same factor.
-#[test]
-fn costs_of_samples_compare_as_those_of_all() {
-    let terms = Terms { reward: 300.0, pieces: 400.0, least: None };
-    let half = terms.of_sample(200, 400);
-    for (front, back, splits, share) in [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)] {
-        let all = terms.cost(&Counts { front, back, splits }, share);
-        let [front, back, splits] = [front, back, splits].map(|count| count / 2);
-        let sample = half.cost(&Counts { front, back, splits }, share);
-        let expected = all.amount * work(200) / work(400);
-        assert!((sample.amount - expected).abs() < 1e-9, "{sample:?}, not {expected}");
-    }
 }

@@ -4,7 +4,7 @@ use super::leaf::is_small_leaf;
 use super::state::{Builder, Pending, Shared};
 use super::table::{Open, Row, SLOTS, Slot, slots};
 use crate::Error;
-use crate::build::choose::{Best, Places, Set};
+use crate::build::choose::{Best, Places, Quick, Rules, Set};
 use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::{push, reserve};
@@ -13,12 +13,17 @@ use crate::tree::parts::{RawChild, RawNode};
 impl<K: Kernel> Builder<'_, K> {
     /// Divides the set on top of the stack, of at most half as many pieces as a table has slots, down
     /// to the leaves.
-    pub(super) fn divide_small(&mut self, start: usize, depth: usize) -> Result<(), Error> {
+    pub(super) fn divide_tabled(
+        &mut self,
+        start: usize,
+        depth: usize,
+        quick: &Quick,
+    ) -> Result<(), Error> {
         self.fill_table(start)?;
         let all = u64::MAX >> (SLOTS - self.table.slots.len());
         self.table.sets.push(Open { set: all, depth });
         while let Some(Open { set, depth }) = self.table.sets.pop() {
-            let row = self.best_of_table(set)?;
+            let row = self.best_of_table(set, quick)?;
             let spanning = set & row.front & row.back;
             if spanning.count_ones() > self.table.free.count_ones() {
                 // There are not enough slots, so smaller sets get tables of their own.
@@ -35,7 +40,7 @@ impl<K: Kernel> Builder<'_, K> {
                 sides[0] |= 1 << parts[0];
                 sides[1] |= 1 << parts[1];
             }
-            self.emit_small(&row, set & !row.front & !row.back, sides, depth + 1)?;
+            self.emit_tabled(&row, set & !row.front & !row.back, sides, depth + 1)?;
         }
         Ok(())
     }
@@ -67,14 +72,15 @@ impl<K: Kernel> Builder<'_, K> {
         Ok(())
     }
 
-    /// The best plane for a set: the first of its own that divides it evenly and cuts nothing, else
-    /// the best of those that cut nothing, a free plane that cuts nothing, or the best of its own.
-    /// (Where an own plane cannot be trusted, free planes come first.)
-    fn best_of_table(&mut self, set: u64) -> Result<Row<K>, Error> {
+    /// The best plane for a set: the first of its own that divides it evenly and cuts nothing, or that
+    /// cuts few pieces, all of which cross its own piece; else the best of those that cut nothing, a
+    /// free plane that cuts nothing, or the best of its own. (Where an own plane cannot be trusted, free
+    /// planes come first.)
+    fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row<K>, Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let table = &mut self.table;
         let pieces = slots(set).map(|slot| &table.slots[slot].piece);
-        let crossings = self.shared.rules.tuning.crossings;
+        let Rules { tuning, watch, .. } = self.shared.rules;
         let mut best: Option<Best> = None;
         let places = Places::<K>::new(faces, &self.arena);
         for slot in slots(set) {
@@ -82,7 +88,7 @@ impl<K: Kernel> Builder<'_, K> {
             let plane = &mut table.planes[*row];
             let unknown = set & !plane.known;
             if unknown != 0 {
-                self.shared.rules.watch.work(unknown.count_ones() as usize)?;
+                watch.work(unknown.count_ones() as usize)?;
             }
             for other in slots(unknown) {
                 let piece = table.slots[other].piece.piece(&self.arena);
@@ -91,13 +97,12 @@ impl<K: Kernel> Builder<'_, K> {
             let cut = set & plane.front & plane.back;
             // What crosses the piece has to be cut anyway, or the piece.
             if cut != 0
-                && cut.count_ones() as usize <= crossings
+                && cut.count_ones() as usize <= quick.crossings
                 && slots(cut).all(|cut| places.cross(piece, &table.slots[cut].piece))
             {
                 return Ok(*plane);
             }
-            let best = best
-                .get_or_insert_with(|| Best::new(pieces.clone(), faces, self.shared.rules.tuning));
+            let best = best.get_or_insert_with(|| Best::new(pieces.clone(), faces, tuning, quick));
             best.see(slot, piece, [set & plane.front, set & plane.back]);
             if best.is_good() {
                 break;
@@ -165,7 +170,7 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     /// Writes a node with what is on its plane and in its leaves, and puts its other sides on the stack.
-    fn emit_small(
+    fn emit_tabled(
         &mut self,
         row: &Row<K>,
         own: u64,

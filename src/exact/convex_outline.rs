@@ -46,7 +46,7 @@ fn step(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
 /// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half
 /// a turn, and all four together are a whole number of turns.
 #[inline]
-fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
+pub(crate) fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
     let steps: [_; 4] = std::array::from_fn(|k| step(points[k], points[(k + 1) % 4]));
     // No branches: for most faces they could not be foretold.
     let (mut left, mut right) = (true, true);

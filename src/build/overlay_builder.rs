@@ -1,4 +1,4 @@
-//! Small trees of pieces that meet in one cell of a larger tree.
+//! Small trees of an overlay's pieces, each of those that meet in one cell of the tree.
 
 use std::mem::take;
 
@@ -17,11 +17,11 @@ use crate::tree::parts::Parts;
 
 /// Builds a tree of the pieces in each cell, in memory that it keeps.
 #[derive(Default)]
-pub(crate) struct CellBuilder {
+pub(crate) struct OverlayBuilder {
     memory: Memory<Exact>,
 }
 
-impl CellBuilder {
+impl OverlayBuilder {
     /// A tree of some pieces, with the positions of its vertices. Give the parts back to
     /// [`keep`](Self::keep) when they are read.
     ///
@@ -42,11 +42,7 @@ impl CellBuilder {
         job.arena.clear();
         reserve(&mut job.pieces, pieces.len())?;
         for piece in pieces {
-            let start = job.arena.len();
-            let vertices = piece.piece(arena).cut.unwrap_or_default();
-            reserve(&mut job.arena, vertices.len())?;
-            job.arena.extend_from_slice(vertices);
-            job.pieces.push(piece.moved_to(start));
+            job.pieces.push(piece.copied(arena, &mut job.arena)?);
         }
         // The budget counts all faces, the tree's among them.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
