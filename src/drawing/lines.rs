@@ -10,6 +10,7 @@ use super::frame::{Exact, Frame, is_opposite, is_same_line, meeting, orientation
 use super::half::{Half, STEP_BITS, STEPS};
 use super::rounded::{ROUNDING, Rounded};
 use super::table::{Table, insert};
+use super::twofold::{self, Twofold};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::memory::push;
@@ -46,6 +47,9 @@ pub(super) struct Lines<'t> {
     rounded: Vec<Rounded>,
     /// Points that each line is known to go through; [`NOWHERE`] for none.
     through: Vec<[u32; 2]>,
+    /// Edges of faces of which corners were moved, by their numbers: floats often cannot tell on which side
+    /// of them others meet.
+    twofold: Table<u32, Twofold>,
     /// The half of each key on which it is positive.
     halves: Table<Key, Half>,
     /// The lines of edges, by where they are.
@@ -68,6 +72,7 @@ impl<'t> Lines<'t> {
             keys: vec![],
             rounded: vec![],
             through: vec![],
+            twofold: Table::default(),
             halves: Table::default(),
             edges: Feet::default(),
             points: Table::default(),
@@ -139,11 +144,27 @@ impl<'t> Lines<'t> {
                 let is_certain = certain.contains(point);
                 *point = if is_certain { self.point(*point)? } else { self.moved(*point)? };
             }
-            return Ok(self.half(Key::Upright(face, k), points)?.flipped(flip));
+            let half = self.half(Key::Upright(face, k), points)?;
+            self.keep_twofold(half)?;
+            return Ok(half.flipped(flip));
         }
         let points = [self.point(a)?, self.point(b)?];
         let is_front = is_positive == self.frame.rays.is_perspective();
-        Ok(self.edge_between(points)?.flipped(is_front))
+        let half = self.edge_between(points)?;
+        if flattened.is_some() {
+            self.keep_twofold(half)?;
+        }
+        Ok(half.flipped(is_front))
+    }
+
+    fn keep_twofold(&mut self, half: Half) -> Result<(), Error> {
+        match half.number() {
+            Some(line) if !self.twofold.contains_key(&line) => {
+                let twofold = Twofold::of(&self.exact_of(self.key(line)));
+                insert(&mut self.twofold, line, twofold)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The half on which the edge from one point to another is positive.
@@ -263,6 +284,9 @@ impl<'t> Lines<'t> {
             Key::Edge(_) => self.edge_between(points)?,
             key => self.half(key, points)?,
         };
+        if other.twofold.contains_key(&line) {
+            self.keep_twofold(own)?;
+        }
         insert(adopted, line, own)?;
         Ok(own.flipped(half.is_negative()))
     }
@@ -316,8 +340,9 @@ impl<'t> Lines<'t> {
         if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
             return Ordering::Equal;
         }
-        let exact = lines.map(|half| self.exact(half));
-        let side = orientation(exact.each_ref());
+        let side = self
+            .twofold_side(lines)
+            .unwrap_or_else(|| orientation(lines.map(|half| self.exact(half)).each_ref()));
         let flips = lines.iter().filter(|half| half.is_negative()).count();
         if flips % 2 == 1 { side.reverse() } else { side }
     }
@@ -388,6 +413,17 @@ impl<'t> Lines<'t> {
         let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
         let axis = self.frame.faces.upright_axis(face).unwrap_or_default();
         ([corners[k as usize], corners[next]], axis)
+    }
+
+    /// The orientation of three lines by pairs of floats, if that is certain. Not if none is an edge of a
+    /// face of which corners were moved: others that floats cannot tell apart go through one point.
+    fn twofold_side(&self, lines: [Half; 3]) -> Option<Ordering> {
+        let known = lines.map(|half| self.twofold.get(&half.number()?));
+        known.iter().find(|known| known.is_some())?;
+        let twofold: [Twofold; 3] = std::array::from_fn(|i| {
+            known[i].copied().unwrap_or_else(|| Twofold::of(&self.exact(lines[i])))
+        });
+        twofold::orientation(twofold.each_ref())
     }
 
     /// The line of a half, in integers.

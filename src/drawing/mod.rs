@@ -50,6 +50,7 @@
 // | `table` | tables by numbers, with a quick hash |
 // | `half` | lines by their numbers, each with a side |
 // | `rounded` | lines in floats |
+// | `twofold` | the same in pairs of floats |
 // | `feet` | lines found by where they are |
 // | `lines` | all lines of a picture, by what made them |
 // | `rect` | boxes in the picture |
@@ -130,6 +131,7 @@ mod table;
 mod through;
 mod tile;
 mod translucent;
+mod twofold;
 mod visible;
 
 pub use edge_run::{EdgeKind, EdgeRun};
