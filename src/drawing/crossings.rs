@@ -6,7 +6,8 @@ use super::feet::Feet;
 use super::frame::is_same_line;
 use super::half::Half;
 use super::halving::VISITED;
-use super::lines::Key;
+use super::inner_edges::InnerEdges;
+use super::lines::{Key, Lines};
 use super::map::VisibilityMap;
 use super::near::distance;
 use super::reporter::{each, sort_by};
@@ -21,6 +22,8 @@ use crate::memory::push;
 struct CutSide {
     line: u32,
     face: u32,
+    /// The face whose edge it is as well, across the edge: a polygon goes on there.
+    across: Option<u32>,
     /// Whether the cell is where the line is negative.
     is_negative: bool,
     /// Where it begins and ends along the line, and in the picture.
@@ -32,7 +35,8 @@ struct CutSide {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CommonSide {
     line: u32,
-    /// The lower number first.
+    /// The lower number first. Of two faces that meet at the line it is the one of the lower number, though the
+    /// other shows.
     pub(super) faces: [u32; 2],
     pub(super) ends: [[f64; 2]; 2],
 }
@@ -47,7 +51,8 @@ impl VisibilityMap<'_> {
     /// A point is on a crossing if both polygons show at it, one on each side. This is read off the map,
     /// so it is as exact: only the ends of runs are rounded. Where an edge of a polygon only touches
     /// another, [`edges`](Self::edges) has it; and [`crossings_in_layers`](Self::crossings_in_layers) what is hidden
-    /// of crossings. A crossing along an edge that triangulation made of one of the polygons is missing.
+    /// of crossings. Along an edge that triangulation made, a polygon that is not planar is crossed where the other
+    /// one lies between its parts; on the other's plane is what is no further from it than the tolerance.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
     /// [`regions`](Self::regions) are found as well.
@@ -57,7 +62,8 @@ impl VisibilityMap<'_> {
     /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
-            let common = self.common_sides(watch)?;
+            let inner = InnerEdges::of(self.stock.frame.faces, watch)?;
+            let common = self.common_sides(&inner, watch)?;
             let mut runs = Vec::new();
             for line in common.chunk_by(|a, b| a.line == b.line) {
                 let first = runs.len();
@@ -74,8 +80,12 @@ impl VisibilityMap<'_> {
 
     /// What sides of cells have in common that lie on either side of a line in which their faces go through one
     /// another, line by line: two phases.
-    pub(super) fn common_sides(&self, watch: &Watch<'_>) -> Result<Vec<CommonSide>, Error> {
-        let mut sides = self.cut_sides(watch)?;
+    pub(super) fn common_sides(
+        &self,
+        inner: &InnerEdges,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<CommonSide>, Error> {
+        let mut sides = self.cut_sides(inner, watch)?;
         sort_by(&mut sides, watch, |a, b| {
             a.line.cmp(&b.line).then(a.places[0].total_cmp(&b.places[0]))
         })?;
@@ -86,7 +96,9 @@ impl VisibilityMap<'_> {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
                 for b in each(watch, VISITED, ahead) {
                     let b = b?;
-                    if b.is_negative != a.is_negative && self.do_cross(a, b, &mut are_crossing)? {
+                    if b.is_negative != a.is_negative
+                        && self.do_cross(a, b, inner, &mut are_crossing)?
+                    {
                         push(&mut common, CommonSide::new([a, b]))?;
                     }
                 }
@@ -95,53 +107,36 @@ impl VisibilityMap<'_> {
         Ok(common)
     }
 
-    /// All sides of cells on lines of cuts, whatever made them: several planes may have cut along one line, and
-    /// what is beyond a border of a tile or a third polygon's edge was not cut again.
-    fn cut_sides(&self, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
+    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes may have
+    /// cut along one line, and what is beyond a border of a tile or a third polygon's edge was not cut again.
+    fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let lines = &self.rims.lines;
-        // The first of the cuts that have the same line, and whether both are positive on the same side.
-        let mut known: Table<u64, Option<(u32, bool)>> = Table::default();
-        let mut cuts = Feet::default();
+        let mut cuts = CutLines::default();
         let add_cuts = |_: u32, cell: &Cell| {
-            for half in cell.sides.iter().map(|side| side.half) {
-                let Some(line) = half.number() else { continue };
-                if !matches!(lines.key(line), Key::Cut(..)) || known.contains_key(&half.line()) {
-                    continue;
-                }
-                let found = lines.same_line(&cuts, half);
-                if found.is_none() {
-                    cuts.add(&lines.foot(half), line)?;
-                }
-                insert(&mut known, half.line(), Some(found.unwrap_or((line, true))))?;
-            }
-            Ok(())
+            let is_cut = |line: u32| matches!(lines.key(line), Key::Cut(..));
+            let mut halves = cell.sides.iter().map(|side| side.half);
+            halves.try_for_each(|half| match half.number().filter(|&line| is_cut(line)) {
+                Some(line) => cuts.add(lines, half, line),
+                None => Ok(()),
+            })
         };
         self.for_each_part(add_cuts, watch)?;
+        let edges = self.edges_on(&mut cuts, inner, watch)?;
         let mut found = Vec::new();
         let add_sides = |item: u32, cell: &Cell| {
-            let face = self.stock.face(item);
-            let (own, sides) = (self.rims.known_outline(face), &cell.sides);
+            let (face, sides) = (self.stock.face(item), &cell.sides);
             for (i, side) in sides.iter().enumerate() {
-                let number = side.half.line();
-                let cut = match known.get(&number) {
-                    Some(&cut) => cut,
-                    None => {
-                        let cut = lines.same_line(&cuts, side.half);
-                        insert(&mut known, number, cut)?;
-                        cut
-                    }
+                let Some((line, is_same)) = cuts.of(lines, side.half)? else { continue };
+                let across = match edges.get(&(face, line)) {
+                    // A polygon that ends there does not go through another.
+                    Some(None) => continue,
+                    Some(across) => *across,
+                    None => None,
                 };
-                // A polygon that ends there does not go through another.
-                let Some((line, is_same)) = cut else { continue };
-                if own.iter().any(|half| half.line() == number) {
-                    continue;
-                }
                 let end = &sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
                 let is_negative = side.half.is_negative() == is_same;
-                push(
-                    &mut found,
-                    self.cut_side(line, face, is_negative, [side.start.at, end.start.at]),
-                )?;
+                let (places, ends) = self.along(line, [side.start.at, end.start.at]);
+                push(&mut found, CutSide { line, face, across, is_negative, places, ends })?;
             }
             Ok(())
         };
@@ -149,33 +144,73 @@ impl VisibilityMap<'_> {
         Ok(found)
     }
 
-    fn cut_side(
+    /// The edges of faces that lie on lines of cuts, to which those inside polygons are added: what is across each, by
+    /// face and line.
+    fn edges_on(
         &self,
-        line: u32,
-        face: u32,
-        is_negative: bool,
-        mut ends: [[f64; 2]; 2],
-    ) -> CutSide {
+        cuts: &mut CutLines,
+        inner: &InnerEdges,
+        watch: &Watch<'_>,
+    ) -> Result<Table<(u32, u32), Option<u32>>, Error> {
+        let lines = &self.rims.lines;
+        // Faces of polygons that do not show have no lines.
+        let outlines =
+            (0..self.stock.views.len() as u32).map(|face| (face, self.rims.known_outline(face)));
+        for outline in each(watch, 1, outlines.clone()) {
+            let (face, halves) = outline?;
+            for (k, half) in (0..).zip(halves) {
+                if let (Some(_), Some(line)) = (inner.across((face, k)), half.number()) {
+                    watch.work(VISITED)?;
+                    cuts.add(lines, *half, line)?;
+                }
+            }
+        }
+        let mut edges = Table::default();
+        for outline in each(watch, 1, outlines) {
+            let (face, halves) = outline?;
+            for (k, half) in (0..).zip(halves) {
+                watch.work(VISITED)?;
+                if let Some((line, _)) = cuts.of(lines, *half)? {
+                    let across = inner.across((face, k)).map(|(face, _)| face);
+                    insert(&mut edges, (face, line), across)?;
+                }
+            }
+        }
+        Ok(edges)
+    }
+
+    /// The ends of a side in the order in which they are along a line, and where that is.
+    fn along(&self, line: u32, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
         let [_, kx, ky] = self.rims.lines.rounded(Half::of(line)).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
         if place(ends[0]) > place(ends[1]) {
             ends.swap(0, 1);
         }
-        CutSide { line, face, is_negative, places: ends.map(place), ends }
+        (ends.map(place), ends)
     }
 
     /// Whether two faces go through one another in the line between cells of theirs.
-    fn do_cross(&self, a: &CutSide, b: &CutSide, known: &mut Known) -> Result<bool, Error> {
+    fn do_cross(
+        &self,
+        a: &CutSide,
+        b: &CutSide,
+        inner: &InnerEdges,
+        known: &mut Known,
+    ) -> Result<bool, Error> {
         let (lines, faces) = (&self.rims.lines, self.stock.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
             return Ok(false);
         }
         let [one, other] = [a.face.min(b.face), a.face.max(b.face)];
-        if lines.key(a.line) == Key::Cut(one, PlaneId::face(other)) {
+        let is_bent = a.across.is_some() || b.across.is_some();
+        if !is_bent && lines.key(a.line) == Key::Cut(one, PlaneId::face(other)) {
             return Ok(true);
         }
         known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
         Ok(*known.entry((a.line, [one, other])).or_insert_with(|| {
+            if is_bent {
+                return inner.bend(faces, [one, other]).is_some();
+            }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
             let cut = one.cut(&other);
             // Faces of one plane have no line in common but all of it.
@@ -195,8 +230,42 @@ impl CommonSide {
     fn new([a, b]: [&CutSide; 2]) -> Self {
         let start = if a.places[0] > b.places[0] { a } else { b }.ends[0];
         let end = if a.places[1] < b.places[1] { a } else { b }.ends[1];
-        let faces = [a.face.min(b.face), a.face.max(b.face)];
+        let first = |side: &CutSide| side.across.map_or(side.face, |face| face.min(side.face));
+        let (one, other) = (first(a), first(b));
+        let faces = [one.min(other), one.max(other)];
         Self { line: a.line, faces, ends: [start, end] }
+    }
+}
+
+/// Lines of which all that are the same have one number.
+#[derive(Default)]
+struct CutLines {
+    feet: Feet,
+    /// The first of each half's line, if it is one of these, and whether both are positive on the same side.
+    known: Table<u64, Option<(u32, bool)>>,
+}
+
+impl CutLines {
+    /// Adds the line of a half. (None was looked for that is not yet added.)
+    fn add(&mut self, lines: &Lines<'_>, half: Half, line: u32) -> Result<(), Error> {
+        if self.known.contains_key(&half.line()) {
+            return Ok(());
+        }
+        let found = lines.same_line(&self.feet, half);
+        if found.is_none() {
+            self.feet.add(&lines.foot(half), line)?;
+        }
+        insert(&mut self.known, half.line(), Some(found.unwrap_or((line, true))))
+    }
+
+    /// That of these lines which is the line of a half.
+    fn of(&mut self, lines: &Lines<'_>, half: Half) -> Result<Option<(u32, bool)>, Error> {
+        if let Some(&found) = self.known.get(&half.line()) {
+            return Ok(found);
+        }
+        let found = lines.same_line(&self.feet, half);
+        insert(&mut self.known, half.line(), found)?;
+        Ok(found)
     }
 }
 

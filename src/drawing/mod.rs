@@ -79,6 +79,7 @@
 // | `edge_run` | runs of edges and crossings |
 // | `edges` | visible and hidden runs of edges |
 // | `shared_edges` | edges, by the faces that have them |
+// | `inner_edges` | edges inside polygons, which triangulation made |
 // | `crossings` | lines in which polygons go through one another |
 // | `through` | faces that go through one another, shown or not |
 // | `sight` | segments and points of the scene as the picture shows them |
@@ -102,6 +103,7 @@ mod frame;
 mod half;
 mod halving;
 mod in_front;
+mod inner_edges;
 mod join;
 mod lines;
 mod map;

@@ -7,6 +7,7 @@ use smallvec::SmallVec;
 
 use super::edge_run::EdgeKind;
 use super::halving::{CUT, VISITED};
+use super::inner_edges::{FaceEdge, InnerEdges};
 use super::lines::Lines;
 use super::reporter::each;
 use super::sight::Sight;
@@ -16,13 +17,13 @@ use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId};
 
 /// The number of an edge, by a face and which of its edges it is.
-pub(super) type Numbers = Table<(u32, u32), u32>;
+pub(super) type Numbers = Table<FaceEdge, u32>;
 
 /// An edge of at least one face.
 #[derive(Debug)]
 pub(super) struct SharedEdge {
     /// Faces, and which of their edges it is.
-    pub(super) faces: SmallVec<[(u32, u32); 2]>,
+    pub(super) faces: SmallVec<[FaceEdge; 2]>,
     /// The edge of the first of the faces; `None` if the picture does not show it as a line.
     pub(super) sight: Option<Sight>,
     /// Where it shows: places along it.
@@ -47,8 +48,7 @@ pub(super) fn shared_edges(
         Ok(*points.entry(place).or_insert(next))
     };
     let mut by_points: Table<[u32; 2], u32> = Table::default();
-    // Edges inside polygons of which one face was met.
-    let mut inner: Table<(usize, [u32; 2]), (u32, u32)> = Table::default();
+    let inner = InnerEdges::of(faces, watch)?;
     let mut numbers = Numbers::default();
     let mut all: Vec<SharedEdge> = Vec::new();
     for face in each(watch, VISITED, 0..faces.len() as u32) {
@@ -62,19 +62,16 @@ pub(super) fn shared_edges(
             let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
             let [a, b] = [point(range.start + k)?, point(next)?];
             let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);
-            let mut known: SmallVec<[(u32, u32); 2]> = SmallVec::from_slice(&[(face, k)]);
+            let mut known: SmallVec<[FaceEdge; 2]> = SmallVec::from_slice(&[(face, k)]);
             let number = if faces.outline_edge(face, k).is_some() {
                 by_points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
                 *by_points.entry(points).or_insert(new)
             } else {
-                let key = (faces.polygon(face), points);
-                let Some(other) = inner.remove(&key) else {
-                    insert(&mut inner, key, (face, k))?;
+                // Each once, with the second of its faces.
+                let before = inner.across((face, k)).filter(|other| *other < (face, k));
+                let Some(other) = before.filter(|other| side(other.0) != side(face)) else {
                     continue;
                 };
-                if side(other.0) == side(face) {
-                    continue;
-                }
                 known.insert(0, other);
                 new
             };
@@ -96,7 +93,7 @@ pub(super) fn shared_edges(
 
 impl Faces {
     /// Where a face's edge `k` begins and ends.
-    fn ends(&self, face: u32, k: u32) -> [[f64; 3]; 2] {
+    pub(super) fn ends(&self, face: u32, k: u32) -> [[f64; 3]; 2] {
         let corners = self.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
         [corners[k as usize], corners[next]]

@@ -86,6 +86,12 @@ impl Sight {
         ((a - b).abs() >= SHORTEST).then_some(sight)
     }
 
+    /// As much of it as lies between two places.
+    pub(super) fn within(mut self, [from, to]: [f64; 2]) -> Option<Self> {
+        self.limit([self.places[0].max(from), self.places[1].min(to)]);
+        (self.places[1] - self.places[0] >= SHORTEST).then_some(self)
+    }
+
     /// A line without ends.
     fn along(rounded: Rounded, source: Source) -> Option<Self> {
         let [_, kx, ky] = rounded.k;

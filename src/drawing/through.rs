@@ -8,6 +8,8 @@ use super::edges::parts;
 use super::half::Half;
 use super::halving::{CUT, LINES, NARROWED, VISITED, found_in};
 use super::in_front::in_layers;
+use super::inner_edges::{Bend, InnerEdges};
+use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::pairs::{Found, Pair, add, sorted};
 use super::reporter::{each, finish_item, sort_by};
@@ -36,12 +38,12 @@ struct Block {
     in_vain: u32,
 }
 
-/// Two faces, and the ends in the picture of the line in which they go through one another.
+/// Two faces, and the line in which they go through one another.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
-    /// The lower number first.
+    /// As those of [`CommonSide`](super::crossings::CommonSide).
     faces: [u32; 2],
-    ends: [[f64; 2]; 2],
+    sight: Sight,
 }
 
 impl VisibilityMap<'_> {
@@ -50,7 +52,7 @@ impl VisibilityMap<'_> {
     /// changes. A crossing of polygons in several faces is in several runs at least.
     ///
     /// Hidden are those of polygons that both have corners on both sides of the other, further from it than the
-    /// tolerance. A crossing along an edge that triangulation made is missing, as in `crossings`.
+    /// tolerance.
     ///
     /// O(n log n) for n faces, and for each pair that goes through one another time and memory as for an edge,
     /// unless there are many with overlapping boxes, as at the tip of a cone of many faces.
@@ -61,9 +63,10 @@ impl VisibilityMap<'_> {
     pub fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(6, |watch| {
             let (stock, faces) = (&self.stock, self.stock.frame.faces);
-            let mut shown = self.common_sides(watch)?;
+            let inner = InnerEdges::of(faces, watch)?;
+            let mut shown = self.common_sides(&inner, watch)?;
             sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
-            let mut pairs = straddling(stock, watch)?;
+            let mut pairs = straddling(stock, &inner, watch)?;
             // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
             for side in each(watch, VISITED, &shown) {
                 let [below, above] = side?.faces;
@@ -71,19 +74,13 @@ impl VisibilityMap<'_> {
             }
             sort_by(&mut pairs, watch, Ord::cmp)?;
             pairs.dedup();
-            let (mut crossings, mut sights) = (Vec::new(), Vec::new());
-            for crossing in crossings_of(&pairs, stock, watch)? {
-                watch.work(CUT)?;
-                let Crossing { faces, ends } = crossing;
-                if let Some(sight) = Sight::crossing(&self.rims.lines, faces, ends) {
-                    push(&mut crossings, crossing)?;
-                    push(&mut sights, sight)?;
-                }
-            }
+            let crossings = crossings_of(&pairs, stock, &inner, watch)?;
+            let sights: Vec<Sight> = collect(crossings.iter().map(|crossing| crossing.sight))?;
             let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
             let steps = self.steps(&sights, is_own, watch)?;
             let (mut layered, mut visible) = (Vec::new(), Vec::new());
-            for (i, (crossing, sight)) in crossings.iter().zip(&sights).enumerate() {
+            for (i, crossing) in crossings.iter().enumerate() {
+                let sight = &crossing.sight;
                 let first = shown.partition_point(|side| side.faces < crossing.faces);
                 let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
                 visible.clear();
@@ -112,7 +109,11 @@ impl VisibilityMap<'_> {
 
 /// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
 /// these than the tolerance, that may go through one another: a phase.
-fn straddling(stock: &Stock<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
+fn straddling(
+    stock: &Stock<'_>,
+    inner: &InnerEdges,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
     let faces = stock.frame.faces;
     let all_bounds: Vec<Bounds> =
         collect((0..faces.len() as u32).map(|face| bounds(faces.corners(face))))?;
@@ -131,12 +132,15 @@ fn straddling(stock: &Stock<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> 
             for b in each(watch, NARROWED, &block.faces[i + 1..]) {
                 let b = *b?;
                 let is_near = !are_apart(&all_bounds[a as usize], &all_bounds[b as usize]);
-                if is_near
-                    && faces.polygon(a) != faces.polygon(b)
-                    && straddles(faces, a, b)
-                    && straddles(faces, b, a)
+                if !is_near || faces.polygon(a) == faces.polygon(b) {
+                    continue;
+                }
+                let is_crossed = faces.straddles(a, b) && faces.straddles(b, a);
+                let bend = || inner.bend(faces, [a, b]).map(|bend| bend.faces);
+                if let Some([below, above]) =
+                    if is_crossed { Some([a.min(b), a.max(b)]) } else { bend() }
                 {
-                    add(found, Pair { below: a.min(b), above: a.max(b) })?;
+                    add(found, Pair { below, above })?;
                 }
             }
         }
@@ -149,6 +153,7 @@ fn straddling(stock: &Stock<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> 
 fn crossings_of(
     pairs: &[Pair],
     stock: &Stock<'_>,
+    inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Crossing>, Error> {
     let shares: Vec<_> = pairs.chunks(SHARE).enumerate().collect();
@@ -158,8 +163,12 @@ fn crossings_of(
         for &Pair { below, above } in pairs {
             watch.work(2 * LINES + CUT)?;
             let faces = [below, above];
-            if let Some(ends) = segment(faces, stock, &mut rims)? {
-                push(&mut found, Crossing { faces, ends })?;
+            let sight = match inner.bend(stock.frame.faces, faces) {
+                Some(bend) => bent(&bend, stock, &mut rims)?,
+                None => straight(faces, stock, &mut rims)?,
+            };
+            if let Some(sight) = sight {
+                push(&mut found, Crossing { faces, sight })?;
             }
         }
         finish_item(watch, i, count);
@@ -176,34 +185,59 @@ fn crossings_of(
 
 /// Where two faces go through one another: where both are in the picture, the line along which they are as far
 /// away.
-fn segment(
+fn straight(
     [one, other]: [u32; 2],
     stock: &Stock<'_>,
     rims: &mut Rims<'_>,
-) -> Result<Option<[[f64; 2]; 2]>, Error> {
+) -> Result<Option<Sight>, Error> {
     let mut halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, one)?);
     halves.extend_from_slice(rims.outline(stock, other)?);
     let View { is_positive, .. } = stock.views[one as usize];
     let cut = rims.lines.cut(one, PlaneId::face(other), true, is_positive)?;
-    let Tile { low, high } = Tile::picture(stock.frame.rays.size());
     let lines = &rims.lines;
-    let picture = Cell::rectangle(lines, low, high);
-    let Some(common) = picture.within(lines, &halves, None)? else { return Ok(None) };
+    let Some(common) = picture(stock, lines).within(lines, &halves, None)? else { return Ok(None) };
     if !common.meets(lines, &[cut.flipped(true)])? {
         return Ok(None);
     }
     let Some(Cell { sides }) = common.within(lines, &[cut], None)? else { return Ok(None) };
-    let side = sides.iter().position(|side| side.half == cut);
-    let next = |i: usize| if i + 1 == sides.len() { 0 } else { i + 1 };
-    Ok(side.map(|i| [i, next(i)].map(|i| sides[i].start.at)))
+    let Some(i) = sides.iter().position(|side| side.half == cut) else { return Ok(None) };
+    let next = if i + 1 == sides.len() { 0 } else { i + 1 };
+    Ok(Sight::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
 }
 
-/// Whether a face has corners on both sides of another's plane, further from it than the tolerance.
-fn straddles(faces: &Faces, face: u32, other: u32) -> bool {
-    let splitter = Exact.splitter(faces, PlaneId::face(other));
-    let mut sides = faces.corners(face).iter().map(|at| splitter.side_beyond(faces, at));
-    let Some(first) = sides.find(|side| side.is_ne()) else { return false };
-    sides.any(|side| side == first.reverse())
+/// Where a face goes through a polygon along an edge inside it.
+fn bent(bend: &Bend, stock: &Stock<'_>, rims: &mut Rims<'_>) -> Result<Option<Sight>, Error> {
+    let Bend { edge: (face, k), other, other_edge, .. } = *bend;
+    let faces = stock.frame.faces;
+    let Some(sight) = Sight::new(&rims.lines, faces.ends(face, k)) else { return Ok(None) };
+    let common = match other_edge {
+        Some(k) => Sight::new(&rims.lines, faces.ends(other, k)).map(|along| {
+            let [a, b] = along.places.map(|place| sight.place(along.at(place)));
+            [a.min(b), a.max(b)]
+        }),
+        None => {
+            let halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, other)?);
+            let cell = picture(stock, &rims.lines).within(&rims.lines, &halves, None)?;
+            cell.and_then(|cell| sight.chord(&rims.lines, &cell))
+        }
+    };
+    Ok(common.and_then(|common| sight.within(common)))
+}
+
+/// All of the picture.
+fn picture(stock: &Stock<'_>, lines: &Lines<'_>) -> Cell {
+    let Tile { low, high } = Tile::picture(stock.frame.rays.size());
+    Cell::rectangle(lines, low, high)
+}
+
+impl Faces {
+    /// Whether a face has corners on both sides of another's plane, further from it than the tolerance.
+    pub(super) fn straddles(&self, face: u32, other: u32) -> bool {
+        let splitter = Exact.splitter(self, PlaneId::face(other));
+        let mut sides = self.corners(face).iter().map(|at| splitter.side_beyond(self, at));
+        let Some(first) = sides.find(|side| side.is_ne()) else { return false };
+        sides.any(|side| side == first.reverse())
+    }
 }
 
 impl Block {

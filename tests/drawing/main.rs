@@ -2,6 +2,7 @@
 //! hand, and against rays.
 
 mod areas;
+mod bent;
 mod between;
 mod coincidences;
 mod crossings;

@@ -1,0 +1,245 @@
+//! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
+
+use super::overlay::{between, origin, place_in, project};
+use super::sightlines::{Origin, Sightlines};
+use super::support::model::Face;
+use super::support::rational::{self, Point, Rational};
+use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, BuildOptions};
+use num_traits::{Signed, Zero};
+use std::cmp::Ordering;
+
+/// A quad that is bent along its shorter diagonal, which a wall goes through.
+#[test]
+fn a_wall_through_the_bend_of_a_quad_crosses_it() {
+    let roof = [[-3.0, 0.0, -1.0], [0.0, -2.0, 0.0], [3.0, 0.0, -1.0], [0.0, 2.0, 0.0]];
+    let wall = |low: f64| [[0.0, -1.0, low], [0.0, 1.0, low], [0.0, 1.0, 2.0], [0.0, -1.0, 2.0]];
+    for (low, expected) in [(-2.0, 2.0), (0.0, 0.0)] {
+        let tree = BspTree::build([roof, wall(low)]).unwrap();
+        assert_eq!(tree.faces().len(), 3, "the roof is bent");
+        let direction = DVec3::new(-1.0, 0.0, -1.0);
+        let camera = Camera::parallel(direction, DVec3::Z, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+        let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+        let in_layers = map.crossings_in_layers().unwrap();
+        assert_eq!(in_layers.len(), usize::from(expected > 0.0), "{in_layers:?}");
+        for run in map.crossings().unwrap().iter().chain(&in_layers) {
+            assert_eq!((run.polygon, run.kind, run.is_visible), (0, EdgeKind::Crossing(1), true));
+            let length = (run.ends[1][0] - run.ends[0][0]).abs();
+            assert!((length - 10.0 * expected).abs() < 1e-6, "{run:?}");
+        }
+    }
+}
+
+/// A number of so many 256ths.
+fn number(random: &mut SplitMix64, most: f64) -> f64 {
+    (random.range(-most, most) * 256.0).round() / 256.0
+}
+
+fn vector(random: &mut SplitMix64, most: f64) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| number(random, most)))
+}
+
+/// Pairs of polygons around lines: at least one of each pair is bent along its line.
+fn pairs(random: &mut SplitMix64, count: usize) -> Vec<Vec<DVec3>> {
+    let mut polygons = vec![];
+    for i in 0..count {
+        // Quarters and eighths of it are numbers of few bits.
+        let (from, along) = (vector(random, 1.0), vector(random, 0.25) * 2.0);
+        let at = |share: f64| from + along * share;
+        // On either side of the line, further apart than it is long: it is the shorter diagonal.
+        let mut sides = || {
+            let away = vector(random, 0.5);
+            let away = away + away.signum() * 0.25;
+            [at(0.5) + away, at(0.5) - away + vector(random, 0.375)]
+        };
+        let ([a, b], [c, d]) = (sides(), sides());
+        polygons.push(vec![at(0.0), a, at(1.0), b]);
+        let other = match i % 4 {
+            // Through the line, beyond its ends or not.
+            0 => vec![at(-0.25) + c - d, at(1.25) + c - d, at(1.25) - c + d, at(-0.25) - c + d],
+            1 => vec![at(0.25) + c - d, at(0.75) + c - d, at(0.5) - c + d],
+            // As far as the line.
+            2 => vec![at(0.0), at(0.75), c],
+            // Bent along it, too.
+            _ => vec![at(0.125), c, at(1.0), d],
+        };
+        polygons.push(other);
+    }
+    polygons
+}
+
+/// The directions in which a polygon goes away from a line at a point of it: two, or fewer if it ends there or is not
+/// there at all.
+fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
+    let mut sides = vec![];
+    for face in faces.iter().filter(|face| face.plane.at(point).is_zero()) {
+        let n = face.corners.len();
+        let turn = |k: usize| {
+            let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
+            let turn =
+                rational::product(&rational::difference(b, a), &rational::difference(point, a));
+            rational::sign(&rational::scalar(&turn, &face.plane.normal))
+        };
+        let turns: Vec<Ordering> = (0..n).map(turn).collect();
+        if turns.contains(&Ordering::Less) {
+            continue;
+        }
+        match turns.iter().position(|turn| turn.is_eq()) {
+            Some(k) => sides.push(rational::difference(&face.corners[(k + 2) % n], point)),
+            None => {
+                let across = rational::product(&face.plane.normal, along);
+                let zero = [(); 3].map(|()| Rational::zero());
+                return vec![rational::difference(&zero, &across), across];
+            }
+        }
+    }
+    sides
+}
+
+/// Where a direction points as seen along a line: in two coordinates.
+fn flat(along: &Point, way: &Point) -> [Rational; 2] {
+    // Any direction that is not the line's spans the plane across it.
+    let axis = (0..3).find(|&i| !along[i].is_zero()).unwrap();
+    let mut other = [(); 3].map(|()| Rational::zero());
+    other[(axis + 1) % 3] = Rational::from_integer(1.into());
+    let x = rational::product(along, &other);
+    let y = rational::product(along, &x);
+    [rational::scalar(&x, way), rational::scalar(&y, way)]
+}
+
+/// Directions in the order of their angles.
+fn by_angle(a: &[Rational; 2], b: &[Rational; 2]) -> Ordering {
+    let is_upper = |[x, y]: &[Rational; 2]| y.is_positive() || y.is_zero() && x.is_positive();
+    let turn = &a[0] * &b[1] - &a[1] * &b[0];
+    is_upper(b).cmp(&is_upper(a)).then(Rational::zero().cmp(&turn))
+}
+
+/// Whether two polygons go through one another at a line; `None` if one lies on the other there.
+fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> {
+    if a.len() < 2 || b.len() < 2 {
+        return Some(false);
+    }
+    let mut all: Vec<([Rational; 2], usize)> = vec![];
+    for (whose, sides) in [a, b].into_iter().enumerate() {
+        all.extend(sides.iter().map(|side| (flat(along, side), whose)));
+    }
+    all.sort_by(|(p, _), (q, _)| by_angle(p, q));
+    let is_same = (0..4).any(|i| by_angle(&all[i].0, &all[(i + 1) % 4].0).is_eq());
+    (!is_same).then(|| all[0].1 == all[2].1)
+}
+
+#[derive(Debug, Default)]
+struct Score {
+    /// By how many polygons are before it: 0, 1, or more.
+    crossed: [usize; 3],
+    /// Where polygons touch.
+    touched: usize,
+    /// Where both are bent.
+    both: usize,
+    unsure: usize,
+}
+
+/// The runs of two polygons on which a point is.
+fn at<'r>(
+    runs: &'r [EdgeRun],
+    pair: [usize; 2],
+    at: [f64; 2],
+) -> impl Iterator<Item = (&'r EdgeRun, bool)> {
+    let [one, other] = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+    let own = move |run: &&EdgeRun| (run.polygon, run.kind) == (one, EdgeKind::Crossing(other));
+    runs.iter().filter(own).filter_map(move |run| {
+        let [[ax, ay], [bx, by]] = run.ends;
+        let off = (bx - ax) * (at[1] - ay) - (by - ay) * (at[0] - ax);
+        let is_near = off.abs() < 1e-4 * (bx - ax).hypot(by - ay);
+        place_in(run.ends, at).filter(|_| is_near).map(|is_inside| (run, is_inside))
+    })
+}
+
+fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
+    let (faces, lattice) = (tree.faces(), *tree.faces().lattice());
+    let Some(origin) = origin(tree, camera) else { return };
+    let sightlines = Sightlines::new(faces, origin);
+    let rays = Rays::new(camera, faces).unwrap();
+    let map = VisibilityMap::with_opacities(tree, rays, |_| opacity).unwrap();
+    let (runs, shown) = (map.crossings_in_layers().unwrap(), map.crossings().unwrap());
+    let models: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
+    let of = |polygon: usize| {
+        let own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == polygon);
+        own.map(|face| &models[face as usize]).collect::<Vec<_>>()
+    };
+    for face in 0..faces.len() as u32 {
+        let Some(k) = (0..3).find(|&k| faces.outline_edge(face, k).is_none()) else { continue };
+        let polygon = faces.polygon(face);
+        let other = polygon ^ 1;
+        let corners = &models[face as usize].corners;
+        let ends = [corners[k as usize].clone(), corners[(k as usize + 1) % 3].clone()];
+        let along = rational::difference(&ends[1], &ends[0]);
+        for i in 0..5 {
+            let point = between(&ends, 0.061 + 0.19 * f64::from(i));
+            if let Origin::Eye(eye) = &sightlines.origin {
+                let arm = rational::difference(&point, eye);
+                if !rational::scalar(&arm, &rational::point(camera.forward())).is_positive() {
+                    continue;
+                }
+            }
+            let Some(place) = project(camera, &lattice, &point) else { continue };
+            let [x, y] = place;
+            if !(0.0 < x && x < 319.0 && 0.0 < y && y < 239.0) {
+                continue;
+            }
+            let sides = [polygon, other].map(|polygon| sides_at(&of(polygon), &along, &point));
+            let Some(is_crossed) = do_cross(&along, &sides) else { continue };
+            let here: Vec<(&EdgeRun, bool)> = at(&runs, [polygon, other], place).collect();
+            if !is_crossed {
+                assert!(here.iter().all(|(_, is_inside)| !is_inside), "{here:?}");
+                score.touched += 1;
+                continue;
+            }
+            let [(run, true)] = here[..] else {
+                assert!(!here.is_empty(), "{polygon} and {other} at {place:?}: {camera:?}");
+                score.unsure += 1;
+                continue;
+            };
+            let before = match opacity == 1.0 {
+                true => sightlines.polygons_before(&point).len(),
+                false => 0,
+            };
+            assert_eq!(run.layers, Some(before as u32), "{run:?} {place:?} {camera:?}");
+            assert_eq!(run.is_visible, before == 0);
+            let is_shown = at(&shown, [polygon, other], place).any(|(_, is_inside)| is_inside);
+            assert_eq!(is_shown, before == 0, "{place:?} {camera:?}");
+            score.crossed[before.min(2)] += 1;
+            score.both += usize::from(of(other).len() > 1);
+        }
+    }
+}
+
+#[test]
+fn crossings_along_bends_are_those_that_rays_meet() {
+    let (mut random, mut score) = (SplitMix64::new(14), Score::default());
+    let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
+    for (count, rounds, options) in
+        [(1, 24, exact), (8, 4, exact), (8, 4, BuildOptions::DEFAULT), (30, 1, exact)]
+    {
+        for round in 0..rounds {
+            let tree = options.build(pairs(&mut random, count)).unwrap();
+            let lattice = *tree.faces().lattice();
+            let place =
+                random.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };
+            let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
+            let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]);
+            let parallel = Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 3.0, [320, 240]);
+            for camera in [perspective.unwrap(), parallel.unwrap()] {
+                check(&tree, &camera, 1.0, &mut score);
+                check(&tree, &camera, 0.5, &mut score);
+            }
+        }
+    }
+    assert!(score.crossed.iter().all(|&count| count > 50), "{score:?}");
+    assert!(score.touched > 1000 && score.both > 500, "{score:?}");
+    assert!(score.unsure * 20 < score.crossed.iter().sum(), "{score:?}");
+}
