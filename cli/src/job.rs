@@ -101,9 +101,14 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
 
 /// Notes which faces were dropped, triangulated, or given more than once.
 pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
+    note_found(scene, prepared.dropped(found.polygons), found);
+}
+
+/// The same of faces that are nowhere together; `dropped` are the numbers of those dropped.
+pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
-        format!("{} without area dropped: {}", faces(found.dropped), some(scene, prepared, found))
+        format!("{} without area dropped: {}", faces(found.dropped), some(scene, dropped, found))
     });
     let triangulated = (found.triangulated > 0)
         .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
@@ -121,9 +126,19 @@ pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparat
 /// Notes that the tolerance is too small for the faces; otherwise which one was taken, if the file's
 /// decimals decided that.
 pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
-    let found = tree.preparation();
     let quads = scene.polygons().filter(|polygon| polygon.len() > 3).count();
     let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
+    note_length(scene, limits, tolerance, tree.preparation(), quads);
+}
+
+/// The same of a tolerance, and of faces `quads` of which have four corners or more.
+pub(crate) fn note_length(
+    scene: &Scene,
+    limits: &LimitArgs,
+    tolerance: f64,
+    found: &Preparation,
+    quads: usize,
+) {
     if 2 * found.bent > quads {
         note(&format!(
             "{}: {} of {} with four corners or more are bent by at most {}, as by a rounding: \
@@ -167,12 +182,12 @@ fn short(length: f64) -> String {
 }
 
 /// The first of the faces that were dropped, and how many more there are.
-fn some(scene: &Scene, prepared: &Faces, found: &Preparation) -> String {
+fn some(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) -> String {
     let name = |face: usize| match scene.line(face) {
         Some(line) => format!("face {face} (line {line})"),
         None => format!("face {face}"),
     };
-    let named: Vec<String> = prepared.dropped(found.polygons).take(NAMED).map(name).collect();
+    let named: Vec<String> = dropped.take(NAMED).map(name).collect();
     match found.dropped - named.len() {
         0 => format!("{}, counted from 0", named.join(", ")),
         more => format!("{} and {more} more, counted from 0", named.join(", ")),

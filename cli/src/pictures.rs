@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use crate::samples::averaged;
 
 /// How many samples are drawn at once. Larger: more memory, some 20 bytes each; smaller: more time,
-/// as all fragments are looked at for each part of a picture.
+/// as all fragments are looked at for each part of a picture, and all cells of a folder read.
 const AT_ONCE: u64 = 1 << 23;
 
 /// The kinds of pictures.

@@ -1,5 +1,9 @@
 //! Files that have no name until they are complete. If the program ends before, by a signal, by
 //! lack of memory or killed, it leaves nothing behind.
+//!
+//! On the way to its place a complete file, or a folder of them, has a hidden name beside it,
+//! `.binspace-….part`. Signals wait for that moment to pass; only where the program is killed within, or
+//! the machine stops, is it left.
 
 use std::fs::{File, Permissions};
 use std::io::{self, Seek};

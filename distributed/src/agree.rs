@@ -35,3 +35,44 @@ pub(crate) fn abort_on_panic() {
         SimpleCommunicator::world().abort(3);
     }));
 }
+
+#[cfg(test)]
+mod tests {
+    use std::process::Command;
+
+    use mpi::traits::{Communicator, CommunicatorCollectives};
+
+    use super::abort_on_panic;
+
+    /// What a rank does in the test below. By itself, it is one rank of one, and does nothing.
+    #[test]
+    #[ignore = "it is run by mpirun"]
+    fn one_rank_of_several_panics() {
+        let universe = mpi::initialize().unwrap();
+        let world = universe.world();
+        abort_on_panic();
+        assert_ne!(world.rank(), 1, "a panic on one rank");
+        // The others would wait for it.
+        world.barrier();
+        assert_eq!(world.size(), 1, "nobody gets here");
+    }
+
+    #[test]
+    fn a_panic_on_one_rank_ends_all() {
+        if Command::new("mpirun").arg("--version").output().is_err() {
+            eprintln!("skipped: there is no `mpirun`: install Open MPI");
+            return;
+        }
+        let mut command = Command::new("timeout");
+        command.args(["60", "mpirun", "--allow-run-as-root", "--oversubscribe", "-np", "4"]);
+        command.arg(std::env::current_exe().unwrap());
+        command.args(["one_rank_of_several_panics", "--ignored", "--nocapture"]);
+        let output = command.output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{text}");
+        assert!(
+            text.contains("a panic on one rank") && !text.contains("nobody gets here"),
+            "{text}"
+        );
+    }
+}

@@ -59,6 +59,9 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
         }
         parsed => together(world, parsed.map_err(|error| plain(&error)))?,
     };
+    // Noticed before the work, not after it.
+    let is_writer = rank(world) == 0;
+    together(world, if is_writer { picture::check(&arguments.output) } else { Ok(()) })?;
     let mut figures = Figures::default();
     let (start, begin) = (Instant::now(), processor_time());
     let share = Share::load(&arguments.scene, rank(world), ranks(world));
@@ -80,7 +83,8 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let begin = processor_time();
     let tree = options.build_cell(&partition, rank(world), &mine);
     figures.build = processor_time() - begin;
-    let tree = together(world, tree.map_err(|error| error.to_string()))?;
+    let tree =
+        together(world, tree.map_err(|error| share::about(&arguments.scene, &mine, &error)))?;
     figures.fragments = tree.len() as u64;
     figures.polygons = (mine.len() - tree.preparation().dropped) as u64;
     let begin = processor_time();
@@ -192,7 +196,8 @@ fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Re
         if ranks(world) > 1 {
             return Err("--alone is for one rank".to_owned());
         }
-        let tree = arguments.options().build(&share.polygons).map_err(|error| error.to_string())?;
+        let tree = arguments.options().build(&share.polygons);
+        let tree = tree.map_err(|error| share::about(&arguments.scene, &share.polygons, &error))?;
         let (camera, rays) = camera_and_rays(arguments, &share.extent(), &tree)?;
         let look =
             |polygon: usize| (share.polygons[polygon].colour, share.polygons[polygon].opacity);

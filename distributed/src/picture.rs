@@ -3,7 +3,7 @@
 use std::fs::{self, Permissions};
 use std::io;
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use binspace::raster::Rays;
 use binspace::view::Camera;
@@ -95,25 +95,67 @@ impl Painted {
     }
 }
 
+/// How a picture gets to its place.
+enum Place {
+    /// It is written into a device or a pipe.
+    Into,
+    /// It is written beside this name, and replaces what is there when it is complete.
+    Beside(PathBuf),
+}
+
+impl Place {
+    fn of(path: &Path) -> io::Result<Self> {
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            Ok(found) if !found.is_file() => Ok(Self::Into),
+            // What a link leads to is replaced, not the link.
+            Ok(_) => fs::canonicalize(path).map(Self::Beside),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
+                Ok(Self::Beside(path.to_owned()))
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> String {
+    format!("{}: cannot be written: {error}", path.display())
+}
+
+/// An error if a picture cannot be written to a file, as far as this can be told before.
+pub(crate) fn check(path: &Path) -> Result<(), String> {
+    let check = || match Place::of(path)? {
+        Place::Into => Ok(()),
+        // It has no name, so nothing is left if the program ends at once.
+        Place::Beside(path) => tempfile::tempfile_in(folder_of(&path)).map(drop),
+    };
+    check().map_err(|error| unwritable(path, &error))
+}
+
 /// Writes a picture, RGB, as PNG: completely or not at all.
 pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), String> {
     let write = || -> io::Result<()> {
-        // Devices and pipes are written to; what else is there is replaced, behind a link too.
-        if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
-            return encode(fs::OpenOptions::new().write(true).open(path)?, size, pixels);
-        }
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let target = match Place::of(path)? {
+            Place::Into => {
+                return encode(fs::OpenOptions::new().write(true).open(path)?, size, pixels);
+            }
+            Place::Beside(target) => target,
+        };
         // As other files, it can be read by those whom the system's mask allows.
         let file = tempfile::Builder::new()
             .permissions(Permissions::from_mode(0o666))
-            .tempfile_in(folder.unwrap_or(Path::new(".")))?;
+            .tempfile_in(folder_of(&target))?;
         encode(file.as_file(), size, pixels)?;
         file.as_file().sync_all()?;
-        file.persist(path)?;
+        file.persist(target)?;
         Ok(())
     };
-    write().map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+    write().map_err(|error| unwritable(path, &error))
 }
 
 fn encode(out: impl io::Write, size: [u32; 2], pixels: &[u8]) -> io::Result<()> {
@@ -145,6 +187,25 @@ mod tests {
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o600, 0o600);
         write(Path::new("/dev/null"), [2, 1], &[9; 6]).unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_known_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("file"), "kept").unwrap();
+        fs::create_dir(path("folder")).unwrap();
+        std::os::unix::fs::symlink("circle", path("circle")).unwrap();
+        for name in ["none/p.png", "folder", "file/p.png", "circle", &"n".repeat(300)] {
+            assert!(check(&path(name)).unwrap_err().contains("cannot be written"), "{name}");
+            assert!(write(&path(name), [2, 1], &[9; 6]).is_err(), "{name}");
+        }
+        for name in ["file", "new"] {
+            check(&path(name)).unwrap();
+        }
+        check(Path::new("/dev/null")).unwrap();
+        assert_eq!(fs::read(path("file")).unwrap(), b"kept");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
     }
 
     #[test]

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use binspace::Extent;
 use binspace::glam::DVec3;
 use binspace::scene::ObjStream;
+use binspace::{Error, Extent};
 
 use crate::polygon::Given;
 
@@ -23,16 +23,27 @@ struct Generated {
     is_lump: bool,
 }
 
+/// The bits of a number that are the place in a file; those above are the number of the file.
+const IN_FILE: u32 = 32;
+
+/// What the names of generated scenes begin with, and whether they are lumps.
+const KINDS: [(&str, bool); 2] = [("cloud:", false), ("lump:", true)];
+
+fn is_generated(scene: &str) -> bool {
+    KINDS.iter().any(|(name, _)| scene.starts_with(name))
+}
+
 impl Share {
     /// The share of a rank: `cloud:N` and `lump:N` are generated; all else is an OBJ file, or a folder of
     /// them, of which rank k of n reads numbers k, k + n, …, in the order of their names.
     pub(crate) fn load(scene: &str, rank: usize, ranks: usize) -> Result<Self, String> {
-        let kinds = [("cloud:", false), ("lump:", true)];
-        for (name, is_lump) in kinds {
+        for (name, is_lump) in KINDS {
             if let Some(count) = scene.strip_prefix(name) {
                 let polygons =
                     count.parse().map_err(|_| format!("{scene}: no number of polygons"))?;
-                return Ok(Generated { polygons, is_lump }.share(rank as u64, ranks as u64));
+                let share = Generated { polygons, is_lump }.share(rank as u64, ranks as u64);
+                return share
+                    .ok_or_else(|| format!("{scene}: there is no memory for so many polygons"));
             }
         }
         let mut share = Self::default();
@@ -54,7 +65,7 @@ impl Share {
     fn read(&mut self, path: &Path, file: usize) -> Result<(), String> {
         let about = |error: binspace::scene::ObjError| error.to_string();
         let stream = ObjStream::open(path).map_err(about)?;
-        let (precision, mut number) = (stream.scene().precision(), (file as u64) << 32);
+        let (precision, mut number) = (stream.scene().precision(), (file as u64) << IN_FILE);
         let flow = stream.read(|corners, material| {
             // There are fewer if the file changes while it is read, which is an error at its end.
             let look = stream.scene().materials().get(material as usize);
@@ -70,6 +81,21 @@ impl Share {
         });
         flow.map(drop).map_err(about)
     }
+}
+
+/// What is wrong with a tree of some of a scene's polygons, with the polygon to blame as the scene has it:
+/// a generated one by its number, one of a file by its place there.
+pub(crate) fn about(scene: &str, polygons: &[Given], error: &Error) -> String {
+    let Some(given) = error.polygon().and_then(|place| polygons.get(place)) else {
+        return error.to_string();
+    };
+    let files =
+        if is_generated(scene) { vec![] } else { files(Path::new(scene)).unwrap_or_default() };
+    let name = match files.get((given.number >> IN_FILE) as usize) {
+        Some(file) => format!("{}: face {}", file.display(), given.number & ((1 << IN_FILE) - 1)),
+        None => format!("polygon {}", given.number),
+    };
+    format!("{name}, counted from 0: of this rank's, {error}")
 }
 
 /// The OBJ files that a name means.
@@ -97,10 +123,15 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
 const TRANSLUCENT: f32 = 0.6;
 
 impl Generated {
-    fn share(self, rank: u64, ranks: u64) -> Share {
+    /// `None` if there is no memory for it.
+    fn share(self, rank: u64, ranks: u64) -> Option<Share> {
         let end =
             |rank: u64| (u128::from(self.polygons) * u128::from(rank) / u128::from(ranks)) as u64;
-        Share { polygons: (end(rank)..end(rank + 1)).map(|number| self.polygon(number)).collect() }
+        let numbers = end(rank)..end(rank + 1);
+        let mut polygons = Vec::new();
+        polygons.try_reserve_exact(usize::try_from(numbers.end - numbers.start).ok()?).ok()?;
+        polygons.extend(numbers.map(|number| self.polygon(number)));
+        Some(Share { polygons })
     }
 
     /// A triangle at a place by chance, of a size that leaves each about as many neighbours however many
@@ -150,6 +181,36 @@ mod tests {
             let shares = (0..ranks).map(|rank| Share::load("lump:101", rank, ranks).unwrap());
             let joined: Vec<Given> = shares.flat_map(|share| share.polygons).collect();
             assert_eq!(joined, all);
+        }
+    }
+
+    #[test]
+    fn more_than_memory_holds_is_an_error() {
+        for count in [u64::MAX, 1 << 61, 1 << 58] {
+            let error = Share::load(&format!("cloud:{count}"), 0, 2).unwrap_err();
+            assert!(error.contains("no memory"), "{error}");
+        }
+        assert!(Share::load("cloud:1e9", 0, 1).unwrap_err().contains("no number"));
+    }
+
+    /// A polygon of a wrong corner is named as the scene has it.
+    #[test]
+    fn errors_name_polygons_by_their_numbers_in_the_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().to_str().unwrap();
+        for name in ["a.obj", "b.obj"] {
+            let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned() + &"f 1 2 3\n".repeat(9);
+            std::fs::write(folder.path().join(name), text).unwrap();
+        }
+        for (scene, skip, expected) in [
+            ("cloud:9", 4, "polygon 4, counted".to_owned()),
+            (path, 11, format!("{path}/b.obj: face 2, counted")),
+        ] {
+            let mut polygons = Share::load(scene, 0, 1).unwrap().polygons.split_off(skip);
+            polygons[0].corners[1].x = f64::NAN;
+            let error = binspace::BspTree::build(&polygons).unwrap_err();
+            let text = about(scene, &polygons, &error);
+            assert!(text.starts_with(&expected) && text.contains("NaN"), "{text}");
         }
     }
 }

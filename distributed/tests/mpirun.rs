@@ -46,6 +46,12 @@ fn picture(folder: &Path, ranks: usize, arguments: &str) -> Vec<u8> {
     pixels
 }
 
+/// The figures of each rank.
+fn figures(run: &Run) -> Vec<Vec<f64>> {
+    let rows = run.out.lines().skip(1);
+    rows.map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect()
+}
+
 /// How many pixels are not white.
 fn covered(picture: &[u8]) -> usize {
     picture.chunks(3).filter(|pixel| *pixel != [255; 3]).count()
@@ -90,6 +96,45 @@ fn ranks_without_polygons_do_their_part() {
         for (scene, least) in [("cloud:5", 10), ("cloud:1", 10), ("cloud:0", 0)] {
             same_on_all(folder.path(), scene, &[""], least);
         }
+    }
+}
+
+/// All polygons in the cell of one rank: they share their first corners, so all samples are in one place
+/// but for a far one, of a face without area, which makes the room large.
+#[test]
+fn a_scene_in_one_cell_of_many_is_the_same() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = "mtllib m.mtl\nv 1 1 1\nv 100 90 80\nf 2 2 2\n".to_owned();
+    for k in 0..40 {
+        let angle = f64::from(k) * 0.37;
+        let (u, v, w) = (angle.sin(), angle.cos(), (angle * 2.3).sin());
+        text += &format!("usemtl {}\n", if k % 3 == 0 { "a" } else { "b" });
+        text += &format!(
+            "v {} {} {}\nv {} {} {}\n",
+            1.0 + u,
+            1.0 + v,
+            1.0 + w,
+            1.0 - w,
+            1.0 + u,
+            1.0 - v
+        );
+        text += "f 1 -2 -1\n";
+    }
+    write_parts(folder.path());
+    for file in 0..5 {
+        fs::remove_file(folder.path().join(format!("part{file}.obj"))).unwrap();
+    }
+    fs::write(folder.path().join("s.obj"), text).unwrap();
+    let view = "--eye=4,3,5 --target=1,1,1";
+    same_on_all(folder.path(), "s.obj", &[view], 1000);
+    for ranks in [2, 3, 4, 8] {
+        let run = run(folder.path(), ranks, &format!("s.obj -o p.png --figures {view}"));
+        let rows = figures(&run);
+        let full: Vec<f64> = rows.iter().map(|row| row[3]).filter(|&count| count > 0.0).collect();
+        assert_eq!((rows.len(), full), (ranks, vec![40.0]), "{run:?}");
     }
 }
 
@@ -149,6 +194,10 @@ fn an_error_on_one_rank_ends_all() {
         (3, "cloud:30 -o none/p.png", "rank 0: none/p.png: cannot be written"),
         (3, "cloud:30 --tolerance -1 -o p.png", "rank 0: the coplanar tolerance"),
         (2, "cloud:30 --eye 1,2,3 --target 1,2,3 -o p.png", "rank 0"),
+        (2, "cloud:30 -o /", "rank 0: /: cannot be written"),
+        (2, "cloud:18446744073709551615 -o p.png", "no memory for so many polygons"),
+        // Noticed before the scene is read.
+        (2, "no_such_file.obj -o none/p.png", "rank 0: none/p.png: cannot be written"),
         (2, "cloud:30", "Usage"),
         (2, "no_such_file.obj -o p.png", "no_such_file.obj"),
         (2, "cloud:30 --alone -o p.png", "--alone is for one rank"),
@@ -171,12 +220,7 @@ fn figures_have_a_line_for_each_rank() {
     let folder: PathBuf = tempfile::tempdir().unwrap().keep();
     let run = run(&folder, 3, "cloud:2000 -o p.png --figures");
     fs::remove_dir_all(&folder).unwrap();
-    let rows: Vec<Vec<f64>> = run
-        .out
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').map(|number| number.parse().unwrap()).collect())
-        .collect();
+    let rows = figures(&run);
     assert_eq!(rows.len(), 3, "{run:?}");
     let sum = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>();
     // Each is given once, and has part in one cell or more.

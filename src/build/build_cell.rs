@@ -9,7 +9,7 @@ use super::options::BuildOptions;
 use super::progress::{Progress, Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::Faces;
-use crate::faces::Preparer;
+use crate::faces::{Preparation, Preparer};
 use crate::input::{Point, Polygon};
 use crate::partition::{Extent, Partition};
 use crate::tree::BspTree;
@@ -93,6 +93,22 @@ impl BuildOptions {
 }
 
 impl Partition {
+    /// What becomes of polygons in the trees of cells: what these count in their
+    /// [preparations](BspTree::preparation), but each polygon once, however many cells it reaches. For
+    /// totals of a scene, whose polygons may be given in lists, as long as those with the same corners are
+    /// in one. [`dropped`](crate::Preparation::dropped) are those without area.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build_cell`](BuildOptions::build_cell), but for its budgets.
+    pub fn preparation<P: Polygon>(
+        &self,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<Preparation, Error> {
+        let mut faces = self.faces(0);
+        prepared(&mut faces, polygons, usize::MAX, &Watch::default())
+    }
+
     /// Whether a tree is one of this cell: on the partition's grid, with its tolerance, and cut to the cell.
     /// One that was built of other polygons is, too.
     ///
@@ -114,10 +130,19 @@ fn tree_of_cell<P: Polygon>(
     watch: &Watch<'_>,
 ) -> Result<BspTree, Error> {
     let mut faces = partition.faces(cell);
-    let mut preparer = Preparer::default();
-    let mut preparation = preparer.append(&mut faces, polygons, 0, options.max_fragments, watch)?;
-    preparation.duplicates = preparer.duplicates_added(&faces, 0, watch)?;
-    // What that needs is freed before the faces are divided.
-    drop(preparer);
+    let preparation = prepared(&mut faces, polygons, options.max_fragments, watch)?;
     tree_of_faces(options, faces, preparation, watch)
+}
+
+/// Prepares the polygons of a cell. What that needs is freed before the faces are divided.
+fn prepared<P: Polygon>(
+    faces: &mut Faces,
+    polygons: impl IntoIterator<Item = P>,
+    limit: usize,
+    watch: &Watch<'_>,
+) -> Result<Preparation, Error> {
+    let mut preparer = Preparer::default();
+    let mut preparation = preparer.append(faces, polygons, 0, limit, watch)?;
+    preparation.duplicates = preparer.duplicates_added(faces, 0, watch)?;
+    Ok(preparation)
 }

@@ -5,7 +5,7 @@ mod append;
 mod builder;
 mod collect;
 mod corners;
-mod default_tolerance;
+mod ground;
 mod lists;
 mod preparation;
 mod quad;
@@ -15,9 +15,9 @@ use glam::DVec3;
 
 use builder::Builder;
 use collect::Collected;
-use default_tolerance::Ground;
-pub(crate) use default_tolerance::empty_faces;
-pub use default_tolerance::{DEFAULT_TOLERANCE, Tolerance};
+use ground::Ground;
+pub(crate) use ground::empty_faces;
+pub use ground::{DEFAULT_TOLERANCE, Tolerance};
 pub use preparation::Preparation;
 
 use super::duplicates::Outlines;

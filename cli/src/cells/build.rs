@@ -6,7 +6,7 @@ use std::path::Path;
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use binspace::{BuildOptions, Partition};
+use binspace::{BuildOptions, Error, Partition, Preparation};
 
 use super::folder::{Cell, NewFolder};
 use super::source::Polygons;
@@ -14,8 +14,6 @@ use crate::args::BuildFileArgs;
 use crate::failure::Failure;
 use crate::job;
 use crate::progress::Progress;
-use crate::terminal::note;
-use crate::units::count;
 
 /// How many bytes wait to be written, for each cell. Smaller: more calls; larger: more memory.
 const WAITING: usize = 1 << 14;
@@ -29,51 +27,74 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     let about = |error| job::about(&polygons.scene(), &error);
     let (extent, samples) = polygons.extent_and_samples();
     let partition = options.partition(&extent, samples, cells).map_err(about)?;
-    let parts = divide(&polygons, &partition, folder.beside())?;
+    let (parts, quads) = divide(&polygons, &partition, folder.beside())?;
     let mut whole = polygons.scene();
     whole.push([extent.low, extent.high], u32::MAX);
     let empty = polygons.scene();
     drop(polygons);
     folder.add_partition(&partition, &whole)?;
     let progress = Progress::steps("building: cell", cells as u64);
-    let mut shown = Shown::new(total);
+    let mut found = Found::new(total);
     for (number, part) in parts.into_iter().enumerate() {
-        let cell = build(&options, &partition, number, &empty, part)?;
-        for fragment in cell.tree.fragments() {
-            shown.mark(cell.numbers[fragment.polygon()]);
-        }
+        let cell = build(&options, &partition, number, &empty, part, &mut found)?;
         folder.add_cell(&cell)?;
         progress.step();
     }
     drop(progress);
-    match total - shown.count {
-        0 => {}
-        _ if shown.count == 0 => return Err(Failure::about(name, job::NOTHING_LEFT)),
-        dropped => note(&format!("{name}: {} without area dropped", count(dropped, "face"))),
+    let Found { sum, .. } = found;
+    job::note_found(&empty, found.dropped(), &sum);
+    job::note_length(&empty, &args.build.limits, partition.tolerance(), &sum, quads);
+    if sum.dropped == total {
+        return Err(Failure::about(name, job::NOTHING_LEFT));
     }
     folder.finish()
 }
 
-/// Which polygons have been seen in some cell.
-struct Shown {
-    bits: Vec<u64>,
-    count: usize,
+/// What became of the polygons of all cells.
+struct Found {
+    /// Each polygon counts in one cell, the first of those that its least corner is in: as equal polygons
+    /// have equal corners, those given more than once count in the same one.
+    sum: Preparation,
+    /// The polygons that are in some cell, one a bit.
+    shown: Vec<u64>,
 }
 
-impl Shown {
+impl Found {
+    /// At first nothing is in any cell.
     fn new(polygons: usize) -> Self {
-        Self { bits: vec![0; polygons.div_ceil(64)], count: 0 }
+        let mut sum = Preparation::default();
+        (sum.polygons, sum.dropped) = (polygons, polygons);
+        Self { sum, shown: vec![0; polygons.div_ceil(64)] }
     }
 
-    fn mark(&mut self, polygon: usize) {
-        let (word, bit) = (&mut self.bits[polygon / 64], 1 << (polygon % 64));
-        self.count += usize::from(*word & bit == 0);
-        *word |= bit;
+    /// Adds a cell, and what became of the polygons that count in it.
+    fn add(&mut self, cell: &Cell, counted: &Preparation) {
+        let Self { sum, shown } = self;
+        for fragment in cell.tree.fragments() {
+            let polygon = cell.numbers[fragment.polygon()];
+            let (word, bit) = (&mut shown[polygon / 64], 1 << (polygon % 64));
+            sum.dropped -= usize::from(*word & bit == 0);
+            *word |= bit;
+        }
+        sum.duplicates += counted.duplicates;
+        sum.triangulated += counted.triangulated;
+        sum.crossing += counted.crossing;
+        sum.bent += counted.bent;
+        sum.bent_by = sum.bent_by.max(counted.bent_by);
+    }
+
+    fn dropped(&self) -> impl Iterator<Item = usize> {
+        (0..self.sum.polygons)
+            .filter(|&polygon| self.shown[polygon / 64] >> (polygon % 64) & 1 == 0)
     }
 }
 
-/// Writes the polygons that reach each cell to a file without a name.
-fn divide(polygons: &Polygons, partition: &Partition, beside: &Path) -> Result<Vec<File>, Failure> {
+/// Writes the polygons that reach each cell to a file without a name. Counts those of four corners or more.
+fn divide(
+    polygons: &Polygons,
+    partition: &Partition,
+    beside: &Path,
+) -> Result<(Vec<File>, usize), Failure> {
     let unwritable = |error: io::Error| {
         Failure::about(beside.display(), format!("cannot be written to: {error}"))
     };
@@ -81,8 +102,9 @@ fn divide(polygons: &Polygons, partition: &Partition, beside: &Path) -> Result<V
     let files: io::Result<Vec<BufWriter<File>>> = (0..partition.cells()).map(file).collect();
     let mut files = files.map_err(unwritable)?;
     let _progress = Progress::spinner("dividing");
-    let mut reached = Vec::new();
+    let (mut reached, mut quads) = (Vec::new(), 0);
     polygons.for_each(|number, corners, material| {
+        quads += usize::from(corners.len() > 3);
         partition.reached_by(corners, &mut reached);
         reached.iter().try_for_each(|&cell| {
             let file = &mut files[cell];
@@ -100,7 +122,8 @@ fn divide(polygons: &Polygons, partition: &Partition, beside: &Path) -> Result<V
         file.rewind()?;
         Ok(file)
     };
-    files.into_iter().map(rewound).collect::<io::Result<_>>().map_err(unwritable)
+    let files: io::Result<_> = files.into_iter().map(rewound).collect();
+    Ok((files.map_err(unwritable)?, quads))
 }
 
 /// Builds the tree of a cell, of the polygons in a file.
@@ -110,15 +133,39 @@ fn build(
     number: usize,
     empty: &Scene,
     part: File,
+    found: &mut Found,
 ) -> Result<Cell, Failure> {
     let mut scene = empty.clone();
     let read = read_polygons(&mut scene, part);
     let numbers = read.map_err(|error| {
         Failure::about("a file beside the output", format!("cannot be read: {error}"))
     })?;
+    let mut reached = Vec::new();
+    let counted = scene.polygons().filter(|polygon| {
+        let corners = polygon.iter().map(|corner| corner.to_array());
+        let least = corners.reduce(|a, b| if b < a { b } else { a });
+        reached.clear();
+        least.inspect(|corner| partition.reached_by(&[*corner], &mut reached));
+        reached.first() == Some(&number)
+    });
+    let counted = partition.preparation(counted);
     let tree = options.build_cell(partition, number, scene.polygons());
-    let tree = tree.map_err(|error| job::about(&scene, &error))?;
-    Ok(Cell { tree, scene, numbers })
+    let tree = tree.map_err(|error| about(&scene, number, &numbers, &error))?;
+    let counted = counted.map_err(|error| job::about(&scene, &error))?;
+    let cell = Cell { tree, scene, numbers };
+    found.add(&cell, &counted);
+    Ok(cell)
+}
+
+/// A failure to build the tree of a cell, with the polygon to blame by its number in the whole scene.
+fn about(scene: &Scene, cell: usize, numbers: &[usize], error: &Error) -> Failure {
+    match error.polygon().and_then(|place| numbers.get(place)) {
+        Some(number) => {
+            let about = format!("{}: polygon {number}, counted from 0", scene.name());
+            Failure::about(about, format!("of cell {cell}'s, {error}"))
+        }
+        None => job::about(scene, error),
+    }
 }
 
 fn read_polygons(scene: &mut Scene, part: File) -> io::Result<Vec<usize>> {
@@ -147,4 +194,27 @@ fn bytes<const N: usize>(input: &mut impl Read) -> io::Result<[u8; N]> {
     let mut bytes = [0; N];
     input.read_exact(&mut bytes)?;
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use binspace::Extent;
+
+    use super::*;
+
+    #[test]
+    fn errors_name_polygons_by_their_numbers_in_the_scene() {
+        let triangle = |x: f64| vec![DVec3::ZERO, DVec3::X * x, DVec3::Y];
+        let mut extent = Extent::default();
+        extent.include(&triangle(1.0));
+        let options = BuildOptions::DEFAULT;
+        let partition = options.partition(&extent, [DVec3::ZERO], 2).unwrap();
+        let mut scene = Scene::new("s", DVec3::Z);
+        for x in [1.0, 1.0, f64::NAN] {
+            scene.push(triangle(x), u32::MAX);
+        }
+        let error = options.build_cell(&partition, 1, scene.polygons()).unwrap_err();
+        let Failure::Message(message) = about(&scene, 1, &[4, 7, 90], &error) else { panic!() };
+        assert!(message.starts_with("s: polygon 90, counted from 0: of cell 1's"), "{message}");
+    }
 }

@@ -38,12 +38,15 @@ pub(crate) struct NewFolder {
 }
 
 impl NewFolder {
-    /// Prepares to write a folder, which must not be there, or must be empty.
+    /// Prepares to write a folder, which must not be there, or must be empty; and fails now if that is not
+    /// possible.
     pub(crate) fn create(target: &Path) -> Result<Self, Failure> {
         let about = |problem: String| Failure::about(target.display(), problem);
         if target == Path::new(STANDARD) {
             return Err(about("with `--cells` a folder is written: name it".to_owned()));
         }
+        // Without a dot at the end, by which no folder can be replaced.
+        let target: &Path = &target.components().collect::<PathBuf>();
         if target.symlink_metadata().is_ok_and(|found| found.is_symlink()) {
             return Err(about("it is a link: name the folder itself".to_owned()));
         }
@@ -58,7 +61,14 @@ impl NewFolder {
         if target.file_name().is_none() {
             return Err(about("a new folder needs a name".to_owned()));
         }
-        Ok(Self { target: target.to_owned(), files: Vec::new() })
+        let folder = Self { target: target.to_owned(), files: Vec::new() };
+        if is_mounted(target, folder.beside()) {
+            return Err(about("it is a mount point: name a folder in it".to_owned()));
+        }
+        match unfinished::create_in(folder.beside()) {
+            Ok(_) => Ok(folder),
+            Err(error) => Err(about(format!("cannot be written: {error}"))),
+        }
     }
 
     /// The folder that it will be in.
@@ -116,6 +126,20 @@ impl NewFolder {
             Failure::about(self.target.display(), format!("cannot be written: {error}"))
         })
     }
+}
+
+/// Whether a folder is on another device than the one that it is in: another folder cannot replace it.
+#[cfg(unix)]
+fn is_mounted(folder: &Path, around: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+
+    let device = |path: &Path| path.metadata().map(|found| found.dev()).ok();
+    device(folder).is_some_and(|own| device(around) != Some(own))
+}
+
+#[cfg(not(unix))]
+fn is_mounted(_: &Path, _: &Path) -> bool {
+    false
 }
 
 /// A folder that is there.

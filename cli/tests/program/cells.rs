@@ -139,6 +139,116 @@ fn a_folder_is_written_completely_or_not_at_all() {
     folder.run("render empty -o p.png --size 20x20").good();
 }
 
+/// What `build` says of a scene is said of its cells too: each polygon counts once, however many cells it
+/// reaches.
+#[test]
+fn notes_on_cells_are_those_on_the_whole() {
+    let folder = Folder::new("cells_notes");
+    // A bow tie and a star right across the scene, quads that are bent, some of each given twice, turned
+    // and reversed, and faces without area.
+    let mut text = String::new();
+    let mut face = |corners: &[[f64; 3]]| {
+        let lines = corners.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        let numbers = (1..=corners.len()).rev().map(|k| format!(" -{k}"));
+        text += &format!("{}f{}\n", lines.collect::<String>(), numbers.collect::<String>());
+    };
+    let bow = [[0.0, 0.0, 1.0], [9.0, 9.0, 1.0], [9.0, 0.0, 1.0], [0.0, 9.0, 1.0]];
+    let star = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.5], [2.0, 2.0, 0.0], [0.0, 9.0, 0.5]];
+    for k in 0..4 {
+        let mut turned = [bow, star];
+        turned.iter_mut().for_each(|corners| corners.rotate_left(k));
+        turned[k % 2].reverse();
+        turned.iter().for_each(|corners| face(corners));
+    }
+    for k in 0..40 {
+        let [x, y] = [f64::from(k % 8), f64::from(k / 8)];
+        face(&[[x, y, 2.0], [x + 1.0, y, 2.0], [x + 1.0, y + 1.0, 2.25], [x, y + 1.0, 2.0]]);
+        if k % 10 == 3 {
+            face(&[[x, y, 3.0], [x, y, 3.0], [9.0, y, 3.0]]);
+        }
+    }
+    folder.write("s.obj", text);
+    let notes = |command: &str| -> Vec<String> {
+        let run = folder.run(command);
+        assert_eq!(run.status, Some(0), "{run:?}");
+        let notes = run.err.lines().filter(|line| line.contains("s.obj"));
+        // A folder does not know lines.
+        let known = |part: &str| part.split_once(')').map_or("", |(_, rest)| rest).to_owned();
+        notes
+            .map(|note| {
+                let mut parts = note.split(" (line ");
+                let first = parts.next().unwrap_or_default().to_owned();
+                parts.fold(first, |note, part| note + &known(part))
+            })
+            .collect()
+    };
+    let expected = notes("build s.obj -o s.bsp");
+    assert!(expected.len() >= 5, "{expected:?}");
+    for cells in [1, 2, 3, 5, 9, 16] {
+        let found = notes(&format!("build s.obj --cells {cells} -o d{cells}"));
+        assert_eq!(found, expected, "{cells} cells");
+    }
+}
+
+/// Not after all the work.
+#[test]
+fn a_place_that_cannot_be_written_is_noticed_before_the_work() {
+    let folder = Folder::new("cells_places");
+    fs::create_dir(folder.path("empty")).unwrap();
+    // Were the scene read first, its absence would be the error.
+    let places = ["no/such/d", "/proc/d", "/dev/shm", "empty/..", "/"];
+    for place in places {
+        let message = folder.run(&format!("build missing.obj --cells 2 -o {place}")).refused();
+        assert!(!message.contains("missing.obj"), "{place}: {message}");
+    }
+    #[cfg(target_os = "linux")]
+    {
+        let is_mounted = fs::read_to_string("/proc/mounts")
+            .is_ok_and(|all| all.contains(" /dev/shm "))
+            && fs::read_dir("/dev/shm").is_ok_and(|mut files| files.next().is_none());
+        if is_mounted {
+            let message = folder.run("build missing.obj --cells 2 -o /dev/shm").refused();
+            assert!(message.contains("mount point"), "{message}");
+        }
+    }
+    folder.write("s.obj", CROSSING);
+    folder.run("build s.obj --cells 2 -o empty/.").good();
+    folder.run("build s.obj --cells 2 -o new/").good();
+    assert_eq!(folder.files(), ["empty", "new", "s.obj"]);
+}
+
+/// Eight cells are built with so little memory that two of them in one, as the cells of four, do not fit in.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_is_that_of_one_cell() {
+    /// In kB.
+    const MEMORY: u32 = 18 << 10;
+    let folder = Folder::new("cells_memory");
+    let mut text = String::new();
+    let side = 320;
+    for k in 0..side * side {
+        let (x, y) = (f64::from(k % side), f64::from(k / side));
+        writeln!(text, "v {x} {y} {:.2}", (x * 0.31).sin() * (y * 0.17).cos() * 5.0).unwrap();
+    }
+    for k in (0..side * (side - 1)).filter(|k| (k + 1) % side != 0) {
+        let (a, b) = (k + 1, k + 1 + side);
+        writeln!(text, "f {a} {} {}\nf {a} {} {b}", a + 1, b + 1, b + 1).unwrap();
+    }
+    folder.write("s.obj", text);
+    let builds = |cells: u32| {
+        let program = env!("CARGO_BIN_EXE_binspace");
+        let line =
+            format!("ulimit -d {MEMORY}; exec {program} build s.obj --cells {cells} -o d{cells}");
+        let mut command = std::process::Command::new("sh");
+        command.args(["-c", &line]).current_dir(folder.path(""));
+        // One list of free memory and one thread, so that what is counted is what is in use.
+        let output = command.env("MALLOC_ARENA_MAX", "1").env("RAYON_NUM_THREADS", "1").output();
+        output.unwrap().status.success()
+    };
+    // One cell of eight takes 12 to 16 MB, one of four 26 to 28, and all in one 80 to 90.
+    assert!(builds(8) && !builds(4));
+}
+
 #[test]
 fn what_a_folder_is_not_for_is_refused() {
     let folder = Folder::new("cells_refused");

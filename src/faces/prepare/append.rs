@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::default_tolerance::Ground;
+use super::ground::Ground;
 use super::{Preparation, Preparer};
 use crate::Error;
 use crate::exact::Faces;

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::collect::Collected;
 use super::corners::Corners;
-use super::default_tolerance::Ground;
+use super::ground::Ground;
 use super::preparation::Preparation;
 use super::quad::Quad;
 use crate::Error;

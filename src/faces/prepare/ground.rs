@@ -1,4 +1,5 @@
-//! Which tolerance a scene is prepared with.
+//! What all polygons of a scene are prepared by: the lattice, and the tolerance that is asked for or follows
+//! from the scene.
 
 use glam::DVec3;
 
