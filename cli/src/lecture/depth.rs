@@ -237,7 +237,12 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         let colour = |uv| if is_dark(uv) { [40, 60, 90] } else { [235, 225, 200] };
         let rgb = shown.iter().flat_map(|uv| uv.map_or(WHITE, colour)).collect();
         pictures.push(Picture::new(SIZE, rgb, name));
-        rows.push([name.into(), judged.to_string(), wrong.to_string(), format!("{largest:.1e}")]);
+        rows.push([
+            name.into(),
+            judged.to_string(),
+            wrong.to_string(),
+            if largest < 1e-3 { format!("{largest:.1e}") } else { format!("{largest:.1}") },
+        ]);
     }
     chapter.heading("Textures in perspective");
     chapter.text(

@@ -58,7 +58,7 @@ fn write_picture(out: &mut dyn Write, picture: &Picture) -> io::Result<()> {
     let ([width, height], alt, caption) = (size, escaped(caption), readable(caption));
     writeln!(
         out,
-        "<figure><img width=\"{width}\" height=\"{height}\" alt=\"{alt}\" \
+        "<figure style=\"width: {width}px\"><img width=\"{width}\" height=\"{height}\" alt=\"{alt}\" \
          src=\"data:image/png;base64,{}\"><figcaption>{caption}</figcaption></figure>",
         STANDARD.encode(png),
     )

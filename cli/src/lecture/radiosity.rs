@@ -4,6 +4,8 @@ use binspace::raster::{NONE, Rays, zbuffer};
 use binspace::scene::cornell_box;
 use binspace::view::Camera;
 use binspace::{BspTree, glam::DVec3};
+use binspace_evidence::patches::{FormFactors, patches};
+use binspace_evidence::rectangles::{facing, in_a_corner};
 use binspace_evidence::room::Room;
 
 use super::chapter::{Chapter, Picture, percent};
@@ -29,6 +31,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
          the factors of a patch sum to 1: here the open side is closed by a black wall, so that what \
          escapes is counted too.",
     );
+    published(chapter)?;
     let mut rows = Vec::new();
     for side in [1, 2, 4, 8] {
         let room = Room::new(COARSE, side).map_err(failure)?;
@@ -42,6 +45,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
             format!("{:.5}", (total - 1.0).abs()),
         ]);
     }
+    chapter.text(
+        "The same in the Cornell box, where blocks are in the way: of the lamp's light, what arrives at the \
+         surfaces and what escapes is all there is.",
+    );
     chapter.table(
         [
             "sight lines a pair",
@@ -57,9 +64,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(format!(
         "The pictures have {} patches and {} sight lines, one a pair that may see one another. The \
          ceiling gets no light straight from the lamp, which lies in it; one bounce lights it, and the \
-         red and the green wall colour what is beside them. The measurements and the view are those \
-         that Cornell University published; colours are those of display, so only shapes and shadows \
-         are to be compared with the published picture.",
+         red and the green wall colour what is beside them. The measurements, the camera, and what \
+         the paints reflect at 620, 540 and 460 nm, shown as red, green and blue, are those that Cornell \
+         University measured and published; the lamp is taken as white. Their picture is not ours to show: it \
+         is beside these data, at graphics.cornell.edu/online/box.",
         room.patches.len(),
         room.factors.sight_lines,
     ));
@@ -67,6 +75,52 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         Picture::new(SIZE, shown(&room, &direct)?, "Direct light"),
         Picture::new(SIZE, shown(&room, &once)?, "Direct light and one bounce"),
     ]);
+    Ok(())
+}
+
+/// Form factors of two rectangles by sight lines, beside those of published formulas.
+fn published(chapter: &mut Chapter) -> Result<(), Failure> {
+    let level = |[x, y]: [f64; 2], z: f64| {
+        [[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]].map(|[x, y]| DVec3::new(x, y, z))
+    };
+    let turned = |[a, b, c, d]: [DVec3; 4]| [d, c, b, a];
+    let wall = |y: f64, z: f64| {
+        [[0.0, 0.0], [y, 0.0], [y, z], [0.0, z]].map(|[y, z]| DVec3::new(0.0, y, z))
+    };
+    let cases = [
+        (
+            "1 × 1 facing 1 × 1, 1 apart",
+            [1.0, 1.0],
+            turned(level([1.0, 1.0], 1.0)),
+            facing([1.0, 1.0], 1.0),
+        ),
+        (
+            "2 × 3 facing 2 × 3, 1.5 apart",
+            [2.0, 3.0],
+            turned(level([2.0, 3.0], 1.5)),
+            facing([2.0, 3.0], 1.5),
+        ),
+        ("1 × 1 beside 1 × 1", [1.0, 1.0], wall(1.0, 1.0), in_a_corner(1.0, 1.0, 1.0)),
+        ("2 × 3 beside 3 × 4", [2.0, 3.0], wall(3.0, 4.0), in_a_corner(3.0, 2.0, 4.0)),
+    ];
+    let mut rows = Vec::new();
+    for (name, sides, other, truth) in cases {
+        let quads = [level(sides, 0.0), other];
+        let tree = BspTree::build(quads).map_err(failure)?;
+        let bounds = tree.bounds().map_err(failure)?;
+        let whole = patches(&quads, f64::INFINITY);
+        let found = [4, 16, 64].map(|side| {
+            format!("{:.5}", FormFactors::new(&tree, &bounds, &whole, side, 1).factor(0, 1))
+        });
+        let [few, more, most] = found;
+        rows.push([name.to_owned(), few, more, most, format!("{truth:.5}")]);
+    }
+    chapter.text(
+        "Of two rectangles that face each other, and of two that share an edge at a right angle, there are \
+         published formulas (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-11 and \
+         C-14). The share of light from the first to the second, by sight lines and by the formulas:",
+    );
+    chapter.table(["rectangles", "16 lines", "256 lines", "4096 lines", "published formula"], rows);
     Ok(())
 }
 
@@ -80,7 +134,9 @@ fn shown(room: &Room, leaving: &[[f64; 3]]) -> Result<Vec<u8>, Failure> {
     let tree = BspTree::build(surfaces.iter().map(|patch| patch.corners)).map_err(failure)?;
     let (eye, target) = cornell_box().suggested_view().unwrap_or((DVec3::ZERO, DVec3::Z));
     let view = |error| Failure::about("a view", error);
-    let camera = Camera::perspective(eye, target, DVec3::Y, 0.69, SIZE).map_err(view)?;
+    // Published: a picture of 0.025 at a focal length of 0.035.
+    let camera = Camera::perspective_by_slope(eye, target - eye, DVec3::Y, 0.0125 / 0.035, SIZE);
+    let camera = camera.map_err(view)?;
     let rays = Rays::new(&camera, tree.faces()).map_err(view)?;
     let depth = zbuffer(&rays, tree.faces());
     let byte = |light: f64| (255.0 * (light / WHITE).min(1.0).powf(1.0 / 2.2)) as u8;

@@ -1,11 +1,10 @@
 //! Shadows as pieces of polygons.
 
-use binspace::Faces;
 use binspace::glam::DVec3;
 use binspace::raster::{NONE, Rays, picture, zbuffer};
-use binspace::scene::Scene;
 use binspace::view::Camera;
-use binspace_evidence::shadows::{Piece, Zone, lamp, pieces};
+use binspace::{Bounds, BspTree, Faces};
+use binspace_evidence::shadows::{Piece, Pieces, Zone, lamp, pieces};
 
 use super::chapter::{Chapter, Picture, failure, percent};
 use super::shadows::{SIZE, colour};
@@ -15,7 +14,8 @@ use crate::failure::Failure;
 /// corners of the lamp.
 pub(super) fn fill(
     chapter: &mut Chapter,
-    scene: &Scene,
+    tree: &BspTree,
+    bounds: &Bounds,
     camera: &Camera,
     middle: &[DVec3],
     by_lines: &[Option<Zone>],
@@ -25,24 +25,34 @@ pub(super) fn fill(
         "A point lamp and a convex polygon span a cone; what is in the cone behind the polygon is in its shadow \
          (F. Crow, \"Shadow algorithms for computer graphics\", 1977). Each polygon is cut by the planes of \
          these cones into convex pieces, each of them lit or not as a whole. Of a rectangle it is done for its \
-         four corners. The pieces have nothing to do with pixels or with an eye: they are made once (P. \
+         four corners. Which polygons may throw a shadow on another is asked of the tree: those that go through \
+         the pyramid between it and the lamp. The pieces have nothing to do with pixels or with an eye: they are made once (P. \
          Atherton, K. Weiler and D. Greenberg, \"Polygon shadow generation\", 1978). Corners of pieces are kept \
          exactly, as points where three planes meet.",
     );
-    let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).map_err(failure)?;
+    let faces = tree.faces();
     let lamps = [("a point", middle.to_vec()), ("a rectangle, by its corners", lamp(2))];
     let (mut rows, mut pictures, mut differ) = (Vec::new(), Vec::new(), (0, 0));
     for (name, lamp) in lamps {
-        let pieces = pieces(&faces, &lamp);
-        rows.push(row(name, &faces, &pieces));
-        let (rgb, zones) = painted(camera, &faces, &pieces)?;
+        let Pieces { pieces, tried } = pieces(tree, bounds, &lamp);
+        rows.push(row(name, faces, &pieces, [tried, lamp.len() * faces.len().pow(2)]));
+        let (rgb, zones) = painted(camera, faces, &pieces)?;
         let pairs = zones.iter().zip(by_lines).filter(|(zone, _)| zone.is_some());
         differ = (pairs.clone().filter(|(a, b)| a != b).count(), pairs.count());
         let caption = format!("{name}: {} pieces, each in a shade of its own", pieces.len());
         pictures.push(Picture::new(SIZE, rgb, caption));
     }
     chapter.pictures(pictures);
-    let head = ["lamp", "polygons", "pieces", "lit", "penumbra", "umbra", "umbra for certain"];
+    let head = [
+        "lamp",
+        "polygons",
+        "pieces",
+        "shadows tried, of all pairs",
+        "lit",
+        "penumbra",
+        "umbra",
+        "umbra for certain",
+    ];
     chapter.table(head, rows);
     chapter.text(format!(
         "Shares are of the area of all polygons; the pieces of each polygon have its area, in rational numbers. \
@@ -54,7 +64,7 @@ pub(super) fn fill(
     Ok(())
 }
 
-fn row(name: &str, faces: &Faces, pieces: &[Piece]) -> [String; 7] {
+fn row(name: &str, faces: &Faces, pieces: &[Piece], [tried, pairs]: [usize; 2]) -> [String; 8] {
     let area = |is_meant: &dyn Fn(&Piece) -> bool| {
         let meant = pieces.iter().filter(|piece| is_meant(piece));
         let areas = meant.map(|piece| area(&piece.corners(faces).collect::<Vec<_>>()));
@@ -66,6 +76,7 @@ fn row(name: &str, faces: &Faces, pieces: &[Piece]) -> [String; 7] {
         name.to_owned(),
         faces.len().to_string(),
         pieces.len().to_string(),
+        format!("{tried} of {pairs}"),
         share(&|piece| piece.zone() == Zone::Lit),
         share(&|piece| piece.zone() == Zone::Penumbra),
         share(&|piece| piece.zone() == Zone::Umbra),

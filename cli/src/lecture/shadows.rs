@@ -56,7 +56,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         Picture::new(SIZE, shown(&all[0]), "A rectangle by its corners"),
         Picture::new(SIZE, shown(&all[3]), "The same by 49 points"),
     ]);
-    shadow_pieces::fill(chapter, &scene, &camera, &middle, &all[0])?;
+    shadow_pieces::fill(chapter, &tree, &bounds, &camera, &middle, &all[0])?;
     radiosity::fill(chapter)
 }
 

@@ -66,8 +66,7 @@ fn back_faces(chapter: &mut Chapter) -> Result<(), Failure> {
         }
         let (all, fronts) = (shot.paint(&InputOrder)?, shot.paint(&FrontFaces(InputOrder))?);
         if matches!(builtin, Builtin::Sphere | Builtin::City | Builtin::Newell) {
-            pictures
-                .push(shot.picture(&fronts, &format!("{}, fronts in input order", builtin.name())));
+            pictures.push(shot.picture(&fronts, &format!("{name}: fronts in input order")));
         }
         let facing = Facing::of(&shot.faces, shot.camera.viewpoint());
         let count = shot.faces.len();

@@ -102,6 +102,7 @@ impl Layers {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use binspace::glam::DVec3;
     use binspace::raster::{NONE, zbuffer};
     use binspace::scene;
     use binspace::view;
@@ -123,5 +124,24 @@ mod tests {
             }
         }
         assert!(pixels > 2000, "{pixels}");
+    }
+
+    /// Squares in one plane and one before them, as seen from above: of those in one plane the later is
+    /// painted later, from either side.
+    #[test]
+    fn of_faces_at_one_depth_the_later_polygon_is_the_nearer() {
+        let square = |z: f64| {
+            [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(x, y, z))
+        };
+        let (faces, _) = Faces::new([square(0.0), square(1.0), square(0.0)], Some(0.0)).unwrap();
+        let centre = DVec3::new(0.5, 0.5, 0.0);
+        for (ahead, expected) in [(DVec3::NEG_Z, [1, 2, 0]), (DVec3::Z, [2, 0, 1])] {
+            let camera = view::Camera::parallel(ahead, DVec3::Y, centre, 0.8, [4, 4]).unwrap();
+            let layers = Layers::new(&Rays::new(&camera, &faces).unwrap(), &faces);
+            for found in layers.pixels() {
+                let found: Vec<usize> = found.iter().map(|&face| faces.polygon(face)).collect();
+                assert_eq!(found, expected, "{ahead}");
+            }
+        }
     }
 }

@@ -22,6 +22,7 @@ mod pieces;
 mod place;
 pub mod plain;
 pub mod portals;
+pub mod rectangles;
 mod residue;
 pub mod room;
 mod rounded;

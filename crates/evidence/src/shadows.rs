@@ -1,10 +1,13 @@
 //! Shadows: which points of surfaces a lamp lights, and which it does not; and the parts of surfaces
 //! as pieces of polygons.
 
+mod casters;
 mod pieces;
 mod shade;
+#[cfg(test)]
+mod tests;
 
-pub use pieces::{Piece, pieces};
+pub use pieces::{Piece, Pieces, pieces};
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::internals::cuboid;

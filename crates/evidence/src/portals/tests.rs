@@ -109,6 +109,27 @@ fn a_strip_along_the_rim_of_an_opening_is_seen() {
     assert!(!cells.seen_with(-SLACK, eye, &frustum).polygons[2]);
 }
 
+/// A slit of a 4-millionth of the scene, a hundred times what counts as closed: the far wall is seen.
+#[test]
+fn what_is_seen_through_a_slit_is_kept() {
+    let wall = |x: [f64; 2], z: f64| {
+        [(0, -20.0), (1, -20.0), (1, 20.0), (0, 20.0)].map(|(i, y)| dvec3(x[i], y, z)).to_vec()
+    };
+    let slit = 1e-5;
+    let scene = [
+        wall([-20.0, 0.0], 1.0),
+        wall([slit, 20.0], 1.0),
+        wall([-20.0, 20.0], 10.0),
+        wall([-20.0, 20.0], -1.0),
+    ];
+    let tree = BspTree::build(&scene).unwrap();
+    let cells = Cells::new(&tree, scene.len());
+    let (eye, target) = (DVec3::ZERO, dvec3(5.0 * slit, 0.1, 10.0));
+    let camera = Camera::perspective(eye, target, DVec3::Y, 0.5, [1, 1]).unwrap();
+    assert_eq!(owners(&tree, &camera), [2]);
+    assert!(cells.seen_from(eye, &camera.frustum()).polygons[2]);
+}
+
 /// A square with corners at `low` and `high` in the plane z = 0.
 fn square(low: f64, high: f64) -> Vec<DVec3> {
     [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| dvec3(x, y, 0.0)).to_vec()

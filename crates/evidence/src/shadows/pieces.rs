@@ -5,10 +5,12 @@ use std::rc::Rc;
 use num_bigint::{BigInt, Sign};
 
 use super::Zone;
+use super::casters::casters;
 use super::shade::{Shade, side};
 use crate::place::{Place, Plane};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
+use binspace::{Bounds, BspTree};
 
 /// A convex part of a face, all of whose inner points see the same of a lamp.
 ///
@@ -91,32 +93,77 @@ impl Piece {
     }
 }
 
-/// Cuts all faces along the rims of the shadows that points of a lamp throw. What a face's own plane
-/// goes through the lamp is in its light edge-on, and sees nothing of it.
-///
-/// Every face is cut by the shadow of every other: time grows with the square of their number, and
-/// with the number of pieces. The lamp is rounded to the faces' lattice.
-pub fn pieces(faces: &Faces, lamp: &[DVec3]) -> Vec<Piece> {
-    let shades: Vec<Vec<Option<Shade>>> = lamp.iter().map(|&at| Shade::all(faces, at)).collect();
-    (0..faces.len() as u32).flat_map(|face| pieces_of(faces, face, &shades)).collect()
+/// The pieces of all faces of a tree, and the work that they took.
+#[derive(Clone, Debug)]
+pub struct Pieces {
+    /// The pieces, those of each face one after another.
+    pub pieces: Vec<Piece>,
+    /// For how many faces it was tried whether they throw a shadow on another: the sum over all faces
+    /// and all points of the lamp.
+    pub tried: usize,
 }
 
-/// The pieces of one face. `shades` has, for each point of the lamp, the shade of each face.
-fn pieces_of(faces: &Faces, face: u32, shades: &[Vec<Option<Shade>>]) -> Vec<Piece> {
+/// Cuts all faces of a tree along the rims of the shadows that points of a lamp throw. What a face's own
+/// plane goes through the lamp is in its light edge-on, and sees nothing of it.
+///
+/// Each face is cut by the shadows of those that the tree's boxes find between it and the lamp: time grows
+/// with these and with the number of pieces. The lamp is rounded to the faces' lattice.
+pub fn pieces(tree: &BspTree, bounds: &Bounds, lamp: &[DVec3]) -> Pieces {
+    pieces_by(tree.faces(), lamp, |corners, at| casters(tree, bounds, corners, at))
+}
+
+/// The pieces, where what may throw a shadow on a face with some corners from a point is found by a
+/// function.
+pub(super) fn pieces_by(
+    faces: &Faces,
+    lamp: &[DVec3],
+    casters: impl Fn(&[DVec3], DVec3) -> Vec<u32>,
+) -> Pieces {
+    let shades: Vec<Vec<Option<Shade>>> = lamp.iter().map(|&at| Shade::all(faces, at)).collect();
+    let mut found = Pieces { pieces: Vec::new(), tried: 0 };
+    for face in 0..faces.len() as u32 {
+        let whole = whole(faces, face, lamp.len());
+        let corners: Vec<DVec3> = whole.corners(faces).collect();
+        // A face sees nothing of a lamp in its plane, whatever is before it.
+        let is_asked = |number: usize| shades[number][face as usize].is_some();
+        let casters = |(number, &at): (usize, &DVec3)| match is_asked(number) {
+            true => casters(&corners, at),
+            false => Vec::new(),
+        };
+        let casters: Vec<Vec<u32>> = lamp.iter().enumerate().map(casters).collect();
+        found.tried += casters.iter().map(Vec::len).sum::<usize>();
+        found.pieces.extend(pieces_of(faces, whole, &shades, &casters));
+    }
+    found
+}
+
+/// The pieces of one face. `shades` has, for each point of the lamp, the shade of each face, `casters`
+/// the faces that may throw one on this.
+fn pieces_of(
+    faces: &Faces,
+    whole: Piece,
+    shades: &[Vec<Option<Shade>>],
+    casters: &[Vec<u32>],
+) -> Vec<Piece> {
+    let face = whole.face;
     let plane = Plane::of_face(faces, face);
-    let mut pieces = vec![whole(faces, face, &plane, shades.len())];
+    let mut pieces = vec![whole];
     for (number, shades) in shades.iter().enumerate() {
         if shades[face as usize].is_none() {
             pieces.iter_mut().for_each(|piece| piece.sees[number] = false);
             continue;
         }
-        for shade in shades.iter().flatten() {
+        for shade in casters[number].iter().filter_map(|&hiding| shades[hiding as usize].as_ref()) {
             let dim = |piece: &mut Piece| piece.sees[number] = false;
             pieces = cut(pieces, &plane, &shade.planes, |piece| piece.sees[number], dim);
         }
     }
-    for hiding in 0..faces.len() {
-        let all: Option<Vec<&Shade>> = shades.iter().map(|of| of[hiding].as_ref()).collect();
+    // What hides all of the lamp hides each point of it.
+    let (first, others) = casters.split_first().expect("a lamp has a point");
+    let of_all = |hiding: &&u32| others.iter().all(|list| list.binary_search(hiding).is_ok());
+    for &hiding in first.iter().filter(of_all) {
+        let all: Option<Vec<&Shade>> =
+            shades.iter().map(|of| of[hiding as usize].as_ref()).collect();
         let planes = all.into_iter().flatten().flat_map(|shade| shade.planes.iter().cloned());
         let planes: Vec<Rc<Plane>> = planes.collect();
         if !planes.is_empty() {
@@ -162,9 +209,10 @@ fn cut(
 }
 
 /// A whole face, lit by all.
-fn whole(faces: &Faces, face: u32, plane: &Plane, lamps: usize) -> Piece {
+fn whole(faces: &Faces, face: u32, lamps: usize) -> Piece {
+    let plane = Plane::of_face(faces, face);
     let places: Vec<Place> =
-        (0..faces.corners(face).len()).map(|k| Place::corner(faces, face, plane, k)).collect();
+        (0..faces.corners(face).len()).map(|k| Place::corner(faces, face, &plane, k)).collect();
     let next = places.iter().cycle().skip(1);
     let upright = plane.direction();
     let corners = places.iter().zip(next).map(|(place, next)| Corner {

@@ -98,9 +98,11 @@ fn sections_make_the_same_picture_for_any_number_of_rows_and_threads() {
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [64, 50], 2) {
         let rays = Rays::new(&camera, &faces).unwrap();
-        for format in FORMATS {
+        // With a number that the buffer is cleared to, what another section leaves in it would show.
+        let rules = [Clear::Nothing, Clear::Largest].map(|c| DepthRules::DEFAULT.with_clear(c));
+        for (format, rules) in FORMATS.into_iter().flat_map(|f| rules.map(|rules| (f, rules))) {
             for how in Interpolation::ALL {
-                let whole = DepthBuffer::new(format).with_interpolation(how);
+                let whole = DepthBuffer::new(format).with_interpolation(how).with_rules(rules);
                 let expected = show(&whole, &faces, &camera);
                 for (rows, threads) in [(1, 3), (7, 1), (16, 2), (50, 1), (64, 4), (0, 0)] {
                     let method = whole.with_sections(rows, threads);
