@@ -11,6 +11,7 @@
 //! | `sample`, `sketch` | with which pieces planes are compared, and on which side these are, rounded |
 //! | `scored` | the heuristics that count what each own plane does to all pieces |
 //! | `set`, `places` | what is known of a set and of its pieces |
+//! | `rules` | what the chooser is told, and what it answers |
 //! | `tuning` | the numbers |
 
 mod auto;
@@ -20,6 +21,7 @@ mod own;
 mod peel;
 mod places;
 mod quick;
+mod rules;
 mod sample;
 mod scored;
 mod set;
@@ -29,7 +31,6 @@ mod tests;
 mod tuning;
 
 use super::heuristic::{DEFAULT_WEIGHTS, Heuristic};
-use super::progress::Watch;
 use crate::Error;
 use crate::exact::{Kernel, PlaneId};
 use crate::random::mix;
@@ -38,40 +39,10 @@ use free::Sweep;
 pub(super) use peel::Peeled;
 pub(super) use places::Places;
 pub(super) use quick::Best;
+pub(super) use rules::{Choice, MOST_IN_TABLE, Rules};
 use scored::Scored;
 pub(super) use set::Set;
 pub use tuning::{Quick, Tuning};
-
-/// The most pieces of a set that is divided from a table: half as many as a table has room for.
-pub(super) const MOST_IN_TABLE: usize = 32;
-
-/// What is to be done with a set.
-#[derive(Debug)]
-pub(super) enum Choice {
-    /// It is divided by this plane.
-    Split(PlaneId),
-    /// These pieces are taken off it.
-    Peel(Peeled),
-}
-
-/// The settings of the chooser.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rules<'a> {
-    pub(super) heuristic: Heuristic,
-    pub(super) tuning: &'a Tuning,
-    /// Once a build is cancelled, any plane is chosen, quickly.
-    pub(super) watch: &'a Watch<'a>,
-}
-
-impl<'a> Rules<'a> {
-    /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
-    pub(super) fn tabled(&self, pieces: usize) -> Option<&'a Quick> {
-        let quick = self.tuning.quick.as_ref()?;
-        let is_tabled =
-            self.heuristic == Heuristic::Auto && pieces <= quick.table.min(MOST_IN_TABLE);
-        is_tabled.then_some(quick)
-    }
-}
 
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]
