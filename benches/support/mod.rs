@@ -244,6 +244,8 @@ pub fn print_head(title: &str, command: &str) {
     println!("- command: `{command}`");
     println!("- date: {}", said_by("date", &["-u", "+%Y-%m-%d %H:%M UTC"]));
     println!("- commit: {}", said_by("git", &["describe", "--always", "--abbrev=10", "--dirty"]));
+    let builder = ["log", "-1", "--abbrev=10", "--format=%h", "--", "../src/build"];
+    println!("- last change to building: {}", said_by("git", &builder));
     println!("- machine: {}", machine());
     println!("- compiler: {}", said_by("rustc", &["--version"]));
     println!("- generated scenes by seed {SEED}; shortest time of several, all in one run");
