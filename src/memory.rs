@@ -47,6 +47,19 @@ pub(crate) fn collect<T>(items: impl ExactSizeIterator<Item = T>) -> Result<Vec<
     Ok(list)
 }
 
+/// A list of so many times the same.
+///
+/// # Errors
+///
+/// If there is not enough memory.
+#[cfg(feature = "drawing")]
+pub(crate) fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(len).map_err(|_| Error::out_of_memory())?;
+    list.resize(len, value);
+    Ok(list)
+}
+
 #[cold]
 fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
     let spare = (list.len() / 8).max(64);

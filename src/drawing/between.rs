@@ -12,7 +12,7 @@ use super::rims::Rims;
 use super::stock::Stock;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::push;
+use crate::memory::{filled, push};
 use crate::overlay::Overlay;
 
 /// The path of what is not in the picture.
@@ -48,12 +48,12 @@ pub(super) fn between(
     for (number, (segment, sight)) in (0..).zip(segments.iter().zip(&sights)) {
         let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
         rest = others;
-        for (below, places) in in_order(sight.places, own, path_of, paths, watch)? {
-            let run = LineRun::new(segment, places.map(|place| sight.at(place)), true);
+        for (below, places) in in_order(sight.course.places, own, path_of, paths, watch)? {
+            let run = LineRun::new(segment, places.map(|place| sight.course.at(place)), true);
             push(&mut overlaid, (below, Overlaid::Line(run)))?;
         }
     }
-    let mut room = vec![Room::of(paths); spots.len()];
+    let mut room = filled(spots.len(), Room::of(paths))?;
     for pass in each(watch, 1, &found.spots) {
         let pass = pass?;
         room[pass.spot as usize].narrow(path_of[pass.piece as usize], pass.is_behind);

@@ -1,13 +1,13 @@
 //! Lines in which polygons go through one another.
 
 use super::cell::Cell;
+use super::cut_lines::CutLines;
 use super::edge_run::{EdgeKind, EdgeRun, SHORTEST};
-use super::feet::Feet;
 use super::frame::is_same_line;
 use super::half::Half;
 use super::halving::VISITED;
 use super::inner_edges::InnerEdges;
-use super::lines::{Key, Lines};
+use super::lines::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
 use super::reporter::{each, sort_by};
@@ -50,7 +50,7 @@ impl VisibilityMap<'_> {
     ///
     /// A point is on a crossing if both polygons show at it, one on each side. This is read off the map,
     /// so it is as exact: only the ends of runs are rounded. Where an edge of a polygon only touches
-    /// another, [`edges`](Self::edges) has it; and [`crossings_in_layers`](Self::crossings_in_layers) what is hidden
+    /// another, [`edges`](Self::edges) has it; and [`crossings_with_hidden`](Self::crossings_with_hidden) what is hidden
     /// of crossings. Along an edge that triangulation made, a polygon that is not planar is crossed where the other
     /// one lies between its parts; on the other's plane is what is no further from it than the tolerance.
     ///
@@ -234,38 +234,6 @@ impl CommonSide {
         let (one, other) = (first(a), first(b));
         let faces = [one.min(other), one.max(other)];
         Self { line: a.line, faces, ends: [start, end] }
-    }
-}
-
-/// Lines of which all that are the same have one number.
-#[derive(Default)]
-struct CutLines {
-    feet: Feet,
-    /// The first of each half's line, if it is one of these, and whether both are positive on the same side.
-    known: Table<u64, Option<(u32, bool)>>,
-}
-
-impl CutLines {
-    /// Adds the line of a half. (None was looked for that is not yet added.)
-    fn add(&mut self, lines: &Lines<'_>, half: Half, line: u32) -> Result<(), Error> {
-        if self.known.contains_key(&half.line()) {
-            return Ok(());
-        }
-        let found = lines.same_line(&self.feet, half);
-        if found.is_none() {
-            self.feet.add(&lines.foot(half), line)?;
-        }
-        insert(&mut self.known, half.line(), Some(found.unwrap_or((line, true))))
-    }
-
-    /// That of these lines which is the line of a half.
-    fn of(&mut self, lines: &Lines<'_>, half: Half) -> Result<Option<(u32, bool)>, Error> {
-        if let Some(&found) = self.known.get(&half.line()) {
-            return Ok(found);
-        }
-        let found = lines.same_line(&self.feet, half);
-        insert(&mut self.known, half.line(), found)?;
-        Ok(found)
     }
 }
 

@@ -19,23 +19,23 @@ use crate::memory::{push, reserve};
 pub(super) struct Divided {
     pub(super) parts: Vec<Part>,
     /// Each comes after the one in front of it. The first is of no item.
-    pub(super) layers: Vec<Layer>,
+    pub(super) stacked: Vec<Stacked>,
 }
 
 /// All of a part shows the same items.
 pub(super) struct Part {
     pub(super) cell: Cell,
     around: Rect,
-    /// The last of its layers; the first one of all, of no item, if nothing shows.
+    /// The last of those stacked in it; the first one of all, of no item, if nothing shows.
     pub(super) layer: u32,
 }
 
-/// An item that shows, and what is in front of it. Parts have layers in common, so that they take no more memory
+/// An item that shows, and what is in front of it. Parts have them in common, so that they take no more memory
 /// where many items lie over one another.
-pub(super) struct Layer {
+pub(super) struct Stacked {
     pub(super) item: u32,
     pub(super) before: u32,
-    /// The newest of the layers that have this one before them.
+    /// The newest of those that have this one before them.
     newest: u32,
 }
 
@@ -47,8 +47,8 @@ impl Divided {
         lines: &Lines<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let none = Layer { item: u32::MAX, before: 0, newest: 0 };
-        let mut divided = Self { parts: vec![], layers: vec![none] };
+        let none = Stacked { item: u32::MAX, before: 0, newest: 0 };
+        let mut divided = Self { parts: vec![], stacked: vec![none] };
         if is_opaque(leaf, stock) {
             for visible in each(watch, CUT, &leaf.cells) {
                 let Visible { item, cell } = visible?;
@@ -94,19 +94,19 @@ impl Divided {
 
     /// The layer of an item behind another layer.
     fn behind(&mut self, before: u32, item: u32) -> Result<u32, Error> {
-        let newest = self.layers[before as usize].newest;
-        if newest != 0 && self.layers[newest as usize].item == item {
+        let newest = self.stacked[before as usize].newest;
+        if newest != 0 && self.stacked[newest as usize].item == item {
             return Ok(newest);
         }
-        let layer = self.layers.len() as u32;
-        push(&mut self.layers, Layer { item, before, newest: 0 })?;
-        self.layers[before as usize].newest = layer;
+        let layer = self.stacked.len() as u32;
+        push(&mut self.stacked, Stacked { item, before, newest: 0 })?;
+        self.stacked[before as usize].newest = layer;
         Ok(layer)
     }
 
     /// The items that show in a part, back to front.
     fn items(&self, part: &Part) -> impl Iterator<Item = u32> {
-        let at = |layer: u32| (layer != 0).then(|| &self.layers[layer as usize]);
+        let at = |layer: u32| (layer != 0).then(|| &self.stacked[layer as usize]);
         std::iter::successors(at(part.layer), move |layer| at(layer.before)).map(|layer| layer.item)
     }
 }

@@ -4,12 +4,13 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::edge_run::{EdgeRun, SHORTEST};
+use super::edge_run::EdgeRun;
 use super::halving::VISITED;
+use super::intervals::parts;
 use super::map::VisibilityMap;
 use super::reporter::{each, finish_item, sort_by};
 use super::shared_edges::{Numbers, SharedEdge, shared_edges};
-use super::sight::Sight;
+use super::sight::Course;
 use super::table::Table;
 use super::visible::Visible;
 use crate::Error;
@@ -64,10 +65,10 @@ impl VisibilityMap<'_> {
         reserve(&mut list, count)?;
         for numbered in each(watch, VISITED, edges.iter_mut().enumerate()) {
             let (number, edge) = numbered?;
-            if let Some(sight) = edge.sight {
+            if let Some(course) = edge.course {
                 let first = list.len();
                 sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
-                views.runs(edge, &sight, |run| push(&mut list, (run, number as u32)))?;
+                views.runs(edge, &course, |run| push(&mut list, (run, number as u32)))?;
                 watch.work((list.len() - first) * VISITED)?;
             }
             finish_item(watch, number, count);
@@ -109,8 +110,8 @@ impl VisibilityMap<'_> {
                     for &k in edges.get(&(face, side.half.line())).into_iter().flatten() {
                         let Some(&number) = numbers.get(&(face, k)) else { continue };
                         let edge = &mut all[number as usize];
-                        let Some(sight) = &edge.sight else { continue };
-                        let [a, b] = [side.start.at, end.at].map(|point| sight.place_on(point));
+                        let Some(course) = &edge.course else { continue };
+                        let [a, b] = [side.start.at, end.at].map(|point| course.place_on(point));
                         push(&mut edge.visible, [a.min(b), a.max(b)])?;
                     }
                 }
@@ -141,7 +142,7 @@ impl Views<'_> {
     fn runs(
         &mut self,
         edge: &SharedEdge,
-        sight: &Sight,
+        course: &Course,
         give: impl FnMut(EdgeRun) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let fronts_only = self.map.stock.frame.rays.is_front_only();
@@ -155,7 +156,7 @@ impl Views<'_> {
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
         let number = faces.outline_edge(face, k);
         let mut runs: SmallVec<[EdgeRun; 4]> = SmallVec::new();
-        for (ends, is_visible) in parts(sight, &edge.visible) {
+        for (ends, is_visible) in parts(course, edge.visible.iter().copied()) {
             runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
         }
         if edge.is_turned(faces, 0, owner) {
@@ -164,26 +165,4 @@ impl Views<'_> {
         }
         runs.into_iter().try_for_each(give)
     }
-}
-
-/// A segment in parts that show and parts that do not: by where it shows, in the order of the beginnings.
-pub(super) fn parts(sight: &Sight, visible: &[[f64; 2]]) -> SmallVec<[([[f64; 2]; 2], bool); 4]> {
-    let mut found = SmallVec::new();
-    let mut add = |from: f64, to: f64, is_visible: bool| {
-        if to - from >= SHORTEST {
-            found.push(([sight.at(from), sight.at(to)], is_visible));
-        }
-    };
-    let [mut done, end] = sight.places;
-    let mut parts = visible.iter().copied().peekable();
-    while let Some([from, mut to]) = parts.next() {
-        while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
-            to = to.max(next[1]);
-        }
-        add(done, from, false);
-        add(from, to, true);
-        done = to;
-    }
-    add(done, end, false);
-    found
 }

@@ -15,7 +15,7 @@ use crate::exact::{Faces, Int, Plane, PlaneId, dot};
 use crate::raster::{Pencil, Rays};
 
 /// The coefficients of a line.
-pub(super) type Exact = [Int<6>; 3];
+pub(super) type ExactLine = [Int<6>; 3];
 
 /// What all lines of a picture share: its rays, and the faces.
 #[derive(Clone, Debug)]
@@ -89,7 +89,7 @@ impl Frame<'_> {
 
     /// The edge from one lattice point to another. In the picture it leads along (k₂, −k₁). Of a face whose
     /// front is seen, the inside is where its edges are negative.
-    pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> Exact {
+    pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ExactLine {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let integer = |p: [f64; 3]| p.map(|c| c as i64);
         let (a, b) = (integer(a), integer(b));
@@ -119,7 +119,7 @@ impl Sheet {
 
     /// The line in which the rays meet both planes. In front of the other plane, rays that meet a
     /// face's plane ahead have the sign of its κ.
-    pub(super) fn cut(&self, other: &Self) -> Exact {
+    pub(super) fn cut(&self, other: &Self) -> ExactLine {
         std::array::from_fn(|i| {
             let ahead: Int<6> = self.kappa.times(&other.phi[i]);
             let behind: Int<6> = other.kappa.times(&self.phi[i]);
@@ -130,7 +130,7 @@ impl Sheet {
 
 /// On which side of a third line two lines meet, times the sign of the turn from the first to the
 /// second.
-pub(super) fn orientation([a, b, c]: [&Exact; 3]) -> Ordering {
+pub(super) fn orientation([a, b, c]: [&ExactLine; 3]) -> Ordering {
     let minor =
         |i: usize, j: usize| -> Int<12> { a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i]) };
     let term = |i: usize, minor: Int<12>| -> Int<17> { minor.times(&c[i]) };
@@ -138,25 +138,25 @@ pub(super) fn orientation([a, b, c]: [&Exact; 3]) -> Ordering {
 }
 
 /// On which side of a line a point is that is ahead of the eye.
-pub(super) fn side_at(line: &Exact, image: &Image) -> Ordering {
+pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
     let term = |i: usize| -> Int<11> { line[i].times(&image[i]) };
     (term(0) + term(1) + term(2)).sign()
 }
 
 /// Whether two lines are one, in whatever direction.
-pub(super) fn is_same_line(a: &Exact, b: &Exact) -> bool {
+pub(super) fn is_same_line(a: &ExactLine, b: &ExactLine) -> bool {
     [(0, 1), (1, 2), (2, 0)]
         .iter()
         .all(|&(i, j)| (a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i])).sign().is_eq())
 }
 
 /// Whether two numbers for one line have opposite signs.
-pub(super) fn is_opposite(a: &Exact, b: &Exact) -> bool {
+pub(super) fn is_opposite(a: &ExactLine, b: &ExactLine) -> bool {
     (0..3).any(|i| a[i].sign().is_ne() && a[i].sign() != b[i].sign())
 }
 
 /// Where two lines meet, each coordinate rounded three times; NaN where they do not.
-pub(super) fn meeting([a, b]: [&Exact; 2]) -> [f64; 2] {
+pub(super) fn meeting([a, b]: [&ExactLine; 2]) -> [f64; 2] {
     let minor = |i: usize, j: usize| {
         let minor = a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i]);
         minor.to_f64()

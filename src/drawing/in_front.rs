@@ -4,7 +4,8 @@
 
 use super::edge_run::{EdgeRun, SHORTEST};
 use super::edges::Runs;
-use super::halving::{LINES, VISITED};
+use super::halving::{CUT, LINES, VISITED};
+use super::intervals::merged;
 use super::map::VisibilityMap;
 use super::overlaid::{LineRun, sights};
 use super::passes::{Pass, Passing, Pieces, passes};
@@ -25,21 +26,21 @@ type Ends = [[f64; 2]; 2];
 
 /// From a place of a segment on, so many polygons are in front of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct Depth {
     from: f64,
     layers: u32,
 }
 
-/// The steps of several segments, and where those of each begin: before its first, nothing is in front.
+/// The depths of several segments, and where those of each begin: before its first, nothing is in front.
 #[derive(Default)]
-pub(super) struct Steps {
-    steps: Vec<Step>,
+pub(super) struct Depths {
+    depths: Vec<Depth>,
     begins: Vec<usize>,
 }
 
-impl Steps {
-    pub(super) fn of(&self, segment: usize) -> &[Step] {
-        &self.steps[self.begins[segment]..self.begins[segment + 1]]
+impl Depths {
+    pub(super) fn of(&self, segment: usize) -> &[Depth] {
+        &self.depths[self.begins[segment]..self.begins[segment + 1]]
     }
 }
 
@@ -56,14 +57,19 @@ impl VisibilityMap<'_> {
     /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(4, |watch| {
+            let faces = self.stock.frame.faces;
             let Runs { edges, list } = self.edge_runs(watch)?;
             // The edges with hidden runs, and the number of each among these.
             let (mut hidden, mut sights) = (Vec::new(), Vec::new());
             let mut places: Vec<u32> = collect(edges.iter().map(|_| NONE))?;
-            for run in each(watch, VISITED, &list) {
+            for run in each(watch, CUT, &list) {
                 let (run, number) = run?;
                 let (edge, place) = (&edges[*number as usize], &mut places[*number as usize]);
-                if let (false, NONE, Some(sight)) = (run.is_visible, *place, edge.sight) {
+                if run.is_visible || *place != NONE {
+                    continue;
+                }
+                let (face, k) = edge.faces[0];
+                if let Some(sight) = Sight::new(&self.rims.lines, faces.ends(face, k)) {
                     *place = hidden.len() as u32;
                     push(&mut hidden, *number)?;
                     push(&mut sights, sight)?;
@@ -73,12 +79,12 @@ impl VisibilityMap<'_> {
                 let edge = &edges[hidden[sight as usize] as usize];
                 edge.faces.iter().any(|&(own, _)| own == face)
             };
-            let steps = self.steps(&sights, is_own, watch)?;
+            let depths = self.depths(&sights, is_own, watch)?;
             let mut layered = Vec::new();
             for run in each(watch, VISITED, &list) {
                 let (run, number) = run?;
                 let place = places[*number as usize] as usize;
-                let known = sights.get(place).map(|sight| (sight, steps.of(place)));
+                let known = sights.get(place).map(|sight| (sight, depths.of(place)));
                 for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
                     push(&mut layered, EdgeRun { ends, layers: Some(layers), ..*run })?;
                 }
@@ -98,14 +104,14 @@ impl VisibilityMap<'_> {
         self.reporter.watch(3, |watch| {
             let (segments, sights) = sights(&self.rims.lines, overlay, watch)?;
             let runs = self.line_runs(&segments, &sights, watch)?;
-            let steps = self.steps(&sights, |_, _| false, watch)?;
+            let depths = self.depths(&sights, |_, _| false, watch)?;
             let mut layered = Vec::new();
             let mut runs = runs.iter().peekable();
             for numbered in each(watch, VISITED, segments.iter().enumerate()) {
                 let (number, segment) = numbered?;
                 let name = (segment.line, segment.number);
                 while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
-                    let known = Some((&sights[number], steps.of(number)));
+                    let known = Some((&sights[number], depths.of(number)));
                     for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
                         push(&mut layered, LineRun { ends, layers: Some(layers), ..*run })?;
                     }
@@ -116,14 +122,14 @@ impl VisibilityMap<'_> {
     }
 
     /// How many polygons are in front of segments: two phases. A face that is a segment's own does not count.
-    pub(super) fn steps(
+    pub(super) fn depths(
         &self,
         sights: &[Sight],
         is_own: impl Fn(u32, u32) -> bool,
         watch: &Watch<'_>,
-    ) -> Result<Steps, Error> {
+    ) -> Result<Depths, Error> {
         if sights.is_empty() {
-            return Ok(Steps { begins: vec![0], ..Steps::default() });
+            return Ok(Depths { begins: vec![0], ..Depths::default() });
         }
         let (stock, faces) = (&self.stock, self.stock.frame.faces);
         let mut reaches = Reaches::default();
@@ -133,7 +139,7 @@ impl VisibilityMap<'_> {
             let number = face as u32;
             watch.work(1)?;
             if stock.sees(number) {
-                watch.work(LINES)?;
+                watch.work(LINES + stock.edges_work(number) * LINES / 4)?;
                 reaches.push(number, rims.outline(stock, number)?)?;
             }
             finish_item(watch, face, faces.len());
@@ -148,7 +154,7 @@ impl VisibilityMap<'_> {
             let keys = [a, b].map(|pass| (pass.sight, polygon(pass.piece)));
             keys[0].cmp(&keys[1]).then(a.places[0].total_cmp(&b.places[0]))
         })?;
-        let (mut steps, mut changes) = (Steps::default(), Vec::new());
+        let (mut depths, mut changes) = (Depths::default(), Vec::new());
         let mut rest = &passes[..];
         for number in each(watch, VISITED, 0..sights.len() as u32) {
             let number = number?;
@@ -159,25 +165,21 @@ impl VisibilityMap<'_> {
             for same in own.chunk_by(|a, b| polygon(a.piece) == polygon(b.piece)) {
                 // Each polygon counts once, however many parts of it there are.
                 let counts = |pass: &&Pass| !is_own(number, pass.piece);
-                let mut parts = same.iter().filter(counts).map(|pass| pass.places).peekable();
-                while let Some([from, mut to]) = parts.next() {
-                    while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
-                        to = to.max(next[1]);
-                    }
+                for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
                     push(&mut changes, (from, 1))?;
                     push(&mut changes, (to, -1))?;
                 }
             }
             sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
-            push(&mut steps.begins, steps.steps.len())?;
+            push(&mut depths.begins, depths.depths.len())?;
             let mut layers = 0i64;
             for &(from, change) in &changes {
                 layers += change;
-                push(&mut steps.steps, Step { from, layers: layers as u32 })?;
+                push(&mut depths.depths, Depth { from, layers: layers as u32 })?;
             }
         }
-        push(&mut steps.begins, steps.steps.len())?;
-        Ok(steps)
+        push(&mut depths.begins, depths.depths.len())?;
+        Ok(depths)
     }
 }
 
@@ -186,20 +188,20 @@ impl VisibilityMap<'_> {
 pub(super) fn in_layers(
     ends: Ends,
     is_visible: bool,
-    steps: Option<(&Sight, &[Step])>,
+    depths: Option<(&Sight, &[Depth])>,
     watch: &Watch<'_>,
 ) -> Result<Vec<(Ends, u32)>, Error> {
-    let Some((sight, steps)) = steps.filter(|_| !is_visible) else {
+    let Some((sight, depths)) = depths.filter(|_| !is_visible) else {
         return Ok(vec![(ends, u32::from(!is_visible))]);
     };
-    let [a, b] = ends.map(|end| sight.place(end));
+    let [a, b] = ends.map(|end| sight.course.place(end));
     let (low, high) = (a.min(b), a.max(b));
     // Where each part begins, as a share of the run.
     let mut parts: Vec<(f64, u32)> = Vec::new();
-    let first = steps.partition_point(|step| step.from <= low);
-    let before = first.checked_sub(1).map_or(0, |before| steps[before].layers);
-    let inside = steps[first..].iter().take_while(|step| step.from < high);
-    let begins = inside.map(|step| (step.from, step.layers));
+    let first = depths.partition_point(|depth| depth.from <= low);
+    let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);
+    let inside = depths[first..].iter().take_while(|depth| depth.from < high);
+    let begins = inside.map(|depth| (depth.from, depth.layers));
     let mut begins = [(low, before)].into_iter().chain(begins).peekable();
     while let Some((from, layers)) = begins.next() {
         watch.work(1)?;

@@ -14,7 +14,8 @@ use crate::exact::{Exact, Faces, Kernel, PlaneId, cross};
 /// A face, and which of its edges.
 pub(super) type FaceEdge = (u32, u32);
 
-/// The edges inside polygons, each of two faces.
+/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge twice, edges of
+/// their outlines may be among them.
 pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 
 /// Where two polygons go through one another along an edge inside one of them.
@@ -35,9 +36,6 @@ impl InnerEdges {
         for numbered in each(watch, VISITED, &faces.numbered) {
             let face = numbered?.0;
             for k in 0..faces.corners(face).len() as u32 {
-                if faces.outline_edge(face, k).is_some() {
-                    continue;
-                }
                 let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
                 ends.sort_unstable();
                 let key = (faces.polygon(face), ends);

@@ -6,7 +6,7 @@ mod tests;
 use std::cmp::Ordering;
 
 use super::feet::{Feet, Foot};
-use super::frame::{Exact, Frame, is_opposite, is_same_line, meeting, orientation};
+use super::frame::{ExactLine, Frame, is_opposite, is_same_line, meeting, orientation};
 use super::half::{Half, STEP_BITS, STEPS};
 use super::rounded::{ROUNDING, Rounded};
 use super::table::{Table, insert};
@@ -323,7 +323,7 @@ impl<'t> Lines<'t> {
     }
 
     /// A line in floats that is none of these.
-    pub(super) fn rounded_other(&self, exact: &Exact) -> Rounded {
+    pub(super) fn rounded_other(&self, exact: &ExactLine) -> Rounded {
         Rounded::new(exact, self.reach)
     }
 
@@ -349,7 +349,7 @@ impl<'t> Lines<'t> {
 
     /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
     #[cold]
-    pub(super) fn exact_side_of(&self, line: &Exact, corner: [Half; 2]) -> Ordering {
+    pub(super) fn exact_side_of(&self, line: &ExactLine, corner: [Half; 2]) -> Ordering {
         let [a, b] = corner.map(|half| self.exact(half));
         let side = orientation([&a, &b, line]);
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
@@ -390,7 +390,7 @@ impl<'t> Lines<'t> {
     }
 
     /// The same in integers.
-    fn exact_of(&self, key: Key) -> Exact {
+    fn exact_of(&self, key: Key) -> ExactLine {
         let frame = &self.frame;
         match key {
             Key::Edge(points) => frame.edge(self.ends(points)),
@@ -427,7 +427,7 @@ impl<'t> Lines<'t> {
     }
 
     /// The line of a half, in integers.
-    pub(super) fn exact(&self, half: Half) -> Exact {
+    pub(super) fn exact(&self, half: Half) -> ExactLine {
         match half.number() {
             Some(line) => self.exact_of(self.key(line)),
             None => {

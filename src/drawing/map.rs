@@ -13,7 +13,7 @@ use super::visible::{Leaf, Visible, visible};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::Watch;
-use crate::memory::collect;
+use crate::memory::{collect, filled};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -182,14 +182,14 @@ fn add_shown<'t>(
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
     let faces = stock.frame.faces;
-    let mut shows: Vec<bool> = collect((0..stock.polygons_end()).map(|_| false))?;
+    let mut shows = filled(stock.polygons_end(watch)?, false)?;
     for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
         shows[stock.polygon(visible?.item)] = true;
     }
     for face in each(watch, 1, 0..faces.len() as u32) {
         let face = face?;
         if stock.sees(face) && shows[faces.polygon(face)] {
-            watch.work(LINES)?;
+            watch.work(LINES + stock.edges_work(face) * LINES / 4)?;
             rims.outline(stock, face)?;
         }
         finish_item(watch, face as usize, faces.len());

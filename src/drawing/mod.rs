@@ -79,10 +79,15 @@
 // | `edge_run` | runs of edges and crossings |
 // | `edges` | visible and hidden runs of edges |
 // | `shared_edges` | edges, by the faces that have them |
+// | `intervals` | parts of segments, from one place to another |
 // | `inner_edges` | edges inside polygons, which triangulation made |
+// | `certain` | what floats tell of segments |
+// | `cut_lines` | lines along which polygons may go through one another |
 // | `crossings` | lines in which polygons go through one another |
+// | `straddling` | faces with corners on both sides of one another's planes |
 // | `through` | faces that go through one another, shown or not |
-// | `sight` | segments and points of the scene as the picture shows them |
+// | `sight` | segments of the scene as the picture shows them |
+// | `spot` | points of the scene as the picture shows them |
 // | `overlaid` | what shows of an overlay's lines and points |
 // | `passes` | where segments pass in front of pieces or behind them |
 // | `in_front` | how many polygons lie in front of lines |
@@ -94,7 +99,9 @@
 mod above;
 mod between;
 mod cell;
+mod certain;
 mod crossings;
+mod cut_lines;
 mod divided;
 mod edge_run;
 mod edges;
@@ -104,6 +111,7 @@ mod half;
 mod halving;
 mod in_front;
 mod inner_edges;
+mod intervals;
 mod join;
 mod lines;
 mod map;
@@ -127,8 +135,10 @@ mod rims;
 mod rounded;
 mod shared_edges;
 mod sight;
+mod spot;
 mod steps;
 mod stock;
+mod straddling;
 mod table;
 mod through;
 mod tile;

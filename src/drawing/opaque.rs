@@ -94,7 +94,7 @@ struct Nodes {
 impl Nodes {
     fn of(stock: &Stock<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
         let faces = stock.frame.faces;
-        let most = stock.polygons_end();
+        let most = stock.polygons_end(watch)?;
         let mut last: Vec<Option<u32>> = collect((0..most).map(|_| None))?;
         for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let item = visible?.item;

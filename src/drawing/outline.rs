@@ -1,12 +1,13 @@
 //! Outlines of areas that are given in parts.
 
-use std::collections::HashMap;
+use smallvec::SmallVec;
 
 use super::halving::VISITED;
 use super::reporter::{each, sort_by};
+use super::table::Table;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::collect;
+use crate::memory::{collect, filled, push};
 
 /// A side of a part: its line, and where it begins and ends, with the part on its left.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +34,9 @@ const FOLLOWED: usize = 16;
 
 type Place = [i64; 2];
 
+/// Which edges begin at a place: mostly one.
+type Begin = Table<Place, SmallVec<[usize; 2]>>;
+
 /// The closed outlines of the union of convex parts side by side, each around what is on its
 /// left; `None` if some overlap, or if rounding left an outline open, or nothing.
 ///
@@ -43,12 +47,13 @@ pub(super) fn outlines(
 ) -> Result<Option<Vec<Vec<[f64; 2]>>>, Error> {
     let Some(edges) = without_common(edges, watch)? else { return Ok(None) };
     // Which edges begin at a place.
-    let mut begin: HashMap<Place, Vec<usize>> = HashMap::new();
+    let mut begin = Begin::default();
     for numbered in each(watch, VISITED, edges.iter().enumerate()) {
         let (i, edge) = numbered?;
+        begin.try_reserve(1).map_err(|_| Error::out_of_memory())?;
         begin.entry(place(edge.from)).or_default().push(i);
     }
-    let mut is_used = vec![false; edges.len()];
+    let mut is_used = filled(edges.len(), false)?;
     let mut outlines = Vec::new();
     for first in 0..edges.len() {
         if is_used[first] {
@@ -62,7 +67,7 @@ pub(super) fn outlines(
             let edge = &edges[current];
             // Edges of one line follow one another where others meet it.
             if !last.is_some_and(|last| last.goes_on_as(edge)) {
-                outline.push(edge.from);
+                push(&mut outline, edge.from)?;
             }
             last = Some(edge);
             if is_same(edge.to, edges[first].from) {
@@ -77,7 +82,7 @@ pub(super) fn outlines(
             outline.remove(0);
         }
         if outline.len() > 2 {
-            outlines.push(outline);
+            push(&mut outlines, outline)?;
         }
     }
     // Nothing is left of what is smaller than the grid.
@@ -94,12 +99,7 @@ fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
 
 /// The unused edge that begins where another ends: of several, the one that turns furthest to the left,
 /// so that outlines that touch in a point stay apart.
-fn next(
-    begin: &HashMap<Place, Vec<usize>>,
-    is_used: &[bool],
-    edges: &[Edge],
-    current: usize,
-) -> Option<usize> {
+fn next(begin: &Begin, is_used: &[bool], edges: &[Edge], current: usize) -> Option<usize> {
     let edge = &edges[current];
     let [x, y] = place(edge.to);
     let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
@@ -123,30 +123,32 @@ fn without_common(edges: &[Edge], watch: &Watch<'_>) -> Result<Option<Vec<Edge>>
     for group in by_line.chunk_by(|&a, &b| edges[a].line == edges[b].line) {
         watch.work(group.len() * VISITED)?;
         if let [one] = group {
-            left.push(edges[*one]);
+            push(&mut left, edges[*one])?;
             continue;
         }
-        if on_one_line(group.iter().map(|&i| &edges[i]), &mut left).is_none() {
+        if !on_one_line(group.iter().map(|&i| &edges[i]), &mut left)? {
             return Ok(None);
         }
     }
     Ok(Some(left))
 }
 
-/// The same of edges on one line.
+/// The same of edges on one line, added to those that are left; whether none overlap.
 fn on_one_line<'e>(
     edges: impl Iterator<Item = &'e Edge> + Clone,
     left: &mut Vec<Edge>,
-) -> Option<()> {
+) -> Result<bool, Error> {
     // Along the axis on which the line is longer.
     let span = |axis: usize| edges.clone().map(|e| (e.to[axis] - e.from[axis]).abs()).sum::<f64>();
     let axis = usize::from(span(1) > span(0));
-    let line = edges.clone().next()?.line;
     let mut ends: Vec<(i64, i32, [f64; 2])> = Vec::new();
-    for Edge { from, to, .. } in edges {
+    let mut common = 0;
+    for &Edge { line, from, to } in edges {
+        common = line;
         let [a, b] = [from, to].map(|point| (point[axis] / GRID).round() as i64);
         if a != b {
-            ends.extend([(a, 1, *from), (b, -1, *to)]);
+            push(&mut ends, (a, 1, from))?;
+            push(&mut ends, (b, -1, to))?;
         }
     }
     ends.sort_by_key(|&(at, ..)| at);
@@ -156,22 +158,22 @@ fn on_one_line<'e>(
         let (before, point) = (count, group[0].2);
         count += group.iter().map(|&(_, step, _)| step).sum::<i32>();
         if count.abs() > 1 {
-            return None;
+            return Ok(false);
         }
         if let Some(from) = open
             && before != count
         {
             let edge = if before > 0 {
-                Edge { line, from, to: point }
+                Edge { line: common, from, to: point }
             } else {
-                Edge { line, from: point, to: from }
+                Edge { line: common, from: point, to: from }
             };
-            left.push(edge);
+            push(left, edge)?;
             open = None;
         }
         if count != 0 && open.is_none() {
             open = Some(point);
         }
     }
-    Some(())
+    Ok(true)
 }

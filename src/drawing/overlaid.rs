@@ -1,18 +1,19 @@
 //! What shows of an overlay's lines and points.
 
 use super::above::region;
-use super::edge_run::SHORTEST;
 use super::halving::{CUT, VISITED, found_in};
+use super::intervals::parts;
 use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::passes::{Passing, kept};
 use super::rect::are_apart;
 use super::reporter::{each, sort_by};
-use super::sight::{Sight, Spot};
+use super::sight::Sight;
+use super::spot::Spot;
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{push, reserve};
+use crate::memory::{collect, push, reserve};
 use crate::overlay::Overlay;
 use crate::overlay::given::GivenSegment;
 
@@ -97,10 +98,12 @@ impl VisibilityMap<'_> {
         let mut runs = Vec::new();
         for segment in each(watch, VISITED, (0..).zip(segments.iter().zip(sights))) {
             let (number, (segment, sight)) = segment?;
-            let (parts, others) = rest.split_at(rest.partition_point(|&(of, _)| of == number));
+            let (own, others) = rest.split_at(rest.partition_point(|&(of, _)| of == number));
             rest = others;
-            watch.work(parts.len())?;
-            add_runs(segment, sight, parts, &mut runs)?;
+            watch.work(own.len())?;
+            for (ends, is_hidden) in parts(&sight.course, own.iter().map(|(_, part)| *part)) {
+                push(&mut runs, LineRun::new(segment, ends, !is_hidden))?;
+            }
         }
         Ok(runs)
     }
@@ -126,8 +129,8 @@ impl VisibilityMap<'_> {
 
     /// What is hidden of segments and points, in no particular order: a phase.
     fn covered<'m>(&'m self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Covered, Error> {
-        let sights = (0..passing.sights.len() as u32).collect();
-        let spots = (0..passing.spots.len() as u32).collect();
+        let sights = collect(0..passing.sights.len() as u32)?;
+        let spots = collect(0..passing.spots.len() as u32)?;
         let all = LeafPasses { leaves: &self.leaves, sights, spots };
         let halves = |part: &LeafPasses<'m>, _: &mut Covered| part.halves(passing, watch);
         let leaf =
@@ -257,35 +260,4 @@ impl<'l> LeafPasses<'l> {
         }
         Ok(())
     }
-}
-
-/// Adds the runs of a segment of which some parts are hidden, in the order of their beginnings.
-fn add_runs(
-    segment: &GivenSegment,
-    sight: &Sight,
-    hidden: &[(u32, [f64; 2])],
-    runs: &mut Vec<LineRun>,
-) -> Result<(), Error> {
-    let [mut done, end] = sight.places;
-    let mut add = |from: f64, to: f64, is_visible: bool| {
-        if to - from < SHORTEST {
-            return Ok(());
-        }
-        let ends = [from, to].map(|place| sight.at(place));
-        push(runs, LineRun::new(segment, ends, is_visible))
-    };
-    let mut parts = hidden.iter().map(|(_, part)| *part).peekable();
-    while let Some([from, mut to]) = parts.next() {
-        while let Some(next) = parts.next_if(|next| next[0] <= to + SHORTEST) {
-            to = to.max(next[1]);
-        }
-        let (from, to) = (from.max(done), to.min(end));
-        if to - from < SHORTEST {
-            continue;
-        }
-        add(done, from, true)?;
-        add(from, to, false)?;
-        done = to;
-    }
-    add(done, end, true)
 }

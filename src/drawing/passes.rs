@@ -6,11 +6,12 @@ use super::lines::Lines;
 use super::reaches::Reaches;
 use super::rect::{Rect, are_apart};
 use super::reporter::each;
-use super::sight::{Sight, Spot};
+use super::sight::Sight;
+use super::spot::Spot;
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{push, reserve};
+use crate::memory::{collect, push, reserve};
 
 /// A part of a segment that passes a piece in the picture, over its inside or along its border.
 #[derive(Clone, Copy, Debug)]
@@ -80,8 +81,8 @@ pub(super) fn passes(
 ) -> Result<Passes, Error> {
     let tile = Tile::picture(pieces.lines.frame.rays.size());
     let reaches = std::mem::take(&mut pieces.reaches);
-    let sights = (0..passing.sights.len() as u32).collect();
-    let spots = (0..passing.spots.len() as u32).collect();
+    let sights = collect(0..passing.sights.len() as u32)?;
+    let spots = collect(0..passing.spots.len() as u32)?;
     let all = TilePasses { tile, reaches, sights, spots, in_vain: 0 };
     let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
     let leaf = |part: &TilePasses, found: &mut Passes| {

@@ -21,7 +21,7 @@ pub struct Region {
 
 /// So many tiles are divided at once, by all threads. Larger: more memory for their parts; smaller: threads wait
 /// for one another.
-const AT_ONCE: usize = 64;
+const TILES_AT_ONCE: usize = 64;
 
 impl VisibilityMap<'_> {
     /// The parts of the picture that differ in what shows, side by side; what shows nothing is in none.
@@ -42,7 +42,7 @@ impl VisibilityMap<'_> {
         let mut stacks = Stacks::default();
         push(&mut stacks.layers, Layer { polygon: usize::MAX, before: 0 })?;
         let (mut done, count) = (0, self.leaves.len());
-        for leaves in self.leaves.chunks(AT_ONCE) {
+        for leaves in self.leaves.chunks(TILES_AT_ONCE) {
             let divided = |leaf| Divided::new(leaf, &self.stock, &self.rims.lines, watch);
             for divided in parallel_map::map(leaves.iter().collect(), divided) {
                 stacks.add(&divided?, |item| self.stock.polygon(item), watch)?;
@@ -80,9 +80,9 @@ impl Stacks {
     ) -> Result<(), Error> {
         // The layers of all tiles that those of this one are.
         let mut own: Vec<u32> = Vec::new();
-        reserve(&mut own, divided.layers.len())?;
+        reserve(&mut own, divided.stacked.len())?;
         own.push(0);
-        for layer in each(watch, VISITED, &divided.layers[1..]) {
+        for layer in each(watch, VISITED, &divided.stacked[1..]) {
             let layer = layer?;
             let (before, polygon) = (own[layer.before as usize], polygon(layer.item));
             let number = match self.numbers.get(&(before, polygon)) {

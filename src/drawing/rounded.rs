@@ -1,6 +1,6 @@
 //! Lines of the picture in floats.
 
-use super::frame::Exact;
+use super::frame::ExactLine;
 use crate::exact::lattice::{exponent_of, scaled};
 
 /// The relative error of one rounding.
@@ -22,7 +22,7 @@ pub(super) struct Rounded {
 
 impl Rounded {
     /// From exact coefficients, for a picture of this size.
-    pub(super) fn new(exact: &Exact, reach: [f64; 2]) -> Self {
+    pub(super) fn new(exact: &ExactLine, reach: [f64; 2]) -> Self {
         let k = exact.each_ref().map(|c| c.to_f64());
         let sum = k[0].abs() + k[1].abs() * reach[0] + k[2].abs() * reach[1];
         Self::scaled(k, 8.0 * ROUNDING * sum)

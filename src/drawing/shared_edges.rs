@@ -10,7 +10,7 @@ use super::halving::{CUT, VISITED};
 use super::inner_edges::{FaceEdge, InnerEdges};
 use super::lines::Lines;
 use super::reporter::each;
-use super::sight::Sight;
+use super::sight::{Course, Sight};
 use super::table::{Table, insert};
 use crate::Error;
 use crate::build::progress::Watch;
@@ -24,8 +24,8 @@ pub(super) type Numbers = Table<FaceEdge, u32>;
 pub(super) struct SharedEdge {
     /// Faces, and which of their edges it is.
     pub(super) faces: SmallVec<[FaceEdge; 2]>,
-    /// The edge of the first of the faces; `None` if the picture does not show it as a line.
-    pub(super) sight: Option<Sight>,
+    /// Where the edge of the first of the faces is in the picture; `None` if that does not show it as a line.
+    pub(super) course: Option<Course>,
     /// Where it shows: places along it.
     pub(super) visible: Vec<[f64; 2]>,
 }
@@ -68,7 +68,9 @@ pub(super) fn shared_edges(
                 *by_points.entry(points).or_insert(new)
             } else {
                 // Each once, with the second of its faces.
-                let before = inner.across((face, k)).filter(|other| *other < (face, k));
+                let before = inner.across((face, k)).filter(|other| {
+                    *other < (face, k) && faces.outline_edge(other.0, other.1).is_none()
+                });
                 let Some(other) = before.filter(|other| side(other.0) != side(face)) else {
                     continue;
                 };
@@ -77,10 +79,10 @@ pub(super) fn shared_edges(
             };
             if number == new {
                 let (first, k) = known[0];
-                let sight = Sight::new(lines, faces.ends(first, k));
-                // Edges are large: lists of them that grow by an eighth are moved too often.
+                let course = Sight::new(lines, faces.ends(first, k)).map(|sight| sight.course);
+                // Lists of edges that grow by an eighth are moved too often.
                 all.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                all.push(SharedEdge { faces: SmallVec::new(), sight, visible: vec![] });
+                all.push(SharedEdge { faces: SmallVec::new(), course, visible: vec![] });
             }
             for name in known {
                 all[number as usize].faces.push(name);

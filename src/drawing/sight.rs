@@ -5,27 +5,36 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, side_on_line};
+use super::certain::{Certain, certain_ends};
 use super::edge_run::SHORTEST;
-use super::frame::{Exact, Image, meeting};
+use super::frame::{ExactLine, meeting};
 use super::lines::Lines;
 use super::rect::{NOWHERE, Rect, are_apart};
 use super::rounded::Rounded;
 use super::tile::Tile;
-use crate::exact::{Exact as Exactly, Int, Kernel, PlaneId};
+use crate::exact::{Exact, Int, Kernel, PlaneId};
 
-/// A segment of the scene, as far as the picture has it. How far along something is, is its
-/// place: in pixels, rising from the first end to the second, if these are lattice points.
+/// A segment of the scene, as far as the picture has it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     source: Source,
     /// The line of the picture that it is on.
     rounded: Rounded,
+    pub(super) course: Course,
+    /// A box around that part.
+    region: Rect,
+}
+
+/// Where a segment is in the picture. How far along something is, is its place: in pixels, rising from the
+/// first end to the second, if these are lattice points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    /// The point of its line that is nearest to the origin.
+    foot: [f64; 2],
     /// Along that line; of length 1.
     direction: [f64; 2],
     /// Where it begins and ends in the picture.
     pub(super) places: [f64; 2],
-    /// A box around that part.
-    region: Rect,
 }
 
 /// Where a segment comes from.
@@ -37,21 +46,11 @@ enum Source {
     Crossing([u32; 2]),
 }
 
-/// What floats tell of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Certain {
-    /// Both ends are in the picture, here.
-    Inside([[f64; 2]; 2]),
-    /// No point is in the picture.
-    Outside,
-    Nothing,
-}
-
 /// All places.
 const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Boxes are larger than what they are around by this, in pixels: far more than rounding.
-const MARGIN: f64 = 1e-3;
+pub(super) const MARGIN: f64 = 1e-3;
 
 impl Sight {
     /// `None` if it is not in the picture, or a point there.
@@ -63,7 +62,7 @@ impl Sight {
         }
         let mut sight = Self::along(lines.rounded_edge(ends), Source::Points(ends))?;
         let [from, to] = match certain {
-            Certain::Inside(ends) => ends.map(|end| sight.place(end)),
+            Certain::Inside(ends) => ends.map(|end| sight.course.place(end)),
             _ => sight.in_picture(lines, ends)?,
         };
         if (to - from).is_nan() || to - from < SHORTEST {
@@ -81,24 +80,27 @@ impl Sight {
     ) -> Option<Self> {
         let rounded = lines.rounded_other(&cut(lines, faces));
         let mut sight = Self::along(rounded, Source::Crossing(faces))?;
-        let [a, b] = ends.map(|end| sight.place(end));
+        let [a, b] = ends.map(|end| sight.course.place(end));
         sight.limit([a.min(b), a.max(b)]);
         ((a - b).abs() >= SHORTEST).then_some(sight)
     }
 
     /// As much of it as lies between two places.
     pub(super) fn within(mut self, [from, to]: [f64; 2]) -> Option<Self> {
-        self.limit([self.places[0].max(from), self.places[1].min(to)]);
-        (self.places[1] - self.places[0] >= SHORTEST).then_some(self)
+        let [first, last] = self.course.places;
+        let (from, to) = (first.max(from), last.min(to));
+        self.limit([from, to]);
+        (to - from >= SHORTEST).then_some(self)
     }
 
     /// A line without ends.
     fn along(rounded: Rounded, source: Source) -> Option<Self> {
-        let [_, kx, ky] = rounded.k;
-        let slope = (kx * kx + ky * ky).sqrt();
-        let direction = [ky / slope, -kx / slope];
-        let sight = Self { source, rounded, direction, places: [0.0; 2], region: NOWHERE };
-        (slope > 0.0).then_some(sight)
+        let [k0, kx, ky] = rounded.k;
+        let square = kx * kx + ky * ky;
+        let slope = square.sqrt();
+        let (foot, direction) = (-k0 / square, [ky / slope, -kx / slope]);
+        let course = Course { foot: [foot * kx, foot * ky], direction, places: [0.0; 2] };
+        (slope > 0.0).then_some(Self { source, rounded, course, region: NOWHERE })
     }
 
     /// From where to where it is in the picture, by its ends.
@@ -117,8 +119,8 @@ impl Sight {
     }
 
     fn limit(&mut self, places: [f64; 2]) {
-        self.places = places;
-        let [a, b] = places.map(|place| self.at(place));
+        self.course.places = places;
+        let [a, b] = places.map(|place| self.course.at(place));
         let axes = [0, 1];
         self.region = [
             axes.map(|i: usize| a[i].min(b[i]) - MARGIN),
@@ -126,30 +128,12 @@ impl Sight {
         ];
     }
 
-    /// The point of its line at a place.
-    pub(super) fn at(&self, place: f64) -> [f64; 2] {
-        let [k0, kx, ky] = self.rounded.k;
-        // From the point of the line that is nearest to the origin.
-        let foot = -k0 / (kx * kx + ky * ky);
-        [foot * kx + self.direction[0] * place, foot * ky + self.direction[1] * place]
-    }
-
-    /// How far along a point of the picture is.
-    pub(super) fn place(&self, [x, y]: [f64; 2]) -> f64 {
-        x * self.direction[0] + y * self.direction[1]
-    }
-
-    /// The same of a point that is on it, but for rounding.
-    pub(super) fn place_on(&self, point: [f64; 2]) -> f64 {
-        self.place(point).clamp(self.places[0], self.places[1])
-    }
-
     fn place_of<const N: usize>(&self, image: &[Int<N>; 3]) -> f64 {
         let [weight, x, y] = image.map(Int::to_f64);
-        self.place([x / weight, y / weight])
+        self.course.place([x / weight, y / weight])
     }
 
-    fn exact(&self, lines: &Lines<'_>) -> Exact {
+    fn exact(&self, lines: &Lines<'_>) -> ExactLine {
         match self.source {
             Source::Points(ends) => lines.frame.edge(ends),
             Source::Crossing(faces) => cut(lines, faces),
@@ -179,15 +163,15 @@ impl Sight {
         if signs.contains(&Ordering::Greater) && signs.contains(&Ordering::Less) {
             for i in 0..n {
                 if signs[i].is_eq() {
-                    ends.push(self.place(cell.sides[i].start.at));
+                    ends.push(self.course.place(cell.sides[i].start.at));
                 } else if signs[i] == signs[next(i)].reverse() {
                     let side = lines.exact(cell.sides[i].half);
-                    ends.push(self.place(meeting([&self.exact(lines), &side])));
+                    ends.push(self.course.place(meeting([&self.exact(lines), &side])));
                 }
             }
         } else {
             let side = side_on_line(&signs)?;
-            ends.extend([side, next(side)].map(|i| self.place(cell.sides[i].start.at)));
+            ends.extend([side, next(side)].map(|i| self.course.place(cell.sides[i].start.at)));
         }
         let [a, b] = ends[..] else { return None };
         Some([a.min(b), a.max(b)])
@@ -237,7 +221,7 @@ impl Sight {
         // How the cut changes along the line.
         let rise = minor(1, 2);
         if rise.is_ne() {
-            let place = self.place(meeting([&line, &cut]));
+            let place = self.course.place(meeting([&line, &cut]));
             let after = is_behind(rise);
             return Some(if after { [place, ALL[1]] } else { [ALL[0], place] })
                 .filter(|_| after || is_behind(rise.reverse()));
@@ -257,7 +241,7 @@ impl Sight {
         seen: Ordering,
     ) -> Option<[f64; 2]> {
         let faces = lines.frame.faces;
-        let splitter = Exactly.splitter(faces, PlaneId::face(face));
+        let splitter = Exact.splitter(faces, PlaneId::face(face));
         let sides = ends.map(|end| splitter.side_beyond(faces, &end));
         let is_behind = sides.map(|side| side == seen.reverse());
         if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
@@ -284,88 +268,25 @@ impl Sight {
     }
 }
 
+impl Course {
+    /// The point of its line at a place.
+    pub(super) fn at(&self, place: f64) -> [f64; 2] {
+        [0, 1].map(|axis: usize| self.foot[axis] + self.direction[axis] * place)
+    }
+
+    /// How far along a point of the picture is.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> f64 {
+        x * self.direction[0] + y * self.direction[1]
+    }
+
+    /// The same of a point that is on it, but for rounding.
+    pub(super) fn place_on(&self, point: [f64; 2]) -> f64 {
+        self.place(point).clamp(self.places[0], self.places[1])
+    }
+}
+
 /// The line in which rays meet the planes of two faces.
-fn cut(lines: &Lines<'_>, faces: [u32; 2]) -> Exact {
+fn cut(lines: &Lines<'_>, faces: [u32; 2]) -> ExactLine {
     let [one, other] = faces.map(|face| lines.frame.sheet(PlaneId::face(face)));
     one.cut(&other)
-}
-
-/// One over the largest error of a projected point, in pixels, that counts as none.
-const FAR: f64 = (1u64 << 30) as f64;
-
-/// What floats tell of the segment between two lattice points. (Most are inside or outside.)
-fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: &Rect) -> Certain {
-    let projected = ends.map(|end| lines.frame.rays.project(end));
-    // What is positive in the picture and ahead of the eye, and how far off that may be.
-    let inside = |([x, y, z], [ex, ey, ez]): ([f64; 3], [f64; 3])| {
-        let side = |at: f64, error: f64, border: f64, sign: f64| {
-            let off = error + border.abs() * ez;
-            (sign * (at - border * z), off + 4.0 * f64::EPSILON * (at.abs() + (border * z).abs()))
-        };
-        let beyond = |at, error, axis: usize| side(at, error, low[axis], 1.0);
-        let before = |at, error, axis: usize| side(at, error, high[axis], -1.0);
-        [(z, ez), beyond(x, ex, 0), before(x, ex, 0), beyond(y, ey, 1), before(y, ey, 1)]
-    };
-    let [a, b] = projected.map(inside);
-    let is_out = |&(value, off): &(f64, f64)| value < -off;
-    if a.iter().zip(&b).any(|(a, b)| is_out(a) && is_out(b)) {
-        return Certain::Outside;
-    }
-    let is_in = |&(value, off): &(f64, f64)| value > off;
-    // Near the eye, errors that are small for the scene are large in the picture.
-    let is_fine = |([_, _, z], errors): &([f64; 3], [f64; 3])| errors.iter().all(|e| e * FAR < *z);
-    match a.iter().chain(&b).all(is_in) && projected.iter().all(is_fine) {
-        true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
-        false => Certain::Nothing,
-    }
-}
-
-/// A point of the scene as the picture shows it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
-    point: [f64; 3],
-    pub(super) at: [f64; 2],
-}
-
-impl Spot {
-    /// `None` if it is not in the picture.
-    pub(super) fn new(lines: &Lines<'_>, point: [f64; 3]) -> Option<Self> {
-        let image = lines.frame.image(point);
-        if !image[0].sign().is_gt() {
-            return None;
-        }
-        let [weight, x, y] = image.map(Int::to_f64);
-        let spot = Self { point, at: [x / weight, y / weight] };
-        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
-        spot.is_in(lines, &Cell::rectangle(lines, low, high)).then_some(spot)
-    }
-
-    /// A box around it.
-    pub(super) fn region(&self) -> Rect {
-        [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
-    }
-
-    /// Whether it is in a cell, or on one of its sides: exact.
-    pub(super) fn is_in(&self, lines: &Lines<'_>, cell: &Cell) -> bool {
-        cell.sides.iter().all(|side| {
-            let line = lines.rounded(side.half);
-            let value = line.at(self.at);
-            let is_outside = |side_of: Ordering| side_of.is_lt() != side.half.is_negative();
-            // Its coordinates are rounded three times.
-            let off = 4.0 * f64::EPSILON * (self.at[0].abs() + self.at[1].abs());
-            if value.abs() > line.error + line.slope * off {
-                return !is_outside(value.total_cmp(&0.0));
-            }
-            let image: Image = lines.frame.image(self.point);
-            let exact = super::frame::side_at(&lines.exact(side.half), &image);
-            exact.is_eq() || !is_outside(exact)
-        })
-    }
-
-    /// Whether it is further away than a face's plane.
-    pub(super) fn is_behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> bool {
-        let faces = lines.frame.faces;
-        let splitter = Exactly.splitter(faces, PlaneId::face(face));
-        splitter.side_beyond(faces, &self.point) == seen.reverse()
-    }
 }

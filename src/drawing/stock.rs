@@ -4,11 +4,12 @@ use smallvec::SmallVec;
 
 use super::frame::Frame;
 use super::rect::{NOWHERE, Rect, common, is_empty};
+use super::reporter::each;
 use super::tile::Tile;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::PlaneId;
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 use crate::parallel_map;
 use crate::raster::{Rays, Sheet};
 use crate::tree::{BspTree, Fragment};
@@ -50,6 +51,8 @@ pub(super) struct Stock<'t> {
 
 /// So many faces, or pieces, are looked at by one thread.
 const SHARE: usize = 1024;
+/// Faces of more corners count by them.
+const FEW: usize = 32;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
@@ -69,14 +72,17 @@ impl<'t> Stock<'t> {
         let frame = Frame { rays, faces };
         let mut order = Vec::new();
         reserve(&mut order, tree.len())?;
-        tree.front_to_back_into(frame.rays.viewpoint(), &mut order);
+        for fragment in each(watch, 1, tree.front_to_back(frame.rays.viewpoint())) {
+            order.push(fragment?.index());
+        }
         let mut stock = Self { tree, frame, items: vec![], views: vec![], opacities };
-        let all = 0..faces.len() as u32;
+        let all: Vec<u32> = collect(0..faces.len() as u32)?;
         let view = |face: u32| Some(stock.view(face));
-        stock.views = shared(&all.collect::<Vec<_>>(), view, watch)?;
+        stock.views = shared(&all, view, watch)?;
         let item = |index: u32| stock.item(&tree.fragment(index));
         stock.items = shared(&order, item, watch)?;
-        for (number, item) in (0..).zip(&stock.items) {
+        for numbered in each(watch, 1, (0..).zip(&stock.items)) {
+            let (number, item) = numbered?;
             stock.views[item.face as usize].last = number;
         }
         Ok(stock)
@@ -128,9 +134,22 @@ impl<'t> Stock<'t> {
     }
 
     /// A number above those of all polygons that the picture may show.
-    pub(super) fn polygons_end(&self) -> usize {
-        let seen = (0..self.views.len() as u32).filter(|&face| self.sees(face));
-        seen.map(|face| self.frame.faces.polygon(face) + 1).max().unwrap_or(0)
+    pub(super) fn polygons_end(&self, watch: &Watch<'_>) -> Result<usize, Error> {
+        let mut end = 0;
+        for face in each(watch, 1, 0..self.views.len() as u32) {
+            let face = face?;
+            if self.sees(face) {
+                end = end.max(self.frame.faces.polygon(face) + 1);
+            }
+        }
+        Ok(end)
+    }
+
+    /// To look at all edges of a face takes as long as a build takes to examine so many pieces: what is counted for
+    /// a face of few corners covers it.
+    pub(super) fn edges_work(&self, face: u32) -> usize {
+        let corners = self.frame.faces.corners(face).len();
+        if corners > FEW { corners } else { 0 }
     }
 
     /// The tree's fragment that an item is.
@@ -156,7 +175,8 @@ impl<'t> Stock<'t> {
     /// Whether something shows through a face.
     pub(super) fn has_translucent(&self) -> bool {
         let mut faces = 0..self.views.len() as u32;
-        faces.any(|face| self.sees(face) && !self.views[face as usize].is_opaque)
+        !self.opacities.is_empty()
+            && faces.any(|face| self.sees(face) && !self.views[face as usize].is_opaque)
     }
 
     /// The polygon of an item.

@@ -6,7 +6,7 @@
 
 use std::cmp::Ordering;
 
-use super::frame::Exact;
+use super::frame::ExactLine;
 use crate::exact::Int;
 use crate::exact::lattice::{exponent_of, scaled};
 
@@ -28,7 +28,7 @@ const ERROR: f64 = 1.0 / (1u128 << 98) as f64;
 const LOST: f64 = f64::MIN_POSITIVE * (1u64 << 60) as f64;
 
 impl Twofold {
-    pub(super) fn of(line: &Exact) -> Self {
+    pub(super) fn of(line: &ExactLine) -> Self {
         let high = line.map(Int::to_f64);
         let largest = high.iter().fold(0.0f64, |largest, k| largest.max(k.abs()));
         let exponent = if largest > 0.0 { -exponent_of(largest) } else { 0 };
@@ -105,12 +105,12 @@ mod tests {
         (value as i128) >> (127 - bits)
     }
 
-    fn line(random: &mut SplitMix64, bits: u32) -> Exact {
+    fn line(random: &mut SplitMix64, bits: u32) -> ExactLine {
         std::array::from_fn(|_| Int::from(number(random, bits)))
     }
 
     /// Any line through where two others meet, moved aside by a number of few bits.
-    fn through([a, b]: [&Exact; 2], random: &mut SplitMix64, aside: u32) -> Exact {
+    fn through([a, b]: [&ExactLine; 2], random: &mut SplitMix64, aside: u32) -> ExactLine {
         let [p, q] = [40, 40].map(|bits| Int::<1>::from(number(random, bits) as i64));
         let aside = Int::<6>::from(number(random, aside));
         std::array::from_fn(|i| {
@@ -148,7 +148,7 @@ mod tests {
             for shift in [0, 100, 200] {
                 let a = line(&mut random, bits).map(|k| k.shifted::<6>(shift));
                 let b = line(&mut random, 90);
-                let sum: Exact = std::array::from_fn(|i| a[i] + b[i]);
+                let sum: ExactLine = std::array::from_fn(|i| a[i] + b[i]);
                 let twofold = [&a, &b, &sum].map(Twofold::of);
                 assert_eq!(orientation(twofold.each_ref()), None, "{bits} {shift}");
             }

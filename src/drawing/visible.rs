@@ -153,6 +153,9 @@ impl TileList {
                 continue;
             }
             let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
+            if halves.len() > CUT {
+                watch.work(open.len() * halves.len())?;
+            }
             let (lines, is_opaque) = (&rims.lines, stock.is_opaque(item));
             let mut i = 0;
             while let Some(Open { cell, around }) = open.get(i) {

@@ -74,7 +74,7 @@ fn pairs(random: &mut SplitMix64, count: usize) -> Vec<Vec<DVec3>> {
 
 /// The directions in which a polygon goes away from a line at a point of it: two, or fewer if it ends there or is not
 /// there at all.
-fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
+pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
     let mut sides = vec![];
     for face in faces.iter().filter(|face| face.plane.at(point).is_zero()) {
         let n = face.corners.len();
@@ -119,9 +119,13 @@ fn by_angle(a: &[Rational; 2], b: &[Rational; 2]) -> Ordering {
 }
 
 /// Whether two polygons go through one another at a line; `None` if one lies on the other there.
-fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> {
+pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> {
     if a.len() < 2 || b.len() < 2 {
         return Some(false);
+    }
+    // A polygon that crosses itself may have more parts there.
+    if a.len() > 2 || b.len() > 2 {
+        return None;
     }
     let mut all: Vec<([Rational; 2], usize)> = vec![];
     for (whose, sides) in [a, b].into_iter().enumerate() {
@@ -144,11 +148,11 @@ struct Score {
 }
 
 /// The runs of two polygons on which a point is.
-fn at<'r>(
-    runs: &'r [EdgeRun],
+pub(crate) fn at(
+    runs: &[EdgeRun],
     pair: [usize; 2],
     at: [f64; 2],
-) -> impl Iterator<Item = (&'r EdgeRun, bool)> {
+) -> impl Iterator<Item = (&EdgeRun, bool)> {
     let [one, other] = [pair[0].min(pair[1]), pair[0].max(pair[1])];
     let own = move |run: &&EdgeRun| (run.polygon, run.kind) == (one, EdgeKind::Crossing(other));
     runs.iter().filter(own).filter_map(move |run| {

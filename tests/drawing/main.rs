@@ -7,6 +7,7 @@ mod between;
 mod coincidences;
 mod crossings;
 mod extremes;
+mod grid_crossings;
 mod hidden;
 mod hidden_crossings;
 mod in_front;

@@ -71,11 +71,12 @@ impl Listener {
 /// What is asked of a map: an answer as text, so that answers can be compared.
 type Question = (&'static str, fn(&VisibilityMap<'_>, &Overlay) -> Result<String, Error>);
 
-const QUESTIONS: [Question; 9] = [
+const QUESTIONS: [Question; 10] = [
     ("drawing", |map, _| Ok(format!("{:?}", map.drawing()?))),
     ("edges", |map, _| Ok(format!("{:?}", map.edges()?))),
     ("edges in layers", |map, _| Ok(format!("{:?}", map.edges_in_layers()?))),
     ("crossings", |map, _| Ok(format!("{:?}", map.crossings()?))),
+    ("crossings with hidden", |map, _| Ok(format!("{:?}", map.crossings_with_hidden()?))),
     ("crossings in layers", |map, _| Ok(format!("{:?}", map.crossings_in_layers()?))),
     ("lines", |map, overlay| Ok(format!("{:?}", map.lines(overlay)?))),
     ("lines in layers", |map, overlay| Ok(format!("{:?}", map.lines_in_layers(overlay)?))),

@@ -5,12 +5,22 @@ use super::support::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
 
 /// Where rays come from, on the lattice of a scene.
 pub(crate) enum Origin {
     Eye(Point),
     /// They have this direction, and no beginning.
     Along(Point),
+}
+
+/// What is in front of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cover {
+    None,
+    Hidden,
+    /// The border of a face, or the point is on a face of another polygon.
+    Unsure,
 }
 
 /// The faces of a scene.
@@ -56,13 +66,35 @@ impl Sightlines {
         turns.iter().all(|&turn| turn > -1e-9) || turns.iter().all(|&turn| turn < 1e-9)
     }
 
+    /// What lies between a point and the eye, without the faces that it is on.
+    pub(crate) fn cover(&self, point: &Point, own: [usize; 2]) -> Cover {
+        let mut cover = Cover::None;
+        for ((polygon, face), corners) in self.faces.iter().zip(&self.rounded) {
+            let is_on = face.plane.at(point).is_zero();
+            if is_on && own.contains(polygon) || !self.may_be_before(corners, to_f64(point)) {
+                continue;
+            }
+            match if is_on { self.place(face, point) } else { self.before(face, point) } {
+                Some(Ordering::Greater) if !is_on => return Cover::Hidden,
+                Some(Ordering::Less) | None => {}
+                Some(_) => cover = Cover::Unsure,
+            }
+        }
+        cover
+    }
+
     fn is_before(&self, face: &Face, point: &Point) -> bool {
+        self.before(face, point).is_some_and(Ordering::is_ge)
+    }
+
+    /// Whether the line of sight of a point goes through a face before the point, as in [`place`](Self::place).
+    fn before(&self, face: &Face, point: &Point) -> Option<Ordering> {
         let at = face.plane.at(point);
         let (from, share) = match &self.origin {
             Origin::Eye(eye) => {
                 let at_eye = face.plane.at(eye);
                 if at_eye == at {
-                    return false;
+                    return None;
                 }
                 // From 0 at the point to 1 at the eye.
                 (rational::difference(eye, point), &at / (&at - &at_eye))
@@ -70,7 +102,7 @@ impl Sightlines {
             Origin::Along(direction) => {
                 let slope = rational::scalar(&face.plane.normal, direction);
                 if slope.is_zero() {
-                    return false;
+                    return None;
                 }
                 let zero = [(); 3].map(|()| Rational::zero());
                 (rational::difference(&zero, direction), &at / slope)
@@ -78,16 +110,22 @@ impl Sightlines {
         };
         let ends_at_eye = matches!(self.origin, Origin::Eye(_));
         if !share.is_positive() || ends_at_eye && share >= Rational::one() {
-            return false;
+            return None;
         }
         let hit: Point = std::array::from_fn(|i| &point[i] + &from[i] * &share);
+        self.place(face, &hit)
+    }
+
+    /// Whether a point of a face's plane is inside the face, on its border, or outside.
+    fn place(&self, face: &Face, point: &Point) -> Option<Ordering> {
         let n = face.corners.len();
-        (0..n).all(|k| {
+        let turns = (0..n).map(|k| {
             let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
-            let (edge, arm) = (rational::difference(b, a), rational::difference(&hit, a));
+            let (edge, arm) = (rational::difference(b, a), rational::difference(point, a));
             let turn = rational::product(&edge, &arm);
-            !rational::scalar(&turn, &face.plane.normal).is_negative()
-        })
+            rational::sign(&rational::scalar(&turn, &face.plane.normal))
+        });
+        turns.min()
     }
 }
 

@@ -209,11 +209,9 @@ impl<'a> View<'a> {
         if edges != EdgeChoice::Silhouettes {
             let mut crossings = match hidden {
                 Hidden::None => map.crossings()?,
-                _ => map.crossings_in_layers()?,
+                Hidden::Dashed => map.crossings_with_hidden()?,
+                Hidden::Layers => map.crossings_in_layers()?,
             };
-            if hidden == Hidden::Dashed {
-                crossings.iter_mut().for_each(|run| run.layers = None);
-            }
             runs.append(&mut crossings);
         }
         strokes(&runs, edges, hidden, self.min_size())

@@ -39,7 +39,7 @@ pub(super) fn load(
         let (mut missing, mut outside) = (false, false);
         for found in find_all(library, &mut find) {
             match found {
-                Library::Content(bytes) => match parse(&bytes, report) {
+                Library::Content(bytes) => match parse(library, &bytes, report) {
                     Some(found) => looks.extend(found),
                     None => missing = true,
                 },
@@ -76,9 +76,9 @@ fn is_inside(path: &Path) -> bool {
 }
 
 /// The materials of one library; `None` if it is not text.
-fn parse(bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> {
+fn parse(name: &str, bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> {
     let text = decode(bytes).ok()?;
-    let (cleaned, names) = clean(&text, report);
+    let (cleaned, names) = clean(name, &text, report);
     let (materials, _) = tobj::load_mtl_buf(&mut cleaned.as_bytes()).ok()?;
     let look = |material: &tobj::Material| Look {
         color: material.diffuse.map_or(Material::DEFAULT.color, |rgb| rgb.map(|c| c as f32)),
@@ -90,11 +90,11 @@ fn parse(bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> 
 /// Keeps the well-formed `newmtl`, `Kd` and opacity lines. The others must go, because `tobj`
 /// rejects a whole library for one bad line, and panics on a `Kd` of one number. Names are replaced
 /// by numbers, because `tobj` treats other characters as spaces.
-fn clean(text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
+fn clean(library: &str, text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
     let (mut cleaned, mut names) = (String::new(), Vec::new());
     let mut named = false;
     let mut has_dissolve = false;
-    for (_, line) in lines(text) {
+    for (at, line) in lines(text) {
         let line = line.trim_start();
         let mut words = line.split_whitespace();
         let keyword = words.next().unwrap_or_default();
@@ -119,7 +119,14 @@ fn clean(text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
             _ => continue,
         };
         match kept {
-            Some(kept) => cleaned.push_str(&kept),
+            Some(kept) => {
+                let numbers =
+                    line.split_whitespace().skip(1).take_while(|word| !word.starts_with('#'));
+                if keyword != "newmtl" && numbers.take(3).any(is_out_of_range) {
+                    report.clamped_material_lines.push(format!("{library}:{at}"));
+                }
+                cleaned.push_str(&kept);
+            }
             None => report.skipped_material_lines += 1,
         }
     }
@@ -133,6 +140,11 @@ fn color<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f32; 3]> {
         None => Some([red; 3]),
         green => Some([red, number(green)?, number(words.next())?]),
     }
+}
+
+/// Whether a word is a number that is not between 0 and 1.
+fn is_out_of_range(word: &str) -> bool {
+    word.parse().is_ok_and(|number: f32| !(0.0..=1.0).contains(&number))
 }
 
 /// A finite number, brought between 0 and 1.

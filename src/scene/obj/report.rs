@@ -33,6 +33,9 @@ pub struct ObjReport {
     /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
     /// unsupported kind, such as spectral curves.
     pub skipped_material_lines: usize,
+    /// `Kd`, `d` and `Tr` lines in material libraries with a number below 0 or above 1, which was taken as 0
+    /// or 1: the library and the line, as in `parts.mtl:7`.
+    pub clamped_material_lines: Vec<String>,
 }
 
 impl ObjReport {
@@ -56,6 +59,7 @@ impl fmt::Display for ObjReport {
             (&self.missing_libraries, "material libraries not found"),
             (&self.outside_libraries, "material libraries outside the file's folder, not read"),
             (&self.missing_materials, "materials not defined"),
+            (&self.clamped_material_lines, "colours and opacities taken as 0 or 1"),
         ];
         let counted = counts
             .into_iter()
