@@ -81,7 +81,7 @@ fn grid(chapter: &mut Chapter) -> Result<(), Failure> {
     let head = ["row", "depths of B", "depths that show", "triangles that show"];
     // Figures as wide as two digits, so that they stand in columns.
     let wide = |cells: &str| {
-        cells.split(' ').map(|cell| format!("{cell:\u{2007}>2}")).collect::<Vec<_>>().join(" ")
+        cells.split(' ').map(|cell| format!("{cell:\u{2007}>2}")).collect::<Vec<_>>().join("\u{a0}")
     };
     let rows = (0..).zip(GRID_OF_SIX).map(|(row, [second, shown, names]): (u32, _)| {
         [row.to_string(), wide(second), wide(shown), names.to_owned()]

@@ -118,6 +118,32 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
     }
 }
 
+/// An edge is cut as the finer of its two patches needs: also where only one of them is bent across it, and
+/// whichever comes first.
+#[test]
+fn shared_edges_are_as_fine_as_either_patch_needs() {
+    let view = PlainView::new(SIZE);
+    let [bent, _] = Patch::pair();
+    // The same edge, and beyond it a patch that is much flatter: each row is the edge, moved.
+    let edge = bent.0[3];
+    let flat = Patch(std::array::from_fn(|i| edge.map(|[x, y, z]| [x, y, z - 4 * i as i64])));
+    let points = |patches: &[Patch], which: usize| {
+        let is_on_edge =
+            |parameters: &[f64; 2]| parameters[0] == if which == 0 { 1.0 } else { 0.0 };
+        let triangles = &mesh(patches, &view, 0.1)[usize::from(patches.len() > 1) * which];
+        let corners = triangles.iter().flat_map(|t| t.parameters.iter().zip(&t.corners));
+        let on_edge = corners.filter(|(parameters, _)| is_on_edge(parameters));
+        let bits = on_edge.map(|(_, corner)| corner.to_array().map(f64::to_bits));
+        bits.collect::<std::collections::BTreeSet<_>>()
+    };
+    let (of_bent, of_flat) = (points(&[bent], 0), points(&[flat], 1));
+    assert!(of_bent.len() > of_flat.len() + 2, "{} {}", of_bent.len(), of_flat.len());
+    assert_eq!(points(&[bent, flat], 0), of_bent);
+    assert_eq!(points(&[bent, flat], 1), of_bent);
+    let reversed = mesh(&[flat, bent], &view, 0.1);
+    assert_eq!(reversed[1], mesh(&[bent], &view, 0.1)[0]);
+}
+
 #[test]
 fn all_surfaces_share_a_depth_buffer() {
     let view = PlainView::new(SIZE);
