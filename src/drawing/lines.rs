@@ -1,18 +1,17 @@
 //! The lines of a picture, each known by what made it.
 
+mod exact;
 #[cfg(test)]
 mod tests;
 
-use std::cmp::Ordering;
-
 use super::feet::{Feet, Foot};
-use super::frame::{ExactLine, Frame, is_opposite, is_same_line, meeting, orientation};
-use super::half::{Half, STEP_BITS, STEPS};
+use super::frame::{ExactLine, Frame, is_opposite, is_same_line};
+use super::half::{Half, STEPS};
 use super::rounded::{ROUNDING, Rounded};
 use super::table::{Table, insert};
-use super::twofold::{self, Twofold};
+use super::twofold::Twofold;
 use crate::Error;
-use crate::exact::{Int, PlaneId, PlaneKind};
+use crate::exact::{PlaneId, PlaneKind};
 use crate::memory::push;
 use crate::raster::{Sheet, edge};
 
@@ -155,16 +154,6 @@ impl<'t> Lines<'t> {
             self.keep_twofold(half)?;
         }
         Ok(half.flipped(is_front))
-    }
-
-    fn keep_twofold(&mut self, half: Half) -> Result<(), Error> {
-        match half.number() {
-            Some(line) if !self.twofold.contains_key(&line) => {
-                let twofold = Twofold::of(&self.exact_of(self.key(line)));
-                insert(&mut self.twofold, line, twofold)
-            }
-            _ => Ok(()),
-        }
     }
 
     /// The half on which the edge from one point to another is positive.
@@ -332,45 +321,6 @@ impl<'t> Lines<'t> {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
     }
 
-    /// On which side of a half's line the point lies where two others meet, the second turning to the
-    /// left of the first as seen from their halves: exact.
-    #[cold]
-    pub(super) fn exact_side(&self, half: Half, [first, second]: [Half; 2]) -> Ordering {
-        let lines = [first, second, half];
-        if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
-            return Ordering::Equal;
-        }
-        let side = self
-            .twofold_side(lines)
-            .unwrap_or_else(|| orientation(lines.map(|half| self.exact(half)).each_ref()));
-        let flips = lines.iter().filter(|half| half.is_negative()).count();
-        if flips % 2 == 1 { side.reverse() } else { side }
-    }
-
-    /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
-    #[cold]
-    pub(super) fn exact_side_of(&self, line: &ExactLine, corner: [Half; 2]) -> Ordering {
-        let [a, b] = corner.map(|half| self.exact(half));
-        let side = orientation([&a, &b, line]);
-        if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
-    }
-
-    /// Where two lines meet, from integers, and how far off that may be by rounding.
-    #[cold]
-    pub(super) fn exact_meeting(&self, halves: [Half; 2]) -> ([f64; 2], f64) {
-        let exact = halves.map(|half| self.exact(half));
-        let at = meeting(exact.each_ref());
-        let radius = 8.0 * ROUNDING * self.reach[0].max(self.reach[1]);
-        if self.shows(at) { (at, radius) } else { ([0.0; 2], f64::INFINITY) }
-    }
-
-    /// Whether three lines are known to go through one point.
-    fn share_point(&self, lines: [Half; 3]) -> bool {
-        let through = lines.map(|half| half.number().map(|line| self.through[line as usize]));
-        let [Some(a), Some(b), Some(c)] = through else { return false };
-        a.iter().any(|point| *point != NOWHERE && b.contains(point) && c.contains(point))
-    }
-
     /// A line in floats.
     fn rounded_of(&self, key: Key) -> Rounded {
         let Frame { rays, faces } = &self.frame;
@@ -389,19 +339,6 @@ impl<'t> Lines<'t> {
         if rounded.is_fine() { rounded } else { Rounded::new(&self.exact_of(key), self.reach) }
     }
 
-    /// The same in integers.
-    fn exact_of(&self, key: Key) -> ExactLine {
-        let frame = &self.frame;
-        match key {
-            Key::Edge(points) => frame.edge(self.ends(points)),
-            Key::Upright(face, k) => {
-                let (ends, axis) = self.upright(face, k);
-                frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
-            }
-            Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
-        }
-    }
-
     /// The ends of an edge.
     fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
         points.map(|point| self.frame.faces.corner(self.corners[point as usize]))
@@ -413,29 +350,5 @@ impl<'t> Lines<'t> {
         let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
         let axis = self.frame.faces.upright_axis(face).unwrap_or_default();
         ([corners[k as usize], corners[next]], axis)
-    }
-
-    /// The orientation of three lines by pairs of floats, if that is certain. Not if none is an edge of a
-    /// face of which corners were moved: others that floats cannot tell apart go through one point.
-    fn twofold_side(&self, lines: [Half; 3]) -> Option<Ordering> {
-        let known = lines.map(|half| self.twofold.get(&half.number()?));
-        known.iter().find(|known| known.is_some())?;
-        let twofold: [Twofold; 3] = std::array::from_fn(|i| {
-            known[i].copied().unwrap_or_else(|| Twofold::of(&self.exact(lines[i])))
-        });
-        twofold::orientation(twofold.each_ref())
-    }
-
-    /// The line of a half, in integers.
-    pub(super) fn exact(&self, half: Half) -> ExactLine {
-        match half.number() {
-            Some(line) => self.exact_of(self.key(line)),
-            None => {
-                let (axis, steps) = half.border();
-                let mut k = [-steps, 0, 0];
-                k[axis + 1] = 1 << STEP_BITS;
-                k.map(Int::from)
-            }
-        }
     }
 }
