@@ -15,7 +15,11 @@ impl Lines<'_> {
     /// On which side of a half's line the point lies where two others meet, the second turning to the
     /// left of the first as seen from their halves: exact.
     #[cold]
-    pub(in crate::drawing) fn exact_side(&self, half: Half, [first, second]: [Half; 2]) -> Ordering {
+    pub(in crate::drawing) fn exact_side(
+        &self,
+        half: Half,
+        [first, second]: [Half; 2],
+    ) -> Ordering {
         let lines = [first, second, half];
         if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
             return Ordering::Equal;
@@ -29,7 +33,11 @@ impl Lines<'_> {
 
     /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
     #[cold]
-    pub(in crate::drawing) fn exact_side_of(&self, line: &ExactLine, corner: [Half; 2]) -> Ordering {
+    pub(in crate::drawing) fn exact_side_of(
+        &self,
+        line: &ExactLine,
+        corner: [Half; 2],
+    ) -> Ordering {
         let [a, b] = corner.map(|half| self.exact(half));
         let side = orientation([&a, &b, line]);
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
