@@ -230,6 +230,29 @@ fn what_is_added_is_cut_to_the_cell() {
     }
 }
 
+/// Corners that were moved onto their plane are known as they were given, also where faces before them went
+/// to other cells.
+#[test]
+fn what_is_added_again_is_known_by_its_corners_as_given() {
+    let bent = |x: u32| -> Corners {
+        let x = f64::from(x);
+        vec![[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 1e-7], [x, 1.0, 0.0]]
+            .into_iter()
+            .map(DVec3::from)
+            .collect()
+    };
+    let polygons: Vec<Corners> = (0..20).map(bent).collect();
+    let options = BuildOptions::DEFAULT.with_tolerance(1e-6);
+    let scene = Divided::new(polygons.clone(), options, 4).unwrap();
+    for cell in 0..4 {
+        let mut tree = options.build_cell(&scene.partition, cell, &polygons).unwrap();
+        let own = tree.preparation().polygons - tree.preparation().dropped;
+        assert!(own >= 4 && tree.preparation().flattened == 20, "{:?}", tree.preparation());
+        tree.extend(&polygons).unwrap();
+        assert_eq!(tree.preparation().duplicates, own, "cell {cell}");
+    }
+}
+
 /// A square in numbers of which all digits are right.
 struct Exact(Corners);
 
