@@ -15,6 +15,11 @@ pub fn tree(data: &[u8]) {
     support::targets::tree::run(data);
 }
 
+/// Builds a scene as cells and judges them together, or reads partitions, forged ones and any bytes.
+pub fn cells(data: &[u8]) {
+    support::targets::cells::run(data);
+}
+
 /// Reads an OBJ file whose content is known, or any bytes.
 pub fn obj(data: &[u8]) {
     support::targets::obj::run(data);

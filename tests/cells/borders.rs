@@ -7,8 +7,9 @@ use binspace::glam::DVec3;
 use binspace::internals::{PlaneKind, SymbolKind};
 use binspace::scene;
 
-use crate::divided::{Divided, triangles};
+use crate::polygons::triangles;
 use crate::support::dice::Dice;
+use crate::support::divided::Divided;
 use crate::support::shapes::Corners;
 
 /// A plane between cells: its axis, and the bits of its lattice coordinate.

@@ -2,9 +2,9 @@
 
 mod borders;
 mod cover;
-mod divided;
 mod order;
 mod partition;
+mod polygons;
 mod saved;
 #[path = "../support/mod.rs"]
 mod support;

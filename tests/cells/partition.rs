@@ -1,10 +1,11 @@
 //! Partitions: which cells there are, and which polygons reach them.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Extent, Polygon, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, Extent, Polygon, Preparation, Viewpoint, scene};
 
-use crate::divided::{Divided, extent, tiles, triangles};
+use crate::polygons::{stars, tiles, triangles};
 use crate::support::dice::Dice;
+use crate::support::divided::{Divided, extent};
 use crate::support::shapes::Corners;
 use crate::support::snapshot::Snapshot;
 
@@ -94,11 +95,86 @@ fn odd_samples_give_as_many_cells() {
             let all = extent(&polygons);
             let partition = BuildOptions::DEFAULT.partition(&all, samples.clone(), cells).unwrap();
             assert_eq!(partition.cells(), cells.max(1));
+            let is_number = |cell| partition.bounds(cell).iter().all(|corner| !corner.is_nan());
+            assert!((0..partition.cells()).all(is_number));
             let mut order = partition.back_to_front(Viewpoint::eye([9.0, 8.0, 7.0]));
             order.sort_unstable();
             assert!(order.into_iter().eq(0..cells.max(1)));
         }
     }
+}
+
+/// Samples in four places: planes go through the places, and leave some on both sides.
+#[test]
+fn planes_go_through_places_that_many_samples_share() {
+    let options = BuildOptions::DEFAULT;
+    for (counts, planes) in [
+        ([300, 1, 1, 1], &[1.0][..]),
+        ([1, 1, 1, 300], &[3.0]),
+        ([100, 100, 100, 100], &[2.0]),
+        ([100, 100, 100, 100], &[1.0, 2.0]),
+        ([100, 100, 100, 100], &[1.0, 2.0, 3.0]),
+        ([100, 100, 100, 100], &[]),
+    ] {
+        let places = (0..4).map(|x| DVec3::X * f64::from(x));
+        let samples: Vec<DVec3> =
+            places.zip(counts).flat_map(|(place, count)| vec![place; count]).collect();
+        let mut extent = Extent::default();
+        extent.include(&[DVec3::splat(-1.0), DVec3::splat(4.0)]);
+        let partition = options.partition(&extent, samples, planes.len() + 1).unwrap();
+        let bounds: Vec<[DVec3; 2]> =
+            (0..partition.cells()).map(|cell| partition.bounds(cell)).collect();
+        let ends = |k: usize| bounds.iter().map(move |cell| cell[k].x);
+        assert!(ends(0).eq([f64::NEG_INFINITY].into_iter().chain(planes.iter().copied())));
+        assert!(ends(1).eq(planes.iter().copied().chain([f64::INFINITY])));
+        assert!(
+            bounds.iter().all(|[low, high]| low.y == f64::NEG_INFINITY && high.z == f64::INFINITY)
+        );
+    }
+}
+
+/// What the trees of all cells say of polygons is that of one tree, if each counts once.
+#[test]
+fn preparations_count_each_polygon_once() {
+    let mut dice = Dice(17);
+    let mut polygons = triangles(&mut dice, 20, 20);
+    polygons.extend(stars(&mut dice, 6));
+    polygons.push(vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0]);
+    let again: Vec<Corners> = polygons[15..].iter().rev().cloned().collect();
+    polygons.extend(again);
+    let whole = BspTree::build(&polygons).unwrap();
+    for cells in [1, 3, 8] {
+        let scene = Divided::new(polygons.clone(), BuildOptions::DEFAULT, cells).unwrap();
+        let found = scene.partition.preparation(&polygons).unwrap();
+        let counts = |found: &Preparation| {
+            let Preparation { polygons, dropped, duplicates, triangulated, crossing, .. } = *found;
+            [polygons, dropped, duplicates, triangulated, crossing]
+        };
+        assert_eq!(counts(&found), counts(whole.preparation()), "{cells} cells");
+        assert!(found.duplicates > 10 && found.triangulated > 5 && found.dropped > 0, "{found:?}");
+        let cell = &scene.cells[cells - 1].tree;
+        assert_eq!(cell.dropped().count(), cell.preparation().dropped);
+    }
+}
+
+/// Extents of shares are merged to that of the whole, in any order.
+#[test]
+fn extents_of_shares_are_that_of_the_whole() {
+    let polygons = triangles(&mut Dice(31), 30, 9);
+    let coarse = [[0.5_f32, 1.0, 2.0], [7.0, 3.0, 1.0], [3.0, 9.0, 0.0]];
+    let mut whole = extent(&polygons);
+    whole.include(&coarse);
+    let mut shares: Vec<Extent> = polygons.chunks(7).map(extent).collect();
+    shares.push(Extent::default());
+    shares.push(Extent::default());
+    shares[5].include(&coarse);
+    for turn in 0..shares.len() {
+        shares.rotate_left(turn);
+        let mut merged = Extent::default();
+        shares.iter().for_each(|share| merged.merge(share));
+        assert_eq!(merged, whole);
+    }
+    assert!(whole.precision > 0.0);
 }
 
 #[test]
@@ -111,6 +187,7 @@ fn what_cannot_be_divided_is_an_error() {
     assert!(options.with_tolerance(-1.0).partition(&all, none, 2).is_err());
     let mut wrong = all;
     wrong.include(&[[0.0, f64::NAN, 0.0]]);
+    assert!(wrong.low.y.is_nan() && wrong.high.y.is_nan());
     assert!(options.partition(&wrong, none, 2).is_err());
     // In any order, merged or not.
     let mut wrong_too = Extent::default();
@@ -150,6 +227,29 @@ fn what_is_added_is_cut_to_the_cell() {
         let all = options.build_cell(&scene.partition, cell, &polygons).unwrap();
         assert_eq!(own(&tree), own(&all));
         assert_eq!(tree.preparation().dropped, all.preparation().dropped);
+    }
+}
+
+/// Corners that were moved onto their plane are known as they were given, also where faces before them went
+/// to other cells.
+#[test]
+fn what_is_added_again_is_known_by_its_corners_as_given() {
+    let bent = |x: u32| -> Corners {
+        let x = f64::from(x);
+        vec![[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 1e-7], [x, 1.0, 0.0]]
+            .into_iter()
+            .map(DVec3::from)
+            .collect()
+    };
+    let polygons: Vec<Corners> = (0..20).map(bent).collect();
+    let options = BuildOptions::DEFAULT.with_tolerance(1e-6);
+    let scene = Divided::new(polygons.clone(), options, 4).unwrap();
+    for cell in 0..4 {
+        let mut tree = options.build_cell(&scene.partition, cell, &polygons).unwrap();
+        let own = tree.preparation().polygons - tree.preparation().dropped;
+        assert!(own >= 4 && tree.preparation().flattened == 20, "{:?}", tree.preparation());
+        tree.extend(&polygons).unwrap();
+        assert_eq!(tree.preparation().duplicates, own, "cell {cell}");
     }
 }
 

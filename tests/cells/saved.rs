@@ -2,8 +2,9 @@
 
 use binspace::{BspTree, BuildOptions, Partition};
 
-use crate::divided::{Divided, stars, tiles, triangles};
+use crate::polygons::{stars, tiles, triangles};
 use crate::support::dice::Dice;
+use crate::support::divided::Divided;
 use crate::support::saved::{bytes, seal, use_all};
 use crate::support::snapshot::Snapshot;
 
@@ -86,6 +87,25 @@ fn forged_partitions_are_errors_or_partitions() {
         }
     }
     assert!(read[0] > 50 && read[1] > 50, "{read:?}");
+}
+
+/// A tolerance that no partition has, with a right checksum.
+#[test]
+fn partitions_of_other_tolerances_are_refused() {
+    let scene = divided(4, 4);
+    let file = written(&scene.partition);
+    // Behind the tolerance come the number of planes, three planes of 12 bytes, and the checksum.
+    let at = file.len() - 4 - 3 * 12 - 8 - 8;
+    let limit = (1_u64 << 51) as f64 / 128.0;
+    let wrong = [-1.0, limit * 1.001, f64::INFINITY, f64::NAN];
+    for (tolerances, is_right) in [(&[0.0, 1.0, limit][..], true), (&wrong[..], false)] {
+        for tolerance in tolerances {
+            let mut forged = file.clone();
+            forged[at..at + 8].copy_from_slice(&tolerance.to_le_bytes());
+            seal(&mut forged);
+            assert_eq!(Partition::read(&forged[..]).is_ok(), is_right, "{tolerance}");
+        }
+    }
 }
 
 /// Trees of cells of strangers: whatever is read, nothing panics.

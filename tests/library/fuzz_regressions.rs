@@ -28,6 +28,11 @@ fn tree_regressions_pass() {
 }
 
 #[test]
+fn cells_regressions_pass() {
+    replay("cells", targets::cells::run);
+}
+
+#[test]
 fn faces_regressions_pass() {
     replay("faces", targets::faces::run);
 }

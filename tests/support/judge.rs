@@ -207,7 +207,9 @@ impl<'t> Judge<'t> {
         for (fragment, _, _) in self.with_pieces() {
             let corners = &polygons[fragment.polygon()];
             let size = corners.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
-            let allowed = 8.0 * (moved + step + size * f64::EPSILON);
+            // Next to 0 the least step of `f64` is more than all of these.
+            let least = f64::from_bits(1);
+            let allowed = 8.0 * (moved + step + size * f64::EPSILON + least);
             for (vertex, weights) in fragment.vertices().zip(fragment.weights()) {
                 let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
                 ensure((total - 1.0).abs() < 1e-12, || format!("weights sum to {total}"))?;

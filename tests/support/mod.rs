@@ -2,9 +2,12 @@
 
 #![allow(dead_code, reason = "every test program uses its own part")]
 
+pub(crate) mod cell_cover;
+pub(crate) mod cell_orders;
 pub(crate) mod checks;
 pub(crate) mod decode;
 pub(crate) mod dice;
+pub(crate) mod divided;
 #[cfg(feature = "drawing")]
 pub(crate) mod fill;
 #[cfg(feature = "drawing")]

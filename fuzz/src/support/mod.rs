@@ -1,9 +1,15 @@
 //! The oracles and decoders of the library's own tests.
 
+#[path = "../../../tests/support/cell_cover.rs"]
+pub(crate) mod cell_cover;
+#[path = "../../../tests/support/cell_orders.rs"]
+pub(crate) mod cell_orders;
 #[path = "../../../tests/support/decode.rs"]
 pub(crate) mod decode;
 #[path = "../../../tests/support/dice.rs"]
 pub(crate) mod dice;
+#[path = "../../../tests/support/divided.rs"]
+pub(crate) mod divided;
 #[path = "../../../tests/support/fill.rs"]
 pub(crate) mod fill;
 #[path = "../../../tests/support/fragment_pixels.rs"]

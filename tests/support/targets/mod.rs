@@ -1,5 +1,6 @@
 //! The bodies of the fuzz targets. Each panics if the library's result contradicts its oracle.
 
+pub(crate) mod cells;
 mod cover;
 #[cfg(feature = "drawing")]
 pub(crate) mod drawing;
