@@ -108,7 +108,7 @@ impl Place {
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             Ok(found) if !found.is_file() => Ok(Self::Into),
-            // What a link leads to is replaced, not the link.
+            // What a link leads to is replaced, not the link. (One that leads nowhere is replaced itself.)
             Ok(_) => fs::canonicalize(path).map(Self::Beside),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;

@@ -17,9 +17,10 @@ struct Run {
 }
 
 fn has_mpirun() -> bool {
-    let found = Command::new("mpirun").arg("--version").output().is_ok();
+    let said = Command::new("mpirun").arg("--version").output();
+    let found = said.is_ok_and(|said| String::from_utf8_lossy(&said.stdout).contains("Open MPI"));
     if !found {
-        eprintln!("skipped: there is no `mpirun`: install Open MPI");
+        eprintln!("skipped: there is no `mpirun` of Open MPI");
     }
     found
 }

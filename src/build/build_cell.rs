@@ -96,7 +96,8 @@ impl Partition {
     /// What becomes of polygons in the trees of cells: what these count in their
     /// [preparations](BspTree::preparation), but each polygon once, however many cells it reaches. For
     /// totals of a scene, whose polygons may be given in lists, as long as those with the same corners are
-    /// in one. [`dropped`](crate::Preparation::dropped) are those without area.
+    /// in one. [`dropped`](crate::Preparation::dropped) are those without area. It takes as long as
+    /// [`build_cell`](BuildOptions::build_cell) takes to prepare them, and cannot be cancelled.
     ///
     /// # Errors
     ///

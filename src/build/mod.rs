@@ -10,7 +10,8 @@
 //! | `job`, `jobs` | which subtrees threads are given, and in which order they work |
 //! | `assemble` | how the subtrees become one tree |
 //! | `budget`, `progress` | when a build ends early |
-//! | `frame_builder`, `extend`, `build_cell`, `overlay_builder` | trees of frames, of more polygons, of a cell of a scene, and of what an overlay has in one place |
+//! | `frame_builder`, `extend` | trees of frames, and with more polygons |
+//! | `build_cell`, `overlay_builder` | trees of one cell of a scene, and of what an overlay has in one place |
 
 mod assemble;
 mod budget;

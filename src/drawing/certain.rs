@@ -10,7 +10,7 @@ pub(super) enum Certain {
     Inside([[f64; 2]; 2]),
     /// No point is in the picture.
     Outside,
-    Nothing,
+    Unknown,
 }
 
 /// One over the largest error of a projected point, in pixels, that counts as none.
@@ -39,6 +39,6 @@ pub(super) fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: 
     let is_fine = |([_, _, z], errors): &([f64; 3], [f64; 3])| errors.iter().all(|e| e * FAR < *z);
     match a.iter().chain(&b).all(is_in) && projected.iter().all(is_fine) {
         true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
-        false => Certain::Nothing,
+        false => Certain::Unknown,
     }
 }

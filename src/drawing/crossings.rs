@@ -51,8 +51,8 @@ impl VisibilityMap<'_> {
     /// A point is on a crossing if both polygons show at it, one on each side. This is read off the map,
     /// so it is as exact: only the ends of runs are rounded. Where an edge of a polygon only touches
     /// another, [`edges`](Self::edges) has it; and [`crossings_with_hidden`](Self::crossings_with_hidden) what is hidden
-    /// of crossings. Along an edge that triangulation made, a polygon that is not planar is crossed where the other
-    /// one lies between its parts; on the other's plane is what is no further from it than the tolerance.
+    /// of crossings. Along an edge that triangulation made, a polygon is crossed where the other one lies
+    /// between the two triangles there; what is no further from a plane than the tolerance counts as on it.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
     /// [`regions`](Self::regions) are found as well.

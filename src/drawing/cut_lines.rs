@@ -15,7 +15,7 @@ pub(super) struct CutLines {
 }
 
 impl CutLines {
-    /// Adds the line of a half. (None was looked for that is not yet added.)
+    /// Adds the line of a half. All have to be added before any is looked up.
     pub(super) fn add(&mut self, lines: &Lines<'_>, half: Half, line: u32) -> Result<(), Error> {
         if self.known.contains_key(&half.line()) {
             return Ok(());

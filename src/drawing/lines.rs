@@ -1,6 +1,5 @@
 //! The lines of a picture, each known by what made it.
 
-mod exact;
 #[cfg(test)]
 mod tests;
 
@@ -29,7 +28,7 @@ pub(super) enum Key {
 }
 
 /// The number of no point.
-const NOWHERE: u32 = u32::MAX;
+pub(super) const NOWHERE: u32 = u32::MAX;
 /// Faces of more corners are not searched for one that a line goes through.
 const FEW: usize = 8;
 
@@ -41,14 +40,14 @@ pub(super) type Adopted = Table<u32, Half>;
 pub(super) struct Lines<'t> {
     pub(super) frame: Frame<'t>,
     /// The largest coordinates in the picture.
-    reach: [f64; 2],
+    pub(super) reach: [f64; 2],
     keys: Vec<Key>,
     rounded: Vec<Rounded>,
     /// Points that each line is known to go through; [`NOWHERE`] for none.
-    through: Vec<[u32; 2]>,
+    pub(super) through: Vec<[u32; 2]>,
     /// Edges of faces of which corners were moved, by their numbers: floats often cannot tell on which side
     /// of them others meet.
-    twofold: Table<u32, Twofold>,
+    pub(super) twofold: Table<u32, Twofold>,
     /// The half of each key on which it is positive.
     halves: Table<Key, Half>,
     /// The lines of edges, by where they are.
@@ -340,12 +339,12 @@ impl<'t> Lines<'t> {
     }
 
     /// The ends of an edge.
-    fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
+    pub(super) fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
         points.map(|point| self.frame.faces.corner(self.corners[point as usize]))
     }
 
     /// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
-    fn upright(&self, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
+    pub(super) fn upright(&self, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
         let corners = self.frame.faces.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
         let axis = self.frame.faces.upright_axis(face).unwrap_or_default();

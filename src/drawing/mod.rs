@@ -51,6 +51,7 @@
 // | `half` | lines by their numbers, each with a side |
 // | `rounded` | lines in floats |
 // | `twofold` | the same in pairs of floats |
+// | `exact_lines` | on which side of a line two others meet, where floats cannot tell |
 // | `feet` | lines found by where they are |
 // | `lines` | all lines of a picture, by what made them |
 // | `rect` | boxes in the picture |
@@ -105,6 +106,7 @@ mod cut_lines;
 mod divided;
 mod edge_run;
 mod edges;
+mod exact_lines;
 mod feet;
 mod frame;
 mod half;

@@ -51,7 +51,9 @@ pub(super) fn outlines(
     for numbered in each(watch, VISITED, edges.iter().enumerate()) {
         let (i, edge) = numbered?;
         begin.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        begin.entry(place(edge.from)).or_default().push(i);
+        let list = begin.entry(place(edge.from)).or_default();
+        list.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        list.push(i);
     }
     let mut is_used = filled(edges.len(), false)?;
     let mut outlines = Vec::new();

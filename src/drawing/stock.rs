@@ -145,8 +145,8 @@ impl<'t> Stock<'t> {
         Ok(end)
     }
 
-    /// To look at all edges of a face takes as long as a build takes to examine so many pieces: what is counted for
-    /// a face of few corners covers it.
+    /// To look at all edges of a face takes as long as a build takes to examine so many pieces; 0 for faces of few
+    /// corners, whose edges are part of what is counted for a face.
     pub(super) fn edges_work(&self, face: u32) -> usize {
         let corners = self.frame.faces.corners(face).len();
         if corners > FEW { corners } else { 0 }

@@ -37,8 +37,8 @@ struct Crossing {
 }
 
 impl VisibilityMap<'_> {
-    /// The runs of [`crossings`](Self::crossings), and those that are hidden by others. A crossing of polygons in
-    /// several faces is in several runs at least.
+    /// The runs of [`crossings`](Self::crossings), and those that are hidden by others. Of polygons in several
+    /// faces, each pair of faces has runs of its own.
     ///
     /// Hidden are those of polygons that both have corners on both sides of the other, further from it than the
     /// tolerance.
@@ -99,7 +99,8 @@ impl VisibilityMap<'_> {
     ) -> Result<Vec<EdgeRun>, Error> {
         let faces = self.stock.frame.faces;
         let (mut runs, mut visible) = (Vec::new(), Vec::new());
-        for (i, crossing) in crossings.iter().enumerate() {
+        for numbered in each(watch, VISITED, crossings.iter().enumerate()) {
+            let (i, crossing) = numbered?;
             let sight = &crossing.sight;
             let first = shown.partition_point(|side| side.faces < crossing.faces);
             let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);

@@ -153,6 +153,7 @@ impl TileList {
                 continue;
             }
             let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
+            // Of others it is counted above.
             if halves.len() > CUT {
                 watch.work(open.len() * halves.len())?;
             }

@@ -6,7 +6,7 @@ mod saved;
 use super::Lattice;
 use super::label::MAX_LABELS;
 use crate::Error;
-use crate::memory::{push, reserve};
+use crate::memory::reserve;
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
 /// polygon.
@@ -179,12 +179,15 @@ impl Faces {
         if start + corners.len() >= MAX_LABELS {
             return Err(Error::too_many_corners(MAX_LABELS));
         }
+        // Both at first: corners without a face would be those of the face before.
         reserve(&mut self.corners, corners.len())?;
+        reserve(&mut self.faces, 1)?;
         self.corners.extend(corners);
-        push(&mut self.faces, Face { start: start as u32, polygon: polygon as u32, frame })
+        self.faces.push(Face { start: start as u32, polygon: polygon as u32, frame });
+        Ok(())
     }
 
-    /// The lattice points of these.
+    /// The corners that define a face's plane.
     #[inline]
     pub(crate) fn triangle(&self, face: u32) -> [[f64; 3]; 3] {
         self.reference_triangle(face).map(|corner| self.corner(corner))

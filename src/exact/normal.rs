@@ -7,8 +7,8 @@ use super::label::PlaneId;
 use super::plane::cross;
 
 /// A rounded normal is used if its `size` is at most this many times its longest component; of others,
-/// too many bits were cancelled, and integers compute them. Larger: normals are taken that are off by more than the bounds of those who use them allow;
-/// smaller: more of them are computed in integers.
+/// too many bits were cancelled, and integers compute them. Larger: normals are taken that
+/// are off by more than the bounds of those who use them allow; smaller: more are computed in integers.
 const CANCELLED: f64 = (1u64 << 18) as f64;
 
 /// The vector product (q − p) × (r − p) of three lattice points, in `f64`.

@@ -79,7 +79,8 @@ pub use extent::Extent;
 /// What is made of whole polygons is not for it: `drawing`, where it is an error, and the depth buffer of
 /// `raster`, so `verify` as well. Its [`dropped`](crate::BspTree::dropped) polygons are also those of which
 /// nothing is in the cell; other counts of its [preparation](crate::BspTree::preparation) are of all that it
-/// was given, and [`preparation`](Self::preparation) counts for all cells. [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell. An
+/// was given, and [`preparation`](Self::preparation) counts for all cells.
+/// [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell. An
 /// [`Overlay`](crate::Overlay) on it is not cut: what moves there is in each cell that is given it.
 ///
 /// With the feature `save`, a partition is written and read, `Partition::write` and `Partition::read`, to

@@ -18,8 +18,8 @@ const MARGIN: [f64; 2] = [3.0, 2.0];
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Partition {
-    /// Replaces `cells` by the cells that a polygon may have part in, in ascending order. All that [`build_cell`](crate::BuildOptions::build_cell) needs of a scene are the
-    /// polygons that reach the cell.
+    /// Replaces `cells` by the cells that a polygon may have part in, in ascending order. All
+    /// that [`build_cell`](crate::BuildOptions::build_cell) needs of a scene are the polygons that reach the cell.
     ///
     /// Conservative: a cell is listed if its box meets the polygon's, widened by the tolerance, and the
     /// layer along its plane. So a few cells are listed that nothing of the polygon is in, which does no

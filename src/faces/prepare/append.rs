@@ -24,8 +24,8 @@ impl Preparer {
     }
 
     /// Appends the faces of more polygons to those of a finished scene, on its lattice and with its
-    /// tolerance. More than `limit` are an error. The polygons are numbered from `first` on. After an error, some of their faces may
-    /// have been appended.
+    /// tolerance. More than `limit` are an error. The polygons are numbered from `first` on.
+    /// After an error, some of their faces may have been appended.
     pub(crate) fn append<P: Polygon>(
         &mut self,
         faces: &mut Faces,

@@ -39,7 +39,7 @@ pub struct ObjReport {
 }
 
 impl ObjReport {
-    /// Whether nothing was left out.
+    /// Whether nothing was left out or changed.
     pub fn is_clean(&self) -> bool {
         *self == Self { faces: self.faces, ..Self::default() }
     }

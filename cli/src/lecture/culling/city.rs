@@ -38,9 +38,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         "Most of a large scene need not be drawn: what is outside of the view volume, the backs of closed \
          bodies, and what is hidden. Here are a city of {} polygons and an eye above its roofs. Each \
          step leaves out what the steps before it leave out and some more. The tree does it by boxes \
-         of whole subtrees: what is far from the rim of the view is taken or left as a whole. To list polygons \
-         costs more with each step, the last also draws what it finds into a mask; what is won is the \
-         drawing that follows, all of it here, or whatever is done to each polygon. Every picture is compared with that of an exact depth buffer that gets all polygons: none differs. What \
+         of whole subtrees: what is far from the rim of the view is taken or left as a whole. Steps \
+         cost time of their own, the last also draws what it finds into a mask; what is won is the \
+         drawing that follows, all of it here, or whatever is done to each polygon. Every picture is \
+         compared with that of an exact depth buffer that gets all polygons: none differs. What \
          the last step leaves are those polygons that own a pixel, no more. `binspace report` prints the \
          same table for a city of 2600000 polygons, ten times as large.",
         scene.len(),

@@ -158,8 +158,10 @@ fn pieces_of(
             pieces = cut(pieces, &plane, &shade.planes, |piece| piece.sees[number], dim);
         }
     }
-    // What hides all of the lamp hides each point of it.
-    let (first, others) = casters.split_first().expect("a lamp has a point");
+    // What hides all of the lamp hides each point of it, but for those that the face sees edge-on.
+    let asked = (0..shades.len()).filter(|&number| shades[number][face as usize].is_some());
+    let lists: Vec<&Vec<u32>> = asked.map(|number| &casters[number]).collect();
+    let Some((first, others)) = lists.split_first() else { return pieces };
     let of_all = |hiding: &&u32| others.iter().all(|list| list.binary_search(hiding).is_ok());
     for &hiding in first.iter().filter(of_all) {
         let all: Option<Vec<&Shade>> =

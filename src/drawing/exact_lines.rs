@@ -2,12 +2,12 @@
 
 use std::cmp::Ordering;
 
-use super::super::frame::{ExactLine, meeting, orientation};
-use super::super::half::{Half, STEP_BITS};
-use super::super::rounded::ROUNDING;
-use super::super::table::insert;
-use super::super::twofold::{self, Twofold};
-use super::{Key, Lines, NOWHERE};
+use super::frame::{ExactLine, meeting, orientation};
+use super::half::{Half, STEP_BITS};
+use super::rounded::ROUNDING;
+use super::table::insert;
+use super::twofold::{self, Twofold};
+use super::lines::{Key, Lines, NOWHERE};
 use crate::Error;
 use crate::exact::{Int, PlaneId};
 
@@ -15,7 +15,7 @@ impl Lines<'_> {
     /// On which side of a half's line the point lies where two others meet, the second turning to the
     /// left of the first as seen from their halves: exact.
     #[cold]
-    pub(in crate::drawing) fn exact_side(
+    pub(super) fn exact_side(
         &self,
         half: Half,
         [first, second]: [Half; 2],
@@ -33,7 +33,7 @@ impl Lines<'_> {
 
     /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
     #[cold]
-    pub(in crate::drawing) fn exact_side_of(
+    pub(super) fn exact_side_of(
         &self,
         line: &ExactLine,
         corner: [Half; 2],
@@ -45,7 +45,7 @@ impl Lines<'_> {
 
     /// Where two lines meet, from integers, and how far off that may be by rounding.
     #[cold]
-    pub(in crate::drawing) fn exact_meeting(&self, halves: [Half; 2]) -> ([f64; 2], f64) {
+    pub(super) fn exact_meeting(&self, halves: [Half; 2]) -> ([f64; 2], f64) {
         let exact = halves.map(|half| self.exact(half));
         let at = meeting(exact.each_ref());
         let radius = 8.0 * ROUNDING * self.reach[0].max(self.reach[1]);
@@ -76,7 +76,9 @@ impl Lines<'_> {
     /// face of which corners were moved: others that floats cannot tell apart go through one point.
     fn twofold_side(&self, lines: [Half; 3]) -> Option<Ordering> {
         let known = lines.map(|half| self.twofold.get(&half.number()?));
-        known.iter().find(|known| known.is_some())?;
+        if known.iter().all(Option::is_none) {
+            return None;
+        }
         let twofold: [Twofold; 3] = std::array::from_fn(|i| {
             known[i].copied().unwrap_or_else(|| Twofold::of(&self.exact(lines[i])))
         });
@@ -84,7 +86,7 @@ impl Lines<'_> {
     }
 
     /// The line of a half, in integers.
-    pub(in crate::drawing) fn exact(&self, half: Half) -> ExactLine {
+    pub(super) fn exact(&self, half: Half) -> ExactLine {
         match half.number() {
             Some(line) => self.exact_of(self.key(line)),
             None => {
