@@ -1,25 +1,18 @@
-//! Lines in integers, and in pairs of floats: where one float cannot tell.
+//! On which side of a line two others meet, and where: by integers and pairs of floats, where one float cannot tell.
 
 use std::cmp::Ordering;
 
 use super::frame::{ExactLine, meeting, orientation};
-use super::half::{Half, STEP_BITS};
+use super::half::Half;
+use super::lines::{Lines, NOWHERE};
 use super::rounded::ROUNDING;
-use super::table::insert;
 use super::twofold::{self, Twofold};
-use super::lines::{Key, Lines, NOWHERE};
-use crate::Error;
-use crate::exact::{Int, PlaneId};
 
 impl Lines<'_> {
     /// On which side of a half's line the point lies where two others meet, the second turning to the
     /// left of the first as seen from their halves: exact.
     #[cold]
-    pub(super) fn exact_side(
-        &self,
-        half: Half,
-        [first, second]: [Half; 2],
-    ) -> Ordering {
+    pub(super) fn exact_side(&self, half: Half, [first, second]: [Half; 2]) -> Ordering {
         let lines = [first, second, half];
         if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
             return Ordering::Equal;
@@ -33,11 +26,7 @@ impl Lines<'_> {
 
     /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
     #[cold]
-    pub(super) fn exact_side_of(
-        &self,
-        line: &ExactLine,
-        corner: [Half; 2],
-    ) -> Ordering {
+    pub(super) fn exact_side_of(&self, line: &ExactLine, corner: [Half; 2]) -> Ordering {
         let [a, b] = corner.map(|half| self.exact(half));
         let side = orientation([&a, &b, line]);
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
@@ -59,19 +48,6 @@ impl Lines<'_> {
         a.iter().any(|point| *point != NOWHERE && b.contains(point) && c.contains(point))
     }
 
-    /// A line in integers.
-    pub(super) fn exact_of(&self, key: Key) -> ExactLine {
-        let frame = &self.frame;
-        match key {
-            Key::Edge(points) => frame.edge(self.ends(points)),
-            Key::Upright(face, k) => {
-                let (ends, axis) = self.upright(face, k);
-                frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
-            }
-            Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
-        }
-    }
-
     /// The orientation of three lines by pairs of floats, if that is certain. Not if none is an edge of a
     /// face of which corners were moved: others that floats cannot tell apart go through one point.
     fn twofold_side(&self, lines: [Half; 3]) -> Option<Ordering> {
@@ -83,29 +59,5 @@ impl Lines<'_> {
             known[i].copied().unwrap_or_else(|| Twofold::of(&self.exact(lines[i])))
         });
         twofold::orientation(twofold.each_ref())
-    }
-
-    /// The line of a half, in integers.
-    pub(super) fn exact(&self, half: Half) -> ExactLine {
-        match half.number() {
-            Some(line) => self.exact_of(self.key(line)),
-            None => {
-                let (axis, steps) = half.border();
-                let mut k = [-steps, 0, 0];
-                k[axis + 1] = 1 << STEP_BITS;
-                k.map(Int::from)
-            }
-        }
-    }
-
-    /// Keeps a line in pairs of floats, if it is not kept yet.
-    pub(super) fn keep_twofold(&mut self, half: Half) -> Result<(), Error> {
-        match half.number() {
-            Some(line) if !self.twofold.contains_key(&line) => {
-                let twofold = Twofold::of(&self.exact_of(self.key(line)));
-                insert(&mut self.twofold, line, twofold)
-            }
-            _ => Ok(()),
-        }
     }
 }

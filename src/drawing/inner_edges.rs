@@ -14,8 +14,8 @@ use crate::exact::{Exact, Faces, Kernel, PlaneId, cross};
 /// A face, and which of its edges.
 pub(super) type FaceEdge = (u32, u32);
 
-/// The edges inside polygons, each of two faces; and where polygons cross themselves or run along an edge twice, those of
-/// their outlines that are equal.
+/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge twice, edges of
+/// their outlines may be among them.
 pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 
 /// Where two polygons go through one another along an edge inside one of them.
@@ -31,20 +31,24 @@ pub(super) struct Bend {
 impl InnerEdges {
     pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
         let mut across = Table::default();
-        // Edges of which one face was met.
-        let mut open: Table<(usize, [[u64; 3]; 2], bool), FaceEdge> = Table::default();
-        for numbered in each(watch, VISITED, &faces.numbered) {
-            let face = numbered?.0;
-            for k in 0..faces.corners(face).len() as u32 {
-                let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
-                ends.sort_unstable();
-                let key = (faces.polygon(face), ends, faces.outline_edge(face, k).is_some());
-                match open.remove(&key) {
-                    Some(other) => {
-                        insert(&mut across, (face, k), other)?;
-                        insert(&mut across, other, (face, k))?;
+        // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
+        // outline's on the other side.
+        let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
+        for is_inner in [true, false] {
+            for numbered in each(watch, VISITED, &faces.numbered) {
+                let face = numbered?.0;
+                let edges = 0..faces.corners(face).len() as u32;
+                for k in edges.filter(|&k| faces.outline_edge(face, k).is_none() == is_inner) {
+                    let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
+                    ends.sort_unstable();
+                    let key = (faces.polygon(face), ends);
+                    match open.remove(&key) {
+                        Some(other) => {
+                            insert(&mut across, (face, k), other)?;
+                            insert(&mut across, other, (face, k))?;
+                        }
+                        None => insert(&mut open, key, (face, k))?,
                     }
-                    None => insert(&mut open, key, (face, k))?,
                 }
             }
         }
@@ -87,7 +91,9 @@ impl InnerEdges {
         let Some(k) = (0..faces.corners(other).len() as u32).find(is_on_line) else {
             let sides = [edge, across].map(|edge| side(faces, other, &third(faces, edge)));
             let is_crossed = sides[0].is_ne() && sides[0] == sides[1].reverse();
-            return found(None, other).filter(|_| is_crossed && [edge, across].iter().any(|edge| faces.straddles(other, edge.0)));
+            return found(None, other).filter(|_| {
+                is_crossed && [edge, across].iter().any(|edge| faces.straddles(other, edge.0))
+            });
         };
         // The other has an edge there as well: it is bent too, or ends.
         let behind = self.across((other, k)).filter(|behind| is_on(behind.0))?;

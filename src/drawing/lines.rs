@@ -5,12 +5,12 @@ mod tests;
 
 use super::feet::{Feet, Foot};
 use super::frame::{ExactLine, Frame, is_opposite, is_same_line};
-use super::half::{Half, STEPS};
+use super::half::{Half, STEP_BITS, STEPS};
 use super::rounded::{ROUNDING, Rounded};
 use super::table::{Table, insert};
 use super::twofold::Twofold;
 use crate::Error;
-use crate::exact::{PlaneId, PlaneKind};
+use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::memory::push;
 use crate::raster::{Sheet, edge};
 
@@ -159,6 +159,17 @@ impl<'t> Lines<'t> {
     fn edge_between(&mut self, [a, b]: [u32; 2]) -> Result<Half, Error> {
         let points = [a.min(b), a.max(b)];
         Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
+    }
+
+    /// Keeps a line in pairs of floats, if it is not kept yet.
+    fn keep_twofold(&mut self, half: Half) -> Result<(), Error> {
+        match half.number() {
+            Some(line) if !self.twofold.contains_key(&line) => {
+                let twofold = Twofold::of(&self.exact_of(self.key(line)));
+                insert(&mut self.twofold, line, twofold)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front; by
@@ -338,13 +349,39 @@ impl<'t> Lines<'t> {
         if rounded.is_fine() { rounded } else { Rounded::new(&self.exact_of(key), self.reach) }
     }
 
+    /// A line in integers.
+    fn exact_of(&self, key: Key) -> ExactLine {
+        let frame = &self.frame;
+        match key {
+            Key::Edge(points) => frame.edge(self.ends(points)),
+            Key::Upright(face, k) => {
+                let (ends, axis) = self.upright(face, k);
+                frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
+            }
+            Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
+        }
+    }
+
+    /// The line of a half, in integers.
+    pub(super) fn exact(&self, half: Half) -> ExactLine {
+        match half.number() {
+            Some(line) => self.exact_of(self.key(line)),
+            None => {
+                let (axis, steps) = half.border();
+                let mut k = [-steps, 0, 0];
+                k[axis + 1] = 1 << STEP_BITS;
+                k.map(Int::from)
+            }
+        }
+    }
+
     /// The ends of an edge.
-    pub(super) fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
+    fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
         points.map(|point| self.frame.faces.corner(self.corners[point as usize]))
     }
 
     /// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
-    pub(super) fn upright(&self, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
+    fn upright(&self, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
         let corners = self.frame.faces.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
         let axis = self.frame.faces.upright_axis(face).unwrap_or_default();

@@ -12,6 +12,7 @@ use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 /// A quad that is bent along its shorter diagonal, which a wall goes through.
 #[test]
@@ -246,4 +247,40 @@ fn crossings_along_bends_are_those_that_rays_meet() {
     assert!(score.crossed.iter().all(|&count| count > 50), "{score:?}");
     assert!(score.touched > 1000 && score.both > 500, "{score:?}");
     assert!(score.unsure * 20 < score.crossed.iter().sum(), "{score:?}");
+}
+
+/// How long the visible crossings of each two polygons are together.
+fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
+    let mut lengths = BTreeMap::new();
+    for run in runs.iter().filter(|run| run.is_visible) {
+        let EdgeKind::Crossing(other) = run.kind else { panic!("{run:?}") };
+        let [[ax, ay], [bx, by]] = run.ends;
+        *lengths.entry((run.polygon, other)).or_insert(0.0) += (bx - ax).hypot(by - ay);
+    }
+    lengths
+}
+
+/// Whatever the tolerance leaves open at the ends of polygons and along their bends.
+#[test]
+fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
+    let (mut random, mut compared) = (SplitMix64::new(15), 0);
+    for tolerance in [0.0, 0.01, 0.05, 0.2] {
+        for _ in 0..12 {
+            let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+            let tree = options.build(pairs(&mut random, 8)).unwrap();
+            let eye = random.point(-1.0, 1.0).normalize() * 4.0;
+            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            let map = VisibilityMap::of(&tree, rays).unwrap();
+            let expected = shown(&map.crossings().unwrap());
+            let found = shown(&map.crossings_with_hidden().unwrap());
+            for (pair, length) in &expected {
+                let other = found.get(pair).copied().unwrap_or_default();
+                // (Slivers near their ends are the one's alone.)
+                assert!((length - other).abs() < 0.05, "{pair:?}: {length} and {other}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 300, "{compared}");
 }

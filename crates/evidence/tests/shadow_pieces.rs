@@ -270,3 +270,30 @@ fn a_shadow_by_hand() {
     assert_eq!(corners.len(), 4);
     assert!(corners.iter().all(|p| p.x.abs() == 4.0 && p.y.abs() == 4.0 && p.z == 0.0));
 }
+
+/// A lamp that stands on a floor: the floor sees two of its corners edge-on, and lies in the umbra behind a
+/// wall all the same.
+#[test]
+fn behind_a_wall_is_umbra_of_a_lamp_that_is_partly_seen_edge_on() {
+    let mut scene = Scene::new("standing", DVec3::Z);
+    let floor = [[-16.0, -16.0], [16.0, -16.0], [16.0, 16.0], [-16.0, 16.0]];
+    scene.push(floor.map(|[x, y]| dvec3(x, y, 0.0)), 0);
+    let wall = [[-16.0, 0.0], [16.0, 0.0], [16.0, 8.0], [-16.0, 8.0]];
+    scene.push(wall.map(|[y, z]| dvec3(4.0, y, z)), 0);
+    let lamp = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
+    let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+    let pieces = cut(&scene, &lamp.map(|[y, z]| dvec3(-8.0, y, z)));
+    let floor = pieces.iter().filter(|piece| piece.face == 0);
+    let (dark, others): (Vec<&Piece>, Vec<&Piece>) = floor.partition(|piece| piece.is_umbra);
+    assert!(!dark.is_empty());
+    for (pieces, is_behind) in [(dark, true), (others, false)] {
+        for piece in pieces {
+            assert!(piece.corners(&faces).all(|p| (p.x >= 4.0) == is_behind || p.x == 4.0));
+        }
+    }
+}
+
+#[test]
+fn without_a_lamp_all_faces_are_whole() {
+    assert_eq!(cut(&courtyard(), &[]).len(), courtyard().len());
+}
