@@ -278,7 +278,7 @@ fn behind_a_wall_is_umbra_of_a_lamp_that_is_partly_seen_edge_on() {
     let mut scene = Scene::new("standing", DVec3::Z);
     let floor = [[-16.0, -16.0], [16.0, -16.0], [16.0, 16.0], [-16.0, 16.0]];
     scene.push(floor.map(|[x, y]| dvec3(x, y, 0.0)), 0);
-    let wall = [[-16.0, 0.0], [16.0, 0.0], [16.0, 8.0], [-16.0, 8.0]];
+    let wall = [[-16.0, -1.0], [16.0, -1.0], [16.0, 8.0], [-16.0, 8.0]];
     scene.push(wall.map(|[y, z]| dvec3(4.0, y, z)), 0);
     let lamp = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
