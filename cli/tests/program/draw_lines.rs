@@ -144,7 +144,8 @@ fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
         let begun =
             joined_svg.lines.iter().map(|path| path.data.matches('m').count()).sum::<usize>();
         assert_eq!(joined["lines"], begun);
-        assert!(joined_svg.lines.len() <= 8 && 3 * begun < 2 * svg.lines.len().max(30));
+        // Of triangles at random, seven in ten lines join no other.
+        assert!(joined_svg.lines.len() <= 8 && 4 * begun < 3 * svg.lines.len().max(30));
         assert!(joined["bytes"].as_u64() < figures["bytes"].as_u64());
         // What is visible alone is not dashed.
         let (_, visible) = drawn(&folder, &view, "--lines --edges all --hidden none");
