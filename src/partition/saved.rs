@@ -3,9 +3,10 @@
 use std::io::{self, Read, Write};
 
 use super::{Partition, Wall};
+use crate::exact::cell::EVERYWHERE;
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{LATTICE_LIMIT, Lattice};
-use crate::save::{Kind, LoadError, Reader, Writer, u32_at, u64_at};
+use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
 /// The most planes: more than anyone builds trees of cells for.
@@ -62,9 +63,31 @@ impl Partition {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
         let is_wrong = |wall: &Wall| wall.axis > 2 || wall.at.abs() > LATTICE_LIMIT;
-        match planes.iter().position(is_wrong) {
-            Some(plane) => Err(crate::save::invalid("plane", plane, "is outside the grid")),
-            None => Ok(Self { lattice, tolerance, planes }),
+        if let Some(plane) = planes.iter().position(is_wrong) {
+            return Err(invalid("plane", plane, "is outside the grid"));
         }
+        let partition = Self { lattice, tolerance, planes };
+        partition.check_planes()?;
+        Ok(partition)
+    }
+
+    /// An error unless each plane is within the part of the scene that it divides.
+    fn check_planes(&self) -> Result<(), LoadError> {
+        let mut rest = vec![(self.root(), EVERYWHERE)];
+        while let Some((subtree, part)) = rest.pop() {
+            if subtree.cells.len() == 1 {
+                continue;
+            }
+            let Wall { axis, at } = self.planes[subtree.plane];
+            if !(part[0][axis]..=part[1][axis]).contains(&at) {
+                return Err(invalid("plane", subtree.plane, "is outside of what it divides"));
+            }
+            let [mut behind, mut ahead] = [part; 2];
+            behind[1][axis] = at;
+            ahead[0][axis] = at;
+            let [back, front] = subtree.sides();
+            rest.extend([(back, behind), (front, ahead)]);
+        }
+        Ok(())
     }
 }
