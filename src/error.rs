@@ -205,6 +205,29 @@ impl Error {
         }
     }
 
+    /// The same error about a polygon of another number, if it blames a polygon: for those who give the library
+    /// a part of their polygons, as of a cell, and know these by other numbers.
+    ///
+    /// ```
+    /// let error = binspace::BspTree::build([[[f64::NAN; 3]; 3]]).unwrap_err();
+    /// assert_eq!((error.polygon(), error.with_polygon(7).polygon()), (Some(0), Some(7)));
+    /// ```
+    pub const fn with_polygon(mut self, polygon: usize) -> Self {
+        match &mut self.kind {
+            Kind::NonFinite { shape: InputKind::Polygon, number }
+            | Kind::Corners { shape: InputKind::Polygon, number, .. }
+            | Kind::OffGrid { shape: InputKind::Polygon, number } => *number = polygon,
+            #[cfg(feature = "layers")]
+            Kind::Layer { layer } => *layer = polygon,
+            #[cfg(feature = "drawing")]
+            Kind::OverlayPolygon { number } | Kind::Opacity { polygon: number, .. } => {
+                *number = polygon;
+            }
+            _ => {}
+        }
+        self
+    }
+
     /// The index of the overlay's line to blame, in the order in which the lines were given.
     pub const fn line(&self) -> Option<usize> {
         self.number_of(InputKind::Line)

@@ -54,10 +54,7 @@ pub(crate) fn collect<T>(items: impl ExactSizeIterator<Item = T>) -> Result<Vec<
 /// If there is not enough memory.
 #[cfg(feature = "drawing")]
 pub(crate) fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
-    let mut list = Vec::new();
-    list.try_reserve_exact(len).map_err(|_| Error::out_of_memory())?;
-    list.resize(len, value);
-    Ok(list)
+    collect(std::iter::repeat_n(value, len))
 }
 
 #[cold]

@@ -83,8 +83,7 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let begin = processor_time();
     let tree = options.build_cell(&partition, rank(world), &mine);
     figures.build = processor_time() - begin;
-    let tree =
-        together(world, tree.map_err(|error| share::about(&arguments.scene, &mine, &error)))?;
+    let tree = together(world, tree.map_err(|error| share::about(&arguments.scene, &mine, error)))?;
     figures.fragments = tree.len() as u64;
     figures.polygons = (mine.len() - tree.preparation().dropped) as u64;
     let begin = processor_time();
@@ -197,7 +196,7 @@ fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Re
             return Err("--alone is for one rank".to_owned());
         }
         let tree = arguments.options().build(&share.polygons);
-        let tree = tree.map_err(|error| share::about(&arguments.scene, &share.polygons, &error))?;
+        let tree = tree.map_err(|error| share::about(&arguments.scene, &share.polygons, error))?;
         let (camera, rays) = camera_and_rays(arguments, &share.extent(), &tree)?;
         let look =
             |polygon: usize| (share.polygons[polygon].colour, share.polygons[polygon].opacity);

@@ -85,17 +85,19 @@ impl Share {
 
 /// What is wrong with a tree of some of a scene's polygons, with the polygon to blame as the scene has it:
 /// a generated one by its number, one of a file by its place there.
-pub(crate) fn about(scene: &str, polygons: &[Given], error: &Error) -> String {
+pub(crate) fn about(scene: &str, polygons: &[Given], error: Error) -> String {
     let Some(given) = error.polygon().and_then(|place| polygons.get(place)) else {
         return error.to_string();
     };
     let files =
         if is_generated(scene) { vec![] } else { files(Path::new(scene)).unwrap_or_default() };
-    let name = match files.get((given.number >> IN_FILE) as usize) {
-        Some(file) => format!("{}: face {}", file.display(), given.number & ((1 << IN_FILE) - 1)),
-        None => format!("polygon {}", given.number),
-    };
-    format!("{name}, counted from 0: of this rank's, {error}")
+    match files.get((given.number >> IN_FILE) as usize) {
+        Some(file) => {
+            let face = given.number & ((1 << IN_FILE) - 1);
+            format!("{}: {}", file.display(), error.with_polygon(face as usize))
+        }
+        None => error.with_polygon(given.number as usize).to_string(),
+    }
 }
 
 /// The OBJ files that a name means.
@@ -203,13 +205,13 @@ mod tests {
             std::fs::write(folder.path().join(name), text).unwrap();
         }
         for (scene, skip, expected) in [
-            ("cloud:9", 4, "polygon 4, counted".to_owned()),
-            (path, 11, format!("{path}/b.obj: face 2, counted")),
+            ("cloud:9", 4, "polygon 4 has".to_owned()),
+            (path, 11, format!("{path}/b.obj: polygon 2 has")),
         ] {
             let mut polygons = Share::load(scene, 0, 1).unwrap().polygons.split_off(skip);
             polygons[0].corners[1].x = f64::NAN;
             let error = binspace::BspTree::build(&polygons).unwrap_err();
-            let text = about(scene, &polygons, &error);
+            let text = about(scene, &polygons, error);
             assert!(text.starts_with(&expected) && text.contains("NaN"), "{text}");
         }
     }

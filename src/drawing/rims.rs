@@ -9,7 +9,7 @@ use super::stock::{Item, Stock, View};
 use super::table::{Table, insert};
 use super::tile::Across;
 use crate::Error;
-use crate::memory::{place, push};
+use crate::memory::{place, push, reserve};
 
 /// The halves that bound faces and items, of those that someone asked for.
 ///
@@ -152,10 +152,8 @@ impl<'t> Rims<'t> {
         let start = self.halves.len();
         // All edges of the face: one that passes by the piece's box may still be what keeps a piece out that
         // is beside the picture, whose box is not empty.
-        for place in rim[0]..rim[1] {
-            let half = self.halves[place as usize];
-            push(&mut self.halves, half)?;
-        }
+        reserve(&mut self.halves, (rim[1] - rim[0]) as usize)?;
+        self.halves.extend_from_within(rim[0] as usize..rim[1] as usize);
         let View { is_positive, .. } = stock.views[face as usize];
         for line in fragment.lines() {
             let Some(plane) = line.as_cut() else { continue };

@@ -150,7 +150,7 @@ fn build(
     });
     let counted = partition.preparation(counted);
     let tree = options.build_cell(partition, number, scene.polygons());
-    let tree = tree.map_err(|error| about(&scene, number, &numbers, &error))?;
+    let tree = tree.map_err(|error| about(&scene, &numbers, error))?;
     let counted = counted.map_err(|error| job::about(&scene, &error))?;
     let cell = Cell { tree, scene, numbers };
     found.add(&cell, &counted);
@@ -158,13 +158,10 @@ fn build(
 }
 
 /// A failure to build the tree of a cell, with the polygon to blame by its number in the whole scene.
-fn about(scene: &Scene, cell: usize, numbers: &[usize], error: &Error) -> Failure {
+fn about(scene: &Scene, numbers: &[usize], error: Error) -> Failure {
     match error.polygon().and_then(|place| numbers.get(place)) {
-        Some(number) => {
-            let about = format!("{}: polygon {number}, counted from 0", scene.name());
-            Failure::about(about, format!("of cell {cell}'s, {error}"))
-        }
-        None => job::about(scene, error),
+        Some(&number) => job::about(scene, &error.with_polygon(number)),
+        None => job::about(scene, &error),
     }
 }
 
@@ -214,7 +211,7 @@ mod tests {
             scene.push(triangle(x), u32::MAX);
         }
         let error = options.build_cell(&partition, 1, scene.polygons()).unwrap_err();
-        let Failure::Message(message) = about(&scene, 1, &[4, 7, 90], &error) else { panic!() };
-        assert!(message.starts_with("s: polygon 90, counted from 0: of cell 1's"), "{message}");
+        let Failure::Message(message) = about(&scene, &[4, 7, 90], error) else { panic!() };
+        assert!(message.starts_with("s: polygon 90 has a coordinate that is NaN"), "{message}");
     }
 }

@@ -98,6 +98,7 @@ fn clean(library: &str, text: &str, report: &mut ObjReport) -> (String, Vec<Stri
         let line = line.trim_start();
         let mut words = line.split_whitespace();
         let keyword = words.next().unwrap_or_default();
+        let mut is_clamped = false;
         let kept = match keyword {
             "newmtl" => {
                 let name = line[keyword.len()..].trim_ascii();
@@ -107,22 +108,22 @@ fn clean(library: &str, text: &str, report: &mut ObjReport) -> (String, Vec<Stri
                     format!("newmtl {}\n", names.len())
                 })
             }
-            "Kd" if named => color(words).map(|[r, g, b]| format!("Kd {r} {g} {b}\n")),
+            "Kd" if named => {
+                color(words, &mut is_clamped).map(|[r, g, b]| format!("Kd {r} {g} {b}\n"))
+            }
             "d" if named => {
                 has_dissolve = true;
-                number(words.next()).map(|d| format!("d {d}\n"))
+                number(words.next(), &mut is_clamped).map(|d| format!("d {d}\n"))
             }
             // Transparency; `d` is the standard one and goes before it.
             "Tr" if named && !has_dissolve => {
-                number(words.next()).map(|tr| format!("d {}\n", 1.0 - tr))
+                number(words.next(), &mut is_clamped).map(|tr| format!("d {}\n", 1.0 - tr))
             }
             _ => continue,
         };
         match kept {
             Some(kept) => {
-                let numbers =
-                    line.split_whitespace().skip(1).take_while(|word| !word.starts_with('#'));
-                if keyword != "newmtl" && numbers.take(3).any(is_out_of_range) {
+                if is_clamped {
                     report.clamped_material_lines.push(format!("{library}:{at}"));
                 }
                 cleaned.push_str(&kept);
@@ -134,7 +135,8 @@ fn clean(library: &str, text: &str, report: &mut ObjReport) -> (String, Vec<Stri
 }
 
 /// Red, green and blue, or one number for all.
-fn color<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f32; 3]> {
+fn color<'a>(mut words: impl Iterator<Item = &'a str>, is_clamped: &mut bool) -> Option<[f32; 3]> {
+    let mut number = |word| number(word, is_clamped);
     let red = number(words.next())?;
     match words.next().filter(|word| !word.starts_with('#')) {
         None => Some([red; 3]),
@@ -142,13 +144,10 @@ fn color<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f32; 3]> {
     }
 }
 
-/// Whether a word is a number that is not between 0 and 1.
-fn is_out_of_range(word: &str) -> bool {
-    word.parse().is_ok_and(|number: f32| !(0.0..=1.0).contains(&number))
-}
-
-/// A finite number, brought between 0 and 1.
-fn number(word: Option<&str>) -> Option<f32> {
+/// A finite number, brought between 0 and 1; notes if that changed it.
+fn number(word: Option<&str>, is_clamped: &mut bool) -> Option<f32> {
     let number: f32 = word?.parse().ok()?;
-    number.is_finite().then(|| number.clamp(0.0, 1.0))
+    let kept = number.is_finite().then(|| number.clamp(0.0, 1.0))?;
+    *is_clamped |= kept != number;
+    Some(kept)
 }
