@@ -64,20 +64,18 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 43] = changes! {
+const CHANGES: [Change; 37] = changes! {
     quick: "table alone" => Some(Quick { crossings: 0, probes: 0, ..Quick::FRAMES }),
         "probes alone" => Some(Quick { table: 0, crossings: 0, ..Quick::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
     few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
-    largest: "0" => 0, "½" => 1, "×2" => 4;
     one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
     uneven: "never" => 1, "½" => 2, "×2" => 8;
     first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;
     rate: "½" => 2, "×2" => 8;
     reward: "0" => 0.0, "½" => 0.175, "×2" => 0.7;
-    least_share: "off" => MOST, "½" => 4, "×2" => 16;
     per_bin: "½" => 1, "×2" => 4;
     most_bins: "⅛" => 128, "½" => 512, "×2" => 2048, "×8" => 8192;
     groups_per_box: "½" => 32, "×2" => 128, "all" => 1 << 30;

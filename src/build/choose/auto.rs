@@ -1,6 +1,6 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
-use super::cost::{Candidate, Cost, Terms};
+use super::cost::{Candidate, Terms};
 use super::free::Sweep;
 use super::own::Contest;
 use super::peel::{Peeler, arrange};
@@ -134,7 +134,7 @@ impl Auto {
         {
             return Ok(Choice::Peel(peeled));
         }
-        Ok(better(set, own, free))
+        Ok(better(set, &terms, own, free))
     }
 
     fn best_of_large<K: Kernel>(
@@ -166,10 +166,7 @@ impl Auto {
             watch.work(set.len())?;
         }
         let own = self.contest.best(set, &mut self.sample, &terms, tuning)?;
-        // Own planes of large sets are compared by amount alone, so the free plane is too.
-        let cost_of_large = |cost| Cost { cuts: false, ..cost };
-        let free = free.map(|free| Candidate { cost: cost_of_large(free.cost), ..free });
-        Ok(better(set, own, free))
+        Ok(better(set, &terms, own, free))
     }
 
     /// Compares own planes of a large set with a first sample of it.
@@ -195,9 +192,14 @@ fn plane_of_pair<K: Kernel>(set: &Set<'_, K>) -> Option<PlaneId> {
 }
 
 /// The better of an own plane and a free one; any, if there are none.
-fn better<K: Kernel>(set: &Set<'_, K>, own: Option<Candidate>, free: Option<Candidate>) -> Choice {
+fn better<K: Kernel>(
+    set: &Set<'_, K>,
+    terms: &Terms,
+    own: Option<Candidate>,
+    free: Option<Candidate>,
+) -> Choice {
     Choice::Split(match (own, free) {
-        (Some(own), Some(free)) if free.cost.is_less(&own.cost) => free.plane,
+        (Some(own), Some(free)) if terms.compared(free.cost).is_less(&own.cost) => free.plane,
         (Some(one), _) | (None, Some(one)) => one.plane,
         (None, None) => set.own_plane(0),
     })

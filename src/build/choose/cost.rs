@@ -33,8 +33,7 @@ impl AddAssign for Counts {
 ///
 /// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later.
 /// (Any tree of a set, restricted to one side of a plane, is a tree of that side.) In large sets
-/// this is not applied to own planes: those at the rim cut nothing too, and would make a list of the
-/// set (see `Terms::large`).
+/// whether a plane cuts is left out (see `Terms::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -74,11 +73,8 @@ impl Cost {
 pub(super) struct Terms {
     /// What a polygon that fills the box is worth.
     reward: f64,
-    /// How many pieces there are.
-    pub(super) pieces: f64,
-    /// In a large set, a plane that cuts nothing is passed over unless both sides, or the plane
-    /// itself, get at least this many pieces.
-    least: Option<f64>,
+    /// Whether a plane that cuts nothing is preferred to all that cut.
+    prefers_uncut: bool,
 }
 
 impl Terms {
@@ -91,36 +87,32 @@ impl Terms {
     pub(super) fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
         let pieces = pieces as f64;
         let mean = cuts as f64 / pieces;
-        Self { reward: tuning.reward * (1.0 + mean) * pieces, pieces, least: None }
+        Self { reward: tuning.reward * (1.0 + mean) * pieces, prefers_uncut: true }
     }
 
-    /// Of a large set. Whether a plane cuts is left out: the first rounds see a sample, in which many
-    /// planes cut nothing that cut much of the set.
+    /// Of a large set: whether a plane cuts is left out. The first rounds see a sample, in which many planes
+    /// cut nothing that cut much of the set; and the planes at the rim of a set, which cut nothing either,
+    /// would make a list of it.
     pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
-        let least = Some((set.len() / tuning.least_share) as f64);
-        Self { least, ..Self::small(set, tuning) }
+        Self { prefers_uncut: false, ..Self::small(set, tuning) }
     }
 
     /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
     /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
     pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
-        let ratio = looked as f64 / all as f64;
-        Self {
-            reward: self.reward * work(looked) / work(all),
-            pieces: looked as f64,
-            least: self.least.map(|least| least * ratio),
-        }
+        Self { reward: self.reward * work(looked) / work(all), ..*self }
     }
 
     #[inline]
     pub(super) fn cost(&self, counts: &Counts, share: f64) -> Cost {
-        let cost = Cost::of(counts);
-        let amount = cost.amount - self.reward * share;
-        let Some(least) = self.least else { return Cost { amount, ..cost } };
-        let [front, back] = [counts.front, counts.back].map(f64::from);
-        let on = self.pieces - front - back;
-        let is_passed_over = counts.splits == 0 && front.min(back).max(on) < least;
-        Cost { cuts: false, amount: if is_passed_over { f64::INFINITY } else { amount } }
+        let cost = self.compared(Cost::of(counts));
+        Cost { amount: cost.amount - self.reward * share, ..cost }
+    }
+
+    /// A cost as it is compared with others by these terms.
+    #[inline]
+    pub(super) fn compared(&self, cost: Cost) -> Cost {
+        Cost { cuts: cost.cuts && self.prefers_uncut, ..cost }
     }
 }
 
@@ -178,35 +170,21 @@ mod tests {
     }
 
     #[test]
-    fn a_large_set_passes_over_planes_that_take_little_off() {
-        let terms = Terms { reward: 0.0, pieces: 100.0, least: Some(10.0) };
-        let is_passed_over = |terms: &Terms, [front, back, splits]: [u32; 3]| {
-            terms.cost(&Counts { front, back, splits }, 0.0).amount.is_infinite()
-        };
-        for (counts, expected) in [
-            ([99, 0, 0], true),
-            ([0, 99, 0], true),
-            ([91, 9, 0], true),
-            ([90, 10, 0], false),
-            ([10, 90, 0], false),
-            // Many are on the plane.
-            ([90, 0, 0], false),
-            ([0, 90, 0], false),
-            ([45, 45, 0], false),
-            // It cuts something.
-            ([98, 0, 1], false),
-        ] {
-            assert_eq!(is_passed_over(&terms, counts), expected, "{counts:?}");
-            // The tenth of a set, of which a tenth of all counts.
-            let few = Terms { pieces: 1000.0, least: Some(100.0), ..terms }.of_sample(100, 1000);
-            assert_eq!(is_passed_over(&few, counts), expected, "{counts:?} of a sample");
-        }
+    fn terms_of_large_sets_leave_out_whether_a_plane_cuts() {
+        let [small, large] =
+            [true, false].map(|prefers_uncut| Terms { reward: 10.0, prefers_uncut });
+        let even = Counts { front: 45, back: 45, splits: 10 };
+        let rim = Counts { front: 99, back: 0, splits: 0 };
+        let is_even_better = |terms: &Terms| terms.cost(&even, 0.5).is_less(&terms.cost(&rim, 0.5));
+        assert!(!is_even_better(&small) && is_even_better(&large));
+        let is_preferred = |terms: &Terms| !terms.compared(terms.cost(&rim, 0.0)).cuts;
+        assert!(is_preferred(&small) && is_preferred(&large));
     }
 
     /// Half of a set, and half of each count: all costs are less by the same factor.
     #[test]
     fn costs_of_samples_compare_as_those_of_all() {
-        let terms = Terms { reward: 300.0, pieces: 400.0, least: None };
+        let terms = Terms { reward: 300.0, prefers_uncut: false };
         let half = terms.of_sample(200, 400);
         for (front, back, splits, share) in
             [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)]

@@ -61,13 +61,11 @@ pub(super) struct Contest {
     /// Places of those that had all pieces of the first sample on one side: the same in the field,
     /// as it began, and in the sketch.
     one_sided: Vec<usize>,
-    /// Large pieces, with their shares of the box.
-    largest: Vec<(f64, usize)>,
 }
 
 impl Contest {
-    /// Replaces the field by the first `count` pieces of the sample, and by the largest of what comes
-    /// next in it, and compares them with the first sample.
+    /// Replaces the field by the first `count` pieces of the sample, and compares them with the first
+    /// pieces of it.
     pub(super) fn begin<K: Kernel>(
         &mut self,
         set: &Set<'_, K>,
@@ -79,10 +77,7 @@ impl Contest {
         let shares = Shares::of(set.size());
         let sketch = &sample.sketch;
         self.seen = 0;
-        let sampled = count.min(sketch.len());
-        self.find_largest(set, sample, sampled, &shares, tuning);
-        let pieces = (0..sampled).map(|place| sketch.number(place));
-        let pieces = pieces.chain(self.largest.iter().map(|&(_, piece)| piece));
+        let pieces = (0..count.min(sketch.len())).map(|place| sketch.number(place));
         self.field.clear();
         self.field.extend(pieces.map(|piece| Entrant {
             piece,
@@ -94,35 +89,10 @@ impl Contest {
         self.look(set, sample, tuning.first_sample, terms)?;
         let is_one_sided =
             |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
-        let sampled = &self.field[..sampled];
-        let found = sampled.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
+        let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
         self.one_sided.clear();
         self.one_sided.extend(found.map(|(place, _)| place));
         Ok(())
-    }
-
-    /// Finds the largest pieces of a large set among those that come first in its sample, behind so
-    /// many.
-    fn find_largest<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        sample: &Sample,
-        behind: usize,
-        shares: &Shares,
-        tuning: &Tuning,
-    ) {
-        self.largest.clear();
-        if set.len() < tuning.small || tuning.largest == 0 {
-            return;
-        }
-        for piece in sample.order().take(tuning.small).skip(behind) {
-            let share = shares.get(&set.pieces[piece]);
-            let before = self.largest.partition_point(|&(larger, _)| larger >= share);
-            if before < tuning.largest {
-                self.largest.truncate(tuning.largest - 1);
-                self.largest.insert(before, (share, piece));
-            }
-        }
     }
 
     /// The places in the sketch of the candidates that had all pieces of the first sample on one

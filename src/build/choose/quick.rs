@@ -21,6 +21,7 @@ fn trusted_share(faces: &Faces, quick: &Quick) -> f64 {
 #[derive(Debug)]
 pub(in crate::build) struct Best {
     terms: Terms,
+    pieces: usize,
     shares: Shares,
     trusted_share: f64,
     cost: Cost,
@@ -53,6 +54,7 @@ impl Best {
         let shares = Shares::of(size);
         Self {
             terms,
+            pieces: count,
             shares,
             trusted_share: trusted_share(faces, quick),
             cost: Cost::MOST,
@@ -74,9 +76,9 @@ impl Best {
         let cost = self.terms.cost(&counts, share);
         if cost.is_less(&self.cost) {
             (self.cost, self.slot) = (cost, slot);
-            let pieces = self.terms.pieces as usize;
             self.is_trusted = share >= self.trusted_share;
-            self.is_good = self.is_trusted && Cost::of(&counts).divides_evenly(pieces, self.uneven);
+            self.is_good =
+                self.is_trusted && Cost::of(&counts).divides_evenly(self.pieces, self.uneven);
         }
     }
 

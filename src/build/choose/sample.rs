@@ -25,11 +25,6 @@ impl Sample {
         self.grow(set, count)
     }
 
-    /// The numbers of all pieces in the order in which they are added.
-    pub(super) fn order(&self) -> impl Iterator<Item = usize> + use<> {
-        Spread::new(self.rest.n)
-    }
-
     /// Adds pieces until there are `count`, or all.
     pub(super) fn grow<K: Kernel>(&mut self, set: &Set<'_, K>, count: usize) -> Result<(), Error> {
         let missing = count.min(set.len()).saturating_sub(self.sketch.len());

@@ -16,9 +16,6 @@ pub struct Tuning {
     pub own_planes: usize,
     /// Own planes tried in a large set. More: time; fewer: more fragments.
     pub few_own_planes: usize,
-    /// How many of the largest pieces of a large set are candidates besides, of the first `small` of
-    /// its sample. More: time; fewer: large polygons of heaps are cut again and again.
-    pub largest: usize,
     /// A large set is searched for peelable pieces if at least this many of its tried own planes have
     /// the whole first sample on one side. More: large convex sets are cut; fewer: searches that find
     /// nothing.
@@ -38,10 +35,6 @@ pub struct Tuning {
     /// is not taken early is cut again by every plane through it.) Larger: depth wasted on polygons
     /// that nothing would cut; smaller: large polygons are cut.
     pub reward: f64,
-    /// In a large set, an own plane that cuts nothing is taken only if both sides, or the plane
-    /// itself, get at least 1/`least_share` of the pieces. Otherwise planes at the rim would take off
-    /// one piece a search. Larger: long lists; smaller: good planes are rejected.
-    pub least_share: usize,
     /// Mean number of pieces per bin of the free-plane search. More: more to sort; fewer: more bins to
     /// bound.
     pub per_bin: usize,
@@ -62,13 +55,11 @@ impl Tuning {
         small: 256,
         own_planes: 96,
         few_own_planes: 16,
-        largest: 2,
         one_sided_needed: 12,
         uneven: 4,
         first_sample: 16,
         rate: 4,
         reward: 0.35,
-        least_share: 8,
         per_bin: 2,
         most_bins: 1024,
         groups_per_box: 64,
