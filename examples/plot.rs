@@ -22,7 +22,8 @@ mod canvas;
 mod svg;
 
 use binspace::glam::{DVec2, DVec3, dvec2, dvec3};
-use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint};
+use binspace::overlay::{Overlay, Shape, Shapes};
+use binspace::{BspTree, BuildOptions, Viewpoint};
 use canvas::{Canvas, Colour};
 use std::error::Error;
 use std::f64::consts::TAU;

@@ -75,8 +75,8 @@ impl_point! {
 /// # Ok::<(), binspace::Error>(())
 /// ```
 pub trait Polygon {
-    /// The corners, in order around the polygon. More than [`MAX_CORNERS`](crate::MAX_CORNERS) are an
-    /// error, so an endless iterator is one as well.
+    /// The corners, in order around the polygon. More than 2²² (4 194 304) are an error,
+    /// so an endless iterator is one as well.
     fn corners(&self) -> impl Iterator<Item = DVec3>;
 
     /// How far a corner may be off the plane that it was meant to be on, a length. The default

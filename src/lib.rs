@@ -4,20 +4,23 @@
 //!
 //! | | |
 //! |---|---|
-//! | [`BuildOptions`], [`Heuristic`], [`Progress`] | how a tree is built, and how far it is |
+//! | [`Polygon`], [`Point`] | what polygons of your own types have to say |
+//! | [`BuildOptions`], [`Heuristic`], [`Tolerance`], [`Progress`] | how a tree is built, what counts as coplanar, and how far the build is |
 //! | [`FrameBuilder`] | trees built anew every frame |
-//! | [`Overlay`], [`Shapes`], [`Shape`], [`Overlaid`] | polygons that move, lines and points, in one order with a tree that stays |
-//! | [`Segment`], [`Marker`] | what lines and points become there |
-//! | [`Polygon`], [`Point`] | the input of a tree |
-//! | [`Partition`], [`Extent`] | scenes too large for one tree: cells, each with a tree of its own |
 //! | [`Viewpoint`] | an eye or a direction, for which a tree is ordered |
-//! | [`Fragment`], [`Node`] | the parts of a tree |
+//! | [`Fragment`], [`Node`] | the parts of a tree; [`Part`] and [`Child`] are one of both |
 //! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
 //! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
+//! | [`Preparation`], [`Stats`] | how the input was prepared, and a tree's figures |
 //! | [`Grid`] | the grid of a tree's exact numbers |
-//! | [`Tolerance`], [`Preparation`], [`Stats`] | what counts as coplanar, how the input was prepared, a tree's figures |
 //! | [`Error`] | why something failed, and at which polygon |
-//! | [`Mesh`], [`Triangles`] | vertex and index buffers |
+//!
+//! | module | for |
+//! |---|---|
+//! | [`overlay`] | polygons that move, lines and points, in one order with a tree that stays |
+//! | [`partition`] | scenes too large for one tree: cells, each with a tree of its own |
+//! | [`mesh`] | vertex and index buffers |
+//! | [`iter`] | the iterators that the methods of a tree return |
 //!
 //! # Conventions
 //!
@@ -32,7 +35,7 @@
 //! | feature | default | adds |
 //! |---|---|---|
 //! | `parallel` | yes | building with rayon's threads; the tree is the same, bit for bit |
-//! | `raster` | no | modules `view` and `raster`: cameras, a painter and a z-buffer that decide every pixel exactly, and `verify`, which compares them |
+//! | `raster` | no | cameras (`view`), a painter and a z-buffer that decide every pixel exactly (`raster`, `paint`), their comparison (`verify`), and occlusion culling (`occlusion`) |
 //! | `drawing` | no | module `drawing`: one view as a vector picture, one path a visible polygon; turns on `raster` |
 //! | `layers` | no | module `layers`: rectangles with 4×4 matrices, as in CSS 3D, clipped, cut and in paint order |
 //! | `scene` | no | module `scene`: polygons with colours, generated scenes |
@@ -54,10 +57,12 @@ mod input;
 pub mod layers;
 mod memory;
 #[cfg(feature = "raster")]
-mod occlusion;
-mod overlay;
+pub mod occlusion;
+pub mod overlay;
+#[cfg(feature = "raster")]
+pub mod paint;
 mod parallel_map;
-mod partition;
+pub mod partition;
 mod query;
 mod random;
 #[cfg(feature = "raster")]
@@ -69,37 +74,36 @@ mod save;
 pub mod scene;
 mod tree;
 #[cfg(feature = "raster")]
-mod verify;
+pub mod verify;
 #[cfg(feature = "raster")]
 pub mod view;
 mod viewpoint;
 
 pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError, Progress};
 pub use error::Error;
-#[cfg(feature = "raster")]
-pub use exact::Faces;
 pub use faces::{Preparation, Tolerance};
 pub use frustum::Frustum;
 pub use glam;
-pub use input::{MAX_CORNERS, Point, Polygon};
-#[cfg(feature = "raster")]
-pub use occlusion::CoverageMask;
-pub use overlay::{Marker, Overlaid, Overlay, Segment, Shape, Shapes};
-pub use partition::{Extent, Partition};
-pub use query::{FragmentsIn, Hit, Hits, Location};
+pub use input::{Point, Polygon};
+pub use query::{Hit, Location};
 pub use ray::Ray;
 #[cfg(feature = "save")]
 pub use save::LoadError;
 pub use tree::{
-    Bounds, BspTree, Child, Culling, Flow, Fragment, Fragments, Grid, Invalid, Mesh, MeshVertex,
-    Node, Nodes, Ordered, Part, Sides, Stats, Triangles,
-};
-#[cfg(feature = "raster")]
-pub use verify::{
-    OrderFault, Verification, check_orders, for_each_painted, paint_tree, paint_tree_in_colour,
-    verify, verify_fronts,
+    Bounds, BspTree, Child, Culling, Flow, Fragment, Grid, Invalid, Node, Part, Sides, Stats,
 };
 pub use viewpoint::Viewpoint;
+
+/// Vertex and index buffers of a tree: [`BspTree::mesh`].
+pub mod mesh {
+    pub use crate::tree::{Mesh, MeshVertex, Triangles};
+}
+
+/// The iterators that methods of [`BspTree`], [`Node`] and [`Bounds`] return.
+pub mod iter {
+    pub use crate::query::{FragmentsIn, Hits};
+    pub use crate::tree::{Fragments, Nodes, Ordered};
+}
 
 /// What the project's own programs, tests and benches need of the library's insides. It may change in
 /// any release.
@@ -112,6 +116,9 @@ pub mod internals {
         Line, Piece, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, split,
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
+    pub use crate::input::MAX_CORNERS;
+    #[cfg(feature = "raster")]
+    pub use crate::paint::paint_order;
     pub use crate::query::Spot;
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]
@@ -120,8 +127,6 @@ pub mod internals {
     pub use crate::scene::turn::unit_circle;
     pub use crate::tree::apart::parts_of_tree;
     pub use crate::tree::parts::{Parts, RawChild, RawNode, Record};
-    #[cfg(feature = "raster")]
-    pub use crate::verify::paint_order;
 }
 
 /// The README's examples are tested as they stand.

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use crate::paint::Buffers;
 use crate::raster::{Mask, Rays};
 use crate::tree::{BspTree, Fragment};
-use crate::verify::Buffers;
 
 /// The pixels that are covered so far on a walk from front to back: occlusion culling.
 ///
@@ -18,7 +18,9 @@ use crate::verify::Buffers;
 ///
 /// ```
 /// use binspace::raster::Rays;
-/// use binspace::{BspTree, CoverageMask, Flow, Part, scene, view::Camera};
+/// use binspace::occlusion::CoverageMask;
+/// use binspace::view::Camera;
+/// use binspace::{BspTree, Flow, Part, scene};
 /// use binspace::glam::DVec3;
 ///
 /// // Squares one behind the other: from the front, the first hides all others.

@@ -6,7 +6,8 @@ use std::iter;
 
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use binspace::{BspTree, BuildOptions, Error, MAX_CORNERS, Polygon};
+use binspace::internals::MAX_CORNERS;
+use binspace::{BspTree, BuildOptions, Error, Polygon};
 
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;

@@ -1,6 +1,7 @@
 //! Indices of a mesh, written back to front, against the order of the fragments alone.
 
-use binspace::{BspTree, Error, Mesh, Viewpoint};
+use binspace::mesh::Mesh;
+use binspace::{BspTree, Error, Viewpoint};
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, check, scene, time, viewpoints};
 

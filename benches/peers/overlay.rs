@@ -2,7 +2,8 @@
 //! building the tree of all anew and against the order of the tree alone.
 
 use binspace::glam::{DMat3, DVec3};
-use binspace::{BspTree, BuildOptions, Overlay, Shapes, Viewpoint, scene};
+use binspace::overlay::{Overlay, Shapes};
+use binspace::{BspTree, BuildOptions, Viewpoint, scene};
 use std::time::{Duration, Instant};
 use support::{SEED, Table, Target, against, check, scene as named, time, viewpoints};
 

@@ -2,10 +2,11 @@
 
 use std::cmp::Ordering;
 
+use binspace::BspTree;
+use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
 use binspace::scene::Scene;
 use binspace::view::Camera;
-use binspace::{BspTree, paint_tree};
 
 use crate::camera;
 use crate::terminal::note;

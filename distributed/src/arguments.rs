@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use binspace::glam::DVec3;
 use binspace::view::{Camera, CameraError};
-use binspace::{BuildOptions, Extent};
+use binspace::partition::Extent;
+use binspace::BuildOptions;
 use clap::Parser;
 
 /// The vertical field of view in radians.

@@ -1,6 +1,6 @@
 //! What ranks send to each other.
 
-use binspace::Extent;
+use binspace::partition::Extent;
 use mpi::collective::SystemOperation;
 use mpi::datatype::{Partition, PartitionMut};
 use mpi::topology::SimpleCommunicator;

@@ -19,7 +19,8 @@ use std::time::Instant;
 
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Extent, Partition};
+use binspace::partition::{Extent, Partition};
+use binspace::{BspTree, BuildOptions};
 use clap::Parser;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::Communicator;
@@ -202,7 +203,7 @@ fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Re
             |polygon: usize| (share.polygons[polygon].colour, share.polygons[polygon].opacity);
         let viewpoint = camera.viewpoint();
         let pixels =
-            binspace::paint_tree_in_colour(&tree, viewpoint, &rays, look, picture::BACKGROUND);
+            binspace::paint::paint_tree_in_colour(&tree, viewpoint, &rays, look, picture::BACKGROUND);
         picture::write(&arguments.output, camera.size(), &pixels)
     };
     together(world, draw())

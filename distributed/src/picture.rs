@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, for_each_painted};
+use binspace::paint::for_each_painted;
+use binspace::BspTree;
 
 use crate::polygon::Given;
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use binspace::glam::DVec3;
 use binspace::scene::ObjStream;
-use binspace::{Error, Extent};
+use binspace::partition::Extent;
+use binspace::Error;
 
 use crate::polygon::Given;
 

@@ -30,9 +30,11 @@ mod picture;
 mod rooms;
 
 use binspace::glam::{DVec3, dvec3};
+use binspace::occlusion::CoverageMask;
+use binspace::overlay::Overlay;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, CoverageMask, Flow, Overlay, Part, Ray, Viewpoint};
+use binspace::{Bounds, BspTree, Flow, Part, Ray, Viewpoint};
 use canvas::Canvas;
 use door::Door;
 use picture::{paint_map, paint_view};
@@ -189,7 +191,7 @@ fn a_frame_looks_at_little_and_misses_nothing() {
         // The whole order paints no face that the frame has not seen.
         let tree = &level.tree;
         let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let whole = binspace::paint_tree(tree, camera.viewpoint(), &rays);
+        let whole = binspace::paint::paint_tree(tree, camera.viewpoint(), &rays);
         let is_seen =
             |polygon: usize| frame.seen.iter().any(|&f| tree.fragment(f).polygon() == polygon);
         let shown = whole.faces().iter().filter(|&&face| face != binspace::raster::NONE);

@@ -25,10 +25,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If a coordinate is infinite or NaN; if one polygon has more than
-    /// [`MAX_CORNERS`](crate::MAX_CORNERS) corners, all polygons together have 2²⁸ or more, or the
-    /// tree would have more than 2²⁵ fragments; or if memory runs out. The error names the polygon
-    /// where one is to blame.
+    /// If a coordinate is infinite or NaN; if one polygon has more than 2²² corners, all polygons
+    /// together have 2²⁸ or more, or the tree would have more than 2²⁵ fragments; or if memory runs
+    /// out. The error names the polygon where one is to blame.
     pub fn build<P: Polygon>(polygons: impl IntoIterator<Item = P>) -> Result<Self, Error> {
         BuildOptions::DEFAULT.build(polygons)
     }

@@ -15,7 +15,7 @@ impl BspTree {
     ///
     /// The tree is built anew, of its own polygons and the others: it is the tree of all of them, on
     /// the grid and with the tolerance that it has. Its fragments have other numbers than before, and
-    /// [overlays](crate::Overlay), [meshes](crate::Mesh) and [bounds](crate::Bounds) have to be made
+    /// [overlays](crate::overlay::Overlay), [meshes](crate::mesh::Mesh) and [bounds](crate::Bounds) have to be made
     /// anew. It takes as long as a build; what moves belongs into an overlay. Duplicates among the new
     /// polygons, and of old ones, are kept and counted as always. (Of an old polygon that was triangulated,
     /// a corner that no triangle has is not known, as on a straight run or where it crosses itself, in space

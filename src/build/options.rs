@@ -35,7 +35,7 @@ pub struct BuildOptions {
     /// recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
     /// Two opposite corners of a box that the grid of exact coordinates has to hold besides the
-    /// polygons: one that holds all that an [`Overlay`](crate::Overlay) will have. It counts as part
+    /// polygons: one that holds all that an [`Overlay`](crate::overlay::Overlay) will have. It counts as part
     /// of the scene where the scene's extent matters, as for the default tolerance. Default: none.
     pub bounds: Option<[DVec3; 2]>,
 }

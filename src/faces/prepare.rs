@@ -43,7 +43,7 @@ impl Faces {
     /// # Errors
     ///
     /// If a coordinate is not finite, the tolerance is negative or NaN, a polygon has more than
-    /// [`MAX_CORNERS`](crate::MAX_CORNERS) corners, there are more than 2²⁸ polygons or corners in total, or memory
+    /// 2²² corners, there are more than 2²⁸ polygons or corners in total, or memory
     /// runs out.
     pub fn new<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,

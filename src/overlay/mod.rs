@@ -37,7 +37,8 @@ use crate::tree::{BspTree, Fragment};
 /// Make an overlay once, replace its polygons whenever they move, and ask it for the order of both:
 ///
 /// ```
-/// use binspace::{BspTree, Overlay, Viewpoint};
+/// use binspace::overlay::Overlay;
+/// use binspace::{BspTree, Viewpoint};
 ///
 /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
 /// let tree = BspTree::build([square(0.0), square(2.0)])?;
@@ -64,7 +65,8 @@ use crate::tree::{BspTree, Fragment};
 /// [`Shape`] is next:
 ///
 /// ```
-/// use binspace::{BspTree, Overlay, Shape, Shapes, Viewpoint};
+/// use binspace::overlay::{Overlay, Shape, Shapes};
+/// use binspace::{BspTree, Viewpoint};
 ///
 /// let square = |z: f64| [[0.0, 0.0, z], [2.0, 0.0, z], [2.0, 2.0, z], [0.0, 2.0, z]];
 /// let tree = BspTree::build([square(0.0), square(2.0)])?;

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-/// Polygons, lines and points for [`Overlay::replace_with`](crate::Overlay::replace_with).
+/// Polygons, lines and points for [`Overlay::replace_with`](crate::overlay::Overlay::replace_with).
 ///
 /// ```
-/// use binspace::Shapes;
+/// use binspace::overlay::Shapes;
 ///
 /// let axis = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
 /// let curve: Vec<_> = (0..9).map(|k| [0.1 * f64::from(k), 0.5, 0.0]).collect();

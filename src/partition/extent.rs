@@ -9,7 +9,7 @@ use crate::input::Polygon;
 /// Each may gather it of its own polygons; together they are [merged](Self::merge), in any order.
 ///
 /// ```
-/// use binspace::Extent;
+/// use binspace::partition::Extent;
 ///
 /// let mut extent = Extent::default();
 /// extent.include(&[[0.0, 1.0, 2.0], [3.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);

@@ -23,7 +23,8 @@ pub use extent::Extent;
 /// the whole scene, as right as that of one tree.
 ///
 /// ```
-/// use binspace::{BuildOptions, Extent, Viewpoint, scene};
+/// use binspace::partition::Extent;
+/// use binspace::{BuildOptions, Viewpoint, scene};
 ///
 /// let (scene, options) = (scene::terrain(2000, 1), BuildOptions::DEFAULT);
 /// // What all have to agree on: the extent, and some of the corners.
@@ -81,7 +82,7 @@ pub use extent::Extent;
 /// nothing is in the cell; other counts of its [preparation](crate::BspTree::preparation) are of all that it
 /// was given, and [`preparation`](Self::preparation) counts for all cells.
 /// [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell. An
-/// [`Overlay`](crate::Overlay) on it is not cut: what moves there is in each cell that is given it.
+/// [`Overlay`](crate::overlay::Overlay) on it is not cut: what moves there is in each cell that is given it.
 ///
 /// With the feature `save`, a partition is written and read, `Partition::write` and `Partition::read`, to
 /// send it to others.

@@ -61,7 +61,7 @@ const MOVED_CORNERS: f64 = 4.0;
 /// polygons that are each within τ of a partition plane may both count as part of that plane, and
 /// then they are painted in input order. With τ = 0 only ties are contested.
 ///
-/// This rule knows the polygons, not the partition planes; [`verify`](crate::verify()) knows both.
+/// This rule knows the polygons, not the partition planes; [`verify`](crate::verify::verify()) knows both.
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();

@@ -33,6 +33,7 @@ mod sheet;
 pub(crate) mod tests;
 mod zbuffer;
 
+pub use crate::exact::Faces;
 pub use canvas::blend;
 pub(crate) use canvas::for_each_shaded;
 pub(crate) use compare_pictures::is_open;

@@ -29,7 +29,7 @@ use crate::faces::Preparation;
 /// ```
 ///
 /// Build the tree once for static polygons, then ask it for an order every frame. An
-/// [`Overlay`](crate::Overlay) holds what moves, and lines and points; where most polygons move, as in a
+/// [`Overlay`](crate::overlay::Overlay) holds what moves, and lines and points; where most polygons move, as in a
 /// compositor of layers, a [`FrameBuilder`](crate::FrameBuilder) builds a tree every frame.
 ///
 /// # What it holds
@@ -56,7 +56,7 @@ use crate::faces::Preparation;
 /// | order of n fragments | time | memory |
 /// |---|---|---|
 /// | [`back_to_front_into`](Self::back_to_front_into), a list of numbers | O(n) | your buffer |
-/// | [`Triangles::write_back_to_front`](crate::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
+/// | [`Triangles::write_back_to_front`](crate::mesh::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
 /// | [`back_to_front`](Self::back_to_front), an iterator, from both ends | O(n) if read to its end | O(depth) |
 /// | [`visit_front_to_back`](Self::visit_front_to_back), stops when you break | O(n) at most | O(depth) |
 ///
@@ -65,7 +65,7 @@ use crate::faces::Preparation;
 ///
 /// # Drawing a frame
 ///
-/// A [`Mesh`](crate::Mesh) has the fragments as vertices and triangles. Upload its vertices once. Every
+/// A [`Mesh`](crate::mesh::Mesh) has the fragments as vertices and triangles. Upload its vertices once. Every
 /// frame, write the indices back to front, into a buffer that you keep or into mapped memory:
 ///
 /// ```
@@ -93,7 +93,7 @@ use crate::faces::Preparation;
 ///
 /// Where most polygons are opaque, let a depth buffer draw those, in any order, and only the
 /// translucent ones back to front after them, with the depth test on and writing depths off.
-/// [`Mesh::triangles_of`](crate::Mesh::triangles_of) gives the triangles of either. The picture is the
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) gives the triangles of either. The picture is the
 /// same as that of all in order, except where polygons touch: at the same depth a translucent polygon
 /// is drawn over an opaque one, whichever comes first in the input.
 ///
@@ -132,7 +132,7 @@ use crate::faces::Preparation;
 ///
 /// A cut vertex needs texture coordinates, colours or normals as the corners have them.
 /// [`Fragment::weights`](crate::Fragment::weights) gives the weights of each vertex over the corners of the polygon,
-/// and so does each [`MeshVertex`](crate::MeshVertex):
+/// and so does each [`MeshVertex`](crate::mesh::MeshVertex):
 ///
 /// ```
 /// # let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -226,7 +226,7 @@ use crate::faces::Preparation;
 /// - Not a renderer: it gives an order, and you draw. (The feature `raster` has a painter that
 ///   checks orders.)
 /// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds some,
-///   builds the tree anew. An [`Overlay`](crate::Overlay) puts moving polygons, lines and points in one
+///   builds the tree anew. An [`Overlay`](crate::overlay::Overlay) puts moving polygons, lines and points in one
 ///   order with the tree's.
 /// - Not a spatial index: for overlaps or nearest neighbours, or ray casts alone, take a bounding
 ///   volume hierarchy, which is much faster to build.
@@ -338,7 +338,7 @@ impl BspTree {
         &self.faces
     }
 
-    /// Whether it is the tree of a cell of a [`Partition`](crate::Partition), not of whole polygons.
+    /// Whether it is the tree of a cell of a [`Partition`](crate::partition::Partition), not of whole polygons.
     pub fn is_of_cell(&self) -> bool {
         self.faces.corners_of_cell() > 0
     }

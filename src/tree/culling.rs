@@ -89,7 +89,7 @@ impl BspTree {
     /// as a whole. So the time follows what is left and what surrounds it, not the size of the tree.
     /// Takes O(depth) memory, and a bit for each fragment and each block of 16.
     ///
-    /// [`Triangles::write_order`](crate::Triangles::write_order) turns the list into indices of
+    /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) turns the list into indices of
     /// triangles.
     ///
     /// # Panics

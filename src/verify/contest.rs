@@ -1,6 +1,6 @@
 //! Which wrong pixels the tolerance excuses, given the planes of a tree.
 
-use super::pieces::Buffers;
+use crate::paint::Buffers;
 use crate::raster::{Comparison, Image, Rays, Verdict, covers, is_open};
 use crate::tree::BspTree;
 

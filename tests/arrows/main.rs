@@ -41,8 +41,9 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("scene", &[]),
     // The judge of the order knows nothing of trees, nor of where polygons come from.
     ("raster", &["exact", "view"]),
-    ("verify", &["exact", "tree", "view", "raster"]),
-    ("occlusion", &["tree", "raster", "verify"]),
+    ("paint", &["exact", "tree", "raster"]),
+    ("verify", &["exact", "tree", "view", "raster", "paint"]),
+    ("occlusion", &["tree", "raster", "paint"]),
     ("drawing", &["exact", "tree", "build", "overlay", "raster"]),
 ];
 

@@ -1,7 +1,8 @@
 //! Partitions: which cells there are, and which polygons reach them.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Extent, Polygon, Preparation, Viewpoint, scene};
+use binspace::partition::Extent;
+use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
 
 use crate::polygons::{stars, tiles, triangles};
 use crate::support::dice::Dice;

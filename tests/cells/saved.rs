@@ -1,6 +1,7 @@
 //! Partitions and trees of cells in files.
 
-use binspace::{BspTree, BuildOptions, Partition};
+use binspace::partition::Partition;
+use binspace::{BspTree, BuildOptions};
 
 use crate::polygons::{stars, tiles, triangles};
 use crate::support::dice::Dice;

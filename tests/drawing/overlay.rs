@@ -8,9 +8,10 @@ use super::support::tally::tally;
 use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
+use binspace::overlay::{Overlay, Shapes};
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Overlay, Shapes};
+use binspace::{BspTree, BuildOptions};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 

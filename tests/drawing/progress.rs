@@ -7,10 +7,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
+use binspace::overlay::{Overlay, Shapes};
 use binspace::raster::Rays;
 use binspace::scene::Builtin;
 use binspace::view::Camera;
-use binspace::{BspTree, Error, Overlay, Progress, Shapes};
+use binspace::{BspTree, Error, Progress};
 
 /// Many crossing triangles in a view, and lines and points between them.
 struct View {

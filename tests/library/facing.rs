@@ -5,7 +5,8 @@ use crate::support::model;
 use crate::support::views::View;
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
-use binspace::{BspTree, BuildOptions, Viewpoint, scene, verify_fronts, view};
+use binspace::verify::verify_fronts;
+use binspace::{BspTree, BuildOptions, Viewpoint, scene, view};
 use std::cmp::Ordering;
 
 /// Viewpoints of every kind: anywhere, on corners, in the planes of faces and along them.

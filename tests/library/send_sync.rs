@@ -4,15 +4,19 @@ use binspace::internals::{
     Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Lattice, Line, Piece, PlaneId,
     PlaneKind, Side, Symbol, SymbolKind,
 };
+use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
+use binspace::mesh::{Mesh, Triangles};
+use binspace::occlusion::CoverageMask;
+use binspace::overlay::{Marker, Overlaid, Overlay, Segment, Shape};
 use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Builtin, Material, Scene};
+use binspace::verify::Verification;
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
-    Bounds, BspTree, BuildOptions, Child, CoverageMask, Culling, Error, Fragment, FragmentsIn,
-    FrameBuilder, Frustum, Grid, Heuristic, Hit, Hits, Invalid, Location, Marker, Mesh, Node,
-    Nodes, Ordered, Overlaid, Overlay, ParseHeuristicError, Part, Preparation, Progress, Ray,
-    Segment, Shape, Stats, Triangles, Verification, Viewpoint,
+    Bounds, BspTree, BuildOptions, Child, Culling, Error, Fragment, FrameBuilder, Frustum, Grid,
+    Heuristic, Hit, Invalid, Location, Node, ParseHeuristicError, Part, Preparation, Progress, Ray,
+    Stats, Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.

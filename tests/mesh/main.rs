@@ -7,7 +7,7 @@ mod order;
 #[path = "../support/mod.rs"]
 mod support;
 
-use binspace::{Mesh, Triangles};
+use binspace::mesh::{Mesh, Triangles};
 use std::collections::HashMap;
 
 /// The directed edges between points of some fragments' triangles, each with how often it is run

@@ -1,7 +1,7 @@
 //! What is refused, and what the error says.
 
 use crate::{CORNERS, read, with_corners};
-use binspace::MAX_CORNERS;
+use binspace::internals::MAX_CORNERS;
 use binspace::scene::Scene;
 
 /// Line, face and message of the error.

@@ -2,7 +2,8 @@
 //! changes nothing.
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint, scene};
+use binspace::overlay::{Overlay, Shape, Shapes};
+use binspace::{BspTree, BuildOptions, Viewpoint, scene};
 
 fn square(x: f64, z: f64) -> Vec<DVec3> {
     let point = |a: f64, b: f64| dvec3(x + a, b, z);

@@ -1,7 +1,8 @@
 //! What moves is cut where it must be, and no more.
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, Overlay, scene};
+use binspace::overlay::Overlay;
+use binspace::{BspTree, scene};
 
 /// Small polygons in free air stay whole; one across the whole scene is cut by a few of its planes,
 /// not by all.

@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Overlay, Polygon, Shapes, Viewpoint, scene};
+use binspace::overlay::{Overlay, Shapes};
+use binspace::{BspTree, BuildOptions, Polygon, Viewpoint, scene};
 
 fn triangle(at: DVec3) -> [DVec3; 3] {
     [at, at + DVec3::X, at + DVec3::Y]

@@ -3,10 +3,11 @@
 
 use std::collections::HashMap;
 
+use binspace::BspTree;
 use binspace::internals::{Faces, Line};
+use binspace::overlay::{Overlay, Shape};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
 use binspace::view::Camera;
-use binspace::{BspTree, Overlay, Shape};
 
 use crate::support::model::Face;
 use crate::support::rational::{self, Point};

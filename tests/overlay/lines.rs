@@ -1,7 +1,8 @@
 //! Lines and points among polygons that stay and polygons that move, judged by rays in rationals.
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, BuildOptions, Heuristic, Overlay, Shapes};
+use binspace::overlay::{Overlay, Shapes};
+use binspace::{BspTree, BuildOptions, Heuristic};
 
 use crate::oracle::{self, Counts};
 use crate::support::dice::Dice;

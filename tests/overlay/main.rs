@@ -16,8 +16,9 @@ mod tiling;
 mod walks;
 
 use binspace::glam::DVec3;
+use binspace::overlay::Overlay;
 use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions, Heuristic, Overlay};
+use binspace::{BspTree, BuildOptions, Heuristic};
 use judge::Judged;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;

@@ -3,7 +3,8 @@
 use std::collections::HashSet;
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, BuildOptions, Overlay, Shape, Shapes, Viewpoint};
+use binspace::overlay::{Overlay, Shape, Shapes};
+use binspace::{BspTree, BuildOptions, Viewpoint};
 
 use crate::support::dice::Dice;
 

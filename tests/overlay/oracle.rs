@@ -3,7 +3,8 @@
 //! them.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, Overlay, Shape, Viewpoint};
+use binspace::overlay::{Overlay, Shape};
+use binspace::{BspTree, Viewpoint};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 

@@ -1,7 +1,8 @@
 //! What an overlay was given, and whether its pieces tile that.
 
+use binspace::BspTree;
 use binspace::glam::DVec3;
-use binspace::{BspTree, Overlay, Shape};
+use binspace::overlay::{Overlay, Shape};
 
 use crate::oracle::Counts;
 use crate::sight::{between, to_f64};

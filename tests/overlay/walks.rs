@@ -1,9 +1,10 @@
 //! Movers on random walks, frame after frame: no pixel is wrong.
 
+use binspace::BuildOptions;
 use binspace::glam::{DMat3, DVec3};
+use binspace::overlay::{Overlay, Shapes};
 use binspace::scene::{self, Scene};
 use binspace::view::Camera;
-use binspace::{BuildOptions, Overlay, Shapes};
 
 use crate::judge::{self, Judged};
 use crate::oracle::{self, Counts};

@@ -1,7 +1,8 @@
 //! A scene and its cells.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Error, Extent, Partition};
+use binspace::partition::{Extent, Partition};
+use binspace::{BspTree, BuildOptions, Error};
 
 /// A scene, divided.
 pub(crate) struct Divided {

@@ -1,9 +1,10 @@
 //! Fills outlines at the centres of pixels, in floats: what is too near to tell is left out.
 
 use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, Hit, Viewpoint, paint_tree};
+use binspace::{BspTree, Hit, Viewpoint};
 
 /// What covers the centre of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]

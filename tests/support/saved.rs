@@ -3,9 +3,11 @@
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
 use binspace::glam::{DVec3, dvec3};
+use binspace::mesh::Mesh;
+use binspace::overlay::{Overlay, Shape, Shapes};
+use binspace::verify::{verify, verify_fronts};
 use binspace::{
-    BspTree, BuildOptions, Culling, Flow, Frustum, Mesh, Node, Overlay, Part, Ray, Shape, Shapes,
-    Sides, Viewpoint, verify, verify_fronts, view,
+    BspTree, BuildOptions, Culling, Flow, Frustum, Node, Part, Ray, Sides, Viewpoint, view,
 };
 
 /// A tree's file.
@@ -217,7 +219,7 @@ fn use_mesh(tree: &BspTree, mesh: &Mesh) -> Verdict {
     let triangles = mesh.triangles();
     let is_known = |&index: &u32| (index as usize) < mesh.len();
     ensure(triangles.indices().iter().all(is_known), || "an index of no vertex".into())?;
-    let is_finite = |vertex: binspace::MeshVertex<'_>| {
+    let is_finite = |vertex: binspace::mesh::MeshVertex<'_>| {
         vertex.position.is_finite() && vertex.interpolate(|corner| corner as f64).is_finite()
     };
     ensure(mesh.vertices().all(is_finite), || "a vertex nowhere".into())?;

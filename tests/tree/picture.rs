@@ -2,8 +2,9 @@
 
 use binspace::glam::DVec3;
 use binspace::raster::Verdict;
+use binspace::verify::{Verification, verify};
 use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions, Heuristic, Verification, verify};
+use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 

@@ -8,10 +8,11 @@ use crate::support::views::View;
 use crate::{rooms, trees, viewpoints};
 use binspace::glam::DVec3;
 use binspace::internals::{PlaneId, paint_order};
+use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::{self, Camera};
 use binspace::{
-    Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Sides, Viewpoint, paint_tree, scene,
+    Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Sides, Viewpoint, scene,
 };
 use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;

@@ -3,9 +3,11 @@
 use crate::{rooms, trees};
 use binspace::glam::DVec3;
 use binspace::internals::paint_order;
+use binspace::occlusion::CoverageMask;
+use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::{self, Camera};
-use binspace::{BspTree, CoverageMask, Flow, Part, paint_tree};
+use binspace::{BspTree, Flow, Part};
 
 /// The fragments that a mask lets through, back to front, and how many parts were visited.
 fn unhidden(tree: &BspTree, camera: &Camera, rays: &Rays, cell: u32) -> (Vec<u32>, usize) {

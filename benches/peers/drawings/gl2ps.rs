@@ -9,10 +9,11 @@
 use super::fill::{Picture, Pixel};
 use super::{SIZE, camera, cpu_time, drawn, scene, threads};
 use binspace::glam::DVec3;
+use binspace::paint::paint_tree;
 use binspace::raster::{Rays, Verdict, compare, zbuffer};
 use binspace::scene::Scene;
 use binspace::view::Camera;
-use binspace::{BspTree, Viewpoint, paint_tree};
+use binspace::{BspTree, Viewpoint};
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};

@@ -5,7 +5,7 @@ use super::fragment_pixels::for_each_pixel;
 use super::{Goal, cpu_time, maybe_against};
 use binspace::BspTree;
 use binspace::drawing::Drawing;
-use binspace::paint_tree;
+use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use std::collections::HashSet;

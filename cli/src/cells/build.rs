@@ -5,8 +5,9 @@ use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
 use binspace::glam::DVec3;
+use binspace::partition::Partition;
 use binspace::scene::Scene;
-use binspace::{BuildOptions, Error, Partition, Preparation};
+use binspace::{BuildOptions, Error, Preparation};
 
 use super::folder::{Cell, NewFolder};
 use super::source::Polygons;
@@ -195,7 +196,7 @@ fn bytes<const N: usize>(input: &mut impl Read) -> io::Result<[u8; N]> {
 
 #[cfg(test)]
 mod tests {
-    use binspace::Extent;
+    use binspace::partition::Extent;
 
     use super::*;
 

@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use binspace::Viewpoint;
 use binspace::glam::DVec3;
+use binspace::paint::for_each_painted;
 use binspace::raster::{Rays, blend};
 use binspace::scene::Scene;
 use binspace::view::Camera;
-use binspace::{Viewpoint, for_each_painted};
 
 use super::folder::{Cell, Folder};
 use crate::args::{Format, OrderArgs, RenderArgs};

@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
+use binspace::partition::Partition;
 use binspace::scene::Scene;
-use binspace::{BspTree, LoadError, Partition};
+use binspace::{BspTree, LoadError};
 
 use crate::args::{BuildArgs, SceneArgs};
 use crate::failure::Failure;

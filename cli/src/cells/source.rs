@@ -3,8 +3,8 @@
 use std::io;
 use std::ops::ControlFlow;
 
-use binspace::Extent;
 use binspace::glam::DVec3;
+use binspace::partition::Extent;
 use binspace::scene::{ObjStream, Scene};
 
 use crate::args::SceneArgs;

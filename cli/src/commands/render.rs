@@ -1,7 +1,7 @@
 //! `binspace render`: a picture of a scene.
 
-use binspace::Verification;
 use binspace::scene::Scene;
+use binspace::verify::Verification;
 
 use super::Outcome;
 use super::verify::unseen_faults;
@@ -93,7 +93,7 @@ fn judge(scene: &Scene, seen: &Verification) -> Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use binspace::verify;
+    use binspace::verify::verify;
 
     #[test]
     fn a_difference_with_wrong_pixels_is_no_success() {

@@ -4,10 +4,12 @@
 use std::ops::AddAssign;
 use std::path::Path;
 
+use binspace::paint::paint_tree;
 use binspace::raster::{DepthImage, Rays, compare, zbuffer};
 use binspace::scene::{Builtin, Scene};
+use binspace::verify::check_orders;
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Heuristic, check_orders, paint_tree};
+use binspace::{BspTree, BuildOptions, Heuristic};
 
 use super::Outcome;
 use crate::args::TourArgs;

@@ -2,8 +2,8 @@
 
 use binspace::glam::DVec3;
 use binspace::raster::Comparison;
+use binspace::verify::{Verification, verify, verify_fronts};
 use binspace::view::{Camera, Projection};
-use binspace::{Verification, verify, verify_fronts};
 
 use super::Outcome;
 use crate::args::VerifyArgs;

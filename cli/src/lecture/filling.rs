@@ -1,7 +1,7 @@
 //! How a depth buffer is filled: scan conversion, and a section of the picture at a time.
 
-use binspace::Faces;
 use binspace::glam::DVec3;
+use binspace::raster::Faces;
 use binspace::raster::{Comparison, Image, Rays, Verdict, colour_of, compare, picture, zbuffer};
 use binspace::scene;
 use binspace::view::Camera;

@@ -1,7 +1,8 @@
 //! How precise depths are, and what is seen where they are not precise enough.
 
+use binspace::BuildOptions;
+use binspace::raster::Faces;
 use binspace::raster::{NONE, Rays, picture};
-use binspace::{BuildOptions, Faces};
 use binspace_evidence::fighting::{Fight, PLANES, Sheets};
 use binspace_evidence::method::{Bsp, DepthFormat};
 

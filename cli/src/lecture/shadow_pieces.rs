@@ -1,9 +1,10 @@
 //! Shadows as pieces of polygons.
 
 use binspace::glam::DVec3;
+use binspace::raster::Faces;
 use binspace::raster::{NONE, Rays, picture, zbuffer};
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, Faces};
+use binspace::{Bounds, BspTree};
 use binspace_evidence::shadows::{Piece, Pieces, Zone, lamp, pieces};
 
 use super::chapter::{Chapter, Picture, failure, percent};

@@ -2,12 +2,13 @@
 
 use std::fs;
 
+use binspace::BspTree;
 use binspace::drawing::{Shown, VisibilityMap};
 use binspace::glam::DVec3;
+use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
 use binspace::scene::Builtin;
 use binspace::view::Camera;
-use binspace::{BspTree, paint_tree};
 use serde_json::Value;
 
 use crate::png_picture::Picture;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use binspace::paint_tree;
+use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
 
 use crate::draw::{View, WHITE, figures, views};

@@ -2,11 +2,12 @@
 
 use std::io::Write;
 
+use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::LATTICE_LIMIT;
+use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
 use binspace::view::{Camera, Projection, views};
-use binspace::{BspTree, paint_tree};
 
 use crate::chromium::{browser, page_and_tree, said};
 use crate::run::Folder;

@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::internals::paint_order;
+use binspace::occlusion::CoverageMask;
 use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::{Camera, CameraError};
-use binspace::{Bounds, BspTree, CoverageMask, Culling, Flow, Fragment, Part, Sides};
+use binspace::{Bounds, BspTree, Culling, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
 #[derive(Clone, Debug)]

@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use binspace::internals::Faces;
+use binspace::occlusion::CoverageMask;
 use binspace::raster::{NONE, Outline, Piece, Rays, for_each_run};
-use binspace::{BspTree, CoverageMask, Error, Flow, Part};
+use binspace::{BspTree, Error, Flow, Part};
 
 use crate::layers::Layers;
 use crate::pieces::Pieces;

@@ -7,11 +7,11 @@ use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
-/// Triangles of a tree's fragments: three vertices of a [`Mesh`](crate::Mesh) each, one range of
+/// Triangles of a tree's fragments: three vertices of a [`Mesh`](crate::mesh::Mesh) each, one range of
 /// indices a fragment.
 ///
-/// [`Mesh::triangles`](crate::Mesh::triangles) has those of all fragments,
-/// [`Mesh::triangles_of`](crate::Mesh::triangles_of) those of some polygons, such as the translucent
+/// [`Mesh::triangles`](crate::mesh::Mesh::triangles) has those of all fragments,
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) those of some polygons, such as the translucent
 /// ones.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Triangles {

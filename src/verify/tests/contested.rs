@@ -1,11 +1,12 @@
 //! What the planes of a tree excuse, against exact rays and the ranges of its nodes.
 
 use crate::exact::{Line, PlaneId};
+use crate::paint::paint_list;
 use crate::random::SplitMix64;
 use crate::raster::tests::oracle::{is_near, meets, meets_piece};
 use crate::raster::{Order, Rays, Verdict, compare, zbuffer};
 use crate::tree::BspTree;
-use crate::verify::{contest, paint_list};
+use crate::verify::contest;
 use crate::view::Camera;
 use crate::{BuildOptions, Heuristic};
 use glam::DVec3;

@@ -8,11 +8,11 @@ use num_rational::BigRational;
 
 use super::cameras;
 use crate::exact::Faces;
+use crate::paint::Buffers;
 use crate::raster::tests::oracle::meets;
 use crate::raster::{Rays, for_each_run};
 use crate::scene::Scene;
 use crate::tree::BspTree;
-use crate::verify::pieces::Buffers;
 use crate::{BuildOptions, Heuristic, Viewpoint, scene};
 
 type Colour = [f64; 3];

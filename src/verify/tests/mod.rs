@@ -4,7 +4,8 @@ mod contested;
 mod mix;
 mod orders;
 
-use super::{paint_tree_in_colour, verify};
+use super::verify;
+use crate::paint::paint_tree_in_colour;
 use crate::raster::{colour_of, picture};
 use crate::scene::Scene;
 use crate::view::{Camera, views};

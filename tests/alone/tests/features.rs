@@ -119,7 +119,8 @@ fn drawings_have_a_path_for_each_polygon_that_shows() {
 #[cfg(feature = "raster")]
 #[test]
 fn raster_paints_what_is_seen() {
-    use binspace::{raster, verify, view};
+    use binspace::verify::verify;
+    use binspace::{raster, view};
 
     let tree = BspTree::build(squares(3)).unwrap();
     let corners = [[0.0; 3], [3.0; 3]].map(Point::to_dvec3);

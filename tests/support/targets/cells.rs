@@ -6,7 +6,8 @@ use super::super::saved::seal;
 use super::super::{cell_cover, decode};
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
-use binspace::{BuildOptions, Partition, Viewpoint};
+use binspace::partition::Partition;
+use binspace::{BuildOptions, Viewpoint};
 
 /// The most cells.
 const CELLS: usize = 9;

@@ -4,10 +4,11 @@ use std::io;
 use std::time::Instant;
 
 use binspace::drawing::VisibilityMap;
+use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, paint_tree};
+use binspace::{BspTree, BuildOptions};
 use binspace_evidence::measure::{FillError, Filled as Judge};
 
 use super::MAX_PIECES;

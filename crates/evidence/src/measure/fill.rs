@@ -121,11 +121,12 @@ impl Filled {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use binspace::BspTree;
     use binspace::drawing::VisibilityMap;
+    use binspace::paint::paint_tree;
     use binspace::raster::Rays;
     use binspace::scene::Builtin;
     use binspace::view::Camera;
-    use binspace::{BspTree, paint_tree};
 
     #[test]
     fn a_square_has_the_pixels_whose_centres_it_covers() {

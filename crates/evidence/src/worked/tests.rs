@@ -2,7 +2,8 @@
 
 use binspace::internals::Faces;
 use binspace::raster::{NONE, Rays, zbuffer};
-use binspace::{BspTree, BuildOptions, Heuristic, verify};
+use binspace::verify::verify;
+use binspace::{BspTree, BuildOptions, Heuristic};
 
 use super::{
     EIGHT, EIGHT_ORDER, EYE_OF_EIGHT, GRID_OF_SIX, eight, eye_on_eight, letters, six_by_six,

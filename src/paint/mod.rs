@@ -1,0 +1,88 @@
+//! Painting a tree's fragments, with exact coverage of every pixel.
+
+mod pieces;
+
+use crate::raster::{Image, Layers, Order, Painter, Rays, blend, for_each_shaded};
+use crate::tree::BspTree;
+use crate::viewpoint::Viewpoint;
+
+pub(crate) use pieces::Buffers;
+
+/// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be that of the
+/// rays.
+///
+/// Fragments are bounded by the exact lines that cut them, not by their rounded vertices.
+pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
+    let mut order = Vec::new();
+    tree.back_to_front_into(viewpoint, &mut order);
+    paint_order(tree, &order, rays)
+}
+
+/// Paints fragments of a tree one over the other.
+pub fn paint_order(tree: &BspTree, order: &[u32], rays: &Rays) -> Image {
+    paint_list(tree, order, Order::BackToFront, rays, None)
+}
+
+/// Paints fragments of a tree one after the other, and records which faces cover which pixels.
+/// Numbers that name no fragment are skipped.
+pub(crate) fn paint_list(
+    tree: &BspTree,
+    list: &[u32],
+    order: Order,
+    rays: &Rays,
+    mut layers: Option<&mut Layers>,
+) -> Image {
+    let mut painter = Painter::new(rays, tree.faces(), order);
+    let mut buffers = Buffers::default();
+    for &index in list.iter().filter(|&&index| (index as usize) < tree.len()) {
+        let fragment = tree.fragment(index);
+        painter.draw_and(buffers.piece(&fragment), |y, columns| {
+            if let Some(layers) = &mut layers {
+                layers.add(fragment.face(), y, columns);
+            }
+        });
+    }
+    painter.finish()
+}
+
+/// Paints a tree's fragments in colours, back to front, over a background. `look` returns the
+/// colour and the opacity of a polygon, given its number.
+///
+/// The picture is RGB, 8 bits each, row by row from the top left. If everything is opaque, it is
+/// the same as [`raster::picture`](crate::raster::picture) of what [`paint_tree`] paints.
+pub fn paint_tree_in_colour(
+    tree: &BspTree,
+    viewpoint: Viewpoint,
+    rays: &Rays,
+    look: impl Fn(usize) -> ([u8; 3], f32),
+    background: [u8; 3],
+) -> Vec<u8> {
+    let [width, height] = rays.size().map(|side| side as usize);
+    let mut pixels = vec![background.map(f32::from); width * height];
+    for_each_painted(tree, viewpoint, rays, look, |pixel, colour, opacity| {
+        blend(&mut pixels[pixel], colour, opacity);
+    });
+    pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
+}
+
+/// Calls `paint` with each pixel that each fragment covers, back to front: the pixel's number, row by row
+/// from the top left, and the colour and the opacity there. [`blend`] makes of them the
+/// picture of [`paint_tree_in_colour`], of one tree or of those of several cells one after the other.
+pub fn for_each_painted(
+    tree: &BspTree,
+    viewpoint: Viewpoint,
+    rays: &Rays,
+    look: impl Fn(usize) -> ([u8; 3], f32),
+    mut paint: impl FnMut(usize, [u8; 3], f32),
+) {
+    let mut order = Vec::new();
+    tree.back_to_front_into(viewpoint, &mut order);
+    let mut buffers = Buffers::default();
+    for index in order {
+        let fragment = tree.fragment(index);
+        let (colour, opacity) = look(fragment.polygon());
+        for_each_shaded(rays, tree.faces(), buffers.piece(&fragment), colour, |pixel, colour| {
+            paint(pixel, colour, opacity);
+        });
+    }
+}
