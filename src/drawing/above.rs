@@ -4,6 +4,8 @@
 //! painted too; a piece of a translucent one, before or after each that shows there, as they lie. What is
 //! hidden by a third needs no order.
 
+use smallvec::SmallVec;
+
 use super::halving::{CUT, VISITED, found_in};
 use super::lines::Lines;
 use super::pairs::{Found, Pair, add, sorted};
@@ -70,11 +72,11 @@ impl<'l> LeafReaches<'l> {
         }
         let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
-            let region = region(leaves);
-            let of_face = |face: u32| stock.views[face as usize].region;
-            let of_item = |item: u32| stock.items[item as usize].region;
-            let reaches = self.reaches.narrowed(lines, &region, of_face, watch)?;
-            let translucent = self.translucent.narrowed(lines, &region, of_item, watch)?;
+            let around = around(leaves);
+            let of_face = |face: u32| stock.views[face as usize].around;
+            let of_item = |item: u32| stock.items[item as usize].around;
+            let reaches = self.reaches.narrowed(lines, &around, of_face, watch)?;
+            let translucent = self.translucent.narrowed(lines, &around, of_item, watch)?;
             Ok(Self { leaves, reaches, translucent })
         };
         Ok(Some([part(first)?, part(second)?]))
@@ -95,8 +97,10 @@ impl<'l> LeafReaches<'l> {
         let mut whole: Vec<u32> = Vec::new();
         for visible in each(watch, VISITED, cells()) {
             let visible = visible?;
+            let face = stock.face(visible.item);
+            watch.work(stock.edges_work(face))?;
             if is_whole(stock, rims, visible) {
-                push(&mut whole, stock.face(visible.item))?;
+                push(&mut whole, face)?;
             }
         }
         whole.sort_unstable();
@@ -113,15 +117,15 @@ impl<'l> LeafReaches<'l> {
                 continue;
             }
             let above = place(stock.face(*item));
-            let around = cell.region();
+            let around = cell.around();
             for reach in each(watch, CUT, &below) {
                 let reach = reach?;
                 let pair = Pair { below: place(reach.number), above };
-                let is_apart = are_apart(&around, &stock.views[reach.number as usize].region);
+                let is_apart = are_apart(&around, &stock.views[reach.number as usize].around);
                 if is_apart || pair.below == above || found.contains(&pair) {
                     continue;
                 }
-                if cell.meets(&rims.lines, reaches.halves_of(reach))? {
+                if cell.meets(&rims.lines, reaches.halves_of(reach), watch)? {
                     add(found, pair)?;
                 }
             }
@@ -142,7 +146,7 @@ impl<'l> LeafReaches<'l> {
     ) -> Result<(), Error> {
         let (face, is_opaque) = (stock.face(item), stock.is_opaque(item));
         let own = if is_opaque { place(face) } else { item };
-        let around = cell.region();
+        let around = cell.around();
         for reach in each(watch, CUT, &self.translucent.list) {
             let reach = reach?;
             let other = reach.number;
@@ -151,11 +155,11 @@ impl<'l> LeafReaches<'l> {
                 false if is_opaque => Pair { below: other, above: own },
                 false => break,
             };
-            let is_apart = are_apart(&around, &stock.items[other as usize].region);
+            let is_apart = are_apart(&around, &stock.items[other as usize].around);
             if is_apart || stock.face(other) == face || found.contains(&pair) {
                 continue;
             }
-            if cell.meets(&rims.lines, self.translucent.halves_of(reach))? {
+            if cell.meets(&rims.lines, self.translucent.halves_of(reach), watch)? {
                 add(found, pair)?;
             }
         }
@@ -166,13 +170,17 @@ impl<'l> LeafReaches<'l> {
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
 fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> bool {
     let outline = rims.known_outline(stock.face(visible.item));
-    visible.cell.sides.iter().all(|side| {
-        side.half.number().is_none() || outline.iter().any(|own| own.line() == side.half.line())
-    })
+    let mut own: SmallVec<[u64; 8]> = outline.iter().map(|half| half.line()).collect();
+    own.sort_unstable();
+    visible
+        .cell
+        .sides
+        .iter()
+        .all(|side| side.half.number().is_none() || own.binary_search(&side.half.line()).is_ok())
 }
 
 /// The box around leaves.
-pub(super) fn region(leaves: &[Leaf]) -> Rect {
+pub(super) fn around(leaves: &[Leaf]) -> Rect {
     leaves.iter().fold(NOWHERE, |[low, high], leaf| {
         let [from, to] = leaf.tile.sides();
         let axes = [0, 1];

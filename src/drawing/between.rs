@@ -38,7 +38,7 @@ pub(super) fn between(
         }
     }
     let face = |item: u32| stock.face(item);
-    let around = |item: u32| stock.items[item as usize].region;
+    let around = |item: u32| stock.items[item as usize].around;
     let pieces = Pieces { lines: &rims.lines, reaches, face: &face, around: &around };
     let passing = Passing { sights: &sights, spots: &spots };
     let mut found = passes(pieces, passing, |_| true, watch)?;

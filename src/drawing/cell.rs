@@ -7,7 +7,9 @@ use smallvec::SmallVec;
 use super::half::Half;
 use super::lines::Lines;
 use super::rect::{NOWHERE, Rect};
+use super::stock::FEW;
 use crate::Error;
+use crate::build::progress::Watch;
 use crate::memory::reserve;
 
 /// A side of a cell, and where it begins.
@@ -62,14 +64,20 @@ impl Cell {
         lines: &Lines<'_>,
         halves: &[Half],
         outside: Option<&mut Vec<Self>>,
+        watch: &Watch<'_>,
     ) -> Result<Option<Self>, Error> {
-        let part = self.common(lines, halves, outside)?;
+        let part = self.common(lines, halves, outside, watch)?;
         Ok(part.map(|part| part.unwrap_or_else(|| self.clone())))
     }
 
     /// Whether any of the cell is in all of the halves.
-    pub(super) fn meets(&self, lines: &Lines<'_>, halves: &[Half]) -> Result<bool, Error> {
-        Ok(self.common(lines, halves, None)?.is_some())
+    pub(super) fn meets(
+        &self,
+        lines: &Lines<'_>,
+        halves: &[Half],
+        watch: &Watch<'_>,
+    ) -> Result<bool, Error> {
+        Ok(self.common(lines, halves, None, watch)?.is_some())
     }
 
     /// As [`within`](Self::within): `Some(None)` is all of the cell. (Cells are large, and most calls
@@ -79,10 +87,12 @@ impl Cell {
         lines: &Lines<'_>,
         halves: &[Half],
         mut outside: Option<&mut Vec<Self>>,
+        watch: &Watch<'_>,
     ) -> Result<Option<Option<Self>>, Error> {
         // Most cells lie outside of one of the halves: that is found out before any is cut.
         let mut near: SmallVec<[Half; 8]> = SmallVec::new();
         for &half in halves {
+            watch.work(self.corners_work())?;
             let signs = self.signs(lines, half);
             if !signs.contains(&Ordering::Greater) {
                 return Ok(None);
@@ -94,6 +104,7 @@ impl Cell {
         let mut part: Option<Self> = None;
         for half in near {
             let cell = part.as_ref().unwrap_or(self);
+            watch.work(cell.corners_work())?;
             let signs = cell.signs(lines, half);
             if !signs.contains(&Ordering::Less) {
                 if let Some(side) = side_on_line(&signs) {
@@ -115,16 +126,22 @@ impl Cell {
         Ok(Some(part))
     }
 
+    /// To look at all corners takes as long as a build takes to examine so many pieces; 0 for few, which are part
+    /// of what is counted for a cell.
+    fn corners_work(&self) -> usize {
+        if self.sides.len() > FEW { self.sides.len() } else { 0 }
+    }
+
     /// A box around it.
-    pub(super) fn region(&self) -> Rect {
-        let mut region = NOWHERE;
+    pub(super) fn around(&self) -> Rect {
+        let mut around = NOWHERE;
         for Corner { at, radius } in self.sides.iter().map(|side| side.start) {
             for axis in 0..2 {
-                region[0][axis] = region[0][axis].min(at[axis] - radius);
-                region[1][axis] = region[1][axis].max(at[axis] + radius);
+                around[0][axis] = around[0][axis].min(at[axis] - radius);
+                around[1][axis] = around[1][axis].max(at[axis] + radius);
             }
         }
-        region
+        around
     }
 
     /// On which side of a half's line each corner lies.

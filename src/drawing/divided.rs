@@ -17,22 +17,22 @@ use crate::memory::{push, reserve};
 
 /// A tile in convex parts.
 pub(super) struct Divided {
-    pub(super) parts: Vec<Part>,
+    pub(super) cells: Vec<LayeredCell>,
     /// Each comes after the one in front of it. The first is of no item.
-    pub(super) stacked: Vec<Stacked>,
+    pub(super) layers: Vec<Layer>,
 }
 
-/// All of a part shows the same items.
-pub(super) struct Part {
+/// A convex part: all of it shows the same items.
+pub(super) struct LayeredCell {
     pub(super) cell: Cell,
     around: Rect,
-    /// The last of those stacked in it; the first one of all, of no item, if nothing shows.
+    /// The last of its layers; the first one of all, of no item, if nothing shows.
     pub(super) layer: u32,
 }
 
 /// An item that shows, and what is in front of it. Parts have them in common, so that they take no more memory
 /// where many items lie over one another.
-pub(super) struct Stacked {
+pub(super) struct Layer {
     pub(super) item: u32,
     pub(super) before: u32,
     /// The newest of those that have this one before them.
@@ -47,29 +47,29 @@ impl Divided {
         lines: &Lines<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let none = Stacked { item: u32::MAX, before: 0, newest: 0 };
-        let mut divided = Self { parts: vec![], stacked: vec![none] };
+        let none = Layer { item: u32::MAX, before: 0, newest: 0 };
+        let mut divided = Self { cells: vec![], layers: vec![none] };
         if is_opaque(leaf, stock) {
             for visible in each(watch, CUT, &leaf.cells) {
                 let Visible { item, cell } = visible?;
                 let layer = divided.behind(0, *item)?;
-                push(&mut divided.parts, Part::new(cell.clone(), layer))?;
+                push(&mut divided.cells, LayeredCell::new(cell.clone(), layer))?;
             }
             return Ok(divided);
         }
         let tile = Cell::rectangle(lines, leaf.tile.low, leaf.tile.high);
-        let mut open = vec![Part::new(tile, 0)];
+        let mut open = vec![LayeredCell::new(tile, 0)];
         let (mut left, mut outside) = (Vec::new(), Vec::new());
         for Visible { item, cell } in &leaf.cells {
             watch.work(CUT)?;
             let halves: SmallVec<[Half; 8]> = cell.sides.iter().map(|side| side.half).collect();
-            let around = cell.region();
+            let around = cell.around();
             let mut i = 0;
             while let Some(part) = open.get(i) {
                 watch.work(VISITED)?;
                 let common = match are_apart(&part.around, &around) {
                     true => None,
-                    false => part.cell.within(lines, &halves, Some(&mut outside))?,
+                    false => part.cell.within(lines, &halves, Some(&mut outside), watch)?,
                 };
                 let Some(common) = common else {
                     outside.clear();
@@ -77,36 +77,36 @@ impl Divided {
                     continue;
                 };
                 watch.work(CUT)?;
-                let Part { layer, .. } = open.swap_remove(i);
+                let LayeredCell { layer, .. } = open.swap_remove(i);
                 reserve(&mut left, outside.len() + 1)?;
-                left.extend(outside.drain(..).map(|cell| Part::new(cell, layer)));
-                let behind = Part::new(common, divided.behind(layer, *item)?);
-                push(if stock.is_opaque(*item) { &mut divided.parts } else { &mut left }, behind)?;
+                left.extend(outside.drain(..).map(|cell| LayeredCell::new(cell, layer)));
+                let behind = LayeredCell::new(common, divided.behind(layer, *item)?);
+                push(if stock.is_opaque(*item) { &mut divided.cells } else { &mut left }, behind)?;
             }
             reserve(&mut open, left.len())?;
             open.append(&mut left);
         }
         open.retain(|part| part.layer != 0);
-        reserve(&mut divided.parts, open.len())?;
-        divided.parts.append(&mut open);
+        reserve(&mut divided.cells, open.len())?;
+        divided.cells.append(&mut open);
         Ok(divided)
     }
 
     /// The layer of an item behind another layer.
     fn behind(&mut self, before: u32, item: u32) -> Result<u32, Error> {
-        let newest = self.stacked[before as usize].newest;
-        if newest != 0 && self.stacked[newest as usize].item == item {
+        let newest = self.layers[before as usize].newest;
+        if newest != 0 && self.layers[newest as usize].item == item {
             return Ok(newest);
         }
-        let layer = self.stacked.len() as u32;
-        push(&mut self.stacked, Stacked { item, before, newest: 0 })?;
-        self.stacked[before as usize].newest = layer;
+        let layer = self.layers.len() as u32;
+        push(&mut self.layers, Layer { item, before, newest: 0 })?;
+        self.layers[before as usize].newest = layer;
         Ok(layer)
     }
 
     /// The items that show in a part, back to front.
-    fn items(&self, part: &Part) -> impl Iterator<Item = u32> {
-        let at = |layer: u32| (layer != 0).then(|| &self.stacked[layer as usize]);
+    fn items(&self, part: &LayeredCell) -> impl Iterator<Item = u32> {
+        let at = |layer: u32| (layer != 0).then(|| &self.layers[layer as usize]);
         std::iter::successors(at(part.layer), move |layer| at(layer.before)).map(|layer| layer.item)
     }
 }
@@ -127,7 +127,7 @@ impl VisibilityMap<'_> {
                 }
             } else {
                 let divided = Divided::new(leaf, &self.stock, &self.rims.lines, watch)?;
-                for part in &divided.parts {
+                for part in &divided.cells {
                     for item in each(watch, CUT, divided.items(part)) {
                         see(item?, &part.cell)?;
                     }
@@ -139,9 +139,9 @@ impl VisibilityMap<'_> {
     }
 }
 
-impl Part {
+impl LayeredCell {
     fn new(cell: Cell, layer: u32) -> Self {
-        Self { around: cell.region(), cell, layer }
+        Self { around: cell.around(), cell, layer }
     }
 }
 

@@ -1,5 +1,8 @@
 //! On which side of a line two others meet, and where: by integers and pairs of floats, where one float cannot tell.
 
+#[cfg(test)]
+mod tests;
+
 use std::cmp::Ordering;
 
 use super::frame::{ExactLine, meeting, orientation};

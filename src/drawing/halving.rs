@@ -1,9 +1,11 @@
 //! Halving the picture until its parts are simple, on all threads.
 
+use std::ops::Range;
+
 use super::reporter::finish_item;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::push;
+use crate::memory::{push, reserve};
 use crate::parallel_map;
 
 /// The picture is halved so often before its parts are shared out to threads.
@@ -27,31 +29,54 @@ pub(super) fn found_in<P: Send, F: Send>(
     leaf: impl Fn(&P, &mut F) -> Result<(), Error> + Sync,
     watch: &Watch<'_>,
 ) -> Result<Vec<F>, Error> {
-    let mut shares = vec![all];
-    for _ in 0..SHARED {
-        let mut next = Vec::with_capacity(2 * shares.len());
-        for parts in parallel_map::map(shares, |part| Ok((halves(&part, &mut new())?, part))) {
-            match parts? {
-                (Some(parts), _) => next.extend(parts),
-                (None, part) => next.push(part),
-            }
-        }
-        shares = next;
+    shared(all, 0..1 << SHARED, &new, &halves, &leaf, watch)
+}
+
+/// What is found in a part that stands for these of the shares. Both halves of it are for whichever threads are
+/// free: none waits until all parts of a size are halved.
+fn shared<P: Send, F: Send>(
+    part: P,
+    shares: Range<usize>,
+    new: &(impl Fn() -> F + Sync),
+    halves: &(impl Fn(&P, &mut F) -> Result<Option<[P; 2]>, Error> + Sync),
+    leaf: &(impl Fn(&P, &mut F) -> Result<(), Error> + Sync),
+    watch: &Watch<'_>,
+) -> Result<Vec<F>, Error> {
+    let parts = if shares.len() == 1 { None } else { halves(&part, &mut new())? };
+    let Some([first, second]) = parts else {
+        let found = alone(part, new(), halves, leaf)?;
+        shares.for_each(|i| finish_item(watch, i, 1 << SHARED));
+        return Ok(vec![found]);
+    };
+    drop(part);
+    let middle = shares.start + shares.len() / 2;
+    let parts = vec![(first, shares.start..middle), (second, middle..shares.end)];
+    let found = |(part, shares)| shared(part, shares, new, halves, leaf, watch);
+    let mut all = Vec::new();
+    for part in parallel_map::map(parts, found) {
+        let mut part = part?;
+        reserve(&mut all, part.len())?;
+        all.append(&mut part);
     }
-    let count = shares.len();
-    let found = parallel_map::map(shares.into_iter().enumerate().collect(), |(i, share)| {
-        let (mut found, mut stack) = (new(), vec![share]);
-        while let Some(part) = stack.pop() {
-            match halves(&part, &mut found)? {
-                Some([first, second]) => {
-                    push(&mut stack, second)?;
-                    push(&mut stack, first)?;
-                }
-                None => leaf(&part, &mut found)?,
+    Ok(all)
+}
+
+/// What one thread finds in a part.
+fn alone<P, F>(
+    part: P,
+    mut found: F,
+    halves: &impl Fn(&P, &mut F) -> Result<Option<[P; 2]>, Error>,
+    leaf: &impl Fn(&P, &mut F) -> Result<(), Error>,
+) -> Result<F, Error> {
+    let mut stack = vec![part];
+    while let Some(part) = stack.pop() {
+        match halves(&part, &mut found)? {
+            Some([first, second]) => {
+                push(&mut stack, second)?;
+                push(&mut stack, first)?;
             }
+            None => leaf(&part, &mut found)?,
         }
-        finish_item(watch, i, count);
-        Ok(found)
-    });
-    found.into_iter().collect()
+    }
+    Ok(found)
 }

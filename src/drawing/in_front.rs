@@ -144,7 +144,7 @@ impl VisibilityMap<'_> {
             }
             finish_item(watch, face, faces.len());
         }
-        let around = |face: u32| stock.views[face as usize].region;
+        let around = |face: u32| stock.views[face as usize].around;
         let pieces = Pieces { lines: &rims.lines, reaches, face: &|face| face, around: &around };
         let passing = Passing { sights, spots: &[] };
         let found = passes(pieces, passing, |is_behind| is_behind, watch)?;

@@ -1,18 +1,21 @@
 //! The lines of a picture, each known by what made it.
 
+mod adopted;
+mod coefficients;
 #[cfg(test)]
 mod tests;
 
+pub(super) use adopted::Adopted;
+
 use super::feet::{Feet, Foot};
-use super::frame::{ExactLine, Frame, is_opposite, is_same_line};
-use super::half::{Half, STEP_BITS, STEPS};
-use super::rounded::{ROUNDING, Rounded};
+use super::frame::{Frame, is_opposite, is_same_line};
+use super::half::Half;
+use super::rounded::Rounded;
 use super::table::{Table, insert};
 use super::twofold::Twofold;
 use crate::Error;
-use crate::exact::{Int, PlaneId, PlaneKind};
+use crate::exact::{PlaneId, PlaneKind};
 use crate::memory::push;
-use crate::raster::{Sheet, edge};
 
 /// What made a line. Equal keys are equal lines, up to their direction; those of other keys may be, too,
 /// but for edges: edges on one line have its first key.
@@ -31,9 +34,6 @@ pub(super) enum Key {
 pub(super) const NOWHERE: u32 = u32::MAX;
 /// Faces of more corners are not searched for one that a line goes through.
 const FEW: usize = 8;
-
-/// The halves on which another list's lines are positive, by their numbers there.
-pub(super) type Adopted = Table<u32, Half>;
 
 /// All lines that a picture was asked for.
 #[derive(Debug)]
@@ -85,10 +85,14 @@ impl<'t> Lines<'t> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);
         }
-        let rounded = self.rounded_of(key);
+        self.new_half(key, self.rounded_of(key), points)
+    }
+
+    /// The same of a key that is new.
+    fn new_half(&mut self, key: Key, rounded: Rounded, points: [u32; 2]) -> Result<Half, Error> {
         let half = match key {
             Key::Edge(_) | Key::Upright(..) => self.half_of_edge(key, rounded, points)?,
-            _ => Half::of(self.add(key, rounded, points)?),
+            Key::Cut(..) => Half::of(self.add(key, rounded, points)?),
         };
         insert(&mut self.halves, key, half)?;
         Ok(half)
@@ -190,7 +194,7 @@ impl<'t> Lines<'t> {
             Some(&half) => half,
             None => {
                 let through = self.on_cut(face, plane)?;
-                self.half(key, through)?
+                self.new_half(key, self.rounded_of(key), through)?
             }
         };
         Ok(half.flipped(is_positive == (behind != swapped)))
@@ -260,131 +264,8 @@ impl<'t> Lines<'t> {
         })
     }
 
-    /// The half that another list's half is in this one, to which its line is added if it is new.
-    pub(super) fn adopted(
-        &mut self,
-        other: &Self,
-        half: Half,
-        adopted: &mut Adopted,
-    ) -> Result<Half, Error> {
-        let Some(line) = half.number() else { return Ok(half) };
-        if let Some(&own) = adopted.get(&line) {
-            return Ok(own.flipped(half.is_negative()));
-        }
-        let mut points = other.through[line as usize];
-        for point in points.iter_mut().filter(|point| **point != NOWHERE) {
-            let corner = other.corners[*point as usize];
-            *point = match other.moved.get(&corner) == Some(point) {
-                true => self.moved(corner)?,
-                false => self.point(corner)?,
-            };
-        }
-        let own = match other.key(line) {
-            Key::Edge(_) => self.edge_between(points)?,
-            key => self.half(key, points)?,
-        };
-        if other.twofold.contains_key(&line) {
-            self.keep_twofold(own)?;
-        }
-        insert(adopted, line, own)?;
-        Ok(own.flipped(half.is_negative()))
-    }
-
     /// What made a line.
     pub(super) fn key(&self, line: u32) -> Key {
         self.keys[line as usize]
-    }
-
-    /// A half's line in floats.
-    #[inline]
-    pub(super) fn rounded(&self, half: Half) -> Rounded {
-        match half.number() {
-            Some(line) => self.rounded[line as usize],
-            None => {
-                let (axis, steps) = half.border();
-                let mut k = [-(steps as f64) / STEPS, 0.0, 0.0];
-                k[axis + 1] = 1.0;
-                Rounded { k, error: 4.0 * ROUNDING * self.reach[axis], slope: 1.0 }
-            }
-        }
-    }
-
-    /// How much the parts of a line's slope may be off.
-    pub(super) fn slope_error(&self, line: &Rounded) -> f64 {
-        line.error / self.reach[0].min(self.reach[1])
-    }
-
-    /// The edge from one lattice point to another in floats, whether its line is one of these or not.
-    pub(super) fn rounded_edge(&self, ends: [[f64; 3]; 2]) -> Rounded {
-        let (k, error) = edge(&self.frame.rays, ends);
-        let rounded = Rounded::scaled(k, 4.0 * error);
-        if rounded.is_fine() { rounded } else { self.rounded_other(&self.frame.edge(ends)) }
-    }
-
-    /// A line in floats that is none of these.
-    pub(super) fn rounded_other(&self, exact: &ExactLine) -> Rounded {
-        Rounded::new(exact, self.reach)
-    }
-
-    /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
-    pub(super) fn shows(&self, at: [f64; 2]) -> bool {
-        (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
-    }
-
-    /// A line in floats.
-    fn rounded_of(&self, key: Key) -> Rounded {
-        let Frame { rays, faces } = &self.frame;
-        let sheet = |plane| Sheet::new(rays, faces, plane);
-        let (k, error) = match key {
-            Key::Edge(points) => return self.rounded_edge(self.ends(points)),
-            Key::Upright(face, k) => {
-                let ([a, b], axis) = self.upright(face, k);
-                sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))
-            }
-            Key::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
-        };
-        // The picture may end half a pixel beyond the pixels that the error is for, and its lists reach a
-        // pixel further.
-        let rounded = Rounded::scaled(k, 4.0 * error);
-        if rounded.is_fine() { rounded } else { Rounded::new(&self.exact_of(key), self.reach) }
-    }
-
-    /// A line in integers.
-    fn exact_of(&self, key: Key) -> ExactLine {
-        let frame = &self.frame;
-        match key {
-            Key::Edge(points) => frame.edge(self.ends(points)),
-            Key::Upright(face, k) => {
-                let (ends, axis) = self.upright(face, k);
-                frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
-            }
-            Key::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
-        }
-    }
-
-    /// The line of a half, in integers.
-    pub(super) fn exact(&self, half: Half) -> ExactLine {
-        match half.number() {
-            Some(line) => self.exact_of(self.key(line)),
-            None => {
-                let (axis, steps) = half.border();
-                let mut k = [-steps, 0, 0];
-                k[axis + 1] = 1 << STEP_BITS;
-                k.map(Int::from)
-            }
-        }
-    }
-
-    /// The ends of an edge.
-    fn ends(&self, points: [u32; 2]) -> [[f64; 3]; 2] {
-        points.map(|point| self.frame.faces.corner(self.corners[point as usize]))
-    }
-
-    /// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
-    fn upright(&self, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
-        let corners = self.frame.faces.corners(face);
-        let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
-        let axis = self.frame.faces.upright_axis(face).unwrap_or_default();
-        ([corners[k as usize], corners[next]], axis)
     }
 }

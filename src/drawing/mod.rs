@@ -93,7 +93,7 @@
 // | `passes` | where segments pass in front of pieces or behind them |
 // | `in_front` | how many polygons lie in front of lines |
 // | `between` | lines and points between what is painted |
-// | `steps` | all that a drawing paints |
+// | `display_list` | all that a drawing paints |
 // | `pen` | segments joined to lines, in an order for a pen |
 // | `near` | the nearest of the ends that are left |
 
@@ -103,6 +103,7 @@ mod cell;
 mod certain;
 mod crossings;
 mod cut_lines;
+mod display_list;
 mod divided;
 mod edge_run;
 mod edges;
@@ -138,7 +139,6 @@ mod rounded;
 mod shared_edges;
 mod sight;
 mod spot;
-mod steps;
 mod stock;
 mod straddling;
 mod table;
@@ -148,10 +148,10 @@ mod translucent;
 mod twofold;
 mod visible;
 
+pub use display_list::DisplayItem;
 pub use edge_run::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use overlaid::{LineRun, MarkerView};
 pub use paths::{Drawing, Path};
 pub use pen::{Polyline, polylines};
 pub use regions::Region;
-pub use steps::Step;

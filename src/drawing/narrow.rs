@@ -87,12 +87,12 @@ impl<'a, 't> Narrow<'a, 't> {
         if item > list.limit {
             return Ok(false);
         }
-        let Item { ref region, .. } = stock.items[item as usize];
-        if are_apart(sides, region) {
+        let Item { ref around, .. } = stock.items[item as usize];
+        if are_apart(sides, around) {
             return Ok(true);
         }
         // Lines are made and looked at only where they may tell more than boxes.
-        if reaches_across(region, sides) {
+        if reaches_across(around, sides) {
             match rims.across_item(stock, item, sides)? {
                 Across::Inside if stock.is_opaque(item) => list.limit = item,
                 Across::Outside => return Ok(true),

@@ -63,7 +63,7 @@ impl VisibilityMap<'_> {
                 } else {
                     for face in each(watch, CUT, &shown.faces[index]) {
                         let face = *face?;
-                        add_edges(&rims.lines, rims.known_outline(face), &mut edges)?;
+                        add_edges(&rims.lines, rims.known_outline(face), &mut edges, watch)?;
                     }
                 }
                 part.push(shown.polygons[index], is_clipped[index], &edges, watch)?;

@@ -99,35 +99,44 @@ impl Graph<'_> {
     /// The number of pairs within the component that end at a node, times that of those that begin.
     fn degrees(&mut self, nodes: &[u32]) -> Result<Vec<(u64, u32)>, Error> {
         let mut counts = std::mem::take(&mut self.search.counts);
-        nodes.iter().for_each(|&node| counts[node as usize] = [0; 2]);
+        for node in each(self.watch, 1, nodes) {
+            counts[*node? as usize] = [0; 2];
+        }
         let of = |node: u32| self.component[node as usize];
         for node in each(self.watch, VISITED, nodes) {
             let node = *node?;
-            let above = self.above(node).filter(|&above| of(above) == of(node));
-            for above in above.filter(|&above| self.holds(Pair { below: node, above })) {
-                counts[node as usize][0] += 1;
-                counts[above as usize][1] += 1;
+            for above in each(self.watch, 1, self.above(node)) {
+                let above = above?;
+                if of(above) == of(node) && self.holds(Pair { below: node, above }) {
+                    counts[node as usize][0] += 1;
+                    counts[above as usize][1] += 1;
+                }
             }
         }
         let product = |node: u32| counts[node as usize].map(u64::from).into_iter().product();
-        let degrees = collect(nodes.iter().map(|&node| (product(node), node)));
+        let mut degrees = Vec::new();
+        reserve(&mut degrees, nodes.len())?;
+        for node in each(self.watch, 1, nodes) {
+            let node = *node?;
+            degrees.push((product(node), node));
+        }
         self.search.counts = counts;
-        degrees
+        Ok(degrees)
     }
 
     /// Takes back those of the clipped nodes that close no cycle: all cycles are within `nodes`.
     fn give_back(&mut self, nodes: &[u32], mut clipped: Vec<u32>) -> Result<(), Error> {
-        for &node in nodes {
-            self.component[node as usize] = nodes[0];
+        for node in each(self.watch, 1, nodes) {
+            self.component[*node? as usize] = nodes[0];
         }
-        clipped.sort_by_key(|&node| self.above(node).count());
+        sort_by(&mut clipped, self.watch, |&a, &b| self.above_count(a).cmp(&self.above_count(b)))?;
         for node in clipped {
             if !self.closes_cycle(node, nodes[0])? {
                 self.is_clipped[node as usize] = false;
             }
         }
-        for &node in nodes {
-            self.component[node as usize] = NONE;
+        for node in each(self.watch, 1, nodes) {
+            self.component[*node? as usize] = NONE;
         }
         Ok(())
     }
@@ -137,7 +146,8 @@ impl Graph<'_> {
         let (mut stack, mut is_closed) = (vec![start], false);
         while let Some(node) = stack.pop() {
             self.watch.work(VISITED)?;
-            for above in self.above(node) {
+            for above in each(self.watch, 1, self.above(node)) {
+                let above = above?;
                 if node != start && !self.holds(Pair { below: node, above }) {
                     continue;
                 }
@@ -179,8 +189,11 @@ impl Graph<'_> {
             if self.is_last(node) {
                 continue;
             }
-            let above = self.above(node);
-            for above in above.filter(|&above| self.holds(Pair { below: node, above })) {
+            for above in each(self.watch, 1, self.above(node)) {
+                let above = above?;
+                if !self.holds(Pair { below: node, above }) {
+                    continue;
+                }
                 let waits = &mut waits[above as usize];
                 *waits -= 1;
                 if *waits == 0 {
@@ -189,5 +202,41 @@ impl Graph<'_> {
             }
         }
         Ok(order)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+    use super::*;
+
+    /// Between two calls of the callback few pairs are looked at, and before the first and after the last one, though
+    /// all pairs begin at one node. What is behind each pair is asked of a function that counts.
+    #[test]
+    fn between_two_calls_few_pairs_are_looked_at() {
+        let nodes = 1 << 19;
+        let mut pairs: Vec<Pair> = (1..nodes).map(|above| Pair { below: 0, above }).collect();
+        pairs.push(Pair { below: nodes - 1, above: 0 });
+        let ranks: Vec<u32> = (0..nodes).collect();
+        let (looked, most, calls) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicUsize::new(0));
+        let hear = || most.fetch_max(looked.swap(0, Relaxed), Relaxed);
+        let callback = |_: &Watch<'_>| {
+            calls.fetch_add(1, Relaxed);
+            hear();
+            ControlFlow::Continue(())
+        };
+        let is_opaque = |_: u32| {
+            looked.fetch_add(1, Relaxed);
+            true
+        };
+        let watch = Watch::new(&callback);
+        let found = order(nodes as usize, &pairs, &ranks, &is_opaque, &watch).unwrap();
+        hear();
+        assert_eq!(found.order.len(), nodes as usize);
+        assert_eq!(found.is_clipped.iter().filter(|&&is_clipped| is_clipped).count(), 1);
+        let (most, calls) = (most.into_inner(), calls.into_inner());
+        assert!(calls > 50 && most > 1 << 14 && most < 1 << 17, "{most} at most, {calls} calls");
     }
 }

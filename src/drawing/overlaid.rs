@@ -1,6 +1,6 @@
 //! What shows of an overlay's lines and points.
 
-use super::above::region;
+use super::above::around;
 use super::halving::{CUT, VISITED, found_in};
 use super::intervals::parts;
 use super::lines::Lines;
@@ -205,11 +205,11 @@ impl<'l> LeafPasses<'l> {
         }
         let (first, second) = leaves.split_at(leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
-            let around = region(leaves);
+            let around = around(leaves);
             let may_meet = |number: u32| passing.sights[number as usize].may_meet(&around);
             let sights = kept(sights, may_meet, watch)?;
             let is_near =
-                |number: u32| !are_apart(&around, &passing.spots[number as usize].region());
+                |number: u32| !are_apart(&around, &passing.spots[number as usize].around());
             Ok(Self { leaves, sights, spots: kept(spots, is_near, watch)? })
         };
         Ok(Some([part(first)?, part(second)?]))
@@ -230,7 +230,7 @@ impl<'l> LeafPasses<'l> {
             if !stock.is_opaque(*item) {
                 continue;
             }
-            let around = cell.region();
+            let around = cell.around();
             let face = stock.face(*item);
             let mut side = None;
             let mut seen = || *side.get_or_insert_with(|| lines.frame.seen_side(face));
@@ -250,7 +250,7 @@ impl<'l> LeafPasses<'l> {
             for number in each(watch, CUT, &self.spots) {
                 let number = *number?;
                 let spot = &passing.spots[number as usize];
-                if !are_apart(&around, &spot.region())
+                if !are_apart(&around, &spot.around())
                     && spot.is_in(lines, cell)
                     && spot.is_behind(lines, face, seen())
                 {

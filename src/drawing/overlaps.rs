@@ -78,7 +78,7 @@ impl TileStack {
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let around = |item: u32| stock.items[item as usize].region;
+        let around = |item: u32| stock.items[item as usize].around;
         let reaches = self.reaches.narrowed(lines, &tile.sides(), around, watch)?;
         Ok(Self { tile, reaches, in_vain: 0 })
     }
@@ -110,14 +110,14 @@ impl TileStack {
             }
             let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
             let halves = self.reaches.halves_of(reach);
-            let Some(cell) = whole.within(lines, halves, None)? else { continue };
+            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
             if let Some(cover) = cover {
                 add(item, cover)?;
             }
             let face = |item: u32| stock.face(item);
             for part in each(watch, CUT, &behind) {
                 let (above, other) = part?;
-                if face(*above) != face(item) && other.meets(lines, halves)? {
+                if face(*above) != face(item) && other.meets(lines, halves, watch)? {
                     add(item, *above)?;
                 }
             }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 
-use super::reporter::{each, sort_by};
+use super::reporter::{each, sort_unique};
 use super::table::Mixer;
 use crate::Error;
 use crate::build::progress::Watch;
@@ -35,7 +35,6 @@ pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, 
             pairs.push(pair?);
         }
     }
-    sort_by(&mut pairs, watch, Pair::cmp)?;
-    pairs.dedup();
+    sort_unique(&mut pairs, watch)?;
     Ok(pairs)
 }

@@ -10,7 +10,7 @@ use super::order::{cycles, order};
 use super::outline::Edge;
 use super::pairs::Pair;
 use super::paths::{Drawing, add_edges, add_sides};
-use super::reporter::{each, finish_item, sort_by};
+use super::reporter::{each, finish_item, sort_by, sort_unique};
 use super::rims::Rims;
 use super::stock::Stock;
 use super::visible::{Leaf, Visible};
@@ -181,11 +181,11 @@ impl Counts {
             let face = stock.face(same[0]);
             // The outline of a face is its own where none of its pieces is missing.
             if same.len() as u32 == self.of_face[face as usize] {
-                add_edges(&rims.lines, rims.known_outline(face), edges)?;
+                add_edges(&rims.lines, rims.known_outline(face), edges, watch)?;
                 continue;
             }
             for item in each(watch, CUT, same) {
-                add_edges(&rims.lines, rims.known_item(stock, *item?), edges)?;
+                add_edges(&rims.lines, rims.known_item(stock, *item?), edges, watch)?;
             }
         }
         Ok(())
@@ -230,8 +230,7 @@ fn contracted(overlaps: &[Pair], of_item: &[u32], watch: &Watch<'_>) -> Result<V
             push(&mut pairs, Pair { below, above })?;
         }
     }
-    sort_by(&mut pairs, watch, Pair::cmp)?;
-    pairs.dedup();
+    sort_unique(&mut pairs, watch)?;
     Ok(pairs)
 }
 

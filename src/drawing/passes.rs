@@ -139,7 +139,7 @@ impl TilePasses {
         let reaches = self.reaches.narrowed(pieces.lines, &sides, pieces.around, watch)?;
         let may_meet = |number: u32| passing.sights[number as usize].may_meet(&sides);
         let sights = kept(&self.sights, may_meet, watch)?;
-        let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].region());
+        let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].around());
         let spots = kept(&self.spots, is_near, watch)?;
         Ok(Self { tile, reaches, sights, spots, in_vain: 0 })
     }
@@ -161,8 +161,8 @@ impl TilePasses {
         for reach in &self.reaches.list {
             watch.work(CUT)?;
             let halves = self.reaches.halves_of(reach);
-            let Some(cell) = whole.within(lines, halves, None)? else { continue };
-            let (around, piece) = (cell.region(), reach.number);
+            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
+            let (around, piece) = (cell.around(), reach.number);
             let face = (pieces.face)(piece);
             let side = lines.frame.seen_side(face);
             for number in each(watch, CUT, &self.sights) {
@@ -186,7 +186,7 @@ impl TilePasses {
             for number in each(watch, CUT, &self.spots) {
                 let number = *number?;
                 let spot = &passing.spots[number as usize];
-                if !are_apart(&around, &spot.region()) && spot.is_in(lines, &cell) {
+                if !are_apart(&around, &spot.around()) && spot.is_in(lines, &cell) {
                     let is_behind = spot.is_behind(lines, face, side);
                     if is_wanted(is_behind) {
                         push(&mut found.spots, SpotPass { spot: number, piece, is_behind })?;

@@ -154,10 +154,12 @@ pub(super) fn add_edges(
     lines: &Lines<'_>,
     halves: &[Half],
     edges: &mut Vec<Edge>,
+    watch: &Watch<'_>,
 ) -> Result<(), Error> {
+    watch.work(halves.len())?;
     let Tile { low, high } = Tile::picture(lines.frame.rays.size());
     let picture = Cell::rectangle(lines, low, high);
-    if let Some(cell) = picture.within(lines, halves, None)? {
+    if let Some(cell) = picture.within(lines, halves, None, watch)? {
         add_sides(&cell, edges)?;
     }
     Ok(())

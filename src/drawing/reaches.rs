@@ -52,7 +52,7 @@ impl Reaches {
     pub(super) fn narrowed(
         &self,
         lines: &Lines<'_>,
-        region: &Rect,
+        sides: &Rect,
         around: impl Fn(u32) -> Rect,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
@@ -60,16 +60,16 @@ impl Reaches {
         'pieces: for reach in each(watch, NARROWED, &self.list) {
             let reach = reach?;
             let around = around(reach.number);
-            if are_apart(region, &around) {
+            if are_apart(sides, &around) {
                 continue;
             }
-            if is_within(&around, region) {
+            if is_within(&around, sides) {
                 part.push(reach.number, self.halves_of(reach))?;
                 continue;
             }
             let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
             for &half in self.halves_of(reach) {
-                match lines.across(half, region) {
+                match lines.across(half, sides) {
                     Across::Inside => {}
                     Across::Outside => continue 'pieces,
                     Across::Maybe => kept.push(half),

@@ -40,7 +40,7 @@ impl VisibilityMap<'_> {
     /// What shows of polygons that lie one behind the other: a phase.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
-        push(&mut stacks.layers, Layer { polygon: usize::MAX, before: 0 })?;
+        push(&mut stacks.layers, PolygonLayer { polygon: usize::MAX, before: 0 })?;
         let (mut done, count) = (0, self.leaves.len());
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
             let divided = |leaf| Divided::new(leaf, &self.stock, &self.rims.lines, watch);
@@ -55,7 +55,7 @@ impl VisibilityMap<'_> {
 }
 
 /// Polygons that show, each behind another layer or, if that is the first of all, in front.
-struct Layer {
+struct PolygonLayer {
     polygon: usize,
     before: u32,
 }
@@ -63,7 +63,7 @@ struct Layer {
 /// The regions, each by its last layer.
 #[derive(Default)]
 struct Stacks {
-    layers: Vec<Layer>,
+    layers: Vec<PolygonLayer>,
     /// Layers by what is before them and their polygons.
     numbers: Table<(u32, usize), u32>,
     /// The edges of all parts of regions, and whose they are.
@@ -80,9 +80,9 @@ impl Stacks {
     ) -> Result<(), Error> {
         // The layers of all tiles that those of this one are.
         let mut own: Vec<u32> = Vec::new();
-        reserve(&mut own, divided.stacked.len())?;
+        reserve(&mut own, divided.layers.len())?;
         own.push(0);
-        for layer in each(watch, VISITED, &divided.stacked[1..]) {
+        for layer in each(watch, VISITED, &divided.layers[1..]) {
             let layer = layer?;
             let (before, polygon) = (own[layer.before as usize], polygon(layer.item));
             let number = match self.numbers.get(&(before, polygon)) {
@@ -90,14 +90,14 @@ impl Stacks {
                 None => {
                     let number = self.layers.len() as u32;
                     insert(&mut self.numbers, (before, polygon), number)?;
-                    push(&mut self.layers, Layer { polygon, before })?;
+                    push(&mut self.layers, PolygonLayer { polygon, before })?;
                     number
                 }
             };
             own.push(number);
         }
         let mut sides = Vec::new();
-        for part in each(watch, VISITED, &divided.parts) {
+        for part in each(watch, VISITED, &divided.cells) {
             let part = part?;
             add_sides(&part.cell, &mut sides)?;
             reserve(&mut self.edges, sides.len())?;
@@ -157,7 +157,7 @@ impl Stacks {
 }
 
 /// The polygons of a layer and of those before it, front to back.
-fn stack(layers: &[Layer], last: u32, watch: &Watch<'_>) -> Result<Vec<usize>, Error> {
+fn stack(layers: &[PolygonLayer], last: u32, watch: &Watch<'_>) -> Result<Vec<usize>, Error> {
     let at = |layer: u32| (layer != 0).then(|| &layers[layer as usize]);
     let all = || std::iter::successors(at(last), |layer| at(layer.before));
     let mut polygons = Vec::new();

@@ -107,6 +107,14 @@ pub(super) fn sort_by<T>(
     Ok(())
 }
 
+/// Sorts a list and keeps one of those that are equal.
+pub(super) fn sort_unique<T: Ord>(list: &mut Vec<T>, watch: &Watch<'_>) -> Result<(), Error> {
+    sort_by(list, watch, T::cmp)?;
+    watch.work(list.len())?;
+    list.dedup();
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -80,7 +80,7 @@ impl<'t> Rims<'t> {
         sides: &Rect,
     ) -> Result<Option<SmallVec<[Half; 8]>>, Error> {
         let ends = self.item_place(stock, item)?;
-        if is_within(&stock.items[item as usize].region, sides) {
+        if is_within(&stock.items[item as usize].around, sides) {
             return Ok(Some(SmallVec::from_slice(self.at(ends))));
         }
         let mut crossing = SmallVec::new();
@@ -101,7 +101,7 @@ impl<'t> Rims<'t> {
         face: u32,
         sides: &Rect,
     ) -> Result<bool, Error> {
-        if !is_within(sides, &stock.views[face as usize].region) {
+        if !is_within(sides, &stock.views[face as usize].around) {
             return Ok(false);
         }
         let ends = self.outline_place(stock, face)?;

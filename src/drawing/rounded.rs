@@ -35,6 +35,11 @@ impl Rounded {
         Self { k: k.map(|c| c * scale), error: error * scale, slope: 1.01 * 1.42 * size * scale }
     }
 
+    /// The same with its signs changed, if `flip`.
+    pub(super) fn flipped(self, flip: bool) -> Self {
+        if flip { Self { k: self.k.map(|c| -c), ..self } } else { self }
+    }
+
     /// Whether it is off by so little that the line is not needed in integers to look at it.
     pub(super) fn is_fine(&self) -> bool {
         self.error < FINE

@@ -22,7 +22,7 @@ pub(super) struct Sight {
     rounded: Rounded,
     pub(super) course: Course,
     /// A box around that part.
-    region: Rect,
+    around: Rect,
 }
 
 /// Where a segment is in the picture. How far along something is, is its place: in pixels, rising from the
@@ -100,7 +100,7 @@ impl Sight {
         let slope = square.sqrt();
         let (foot, direction) = (-k0 / square, [ky / slope, -kx / slope]);
         let course = Course { foot: [foot * kx, foot * ky], direction, places: [0.0; 2] };
-        (slope > 0.0).then_some(Self { source, rounded, course, region: NOWHERE })
+        (slope > 0.0).then_some(Self { source, rounded, course, around: NOWHERE })
     }
 
     /// From where to where it is in the picture, by its ends.
@@ -122,7 +122,7 @@ impl Sight {
         self.course.places = places;
         let [a, b] = places.map(|place| self.course.at(place));
         let axes = [0, 1];
-        self.region = [
+        self.around = [
             axes.map(|i: usize| a[i].min(b[i]) - MARGIN),
             axes.map(|i: usize| a[i].max(b[i]) + MARGIN),
         ];
@@ -141,11 +141,11 @@ impl Sight {
     }
 
     /// Whether it may meet a box.
-    pub(super) fn may_meet(&self, region: &Rect) -> bool {
-        if are_apart(region, &self.region) {
+    pub(super) fn may_meet(&self, around: &Rect) -> bool {
+        if are_apart(around, &self.around) {
             return false;
         }
-        let [low, high] = region;
+        let [low, high] = around;
         let half = |axis: usize| 0.5 * (high[axis] - low[axis]) + MARGIN;
         let middle = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [_, kx, ky] = self.rounded.k;

@@ -31,7 +31,7 @@ impl Spot {
     }
 
     /// A box around it.
-    pub(super) fn region(&self) -> Rect {
+    pub(super) fn around(&self) -> Rect {
         [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
     }
 

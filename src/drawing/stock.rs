@@ -21,14 +21,14 @@ pub(super) struct Item {
     /// The tree's number of it.
     pub(super) fragment: u32,
     /// A box around what of it is in the picture.
-    pub(super) region: Rect,
+    pub(super) around: Rect,
 }
 
 /// How the camera sees a face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     /// A box around what of it is in the picture; an empty one if the picture shows nothing of it.
-    pub(super) region: Rect,
+    pub(super) around: Rect,
     /// Whether the κ of its plane is positive.
     pub(super) is_positive: bool,
     /// Whether it hides what is behind it.
@@ -51,8 +51,8 @@ pub(super) struct Stock<'t> {
 
 /// So many faces, or pieces, are looked at by one thread.
 const SHARE: usize = 1024;
-/// Faces of more corners count by them.
-const FEW: usize = 32;
+/// Faces and cells of more corners count by them.
+pub(super) const FEW: usize = 32;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
@@ -91,33 +91,33 @@ impl<'t> Stock<'t> {
     /// A fragment, unless the picture shows nothing of it.
     fn item(&self, fragment: &Fragment<'_>) -> Option<Item> {
         let face = fragment.face();
-        let View { region, .. } = self.views[face as usize];
-        if is_empty(&region) {
+        let View { around, .. } = self.views[face as usize];
+        if is_empty(&around) {
             return None;
         }
-        let item = |region| Item { face, fragment: fragment.index(), region };
+        let item = |around| Item { face, fragment: fragment.index(), around };
         if fragment.is_whole() {
-            return Some(item(region));
+            return Some(item(around));
         }
         let vertices: SmallVec<[[f64; 3]; 8]> = fragment.lattice_vertices().collect();
-        self.region(&vertices).map(item)
+        self.around(&vertices).map(item)
     }
 
     /// A box around the part of a convex hull that is in the picture; `None` if there is none.
-    fn region(&self, points: &[[f64; 3]]) -> Option<Rect> {
+    fn around(&self, points: &[[f64; 3]]) -> Option<Rect> {
         let picture = Tile::picture(self.frame.rays.size()).sides();
-        let region = common(&self.frame.rays.region(points)?, &picture);
-        (!is_empty(&region)).then_some(region)
+        let around = common(&self.frame.rays.region(points)?, &picture);
+        (!is_empty(&around)).then_some(around)
     }
 
     fn view(&self, face: u32) -> View {
         let Frame { rays, faces } = &self.frame;
-        let unseen = View { region: NOWHERE, is_positive: false, is_opaque: false, last: 0 };
+        let unseen = View { around: NOWHERE, is_positive: false, is_opaque: false, last: 0 };
         let opacity = self.opacity(face);
         if opacity == 0.0 {
             return unseen;
         }
-        let Some(region) = self.region(faces.corners(face)) else { return unseen };
+        let Some(around) = self.around(faces.corners(face)) else { return unseen };
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
         let side = certain.unwrap_or_else(|| self.frame.sheet(plane).side());
@@ -125,12 +125,12 @@ impl<'t> Stock<'t> {
         if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
             return unseen;
         }
-        View { region, is_positive, is_opaque: opacity == 1.0, last: 0 }
+        View { around, is_positive, is_opaque: opacity == 1.0, last: 0 }
     }
 
     /// Whether the picture may show some of a face.
     pub(super) fn sees(&self, face: u32) -> bool {
-        !is_empty(&self.views[face as usize].region)
+        !is_empty(&self.views[face as usize].around)
     }
 
     /// A number above those of all polygons that the picture may show.

@@ -13,7 +13,7 @@ use super::intervals::parts;
 use super::lines::Lines;
 use super::map::VisibilityMap;
 use super::pairs::Pair;
-use super::reporter::{each, finish_item, sort_by};
+use super::reporter::{each, finish_item, sort_by, sort_unique};
 use super::rims::Rims;
 use super::sight::Sight;
 use super::stock::{Stock, View};
@@ -22,7 +22,7 @@ use super::tile::Tile;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::PlaneId;
-use crate::memory::{collect, push, reserve};
+use crate::memory::{push, reserve};
 use crate::parallel_map;
 
 /// So many pairs are looked at by one thread.
@@ -65,7 +65,11 @@ impl VisibilityMap<'_> {
     pub fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(6, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
-            let sights: Vec<Sight> = collect(crossings.iter().map(|crossing| crossing.sight))?;
+            let mut sights: Vec<Sight> = Vec::new();
+            reserve(&mut sights, crossings.len())?;
+            for crossing in each(watch, VISITED, &crossings) {
+                sights.push(crossing?.sight);
+            }
             let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
             let depths = self.depths(&sights, is_own, watch)?;
             self.crossing_runs(&crossings, &shown, Some(&depths), watch)
@@ -84,8 +88,7 @@ impl VisibilityMap<'_> {
             let [below, above] = side?.faces;
             push(&mut pairs, Pair { below, above })?;
         }
-        sort_by(&mut pairs, watch, Ord::cmp)?;
-        pairs.dedup();
+        sort_unique(&mut pairs, watch)?;
         Ok((crossings_of(&pairs, stock, &inner, watch)?, shown))
     }
 
@@ -142,11 +145,12 @@ fn crossings_of(
     let share = |(i, pairs): (usize, &[Pair])| {
         let (mut rims, mut found) = (Rims::new(stock), Vec::new());
         for &Pair { below, above } in pairs {
-            watch.work(2 * LINES + CUT)?;
             let faces = [below, above];
+            let corners: usize = faces.map(|face| stock.edges_work(face)).iter().sum();
+            watch.work(2 * LINES + CUT + corners * LINES / 4)?;
             let sight = match inner.bend(stock.frame.faces, faces) {
-                Some(bend) => bent(&bend, stock, &mut rims)?,
-                None => straight(faces, stock, &mut rims)?,
+                Some(bend) => bent(&bend, stock, &mut rims, watch)?,
+                None => straight(faces, stock, &mut rims, watch)?,
             };
             if let Some(sight) = sight {
                 push(&mut found, Crossing { faces, sight })?;
@@ -170,24 +174,32 @@ fn straight(
     [one, other]: [u32; 2],
     stock: &Stock<'_>,
     rims: &mut Rims<'_>,
+    watch: &Watch<'_>,
 ) -> Result<Option<Sight>, Error> {
     let mut halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, one)?);
     halves.extend_from_slice(rims.outline(stock, other)?);
     let View { is_positive, .. } = stock.views[one as usize];
     let cut = rims.lines.cut(one, PlaneId::face(other), true, is_positive)?;
     let lines = &rims.lines;
-    let Some(common) = picture(stock, lines).within(lines, &halves, None)? else { return Ok(None) };
-    if !common.meets(lines, &[cut.flipped(true)])? {
+    let Some(common) = picture(stock, lines).within(lines, &halves, None, watch)? else {
+        return Ok(None);
+    };
+    if !common.meets(lines, &[cut.flipped(true)], watch)? {
         return Ok(None);
     }
-    let Some(Cell { sides }) = common.within(lines, &[cut], None)? else { return Ok(None) };
+    let Some(Cell { sides }) = common.within(lines, &[cut], None, watch)? else { return Ok(None) };
     let Some(i) = sides.iter().position(|side| side.half == cut) else { return Ok(None) };
     let next = if i + 1 == sides.len() { 0 } else { i + 1 };
     Ok(Sight::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
 }
 
 /// Where a face goes through a polygon along an edge inside it.
-fn bent(bend: &Bend, stock: &Stock<'_>, rims: &mut Rims<'_>) -> Result<Option<Sight>, Error> {
+fn bent(
+    bend: &Bend,
+    stock: &Stock<'_>,
+    rims: &mut Rims<'_>,
+    watch: &Watch<'_>,
+) -> Result<Option<Sight>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
     let faces = stock.frame.faces;
     let Some(sight) = Sight::new(&rims.lines, faces.ends(face, k)) else { return Ok(None) };
@@ -198,7 +210,7 @@ fn bent(bend: &Bend, stock: &Stock<'_>, rims: &mut Rims<'_>) -> Result<Option<Si
         }),
         None => {
             let halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, other)?);
-            let cell = picture(stock, &rims.lines).within(&rims.lines, &halves, None)?;
+            let cell = picture(stock, &rims.lines).within(&rims.lines, &halves, None, watch)?;
             cell.and_then(|cell| sight.chord(&rims.lines, &cell))
         }
     };

@@ -57,7 +57,7 @@ impl Drawing {
     }
 
     /// As [`translucent`](Self::translucent), with the lines and points of an overlay of the same tree
-    /// between the paths: see [`steps`](Self::steps). To have them above all, paint the runs of
+    /// between the paths: see [`display_list`](Self::display_list). To have them above all, paint the runs of
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last: nothing is cut then but what it says is
     /// hidden.
     ///

@@ -12,12 +12,12 @@ use crate::exact::lattice::{exponent_of, scaled};
 
 /// A number, and what was left when it was rounded (Dekker, “A floating-point technique for extending the
 /// available precision”, 1971).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Pair(f64, f64);
 
 /// The coefficients of a line, times a power of two that brings the largest to 1 or 2. Each is off by at most
 /// 2⁻¹⁰⁵ of itself.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Twofold([Pair; 3]);
 
 /// Error bound of the orientation, as a share of the magnitudes of its six terms: a term is a product of
@@ -36,6 +36,11 @@ impl Twofold {
             let low = (line[i] - Int::from_f64(high[i])).to_f64();
             Pair(scaled(high[i], exponent), scaled(low, exponent))
         }))
+    }
+
+    /// The same with its signs changed, if `flip`.
+    pub(super) fn flipped(self, flip: bool) -> Self {
+        if flip { Self(self.0.map(|Pair(high, low)| Pair(-high, -low))) } else { self }
     }
 }
 

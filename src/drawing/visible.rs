@@ -12,7 +12,7 @@ use super::narrow::List;
 use super::rect::{Rect, are_apart};
 use super::reporter::finish_item;
 use super::rims::Rims;
-use super::stock::Stock;
+use super::stock::{FEW, Stock};
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
 use crate::build::progress::Watch;
@@ -61,7 +61,7 @@ struct Open {
 
 impl Open {
     fn new(cell: Cell) -> Self {
-        Self { around: cell.region(), cell }
+        Self { around: cell.around(), cell }
     }
 }
 
@@ -88,7 +88,7 @@ pub(super) fn visible<'t>(
     let shares = found_in(all, new, halves, leaf, watch)?;
     let count = shares.len();
     for (i, mut found) in shares.into_iter().enumerate() {
-        let mut adopted = Adopted::default();
+        let mut adopted = Adopted::of(&found.rims.lines)?;
         for Leaf { cells, .. } in &mut found.leaves {
             watch.work(cells.len() * CUT)?;
             for Side { half, .. } in cells.iter_mut().flat_map(|visible| &mut visible.cell.sides) {
@@ -147,22 +147,24 @@ impl TileList {
                 break;
             }
             watch.work(open.len() * CUT)?;
-            let region = &stock.items[item as usize].region;
+            let of_item = &stock.items[item as usize].around;
             // Where nothing of the piece is, there is no need for its lines.
-            if open.iter().all(|open| are_apart(&open.around, region)) {
+            if open.iter().all(|open| are_apart(&open.around, of_item)) {
                 continue;
             }
             let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
             // Of others it is counted above.
-            if halves.len() > CUT {
+            if halves.len() > FEW {
                 watch.work(open.len() * halves.len())?;
             }
             let (lines, is_opaque) = (&rims.lines, stock.is_opaque(item));
             let mut i = 0;
             while let Some(Open { cell, around }) = open.get(i) {
-                let shown = match are_apart(around, region) {
+                let shown = match are_apart(around, of_item) {
                     true => None,
-                    false => cell.within(lines, &halves, is_opaque.then_some(&mut outside))?,
+                    false => {
+                        cell.within(lines, &halves, is_opaque.then_some(&mut outside), watch)?
+                    }
                 };
                 match shown {
                     Some(cell) if !is_opaque => {

@@ -6,7 +6,7 @@ use super::support::dice::Dice;
 use super::support::hard;
 use super::support::rational::{self, Point};
 use super::support::tally::tally;
-use binspace::drawing::{Drawing, LineRun, Path, Step, VisibilityMap};
+use binspace::drawing::{DisplayItem, Drawing, LineRun, Path, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shapes};
 use binspace::raster::Rays;
@@ -101,13 +101,13 @@ fn check(
     let mut below = 0;
     let mut runs: Vec<LineRun> = vec![];
     let mut markers = 0;
-    for step in drawing.steps() {
+    for step in drawing.display_list() {
         match step {
-            Step::Path(path) => {
+            DisplayItem::Path(path) => {
                 assert_eq!(path.polygon(), paths[below].polygon());
                 below += 1;
             }
-            Step::Line(run) => {
+            DisplayItem::Line(run) => {
                 let ends = [run.segment, run.segment + 1].map(|k| snap(lines[run.line][k]));
                 for _ in 0..each {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
@@ -121,7 +121,7 @@ fn check(
                 }
                 runs.push(run);
             }
-            Step::Marker(marker) => {
+            DisplayItem::Marker(marker) => {
                 let judged = judge(&snap(points[marker.point]), marker.at, below)?;
                 score.marker_below += judged[0];
                 score.marker_above += judged[1];
@@ -176,13 +176,13 @@ fn a_line_is_cut_only_where_it_goes_through() {
         let rays = Rays::new(&camera, tree.faces()).unwrap();
         let drawing = Drawing::translucent_with_overlay(&tree, rays, &overlay).unwrap();
         let (mut paths, mut found) = (0, vec![]);
-        for step in drawing.steps() {
+        for step in drawing.display_list() {
             match step {
-                Step::Path(path) => {
+                DisplayItem::Path(path) => {
                     assert_eq!(path.polygon(), paths);
                     paths += 1;
                 }
-                Step::Line(run) => {
+                DisplayItem::Line(run) => {
                     assert_eq!((run.line, run.segment), (0, 0));
                     found.push(paths);
                 }

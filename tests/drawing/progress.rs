@@ -219,3 +219,45 @@ fn threads_report_in_order() {
         }
     });
 }
+
+/// Two discs that go through one another, of so many corners each.
+fn discs(corners: u32) -> View {
+    let disc = |tilt: f64| -> Vec<DVec3> {
+        let corner = |i: u32| {
+            let (sin, cos) = (f64::from(i) / f64::from(corners) * std::f64::consts::TAU).sin_cos();
+            DVec3::new(cos, sin, tilt * sin)
+        };
+        (0..corners).map(corner).collect()
+    };
+    let tree = BspTree::build([disc(0.0), disc(0.3)]).unwrap();
+    let eye = DVec3::new(0.4, -0.7, 3.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [400, 300]).unwrap();
+    let rays = Rays::new(&camera, tree.faces()).unwrap();
+    let overlay = Overlay::new(&tree);
+    View { tree, rays, overlay }
+}
+
+/// A cell that a face of many corners cuts is work for each corner that it has so far: it is heard of and can be
+/// cancelled while it is done.
+#[test]
+fn what_is_done_at_many_corners_is_heard() {
+    let calls = [512, 1024].map(|corners| {
+        let (View { tree, rays, overlay }, listener) = (discs(corners), Listener::default());
+        listener.cancel_at(usize::MAX);
+        alone(|| {
+            let hear = |progress| listener.hear(progress);
+            let map = VisibilityMap::of_with_progress(&tree, rays, hear).unwrap();
+            let mut calls = vec![listener.heard().len()];
+            for (name, ask) in QUESTIONS {
+                if ["drawing", "crossings with hidden"].contains(&name) {
+                    listener.cancel_at(usize::MAX);
+                    ask(&map, &overlay).unwrap();
+                    calls.push(listener.heard().len());
+                }
+            }
+            calls
+        })
+    });
+    let grows = |(of_few, of_many): (&usize, &usize)| *of_many >= 2 * of_few;
+    assert!(calls[0].iter().zip(&calls[1]).all(grows) && calls[0].len() == 3, "{calls:?}");
+}

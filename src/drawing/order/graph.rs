@@ -52,7 +52,8 @@ impl<'p> Graph<'p> {
             let pair = pair?;
             starts[pair.below as usize + 1] += 1;
         }
-        for node in 0..nodes {
+        for node in each(watch, 1, 0..nodes) {
+            let node = node?;
             starts[node + 1] += starts[node];
         }
         let (is_clipped, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
@@ -69,9 +70,15 @@ impl<'p> Graph<'p> {
 }
 
 impl Graph<'_> {
+    /// What a node comes before.
     pub(super) fn above(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
         let [start, end] = [node, node + 1].map(|node| self.starts[node as usize] as usize);
         self.pairs[start..end].iter().map(|pair| pair.above)
+    }
+
+    /// How many nodes that is.
+    pub(super) fn above_count(&self, node: u32) -> u32 {
+        self.starts[node as usize + 1] - self.starts[node as usize]
     }
 
     /// Whether nothing has to come after a node, as it is clipped.
@@ -89,10 +96,13 @@ impl Graph<'_> {
     pub(super) fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
         let Search { number, least, is_on_stack, .. } = &mut self.search;
         let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);
-        nodes.iter().for_each(|&node| number[node as usize] = UNMET);
+        for node in each(self.watch, 1, nodes) {
+            number[*node? as usize] = UNMET;
+        }
         let (mut stack, mut path, mut found) = (Vec::new(), Vec::new(), Vec::new());
         let mut next = 0;
-        for &root in nodes {
+        for root in each(self.watch, 1, nodes) {
+            let root = *root?;
             if number[root as usize] != UNMET {
                 continue;
             }
@@ -107,19 +117,23 @@ impl Graph<'_> {
                     is_on_stack[v] = true;
                 }
                 let rest = &self.pairs[place as usize..self.starts[v + 1] as usize];
-                let unmet = rest.iter().position(|pair| {
-                    let w = pair.above as usize;
-                    if is_clipped[v] && is_opaque(pair.above) {
-                        return false;
+                let mut unmet = None;
+                for (next, pair) in (place + 1..).zip(each(self.watch, 1, rest)) {
+                    let above = pair?.above;
+                    let w = above as usize;
+                    if is_clipped[v] && is_opaque(above) {
+                        continue;
                     }
                     if is_on_stack[w] {
                         least[v] = least[v].min(number[w]);
                     }
-                    number[w] == UNMET
-                });
-                if let Some(skip) = unmet {
-                    *at = place + skip as u32 + 1;
-                    let above = rest[skip].above;
+                    if number[w] == UNMET {
+                        unmet = Some((next, above));
+                        break;
+                    }
+                }
+                if let Some((next, above)) = unmet {
+                    *at = next;
                     // A node is met when its first pair is looked at, so one without pairs as well.
                     push(&mut path, (above, self.starts[above as usize]))?;
                     continue;
@@ -131,7 +145,8 @@ impl Graph<'_> {
                 if least[v] == number[v] {
                     let place = stack.iter().rposition(|&w| w as usize == v).unwrap_or(0);
                     let nodes = stack.split_off(place);
-                    for &w in &nodes {
+                    for w in each(self.watch, 2, &nodes) {
+                        let w = *w?;
                         is_on_stack[w as usize] = false;
                         self.component[w as usize] = if nodes.len() > 1 { v as u32 } else { NONE };
                     }
@@ -141,7 +156,9 @@ impl Graph<'_> {
                 }
             }
         }
-        nodes.iter().for_each(|&node| number[node as usize] = NONE);
+        for node in each(self.watch, 1, nodes) {
+            number[*node? as usize] = NONE;
+        }
         Ok(found)
     }
 }

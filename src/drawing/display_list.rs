@@ -6,7 +6,7 @@ use super::paths::{Drawing, Path};
 /// What is painted next.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub enum Step<'d> {
+pub enum DisplayItem<'d> {
     /// A polygon, or a part of one.
     Path(Path<'d>),
     /// A part of a segment of an overlay's line.
@@ -18,7 +18,7 @@ pub enum Step<'d> {
 impl Drawing {
     /// All that is painted, in order: [`paths`](Self::paths), with the lines and points between them that
     /// the drawing was made with.
-    pub fn steps(&self) -> impl Iterator<Item = Step<'_>> + Clone {
+    pub fn display_list(&self) -> impl Iterator<Item = DisplayItem<'_>> + Clone {
         let mut overlaid = self.overlaid.iter().peekable();
         let mut paths = self.paths();
         let count = self.paths.len();
@@ -26,11 +26,11 @@ impl Drawing {
             let painted = (count - paths.len()) as u32;
             if let Some((_, next)) = overlaid.next_if(|(below, _)| *below <= painted) {
                 return Some(match next {
-                    Overlaid::Line(run) => Step::Line(*run),
-                    Overlaid::Marker(marker) => Step::Marker(*marker),
+                    Overlaid::Line(run) => DisplayItem::Line(*run),
+                    Overlaid::Marker(marker) => DisplayItem::Marker(*marker),
                 });
             }
-            paths.next().map(Step::Path)
+            paths.next().map(DisplayItem::Path)
         })
     }
 }
