@@ -21,7 +21,7 @@ pub use ground::{DEFAULT_TOLERANCE, Tolerance};
 pub use preparation::Preparation;
 
 use super::duplicates::Outlines;
-use super::listener::{Listener, Unheard};
+use super::listener::{Listener, NoListener};
 use crate::Error;
 use crate::exact::{Faces, Lattice};
 use crate::input::Polygon;
@@ -55,7 +55,7 @@ impl Faces {
             polygons,
             tolerance.into(),
             usize::MAX,
-            &Unheard,
+            &NoListener,
         )?;
         faces.shrink_to_fit();
         Ok((faces, report))

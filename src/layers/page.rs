@@ -6,8 +6,8 @@ use super::clip::{MOST_CORNERS, clip};
 use super::layer::Layer;
 use super::piece::LayerPiece;
 use super::vertex::Corner;
-use crate::Error;
 use crate::build::{BuildOptions, FrameBuilder};
+use crate::error::{Error, InputFault, InputKind, Kind};
 use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
 use crate::memory::reserve;
@@ -125,7 +125,7 @@ impl Layers {
 
     fn replace(&mut self, layers: &[Layer]) -> Result<(), Error> {
         if !self.limits().iter().all(|corner| corner.is_finite()) {
-            return Err(Error::viewport());
+            return Err(Kind::Viewport.error());
         }
         reserve(&mut self.layers, layers.len())?;
         self.layers.extend_from_slice(layers);
@@ -154,7 +154,12 @@ impl Layers {
         let mut coarsest = 0.0f64;
         for (layer, from) in self.layers.iter().enumerate() {
             if !from.is_finite() {
-                return Err(Error::layer(layer));
+                return Err(Kind::Input {
+                    shape: InputKind::Layer,
+                    number: layer,
+                    fault: InputFault::Layer,
+                }
+                .error());
             }
             reserve(&mut self.outlines, 1)?;
             reserve(&mut self.corners, MOST_CORNERS)?;

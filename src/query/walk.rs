@@ -122,11 +122,7 @@ impl<'t> Walk<'t> {
                     return;
                 }
             }
-            let record = &self.tree.nodes[index];
-            let Ranges { own, front, back } = record.ranges(all);
-            let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
-            let (front, back) =
-                ((front, child(record.front_node(index))), (back, child(record.back_node(index))));
+            let (own, [front, back]) = self.divided(index, all);
             let distance = self.distance(index);
             let [begin, end] = [from, to].map(|t| distance.start + distance.slope * t);
             if begin > self.slack && end > self.slack {
@@ -155,6 +151,15 @@ impl<'t> Walk<'t> {
             (all, node) = near;
         }
         (self.run, self.span) = (all, [from, to]);
+    }
+
+    /// The fragments on a node's plane, and those on its sides, each side with the node that divides it.
+    #[inline]
+    fn divided(&self, node: usize, all: Range<u32>) -> (Range<u32>, [(Range<u32>, u32); 2]) {
+        let record = &self.tree.nodes[node];
+        let Ranges { own, front, back } = record.ranges(all);
+        let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
+        (own, [(front, child(record.front_node(node))), (back, child(record.back_node(node)))])
     }
 
     /// How far the ray is from a node's plane.

@@ -12,6 +12,7 @@ use super::bounds::normals::Arms;
 use super::node_record::Ranges;
 use super::order::eye_sides::View;
 use super::order::indices::write_from_nodes;
+use crate::bits::bits;
 use crate::exact::{Eye, PlaneId};
 use crate::frustum::Frustum;
 use crate::viewpoint::Viewpoint;
@@ -256,10 +257,7 @@ impl<'t> Cull<'t> {
                     .extend_from_slice(&std::array::from_fn::<u32, BLOCK, _>(|k| first + k as u32));
                 continue;
             }
-            while shown != 0 {
-                order.push(first + shown.trailing_zeros());
-                shown &= shown - 1;
-            }
+            order.extend(bits(shown.into()).map(|bit| first + bit as u32));
         }
     }
 
@@ -268,12 +266,8 @@ impl<'t> Cull<'t> {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
         let mut shown = fragments & if side.is_gt() { fronts } else { backs };
-        let mut left = fragments & !(fronts | backs);
-        while left != 0 {
-            let bit = left.trailing_zeros();
-            // Clears the lowest bit that is set.
-            left &= left - 1;
-            let face = self.tree.records[(run.start + bit) as usize].face;
+        for bit in bits((fragments & !(fronts | backs)).into()) {
+            let face = self.tree.records[run.start as usize + bit].face;
             let facing = self.tree.faces.plane(PlaneId::face(face)).facing(&self.eye);
             shown |= u32::from(facing == side) << bit;
         }

@@ -167,7 +167,7 @@ impl Builder {
         let found = if convex {
             triangulate::convex(&corners)?
         } else {
-            triangulate::any(&corners, plane, &|steps| listener.work(steps))?
+            triangulate::any(&corners, plane, listener)?
         };
         self.corners.find_runs()?;
         let before = self.faces.len();

@@ -8,8 +8,8 @@ use super::arrange::{Arrangement, Rule, Stop};
 use super::chain::{Chain, Side, Triangles, Vertex};
 use super::edge::Point;
 use super::sweep_line::NONE;
-use super::work::{AT_ONCE, Work};
 use crate::Error;
+use crate::faces::listener::{Listener, STEPS_AT_ONCE};
 use crate::memory::reserve;
 
 /// The triangles of the inside, counter-clockwise, and whether the outline winds around all of it
@@ -32,7 +32,7 @@ enum Region {
     Two(Box<[Chain; 2]>),
 }
 
-struct Sweep<'a> {
+struct RegionSweep<'a> {
     points: &'a [Point],
     /// For each point, a corner of the polygon there.
     corners: &'a [u32],
@@ -62,18 +62,18 @@ pub(super) fn triangulate(
     corners: &[u32],
     arrangement: &Arrangement,
     rule: Rule,
-    work: Work<'_>,
+    listener: &dyn Listener,
 ) -> Result<Covered, Error> {
     let (mut above, mut triangles) = (vec![], vec![]);
     reserve(&mut above, arrangement.edges.len())?;
     reserve(&mut triangles, points.len())?;
     let (lowest, least, most) = (NONE, 0, 0);
     let mut sweep =
-        Sweep { points, corners, arrangement, rule, above, lowest, triangles, least, most };
+        RegionSweep { points, corners, arrangement, rule, above, lowest, triangles, least, most };
     let stops = &arrangement.stops;
     for (index, &stop) in stops.iter().enumerate() {
-        if index % AT_ONCE == 0 {
-            work(AT_ONCE)?;
+        if index % STEPS_AT_ONCE == 0 {
+            listener.work(STEPS_AT_ONCE)?;
         }
         let end = stops.get(index + 1).map_or(arrangement.edges.len() as u32, |next| next.first);
         sweep.visit(stop, stop.first..end)?;
@@ -84,7 +84,7 @@ pub(super) fn triangulate(
 /// An end of an edge: the edge, and which end.
 type End = (u32, usize);
 
-impl Sweep<'_> {
+impl RegionSweep<'_> {
     /// Sweeps over a point at which the edges in `starting` begin.
     fn visit(&mut self, stop: Stop, starting: Range<u32>) -> Result<(), Error> {
         // The point lies above `below`: either in the region between it and the next edge, or at

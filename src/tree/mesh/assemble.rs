@@ -8,7 +8,7 @@ use super::outline::{Corner, triangulate};
 use super::points::{Points, coordinate};
 use super::survey::{Edge, Node, Survey, ends};
 use super::triangles::Triangles;
-use crate::Error;
+use crate::error::{Error, Limit};
 use crate::exact::{Symbol, SymbolKind};
 use crate::memory::reserve;
 use crate::tree::BspTree;
@@ -45,7 +45,7 @@ pub(super) fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangl
             steps => steps.min(1),
         });
         let triangles = steps.sum::<u32>().saturating_sub(2);
-        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Error::too_many_indices())?;
+        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Limit::Indices.error())?;
     }
     let mut triangles = Triangles::with_lengths(lengths.into_iter())?;
     let mut assembler = Assembler::new(&survey, &points)?;

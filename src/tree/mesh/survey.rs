@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::lines::{Carrier, Lines};
-use crate::Error;
+use crate::error::{Error, Limit};
 use crate::exact::{Faces, PlaneId, Symbol, SymbolKind};
 use crate::memory::reserve;
 use crate::tree::BspTree;
@@ -39,7 +39,7 @@ impl<'t> Survey<'t> {
         let mut survey =
             Self { tree, fragments, starts, edges, cuts: Vec::new(), carriers: Vec::new() };
         let edges = tree.fragments().map(|fragment| fragment.vertex_count()).sum();
-        u32::try_from(2 * edges).map_err(|_| Error::too_many_indices())?;
+        u32::try_from(2 * edges).map_err(|_| Limit::Indices.error())?;
         reserve(&mut survey.edges, edges)?;
         reserve(&mut survey.starts, tree.len() + 1)?;
         let mut names = Names::default();
