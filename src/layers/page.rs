@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::clip::{MOST_CORNERS, clip};
 use super::layer::Layer;
 use super::piece::LayerPiece;
-use super::vertex::Corner;
+use super::vertex::ClippedCorner;
 use crate::build::{BuildOptions, FrameBuilder};
 use crate::error::{Error, InputFault, InputKind, Kind};
 use crate::faces::DEFAULT_TOLERANCE;
@@ -44,7 +44,7 @@ pub struct Layers {
     /// What is seen of them.
     outlines: Vec<Outline>,
     /// The corners of all outlines.
-    corners: Vec<Corner>,
+    corners: Vec<ClippedCorner>,
     builder: FrameBuilder,
     /// Whether the builder's tree is of the last frame.
     is_built: bool,
@@ -181,7 +181,7 @@ impl Layers {
         Ok(())
     }
 
-    fn corners_of(&self, outline: usize) -> &[Corner] {
+    fn corners_of(&self, outline: usize) -> &[ClippedCorner] {
         corners_of(&self.outlines, &self.corners, outline)
     }
 
@@ -254,13 +254,17 @@ impl Layers {
 }
 
 /// The corners of one of some outlines.
-fn corners_of<'a>(outlines: &[Outline], corners: &'a [Corner], outline: usize) -> &'a [Corner] {
+fn corners_of<'a>(
+    outlines: &[Outline],
+    corners: &'a [ClippedCorner],
+    outline: usize,
+) -> &'a [ClippedCorner] {
     let end = outlines.get(outline + 1).map_or(corners.len(), |next| next.corners);
     &corners[outlines[outline].corners..end]
 }
 
 /// A layer as clipped.
-struct Clipped<'p>(&'p [Corner]);
+struct Clipped<'p>(&'p [ClippedCorner]);
 
 impl Polygon for Clipped<'_> {
     fn corners(&self) -> impl Iterator<Item = DVec3> {

@@ -12,7 +12,7 @@ use super::sketch::LANES;
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
-use crate::build::progress::AT_ONCE;
+use crate::build::progress::PIECES_AT_ONCE;
 use crate::exact::{Kernel, PlaneId, Side};
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
@@ -154,7 +154,7 @@ impl Auto {
             sketch.clear();
             let arranged = arrange(set, tuning.groups_per_box)?;
             watch.work(set.len())?;
-            for part in arranged.chunks(AT_ONCE) {
+            for part in arranged.chunks(PIECES_AT_ONCE) {
                 sketch.extend(set, part.iter().copied())?;
                 watch.work(part.len())?;
             }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::ground::Ground;
+use super::lattice_and_tolerance::Ground;
 use super::{Preparation, Preparer};
 use crate::error::{Error, InputFault, Kind};
 use crate::exact::Faces;

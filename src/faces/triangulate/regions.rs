@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use super::arrange::{Arrangement, Rule, Stop};
-use super::chain::{Chain, Side, Triangles, Vertex};
+use super::chain::{Chain, ChainSide, Triangles, Vertex};
 use super::edge::Point;
 use super::sweep_line::NONE;
 use crate::Error;
@@ -121,7 +121,7 @@ impl RegionSweep<'_> {
         if self.winding(stop.below) < 0 {
             ends.reverse();
         }
-        let low = region.add(self.vertex(point, ends), Side::Upper, &mut self.triangles)?;
+        let low = region.add(self.vertex(point, ends), ChainSide::Upper, &mut self.triangles)?;
         let mut edge = lowest;
         loop {
             let (winding, region, next) = (self.winding(edge), self.take(edge), self.next(edge));
@@ -131,7 +131,7 @@ impl RegionSweep<'_> {
                     ends.reverse();
                 }
                 let vertex = self.vertex(point, ends);
-                let high = region.add(vertex, Side::Lower, &mut self.triangles)?;
+                let high = region.add(vertex, ChainSide::Lower, &mut self.triangles)?;
                 return Ok(([low, high], next));
             }
             let ends = if winding < 0 { [edge, next] } else { [next, edge] };
@@ -223,15 +223,20 @@ impl RegionSweep<'_> {
 
 impl Region {
     /// Adds a point of a boundary.
-    fn add(self, vertex: Vertex, side: Side, triangles: &mut Triangles) -> Result<Self, Error> {
+    fn add(
+        self,
+        vertex: Vertex,
+        side: ChainSide,
+        triangles: &mut Triangles,
+    ) -> Result<Self, Error> {
         let (done, mut left) = match (self, side) {
             (Self::Outside, _) => return Ok(Self::Outside),
             (Self::One(chain), _) => (None, chain),
-            (Self::Two(chains), Side::Lower) => {
+            (Self::Two(chains), ChainSide::Lower) => {
                 let [low, high] = *chains;
                 (Some(low), high)
             }
-            (Self::Two(chains), Side::Upper) => {
+            (Self::Two(chains), ChainSide::Upper) => {
                 let [low, high] = *chains;
                 (Some(high), low)
             }
@@ -268,12 +273,12 @@ impl Region {
             Self::Two(chains) => *chains,
             // The last point sees this one, as the sweep met nothing of the region in between.
             Self::One(chain) => match chain.last() {
-                (last, Side::Lower) => [Chain::new(last), chain],
-                (last, Side::Upper) => [chain, Chain::new(last)],
+                (last, ChainSide::Lower) => [Chain::new(last), chain],
+                (last, ChainSide::Upper) => [chain, Chain::new(last)],
             },
         };
-        low.add(upper, Side::Upper, triangles)?;
-        high.add(lower, Side::Lower, triangles)?;
+        low.add(upper, ChainSide::Upper, triangles)?;
+        high.add(lower, ChainSide::Lower, triangles)?;
         Ok([Self::One(low), Self::One(high)])
     }
 

@@ -14,7 +14,7 @@ pub(super) type Node = u32;
 
 /// An edge of a fragment. It ends where the fragment's next edge begins.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
+pub(super) struct FragmentEdge {
     pub(super) carrier: u32,
     pub(super) from: Node,
 }
@@ -26,7 +26,7 @@ pub(super) struct Survey<'t> {
     pub(super) fragments: Vec<u32>,
     /// Where the edges of each of `fragments` begin, and the end of the last.
     pub(super) starts: Vec<u32>,
-    pub(super) edges: Vec<Edge>,
+    pub(super) edges: Vec<FragmentEdge>,
     /// Nodes that are no corners: a face, and the vertex on it.
     pub(super) cuts: Vec<(u32, Symbol)>,
     pub(super) carriers: Vec<Carrier>,
@@ -54,7 +54,7 @@ impl<'t> Survey<'t> {
                     Some(plane) => survey.carrier_of_cut(&mut names, plane),
                     None => survey.carrier_of_edge(&mut names, line.as_edge().unwrap_or(0)),
                 };
-                survey.edges.push(Edge { carrier, from });
+                survey.edges.push(FragmentEdge { carrier, from });
             }
         }
         survey.starts.push(survey.edges.len() as u32);
