@@ -8,68 +8,35 @@ pub struct Error {
     kind: Kind,
 }
 
+/// All that can go wrong, each with the numbers that its message needs.
 #[derive(Clone, Debug, PartialEq)]
-enum Kind {
-    NonFinite {
+pub(crate) enum Kind {
+    /// One of the things that were given.
+    Input {
         shape: InputKind,
         number: usize,
+        fault: InputFault,
     },
-    Corners {
-        shape: InputKind,
-        number: usize,
-        limit: usize,
-    },
-    TooManyCorners {
-        limit: usize,
-    },
-    TooManyPolygons {
-        limit: usize,
-    },
+    /// More than the options or the library's numbers allow.
+    Over(Limit),
     OutOfMemory,
+    Cancelled,
     Tolerance {
         value: f64,
     },
-    Polygons {
-        limit: usize,
-    },
-    Fragments {
-        limit: usize,
-    },
-    Depth {
-        limit: usize,
-    },
-    Cancelled,
     Bounds,
-    OffGrid {
-        shape: InputKind,
-        number: usize,
-    },
-    OverlaidTree,
-    #[cfg(feature = "drawing")]
-    OverlayPolygon {
-        number: usize,
-    },
-    #[cfg(feature = "drawing")]
-    OfCell,
-    #[cfg(feature = "layers")]
-    Layer {
-        layer: usize,
-    },
     #[cfg(feature = "layers")]
     Viewport,
-    TooManyIndices,
     #[cfg(feature = "drawing")]
-    Opacity {
-        polygon: usize,
-        value: f64,
+    OfCell,
+    OverlaidTree,
+    OtherTree {
+        fragments: usize,
+        expected: usize,
     },
     Places {
         needed: usize,
         given: usize,
-    },
-    OtherTree {
-        fragments: usize,
-        expected: usize,
     },
 }
 
@@ -79,130 +46,87 @@ pub(crate) enum InputKind {
     Polygon,
     Line,
     Point,
+    #[cfg(feature = "layers")]
+    Layer,
 }
 
-impl fmt::Display for InputKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Polygon => "polygon",
-            Self::Line => "line",
-            Self::Point => "point",
-        })
+/// What is wrong with the input that an error names.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum InputFault {
+    NonFinite,
+    Corners {
+        limit: usize,
+    },
+    OffGrid,
+    /// A polygon where only lines and points can be.
+    #[cfg(feature = "drawing")]
+    InOverlay,
+    #[cfg(feature = "drawing")]
+    Opacity {
+        value: f64,
+    },
+    #[cfg(feature = "layers")]
+    Layer,
+}
+
+impl InputFault {
+    /// The error of a polygon, given its index.
+    pub(crate) fn of_polygon(self, number: usize) -> Error {
+        Kind::Input { shape: InputKind::Polygon, number, fault: self }.error()
+    }
+}
+
+/// What there may not be more of.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Limit {
+    Polygons(usize),
+    /// Of all polygons together.
+    Corners(usize),
+    /// Of a mesh.
+    Indices,
+    /// By the budget for fragments, before the build.
+    PolygonsOfBudget(usize),
+    Fragments(usize),
+    Depth(usize),
+}
+
+impl Limit {
+    pub(crate) fn error(self) -> Error {
+        Kind::Over(self).error()
+    }
+}
+
+impl Kind {
+    // No `From`: with it, `?` in closures would need their error's type.
+    pub(crate) fn error(self) -> Error {
+        Error { kind: self }
     }
 }
 
 impl Error {
-    pub(crate) const fn non_finite(number: usize) -> Self {
-        Self { kind: Kind::NonFinite { shape: InputKind::Polygon, number } }
-    }
-
-    pub(crate) const fn polygon_corners(number: usize, limit: usize) -> Self {
-        Self { kind: Kind::Corners { shape: InputKind::Polygon, number, limit } }
-    }
-
-    /// The same, where the polygon to blame is a shape of another kind.
-    pub(crate) const fn of(mut self, kind: InputKind) -> Self {
-        match &mut self.kind {
-            Kind::NonFinite { shape, .. }
-            | Kind::Corners { shape, .. }
-            | Kind::OffGrid { shape, .. } => *shape = kind,
-            _ => {}
-        }
-        self
-    }
-
-    pub(crate) const fn too_many_corners(limit: usize) -> Self {
-        Self { kind: Kind::TooManyCorners { limit } }
-    }
-
-    pub(crate) const fn too_many_polygons(limit: usize) -> Self {
-        Self { kind: Kind::TooManyPolygons { limit } }
-    }
-
     pub(crate) const fn out_of_memory() -> Self {
         Self { kind: Kind::OutOfMemory }
-    }
-
-    pub(crate) const fn tolerance(value: f64) -> Self {
-        Self { kind: Kind::Tolerance { value } }
-    }
-
-    pub(crate) const fn polygons(limit: usize) -> Self {
-        Self { kind: Kind::Polygons { limit } }
-    }
-
-    pub(crate) const fn fragments(limit: usize) -> Self {
-        Self { kind: Kind::Fragments { limit } }
-    }
-
-    pub(crate) const fn depth(limit: usize) -> Self {
-        Self { kind: Kind::Depth { limit } }
     }
 
     pub(crate) const fn cancelled() -> Self {
         Self { kind: Kind::Cancelled }
     }
 
-    pub(crate) const fn bounds() -> Self {
-        Self { kind: Kind::Bounds }
-    }
-
-    pub(crate) const fn off_grid(number: usize) -> Self {
-        Self { kind: Kind::OffGrid { shape: InputKind::Polygon, number } }
-    }
-
-    pub(crate) const fn overlaid_tree() -> Self {
-        Self { kind: Kind::OverlaidTree }
-    }
-
-    #[cfg(feature = "drawing")]
-    pub(crate) const fn overlay_polygon(number: usize) -> Self {
-        Self { kind: Kind::OverlayPolygon { number } }
-    }
-
-    #[cfg(feature = "drawing")]
-    pub(crate) const fn of_cell() -> Self {
-        Self { kind: Kind::OfCell }
-    }
-
-    #[cfg(feature = "layers")]
-    pub(crate) const fn layer(layer: usize) -> Self {
-        Self { kind: Kind::Layer { layer } }
-    }
-
-    #[cfg(feature = "layers")]
-    pub(crate) const fn viewport() -> Self {
-        Self { kind: Kind::Viewport }
-    }
-
-    pub(crate) const fn too_many_indices() -> Self {
-        Self { kind: Kind::TooManyIndices }
-    }
-
-    #[cfg(feature = "drawing")]
-    pub(crate) const fn opacity(polygon: usize, value: f64) -> Self {
-        Self { kind: Kind::Opacity { polygon, value } }
-    }
-
-    pub(crate) const fn places(needed: usize, given: usize) -> Self {
-        Self { kind: Kind::Places { needed, given } }
-    }
-
-    pub(crate) const fn other_tree(fragments: usize, expected: usize) -> Self {
-        Self { kind: Kind::OtherTree { fragments, expected } }
+    /// The same, where the polygon to blame is a shape of another kind.
+    pub(crate) fn of(mut self, kind: InputKind) -> Self {
+        if let Kind::Input { shape, .. } = &mut self.kind {
+            *shape = kind;
+        }
+        self
     }
 
     /// The index of the polygon (or layer) to blame, in the order in which the polygons were given.
     pub const fn polygon(&self) -> Option<usize> {
-        match self.kind {
-            #[cfg(feature = "layers")]
-            Kind::Layer { layer } => Some(layer),
-            #[cfg(feature = "drawing")]
-            Kind::OverlayPolygon { number } => Some(number),
-            #[cfg(feature = "drawing")]
-            Kind::Opacity { polygon, .. } => Some(polygon),
-            _ => self.number_of(InputKind::Polygon),
+        #[cfg(feature = "layers")]
+        if let Some(layer) = self.number_of(InputKind::Layer) {
+            return Some(layer);
         }
+        self.number_of(InputKind::Polygon)
     }
 
     /// The same error about a polygon of another number, if it blames a polygon: for those who give the library
@@ -213,17 +137,10 @@ impl Error {
     /// assert_eq!((error.polygon(), error.with_polygon(7).polygon()), (Some(0), Some(7)));
     /// ```
     pub const fn with_polygon(mut self, polygon: usize) -> Self {
-        match &mut self.kind {
-            Kind::NonFinite { shape: InputKind::Polygon, number }
-            | Kind::Corners { shape: InputKind::Polygon, number, .. }
-            | Kind::OffGrid { shape: InputKind::Polygon, number } => *number = polygon,
-            #[cfg(feature = "layers")]
-            Kind::Layer { layer } => *layer = polygon,
-            #[cfg(feature = "drawing")]
-            Kind::OverlayPolygon { number } | Kind::Opacity { polygon: number, .. } => {
-                *number = polygon;
-            }
-            _ => {}
+        if self.polygon().is_some()
+            && let Kind::Input { number, .. } = &mut self.kind
+        {
+            *number = polygon;
         }
         self
     }
@@ -240,13 +157,8 @@ impl Error {
 
     const fn number_of(&self, kind: InputKind) -> Option<usize> {
         match self.kind {
-            Kind::NonFinite { shape, number }
-            | Kind::Corners { shape, number, .. }
-            | Kind::OffGrid { shape, number }
-                if shape as u8 == kind as u8 =>
-            {
-                Some(number)
-            }
+            // `==` of enums is not for `const` functions.
+            Kind::Input { shape, number, .. } if shape as u8 == kind as u8 => Some(number),
             _ => None,
         }
     }
@@ -254,8 +166,10 @@ impl Error {
     /// Whether a budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another
     /// heuristic may succeed.
     pub const fn is_over_budget(&self) -> bool {
-        let kind = &self.kind;
-        matches!(kind, Kind::Polygons { .. } | Kind::Fragments { .. } | Kind::Depth { .. })
+        matches!(
+            self.kind,
+            Kind::Over(Limit::PolygonsOfBudget(_) | Limit::Fragments(_) | Limit::Depth(_))
+        )
     }
 
     /// Whether memory ran out. Not every lack of memory is reported as an error: a system that
@@ -273,95 +187,121 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.kind {
-            Kind::NonFinite { shape, number } => {
-                write!(f, "{shape} {number} has a coordinate that is NaN or infinite")
-            }
-            Kind::Corners { shape, number, limit } => write!(
-                f,
-                "{shape} {number} has more than {limit} corners: divide it into smaller {shape}s"
-            ),
-            Kind::TooManyPolygons { limit } => {
-                write!(f, "there are more than {limit} polygons: divide the scene")
-            }
+        match &self.kind {
+            Kind::Input { shape, number, fault } => fault.fmt(*shape, *number, f),
+            Kind::Over(limit) => limit.fmt(f),
             Kind::OutOfMemory => {
                 f.write_str("out of memory: divide the scene, or limit the tree by `max_fragments`")
             }
-            Kind::TooManyCorners { limit } => {
-                write!(f, "the polygons together have {limit} corners or more: divide the scene")
-            }
+            Kind::Cancelled => f.write_str("cancelled by the progress callback"),
             Kind::Tolerance { value } => {
                 write!(f, "the coplanar tolerance is {value}, but must be 0 or more")
             }
-            Kind::Polygons { limit } => write!(
-                f,
-                "there are more than {limit} polygons, but the tree may have at most {limit} \
-                 fragments (`max_fragments`): raise the budget"
+            Kind::Bounds => f.write_str(
+                "a corner of the bounds (`with_bounds`), or of a partition's extent, has a coordinate that \
+                 is NaN or infinite",
             ),
-            Kind::Fragments { limit } => write!(
-                f,
-                "the tree would have more than {limit} fragments (`max_fragments`): raise the \
-                 budget or choose another heuristic"
-            ),
-            Kind::Depth { limit } => write!(
-                f,
-                "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
-                 or choose another heuristic"
-            ),
+            #[cfg(feature = "layers")]
+            Kind::Viewport => {
+                f.write_str("the viewport has a number that is NaN, infinite or too large")
+            }
             #[cfg(feature = "drawing")]
-            Kind::Opacity { polygon, value } => {
-                write!(
-                    f,
-                    "the opacity of polygon {polygon} is {value}: expected a number from 0 to 1"
-                )
-            }
-            Kind::TooManyIndices => {
-                f.write_str("the mesh would have more than 2^32 indices: divide the scene")
-            }
-            Kind::Places { needed, given } => write!(
-                f,
-                "the buffer has room for {given} indices, but {needed} are to be written: make it \
-                 as long as `Triangles::indices`"
+            Kind::OfCell => f.write_str(
+                "the tree is of one cell of a partition, but drawings need whole polygons: build one tree of \
+                 the scene",
+            ),
+            Kind::OverlaidTree => f.write_str(
+                "the tree is not the one that the overlay was made for: make an overlay for it",
             ),
             Kind::OtherTree { fragments, expected } => write!(
                 f,
                 "the tree has {fragments} fragments, but the mesh was made of a tree of \
                  {expected}: make the mesh of this tree"
             ),
-            Kind::Bounds => f.write_str(
-                "a corner of the bounds (`with_bounds`), or of a partition's extent, has a coordinate that \
-                 is NaN or infinite",
+            Kind::Places { needed, given } => write!(
+                f,
+                "the buffer has room for {given} indices, but {needed} are to be written: make it \
+                 as long as `Triangles::indices`"
             ),
-            Kind::OffGrid { shape, number } => write!(
+        }
+    }
+}
+
+impl InputFault {
+    fn fmt(&self, shape: InputKind, number: usize, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NonFinite => {
+                write!(f, "{shape} {number} has a coordinate that is NaN or infinite")
+            }
+            Self::Corners { limit } => write!(
+                f,
+                "{shape} {number} has more than {limit} corners: divide it into smaller {shape}s"
+            ),
+            Self::OffGrid => write!(
                 f,
                 "{shape} {number} reaches beyond the tree's grid: build the tree with bounds \
                  (`with_bounds`), or a cell with an extent, that hold everything that will be added or moved"
             ),
-            Kind::OverlaidTree => f.write_str(
-                "the tree is not the one that the overlay was made for: make an overlay for it",
-            ),
             #[cfg(feature = "drawing")]
-            Kind::OverlayPolygon { number } => write!(
+            Self::InOverlay => write!(
                 f,
-                "polygon {number} of the overlay cannot be drawn: drawings take its lines and points \
+                "{shape} {number} of the overlay cannot be drawn: drawings take its lines and points \
                  alone, so give the polygons to the tree"
             ),
             #[cfg(feature = "drawing")]
-            Kind::OfCell => f.write_str(
-                "the tree is of one cell of a partition, but drawings need whole polygons: build one tree of \
-                 the scene",
-            ),
-            Kind::Cancelled => f.write_str("cancelled by the progress callback"),
-            #[cfg(feature = "layers")]
-            Kind::Layer { layer } => write!(
+            Self::Opacity { value } => write!(
                 f,
-                "the rectangle or matrix of layer {layer} has a number that is NaN, infinite or \
+                "the opacity of {shape} {number} is {value}: expected a number from 0 to 1"
+            ),
+            #[cfg(feature = "layers")]
+            Self::Layer => write!(
+                f,
+                "the rectangle or matrix of {shape} {number} has a number that is NaN, infinite or \
                  too large"
             ),
+        }
+    }
+}
+
+impl fmt::Display for InputKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Polygon => "polygon",
+            Self::Line => "line",
+            Self::Point => "point",
             #[cfg(feature = "layers")]
-            Kind::Viewport => {
-                f.write_str("the viewport has a number that is NaN, infinite or too large")
+            Self::Layer => "layer",
+        })
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Polygons(limit) => {
+                write!(f, "there are more than {limit} polygons: divide the scene")
             }
+            Self::Corners(limit) => {
+                write!(f, "the polygons together have {limit} corners or more: divide the scene")
+            }
+            Self::Indices => {
+                f.write_str("the mesh would have more than 2^32 indices: divide the scene")
+            }
+            Self::PolygonsOfBudget(limit) => write!(
+                f,
+                "there are more than {limit} polygons, but the tree may have at most {limit} \
+                 fragments (`max_fragments`): raise the budget"
+            ),
+            Self::Fragments(limit) => write!(
+                f,
+                "the tree would have more than {limit} fragments (`max_fragments`): raise the \
+                 budget or choose another heuristic"
+            ),
+            Self::Depth(limit) => write!(
+                f,
+                "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
+                 or choose another heuristic"
+            ),
         }
     }
 }

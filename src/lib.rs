@@ -45,6 +45,7 @@
 //!
 //! Without features the library depends on glam and smallvec alone.
 
+mod bits;
 mod build;
 #[cfg(feature = "drawing")]
 pub mod drawing;

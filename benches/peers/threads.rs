@@ -54,6 +54,7 @@ pub(crate) fn run() {
 /// The same statistics, and the same fragments bit for bit in the same places.
 fn assert_same(a: &BspTree, b: &BspTree) {
     assert_eq!(a.stats(), b.stats());
+    assert_eq!(a.preparation(), b.preparation());
     for (a, b) in a.fragments().zip(b.fragments()) {
         assert_eq!(a.polygon(), b.polygon());
         assert!(a.vertices().eq(b.vertices()));

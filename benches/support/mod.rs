@@ -166,7 +166,7 @@ pub fn check(tree: &BspTree, scene: &Scene) {
     if stats.depth_mean * (stats.fragments as f64) < MOST_CHECKS {
         assert_eq!(tree.validate(), Ok(()), "{}", scene.name());
     }
-    assert_eq!(stats.polygons, scene.len(), "{}", scene.name());
+    assert_eq!(tree.preparation().polygons, scene.len(), "{}", scene.name());
     assert_eq!(stats.fragments, stats.faces + stats.splits, "{}", scene.name());
 }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::options::BuildOptions;
-use crate::error::Error;
+use crate::error::{Error, Limit};
 use crate::tree::node_record::MOST_FRAGMENTS;
 
 /// What all jobs of a build may use together.
@@ -29,11 +29,15 @@ impl Budget {
     /// Counts new pieces; an error if there are too many.
     pub(super) fn count(&self, new: usize) -> Result<(), Error> {
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
-        if total > self.max_fragments { Err(Error::fragments(self.max_fragments)) } else { Ok(()) }
+        if total > self.max_fragments {
+            Err(Limit::Fragments(self.max_fragments).error())
+        } else {
+            Ok(())
+        }
     }
 
     /// Checks the depth of a node; an error if it is too deep.
     pub(super) fn check_depth(&self, depth: usize) -> Result<(), Error> {
-        if depth > self.max_depth { Err(Error::depth(self.max_depth)) } else { Ok(()) }
+        if depth > self.max_depth { Err(Limit::Depth(self.max_depth).error()) } else { Ok(()) }
     }
 }

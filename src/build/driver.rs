@@ -9,7 +9,7 @@ use super::job::Job;
 use super::jobs;
 use super::live::Live;
 use super::options::BuildOptions;
-use super::progress::{AT_ONCE, Progress, Watch, one_at_a_time};
+use super::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::cell::Clipper;
 use crate::exact::{Exact, ExactVertex, Faces, Kernel};
@@ -122,8 +122,8 @@ pub(super) fn tree_of_faces(
 fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job<ExactVertex>, Error> {
     let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     let (mut clipper, count) = (Clipper::new(faces), faces.len() as u32);
-    for start in (0..count).step_by(AT_ONCE) {
-        let some = start..count.min(start + AT_ONCE as u32);
+    for start in (0..count).step_by(PIECES_AT_ONCE) {
+        let some = start..count.min(start + PIECES_AT_ONCE as u32);
         watch.work(some.len())?;
         for face in some {
             let Some(outline) = clipper.clip(face) else { continue };
@@ -159,14 +159,14 @@ fn prepared<P: Polygon>(
 
 /// Memory that trees are built in, one frame after the other.
 #[derive(Default)]
-pub(super) struct Workshop {
+pub(super) struct FrameMemory {
     preparer: Preparer,
     memory: Memory<Exact>,
     nodes: Vec<RawNode>,
     sizes: Vec<Sizes>,
 }
 
-impl Workshop {
+impl FrameMemory {
     /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
     /// layout that makes many orders fast. After an error the tree is empty.
     pub(super) fn rebuild<P: Polygon>(
@@ -260,8 +260,8 @@ fn divide_all<K: Kernel>(
     arena.clear();
     reserve(&mut pieces, faces.len())?;
     let count = faces.len() as u32;
-    for start in (0..count).step_by(AT_ONCE) {
-        let some = start..count.min(start + AT_ONCE as u32);
+    for start in (0..count).step_by(PIECES_AT_ONCE) {
+        let some = start..count.min(start + PIECES_AT_ONCE as u32);
         watch.work(some.len())?;
         pieces.extend(some.map(|face| Live::whole(faces, face)));
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::driver::Workshop;
+use super::driver::FrameMemory;
 use super::options::BuildOptions;
 use crate::error::Error;
 use crate::input::Polygon;
@@ -40,14 +40,14 @@ use crate::tree::BspTree;
 /// ```
 pub struct FrameBuilder {
     options: BuildOptions,
-    workshop: Workshop,
+    memory: FrameMemory,
     tree: BspTree,
 }
 
 impl FrameBuilder {
     /// A builder with these options. Its tree is empty so far.
     pub fn new(options: BuildOptions) -> Self {
-        Self { options, workshop: Workshop::default(), tree: BspTree::empty() }
+        Self { options, memory: FrameMemory::default(), tree: BspTree::empty() }
     }
 
     /// Sets the options of the trees to come.
@@ -64,7 +64,7 @@ impl FrameBuilder {
         &mut self,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<&BspTree, Error> {
-        self.workshop.rebuild(&mut self.tree, &self.options, polygons)?;
+        self.memory.rebuild(&mut self.tree, &self.options, polygons)?;
         Ok(&self.tree)
     }
 
@@ -77,7 +77,7 @@ impl FrameBuilder {
 impl Clone for FrameBuilder {
     /// A builder with the same options and tree, and no spare memory.
     fn clone(&self) -> Self {
-        Self { options: self.options, workshop: Workshop::default(), tree: self.tree.clone() }
+        Self { options: self.options, memory: FrameMemory::default(), tree: self.tree.clone() }
     }
 }
 

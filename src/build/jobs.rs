@@ -1,7 +1,11 @@
 //! Subtrees built in parallel.
 
 use std::collections::VecDeque;
+#[cfg(feature = "parallel")]
+use std::sync::{Mutex, PoisonError};
 
+#[cfg(feature = "parallel")]
+use super::assemble::Output;
 use super::assemble::assemble;
 use super::builder::{Memory, Shared, build};
 use super::job::Job;
@@ -15,6 +19,32 @@ use crate::tree::parts::Parts;
 #[cfg(feature = "parallel")]
 const ALONE: usize = 2048;
 
+/// The outputs of the jobs so far, by their numbers; those of jobs that are not finished are missing.
+#[cfg(feature = "parallel")]
+type Outputs<S> = Mutex<Vec<Option<Result<Output<S>, Error>>>>;
+
+/// Builds a job on a thread of the pool, and spawns the jobs that it hands over.
+#[cfg(feature = "parallel")]
+fn spawn<'s, K: Kernel>(
+    scope: &rayon::Scope<'s>,
+    shared: &'s Shared<'s, K>,
+    outputs: &'s Outputs<K::Stored>,
+    (number, job): (usize, Job<K::Vertex>),
+    memory: &mut Memory<K>,
+) {
+    let output = build(shared, job, memory, |job| {
+        let mut listed = outputs.lock().unwrap_or_else(PoisonError::into_inner);
+        let number = listed.len();
+        memory::push(&mut listed, None)?;
+        drop(listed);
+        scope.spawn(move |scope| {
+            spawn(scope, shared, outputs, (number, job), &mut Memory::default());
+        });
+        Ok(number)
+    });
+    outputs.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(output);
+}
+
 /// Builds a job, and all jobs that it and they hand over, and joins them.
 #[cfg(feature = "parallel")]
 pub(super) fn run<K: Kernel>(
@@ -22,58 +52,23 @@ pub(super) fn run<K: Kernel>(
     job: Job<K::Vertex>,
     memory: &mut Memory<K>,
 ) -> Result<Parts<K::Stored>, Error> {
-    use super::assemble::Output;
-    use std::sync::Mutex;
-
-    type Slot<T> = Option<Result<T, Error>>;
-
-    struct Work<'s, K: Kernel> {
-        shared: &'s Shared<'s, K>,
-        slots: &'s Mutex<Vec<Slot<Output<K::Stored>>>>,
-    }
-
-    impl<'s, K: Kernel> Work<'s, K> {
-        fn run(
-            &'s self,
-            scope: &rayon::Scope<'s>,
-            number: usize,
-            job: Job<K::Vertex>,
-            memory: &mut Memory<K>,
-        ) {
-            let output = build(self.shared, job, memory, |job| {
-                let number = push(self.slots, None)?;
-                scope.spawn(move |scope| self.run(scope, number, job, &mut Memory::default()));
-                Ok(number)
-            });
-            let mut slots = self.slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            slots[number] = Some(output);
-        }
-    }
-
-    fn push<T>(slots: &Mutex<Vec<T>>, slot: T) -> Result<usize, Error> {
-        let mut slots = slots.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        memory::push(&mut slots, slot)?;
-        Ok(slots.len() - 1)
-    }
-
     if job.is_the_last() || !crate::parallel_map::are_running() {
         return in_turn(shared, job, memory);
     }
-    let slots = Mutex::new(vec![None]);
-    let work = Work { shared, slots: &slots };
+    let outputs = Mutex::new(vec![None]);
     if job.pieces.len() < ALONE {
-        rayon::in_place_scope(|scope| work.run(scope, 0, job, memory));
+        rayon::in_place_scope(|scope| spawn(scope, shared, &outputs, (0, job), memory));
     } else {
-        rayon::scope(|scope| work.run(scope, 0, job, memory));
+        rayon::scope(|scope| spawn(scope, shared, &outputs, (0, job), memory));
     }
-    let slots = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    // The scope has waited for every job, so every slot is filled.
-    let mut outputs = Vec::new();
-    memory::reserve(&mut outputs, slots.len())?;
-    for output in slots.into_iter().flatten() {
-        outputs.push(output?);
+    let outputs = outputs.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut finished = Vec::new();
+    memory::reserve(&mut finished, outputs.len())?;
+    // The scope has waited for every job, so none is missing.
+    for output in outputs.into_iter().flatten() {
+        finished.push(output?);
     }
-    assemble(outputs)
+    assemble(finished)
 }
 
 #[cfg(not(feature = "parallel"))]

@@ -1,5 +1,7 @@
 //! Pieces of faces while the tree is built.
 
+use glam::DVec3;
+
 use crate::Error;
 use crate::exact::{Faces, Kernel, Piece, SymbolKind, Vertex};
 use crate::memory::reserve;
@@ -91,6 +93,30 @@ impl Live {
         let start = self.start as usize;
         let cut = (self.len > 0).then(|| &arena[start..start + self.len as usize]);
         Piece { face: self.face, cut }
+    }
+
+    /// Calls a function with each vertex, in lattice units, rounded.
+    #[inline]
+    pub(crate) fn for_each_vertex<V: Vertex>(
+        &self,
+        faces: &Faces,
+        arena: &[V],
+        mut see: impl FnMut([f64; 3]),
+    ) {
+        match self.piece(arena).cut {
+            None => faces.corners(self.face).iter().for_each(|&corner| see(corner)),
+            Some(cut) => cut.iter().for_each(|vertex| see(vertex.position())),
+        }
+    }
+
+    /// A point on the plane of its face: a vertex of the piece, as of one far away the rounding of the
+    /// normal would count. (Of a whole face, only three corners are certain to lie on it, others within
+    /// the tolerance.)
+    pub(crate) fn point<V: Vertex>(&self, faces: &Faces, arena: &[V]) -> DVec3 {
+        DVec3::from_array(match self.piece(arena).cut {
+            None => faces.corner(faces.reference_triangle(self.face)[0]),
+            Some(cut) => cut[0].position(),
+        })
     }
 
     /// The same piece, with its vertices copied from one arena to the end of another.

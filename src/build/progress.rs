@@ -12,7 +12,7 @@ use crate::Error;
 const PULSE: usize = 1 << 16;
 /// How many pieces are looked at before cancellation is checked. Smaller: time for checking; larger:
 /// cancelling takes longer.
-pub(super) const AT_ONCE: usize = 4096;
+pub(super) const PIECES_AT_ONCE: usize = 4096;
 /// A search for free planes along an axis takes about as long as examining each piece so many times.
 pub(super) const SWEEP: usize = 10;
 

@@ -10,9 +10,9 @@ use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
 use super::visible::{Leaf, Visible, visible};
-use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::Watch;
+use crate::error::{Error, InputFault};
 use crate::memory::{collect, filled};
 use crate::raster::Rays;
 use crate::tree::BspTree;
@@ -209,7 +209,7 @@ fn checked(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> Result<Vec<f64>, E
     let opacities = collect((0..tree.preparation().polygons).map(opacity))?;
     let is_wrong = |opacity: &f64| !(0.0..=1.0).contains(opacity);
     match opacities.iter().position(is_wrong) {
-        Some(polygon) => Err(Error::opacity(polygon, opacities[polygon])),
+        Some(polygon) => Err(InputFault::Opacity { value: opacities[polygon] }.of_polygon(polygon)),
         None if opacities.iter().all(|&opacity| opacity == 1.0) => Ok(vec![]),
         None => Ok(opacities),
     }

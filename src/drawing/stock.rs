@@ -6,8 +6,8 @@ use super::frame::Frame;
 use super::rect::{NOWHERE, Rect, common, is_empty};
 use super::reporter::each;
 use super::tile::Tile;
-use crate::Error;
 use crate::build::progress::Watch;
+use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::{collect, reserve};
 use crate::parallel_map;
@@ -66,7 +66,7 @@ impl<'t> Stock<'t> {
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         if tree.is_of_cell() {
-            return Err(Error::of_cell());
+            return Err(Kind::OfCell.error());
         }
         let faces = tree.faces();
         let frame = Frame { rays, faces };

@@ -13,17 +13,17 @@ use super::lattice::{LIMIT, MAX_TOLERANCE};
 use super::{Faces, Lattice, split};
 
 /// A box by its lower and its upper corner, in lattice units.
-pub(crate) type Cell = [[f64; 3]; 2];
+pub(crate) type CellBox = [[f64; 3]; 2];
 
 /// The coordinate, with either sign, of a side without a plane. Beyond all lattice points, and within
 /// what the predicates hold.
 const OPEN: f64 = LIMIT + MAX_TOLERANCE;
 /// A cell without planes: all of the lattice.
-pub(crate) const EVERYWHERE: Cell = [[-OPEN; 3], [OPEN; 3]];
+pub(crate) const EVERYWHERE: CellBox = [[-OPEN; 3], [OPEN; 3]];
 
 impl Faces {
     /// No faces so far: those to come are to be cut to a cell.
-    pub(crate) fn of_cell(lattice: Lattice, tolerance: f64, cell: Cell) -> Self {
+    pub(crate) fn of_cell(lattice: Lattice, tolerance: f64, cell: CellBox) -> Self {
         Self { lattice, tolerance, corners: cell.to_vec(), ..Self::default() }
     }
 

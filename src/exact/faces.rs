@@ -5,7 +5,7 @@ mod saved;
 
 use super::Lattice;
 use super::label::MAX_LABELS;
-use crate::Error;
+use crate::error::{Error, Limit};
 use crate::memory::reserve;
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
@@ -177,7 +177,7 @@ impl Faces {
     ) -> Result<(), Error> {
         let start = self.corners.len();
         if start + corners.len() >= MAX_LABELS {
-            return Err(Error::too_many_corners(MAX_LABELS));
+            return Err(Limit::Corners(MAX_LABELS).error());
         }
         // Both at first: corners without a face would be those of the face before.
         reserve(&mut self.corners, corners.len())?;

@@ -31,7 +31,7 @@ pub(crate) type LineValues = [Int<3>; 3];
 
 /// A vertex of a fragment, or of a part of it.
 #[derive(Clone, Copy, Debug)]
-enum Corner {
+enum PartVertex {
     /// One of the fragment's own.
     Own(Symbol),
     /// Where two lines meet, by their numbers.
@@ -76,16 +76,16 @@ pub(crate) fn meets(
 ) -> bool {
     let triangle = faces.triangle(face);
     let mut lines = SmallVec::<[LineValues; 12]>::new();
-    let mut part = SmallVec::<[(Corner, usize); 12]>::new();
+    let mut part = SmallVec::<[(PartVertex, usize); 12]>::new();
     for (symbol, line) in outline {
-        part.push((Corner::Own(symbol), lines.len()));
+        part.push((PartVertex::Own(symbol), lines.len()));
         lines.push(line);
     }
     for half_space in half_spaces {
         let values = triangle.map(|point| half_space.at(&point));
-        let side = |corner: Corner| match corner {
-            Corner::Own(symbol) => side(half_space, faces.weights(face, symbol)),
-            Corner::Crossing(a, b) => side_of_crossing([&lines[a], &lines[b]], &values),
+        let side = |corner: PartVertex| match corner {
+            PartVertex::Own(symbol) => side(half_space, faces.weights(face, symbol)),
+            PartVertex::Crossing(a, b) => side_of_crossing([&lines[a], &lines[b]], &values),
         };
         let sides: SmallVec<[Ordering; 12]> =
             part.iter().map(|&(corner, _)| side(corner)).collect();
@@ -101,21 +101,21 @@ pub(crate) fn meets(
 
 /// The part of an outline that is in front of a line or on it, which may be a point or an edge alone.
 fn clip(
-    outline: &[(Corner, usize)],
+    outline: &[(PartVertex, usize)],
     sides: &[Ordering],
     cut: usize,
-) -> SmallVec<[(Corner, usize); 12]> {
+) -> SmallVec<[(PartVertex, usize); 12]> {
     let mut part = SmallVec::new();
     for (i, &(corner, line)) in outline.iter().enumerate() {
         let next = sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
         match (sides[i], next) {
             (Ordering::Greater, Ordering::Less) => {
                 part.push((corner, line));
-                part.push((Corner::Crossing(line, cut), cut));
+                part.push((PartVertex::Crossing(line, cut), cut));
             }
             (Ordering::Equal, Ordering::Less) => part.push((corner, cut)),
             (Ordering::Less, Ordering::Greater) => {
-                part.push((Corner::Crossing(line, cut), line));
+                part.push((PartVertex::Crossing(line, cut), line));
             }
             (Ordering::Less, _) => {}
             _ => part.push((corner, line)),

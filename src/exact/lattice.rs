@@ -13,7 +13,7 @@ pub const LIMIT: f64 = (1u64 << 51) as f64;
 /// This many steps from the world's origin, two neighbouring `f64` are further apart than the scene
 /// is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Larger: coordinates that no longer fit integers are treated as if
 /// they did; smaller: a scene far out loses coordinates that differ.
-const FAR: f64 = (1u128 << 110) as f64;
+const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
 /// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
 /// it, so that corners moved onto a plane fit the integers of the exact predicates.
@@ -56,7 +56,8 @@ impl Lattice {
             0
         };
         let steps = PowerOfTwo::new(exponent);
-        let far = centre.to_array().map(|c| if steps.times(c).abs() > FAR { c } else { 0.0 });
+        let far =
+            centre.to_array().map(|c| if steps.times(c).abs() > FAR_ORIGIN { c } else { 0.0 });
         let origin = std::array::from_fn(|axis| match far[axis] {
             0.0 => steps.times(centre[axis]).round(),
             _ => 0.0,

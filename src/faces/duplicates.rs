@@ -97,10 +97,10 @@ pub(super) fn hash(corners: impl Iterator<Item = [f64; 3]>) -> u64 {
     corners.fold(0, |sum, corner| sum.wrapping_add(mix(corner)))
 }
 
-type Corner = [i64; 3];
+type Snapped = [i64; 3];
 
 /// Adds an outline to others; whether it is a new one.
-fn add(outlines: &mut HashSet<Vec<Corner>>, corners: Vec<[f64; 3]>) -> Result<bool, Error> {
+fn add(outlines: &mut HashSet<Vec<Snapped>>, corners: Vec<[f64; 3]>) -> Result<bool, Error> {
     let outline = canonical(collect(corners.into_iter().map(integers))?)?;
     outlines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
     Ok(outlines.insert(outline))
@@ -116,7 +116,7 @@ fn mix(corner: [f64; 3]) -> u64 {
 
 /// The canonical form of an outline: the same list wherever the outline starts and in whichever
 /// direction it runs.
-fn canonical(mut corners: Vec<Corner>) -> Result<Vec<Corner>, Error> {
+fn canonical(mut corners: Vec<Snapped>) -> Result<Vec<Snapped>, Error> {
     let start = least_rotation(&corners);
     corners.rotate_left(start);
     let mut reverse = collect(corners.iter().rev().copied())?;
@@ -127,7 +127,7 @@ fn canonical(mut corners: Vec<Corner>) -> Result<Vec<Corner>, Error> {
 
 /// The start of the lexicographically least rotation, in linear time (Shiloach, “Fast canonization
 /// of circular strings”, 1981).
-fn least_rotation(corners: &[Corner]) -> usize {
+fn least_rotation(corners: &[Snapped]) -> usize {
     let n = corners.len();
     let (mut i, mut j, mut same) = (0, 1, 0);
     while i < n && j < n && same < n {
@@ -148,10 +148,10 @@ fn least_rotation(corners: &[Corner]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Corner, canonical, least_rotation};
+    use super::{Snapped, canonical, least_rotation};
 
     /// All sequences of a length over three corners.
-    fn sequences(len: u32) -> impl Iterator<Item = Vec<Corner>> {
+    fn sequences(len: u32) -> impl Iterator<Item = Vec<Snapped>> {
         (0..3i64.pow(len)).map(move |code| (0..len).map(|k| [code / 3i64.pow(k) % 3; 3]).collect())
     }
 
@@ -172,7 +172,7 @@ mod tests {
     fn every_start_and_direction_has_one_form() {
         for corners in (1..7).flat_map(sequences) {
             let form = canonical(corners.clone()).unwrap();
-            let mut other: Vec<Corner> = corners.iter().rev().copied().collect();
+            let mut other: Vec<Snapped> = corners.iter().rev().copied().collect();
             for _ in 0..corners.len() {
                 other.rotate_left(1);
                 assert_eq!(canonical(other.clone()).unwrap(), form);

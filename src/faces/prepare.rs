@@ -5,7 +5,7 @@ mod append;
 mod builder;
 mod collect;
 mod corners;
-mod ground;
+mod lattice_and_tolerance;
 mod lists;
 mod preparation;
 mod quad;
@@ -13,15 +13,15 @@ mod thin;
 
 use glam::DVec3;
 
-use builder::Builder;
+use builder::FaceBuilder;
 use collect::Collected;
-use ground::Ground;
-pub(crate) use ground::empty_faces;
-pub use ground::{DEFAULT_TOLERANCE, Tolerance};
+use lattice_and_tolerance::Ground;
+pub(crate) use lattice_and_tolerance::empty_faces;
+pub use lattice_and_tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub use preparation::Preparation;
 
 use super::duplicates::Outlines;
-use super::listener::{Listener, Unheard};
+use super::listener::{Listener, NoListener};
 use crate::Error;
 use crate::exact::{Faces, Lattice};
 use crate::input::Polygon;
@@ -30,10 +30,10 @@ use crate::parallel_map;
 
 /// Polygons that one thread prepares as one job. Smaller: overhead per job; larger: threads wait
 /// for each other.
-const PART: usize = 1024;
+const POLYGONS_A_THREAD: usize = 1024;
 /// Polygons that are prepared before the jobs' faces are put together and a cancel is noticed.
 /// Smaller: threads wait for each other; larger: a cancel takes longer, and more memory is used.
-const AT_ONCE: usize = 16 * PART;
+const POLYGONS_AT_ONCE: usize = 16 * POLYGONS_A_THREAD;
 
 impl Faces {
     /// Prepares polygons: turns them into convex planar faces.
@@ -55,7 +55,7 @@ impl Faces {
             polygons,
             tolerance.into(),
             usize::MAX,
-            &Unheard,
+            &NoListener,
         )?;
         faces.shrink_to_fit();
         Ok((faces, report))
@@ -66,7 +66,7 @@ impl Faces {
 #[derive(Debug, Default)]
 pub(crate) struct Preparer {
     input: Collected,
-    builder: Builder,
+    builder: FaceBuilder,
     outlines: Outlines,
     /// What the lattice has to hold besides the polygons.
     room: Option<[DVec3; 2]>,
@@ -113,17 +113,19 @@ impl Preparer {
         let Self { input, builder, outlines, .. } = self;
         reserve(&mut builder.faces.corners, input.corner_count())?;
         reserve(&mut builder.faces.faces, input.len())?;
-        if input.len() <= PART {
+        if input.len() <= POLYGONS_A_THREAD {
             listener.read(input.len())?;
             return builder.add_all(ground, input, 0..input.len(), outlines, listener);
         }
         let mut report = Preparation::default();
-        for start in (0..input.len()).step_by(AT_ONCE) {
+        for start in (0..input.len()).step_by(POLYGONS_AT_ONCE) {
             listener.read(input.len())?;
-            let end = input.len().min(start + AT_ONCE);
-            let ranges = (start..end).step_by(PART).map(|start| start..end.min(start + PART));
+            let end = input.len().min(start + POLYGONS_AT_ONCE);
+            let ranges = (start..end)
+                .step_by(POLYGONS_A_THREAD)
+                .map(|start| start..end.min(start + POLYGONS_A_THREAD));
             let parts = parallel_map::map(ranges.collect(), |range| {
-                let (mut part, mut outlines) = (Builder::new(ground), Outlines::default());
+                let (mut part, mut outlines) = (FaceBuilder::new(ground), Outlines::default());
                 let report = part.add_all(ground, input, range, &mut outlines, listener)?;
                 Ok::<_, Error>((part.faces, report, outlines))
             });

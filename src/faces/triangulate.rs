@@ -9,17 +9,16 @@ mod sweep_line;
 #[cfg(test)]
 mod tests;
 mod uncross;
-mod work;
 
 use std::cmp::Ordering;
 
 use glam::DVec3;
 
+use super::listener::Listener;
 use crate::Error;
 use crate::exact::{Int, Plane, cross};
 use crate::memory::collect;
 use outline::Triangulation;
-use work::Work;
 
 /// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter
 /// diagonal, any other as a fan from its first corner.
@@ -43,13 +42,13 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Result<Triangulation, Error> {
 pub(super) fn any(
     corners: &[[f64; 3]],
     plane: &Plane,
-    work: Work<'_>,
+    listener: &dyn Listener,
 ) -> Result<Triangulation, Error> {
     let area = vector_area(corners);
     let (drop, facing) = facing(&area, plane);
     let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
     let flat = collect(corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]))?;
-    let mut found = outline::triangulate(&flat, work)?;
+    let mut found = outline::triangulate(&flat, listener)?;
     let has_area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|k| corners[k as usize]);
         cross(a, b, c) != [0; 3]

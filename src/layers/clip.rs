@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 use smallvec::SmallVec;
 
 use super::layer::Layer;
-use super::vertex::{Corner, LayerVertex};
+use super::vertex::{ClippedCorner, LayerVertex};
 
 /// A layer counts as seen along its edge if its area on the screen is less than so many roundings of
 /// its matrix. Smaller: cards turned by a rounded right angle cut others; larger: thin cards vanish.
@@ -30,7 +30,11 @@ type Points = SmallVec<[Point; MOST_CORNERS]>;
 ///
 /// The layer is clipped in its own plane, where every side of the box is a half plane. So all corners
 /// lie in one plane up to the rounding of their last computation, however they were clipped.
-pub(super) fn clip(layer: &Layer, limits: [DVec3; 2], corners: &mut Vec<Corner>) -> Option<f64> {
+pub(super) fn clip(
+    layer: &Layer,
+    limits: [DVec3; 2],
+    corners: &mut Vec<ClippedCorner>,
+) -> Option<f64> {
     if layer.is_empty() {
         return None;
     }
@@ -51,7 +55,7 @@ pub(super) fn clip(layer: &Layer, limits: [DVec3; 2], corners: &mut Vec<Corner>)
         let position = (DVec3::new(x, y, z) / w).clamp(limits[0], limits[1]);
         precision = precision.max(plane.abs().dot(layer.rounding(rows, local)) / w);
         let vertex = LayerVertex { position, w: w / scale, local };
-        corners.push(Corner { vertex, edge });
+        corners.push(ClippedCorner { vertex, edge });
     }
     Some(STEPS * precision)
 }

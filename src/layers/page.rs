@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3};
 use super::clip::{MOST_CORNERS, clip};
 use super::layer::Layer;
 use super::piece::LayerPiece;
-use super::vertex::Corner;
-use crate::Error;
+use super::vertex::ClippedCorner;
 use crate::build::{BuildOptions, FrameBuilder};
+use crate::error::{Error, InputFault, InputKind, Kind};
 use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
 use crate::memory::reserve;
@@ -44,7 +44,7 @@ pub struct Layers {
     /// What is seen of them.
     outlines: Vec<Outline>,
     /// The corners of all outlines.
-    corners: Vec<Corner>,
+    corners: Vec<ClippedCorner>,
     builder: FrameBuilder,
     /// Whether the builder's tree is of the last frame.
     is_built: bool,
@@ -125,7 +125,7 @@ impl Layers {
 
     fn replace(&mut self, layers: &[Layer]) -> Result<(), Error> {
         if !self.limits().iter().all(|corner| corner.is_finite()) {
-            return Err(Error::viewport());
+            return Err(Kind::Viewport.error());
         }
         reserve(&mut self.layers, layers.len())?;
         self.layers.extend_from_slice(layers);
@@ -154,7 +154,12 @@ impl Layers {
         let mut coarsest = 0.0f64;
         for (layer, from) in self.layers.iter().enumerate() {
             if !from.is_finite() {
-                return Err(Error::layer(layer));
+                return Err(Kind::Input {
+                    shape: InputKind::Layer,
+                    number: layer,
+                    fault: InputFault::Layer,
+                }
+                .error());
             }
             reserve(&mut self.outlines, 1)?;
             reserve(&mut self.corners, MOST_CORNERS)?;
@@ -176,7 +181,7 @@ impl Layers {
         Ok(())
     }
 
-    fn corners_of(&self, outline: usize) -> &[Corner] {
+    fn corners_of(&self, outline: usize) -> &[ClippedCorner] {
         corners_of(&self.outlines, &self.corners, outline)
     }
 
@@ -249,13 +254,17 @@ impl Layers {
 }
 
 /// The corners of one of some outlines.
-fn corners_of<'a>(outlines: &[Outline], corners: &'a [Corner], outline: usize) -> &'a [Corner] {
+fn corners_of<'a>(
+    outlines: &[Outline],
+    corners: &'a [ClippedCorner],
+    outline: usize,
+) -> &'a [ClippedCorner] {
     let end = outlines.get(outline + 1).map_or(corners.len(), |next| next.corners);
     &corners[outlines[outline].corners..end]
 }
 
 /// A layer as clipped.
-struct Clipped<'p>(&'p [Corner]);
+struct Clipped<'p>(&'p [ClippedCorner]);
 
 impl Polygon for Clipped<'_> {
     fn corners(&self) -> impl Iterator<Item = DVec3> {

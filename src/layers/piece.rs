@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::layer::Layer;
-use super::vertex::{Corner, LayerVertex, interpolated};
+use super::vertex::{ClippedCorner, LayerVertex, interpolated};
 use crate::tree::Fragment;
 
 /// A convex piece of a layer, or all that is seen of it.
@@ -12,7 +12,7 @@ pub struct LayerPiece<'p> {
     pub(super) number: usize,
     pub(super) layer: &'p Layer,
     /// The layer as clipped, of which the fragment is a piece.
-    pub(super) outline: &'p [Corner],
+    pub(super) outline: &'p [ClippedCorner],
     pub(super) fragment: Fragment<'p>,
     pub(super) is_whole: bool,
 }

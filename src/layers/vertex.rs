@@ -30,7 +30,7 @@ impl LayerVertex {
 
 /// A corner of a clipped layer.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct ClippedCorner {
     pub(super) vertex: LayerVertex,
     /// Which edge of the rectangle begins here, if clipping did not make it.
     pub(super) edge: Option<u8>,
@@ -39,7 +39,7 @@ pub(super) struct Corner {
 /// The vertex at a point of the screen, by its weights over corners.
 pub(super) fn interpolated(
     layer: &Layer,
-    outline: &[Corner],
+    outline: &[ClippedCorner],
     position: DVec3,
     weights: &[(u32, f64)],
 ) -> LayerVertex {

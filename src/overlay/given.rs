@@ -1,7 +1,7 @@
 //! What an overlay was given without area: whole, before any plane cut it.
 
 use super::Overlay;
-use crate::error::Error;
+use crate::error::{Error, InputFault};
 use crate::tree::BspTree;
 
 /// A segment of a line.
@@ -20,7 +20,7 @@ impl Overlay {
         self.expect(tree)?;
         if self.base.faces < self.first_thin() {
             let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
-            return Err(Error::overlay_polygon(number));
+            return Err(InputFault::InOverlay.of_polygon(number));
         }
         Ok(())
     }

@@ -23,7 +23,7 @@ pub use shape::{Marker, Segment, Shape};
 pub use shapes::Shapes;
 use skeleton::Skeleton;
 
-use crate::error::Error;
+use crate::error::{Error, Kind};
 use crate::exact::{ExactStored, Faces};
 use crate::faces::{Preparation, Preparer};
 use crate::tree::parts::{Parts, Record, Stored};
@@ -255,7 +255,7 @@ impl Overlay {
         let is_same = self.base == Base::of(tree)
             && self.faces.lattice() == tree.faces.lattice()
             && self.faces.tolerance() == tree.faces.tolerance();
-        if is_same { Ok(()) } else { Err(Error::overlaid_tree()) }
+        if is_same { Ok(()) } else { Err(Kind::OverlaidTree.error()) }
     }
 }
 

@@ -7,7 +7,7 @@ use smallvec::{SmallVec, smallvec};
 
 use super::Overlay;
 use super::shape::Shape;
-use super::skeleton::{Branch, Group, Part, Side};
+use super::skeleton::{Branch, Group, SlotContent, SlotSide};
 use crate::error::Error;
 use crate::tree::order::eye_sides::View;
 use crate::tree::{BspTree, Ordered};
@@ -27,7 +27,7 @@ struct Steps<'a> {
     overlay: &'a Overlay,
     view: View,
     near_first: bool,
-    stack: SmallVec<[Side; 64]>,
+    stack: SmallVec<[SlotSide; 64]>,
 }
 
 impl<'a> Steps<'a> {
@@ -37,14 +37,14 @@ impl<'a> Steps<'a> {
 
     fn next(&mut self) -> Option<Step> {
         loop {
-            let Side { slot, len } = self.stack.pop()?;
+            let SlotSide { slot, len } = self.stack.pop()?;
             match self.overlay.skeleton.part(slot) {
                 _ if len == 0 => {}
-                Part::Still => return Some(Step::Fragments(len)),
-                Part::Pieces(Group { first, len }) => {
+                SlotContent::Still => return Some(Step::Fragments(len)),
+                SlotContent::Pieces(Group { first, len }) => {
                     return Some(Step::Pieces(first..first + len));
                 }
-                Part::Branch(number) => self.open(number),
+                SlotContent::Branch(number) => self.open(number),
             }
         }
     }
@@ -55,7 +55,7 @@ impl<'a> Steps<'a> {
             &skeleton.branches[number as usize];
         let is_in_front = self.view.is_in_front_of(&self.overlay.faces, plane, rounded);
         let (far, near) = if is_in_front { (back, front) } else { (front, back) };
-        let own = Side { slot: skeleton.slots() as u32 - 1, len: own };
+        let own = SlotSide { slot: skeleton.slots() as u32 - 1, len: own };
         let mut parts = [far, own, pieces, near];
         // What comes first goes on top.
         if !self.near_first {

@@ -8,7 +8,7 @@ use super::region::{Opened, Region, Whose};
 use super::skeleton::{Place, Skeleton};
 use crate::build::live::Live;
 use crate::build::progress::Watch;
-use crate::error::Error;
+use crate::error::{Error, Limit};
 use crate::exact::{Exact, ExactSplitter, ExactStored, Faces, Kernel, Line, Side, Vertex};
 use crate::memory::reserve;
 use crate::tree::BspTree;
@@ -92,7 +92,7 @@ impl Work<'_> {
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
         if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
-            return Err(Error::fragments(MOST_FRAGMENTS));
+            return Err(Limit::Fragments(MOST_FRAGMENTS).error());
         }
         if pieces.is_empty() && region.node.is_none() {
             // Polygons of a cell that no line or point comes to.

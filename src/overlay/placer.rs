@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::anchors::Anchors;
-use super::region::{Cell, Region};
+use super::region::{CellTree, Region};
 use super::skeleton::{Place, Skeleton};
 use crate::build::knife::Knife;
 use crate::build::live::Live;
@@ -27,7 +27,7 @@ pub(super) struct Pending {
 #[derive(Default)]
 pub(super) struct Placer {
     pub(super) cells: OverlayBuilder,
-    pub(super) cell: Cell,
+    pub(super) cell: CellTree,
     pub(super) anchors: Anchors,
     /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
     /// polygons, then lines, then points.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::Vec4;
 
-use super::skeleton::{Branch, Side};
+use super::skeleton::{Branch, SlotSide};
 use crate::Error;
 use crate::exact::{ExactStored, Faces, PlaneId};
 use crate::tree::BspTree;
@@ -46,13 +46,13 @@ impl Region {
 
 /// The small tree of the polygons in a cell, as long as lines and points are cut by it.
 #[derive(Debug, Default)]
-pub(super) struct Cell {
+pub(super) struct CellTree {
     nodes: Vec<NodeRecord>,
     sizes: Vec<Sizes>,
     pub(super) parts: Parts<ExactStored>,
 }
 
-impl Cell {
+impl CellTree {
     /// Replaces the tree, and gives all of it as a region.
     pub(super) fn fill(&mut self, parts: Parts<ExactStored>) -> Result<Region, Error> {
         make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
@@ -83,9 +83,9 @@ impl Opened {
             Whose::Tree => side.fragments.len(),
             Whose::Cell => 0,
         };
-        let [front, back] = sides.each_ref().map(|side| Side::still(still(side)));
+        let [front, back] = sides.each_ref().map(|side| SlotSide::still(still(side)));
         let on_plane = if sides[0].of == Whose::Tree { own.len() as u32 } else { 0 };
-        let pieces = Side::still(0);
+        let pieces = SlotSide::still(0);
         let branch = Branch { rounded, plane, own: on_plane, pieces, front, back };
         Self { branch, own, sides }
     }
@@ -93,7 +93,12 @@ impl Opened {
     /// `None` for an empty cell. The plane of a leaf is that of its fragment, so that no piece crosses
     /// it.
     #[inline]
-    pub(super) fn of(region: Region, tree: &BspTree, cell: &Cell, faces: &Faces) -> Option<Self> {
+    pub(super) fn of(
+        region: Region,
+        tree: &BspTree,
+        cell: &CellTree,
+        faces: &Faces,
+    ) -> Option<Self> {
         let Region { of, node, fragments: all } = region;
         let (nodes, records) = match of {
             Whose::Tree => (&tree.nodes, &tree.records),

@@ -20,7 +20,7 @@ pub(super) struct Group {
 
 /// What is on one side of a plane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
+pub(super) struct SlotSide {
     /// What it is: see [`Skeleton::part`].
     pub(super) slot: u32,
     /// How many fragments and pieces it has.
@@ -32,7 +32,7 @@ const GROUP: u32 = 1 << 31;
 /// The slot, while the skeleton grows, of what has no pieces.
 const STILL: u32 = u32::MAX;
 
-impl Side {
+impl SlotSide {
     /// So many fragments of the tree, and no piece.
     pub(super) fn still(len: usize) -> Self {
         Self { slot: STILL, len: len as u32 }
@@ -40,7 +40,7 @@ impl Side {
 }
 
 /// What a slot stands for.
-pub(super) enum Part {
+pub(super) enum SlotContent {
     /// Fragments of the tree, and no piece.
     Still,
     Pieces(Group),
@@ -57,9 +57,9 @@ pub(super) struct Branch {
     /// How many fragments of the tree lie on the plane.
     pub(super) own: u32,
     /// The pieces on the plane, which come after those fragments.
-    pub(super) pieces: Side,
-    pub(super) front: Side,
-    pub(super) back: Side,
+    pub(super) pieces: SlotSide,
+    pub(super) front: SlotSide,
+    pub(super) back: SlotSide,
 }
 
 /// Where a part hangs.
@@ -73,7 +73,7 @@ pub(super) enum Place {
 /// The skeleton of an overlay. Branches come after those that they hang on.
 #[derive(Debug)]
 pub(super) struct Skeleton {
-    root: Side,
+    root: SlotSide,
     pub(super) branches: Vec<Branch>,
     pub(super) groups: Vec<Group>,
     /// The sides that a small tree's nodes are still to be hung on.
@@ -83,19 +83,19 @@ pub(super) struct Skeleton {
 impl Skeleton {
     /// That of an overlay of nothing on a tree of so many fragments.
     pub(super) fn new(fragments: usize) -> Self {
-        let root = Side { slot: 0, len: fragments as u32 };
+        let root = SlotSide { slot: 0, len: fragments as u32 };
         Self { root, branches: vec![], groups: vec![], open: vec![] }
     }
 
     /// Removes all branches; `fragments` is how many the tree has.
     pub(super) fn clear(&mut self, fragments: usize) {
-        self.root = Side { slot: 0, len: fragments as u32 };
+        self.root = SlotSide { slot: 0, len: fragments as u32 };
         self.branches.clear();
         self.groups.clear();
     }
 
     /// All of it.
-    pub(super) fn root(&self) -> Side {
+    pub(super) fn root(&self) -> SlotSide {
         self.root
     }
 
@@ -106,27 +106,30 @@ impl Skeleton {
     }
 
     /// What a slot stands for.
-    pub(super) fn part(&self, slot: u32) -> Part {
+    pub(super) fn part(&self, slot: u32) -> SlotContent {
         let slot = slot as usize;
         match slot.checked_sub(self.branches.len()) {
-            None => Part::Branch(slot as u32),
-            Some(group) => self.groups.get(group).map_or(Part::Still, |&group| Part::Pieces(group)),
+            None => SlotContent::Branch(slot as u32),
+            Some(group) => self
+                .groups
+                .get(group)
+                .map_or(SlotContent::Still, |&group| SlotContent::Pieces(group)),
         }
     }
 
     /// A side of these pieces alone.
-    pub(super) fn group(&mut self, pieces: Range<u32>) -> Result<Side, Error> {
+    pub(super) fn group(&mut self, pieces: Range<u32>) -> Result<SlotSide, Error> {
         let len = pieces.len() as u32;
         if len == 0 {
-            return Ok(Side::still(0));
+            return Ok(SlotSide::still(0));
         }
         reserve(&mut self.groups, 1)?;
         self.groups.push(Group { first: pieces.start, len });
-        Ok(Side { slot: GROUP | (self.groups.len() as u32 - 1), len })
+        Ok(SlotSide { slot: GROUP | (self.groups.len() as u32 - 1), len })
     }
 
     /// Hangs something where it belongs.
-    pub(super) fn hang(&mut self, place: Place, side: Side) {
+    pub(super) fn hang(&mut self, place: Place, side: SlotSide) {
         match place {
             Place::Root => self.root = side,
             Place::Front(branch) => self.branches[branch as usize].front = side,
@@ -140,14 +143,14 @@ impl Skeleton {
         let slot = self.branches.len() as u32;
         self.branches.push(branch);
         // Its length is not known before all that hangs on it is.
-        self.hang(place, Side { slot, len: 0 });
+        self.hang(place, SlotSide { slot, len: 0 });
         Ok(slot)
     }
 
     /// Numbers the slots, and computes the lengths of all sides.
     pub(super) fn finish(&mut self) {
         let (groups, last) = (self.branches.len() as u32, self.slots() as u32 - 1);
-        let number = |side: &mut Side| {
+        let number = |side: &mut SlotSide| {
             if side.slot == STILL {
                 side.slot = last;
             } else if side.slot & GROUP != 0 {
@@ -195,7 +198,7 @@ impl Skeleton {
             let pieces = self.group(take(node.own))?;
             let mut side = |skeleton: &mut Self, child| match child {
                 RawChild::Leaf(len) => skeleton.group(take(len)),
-                RawChild::Node => Ok(Side::still(0)),
+                RawChild::Node => Ok(SlotSide::still(0)),
             };
             let (front, back) = (side(self, node.front)?, side(self, node.back)?);
             let plane = node.plane;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::placer::{Placer, Work};
-use super::skeleton::Side;
+use super::skeleton::SlotSide;
 use crate::error::Error;
 use crate::exact::{Exact, ExactStored, Kernel, Vertex};
 use crate::memory::reserve;
@@ -12,7 +12,11 @@ use crate::tree::parts::{Parts, Record};
 impl Work<'_> {
     /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
     /// order.
-    pub(super) fn store_all(&mut self, fragments: Range<u32>, own: usize) -> Result<Side, Error> {
+    pub(super) fn store_all(
+        &mut self,
+        fragments: Range<u32>,
+        own: usize,
+    ) -> Result<SlotSide, Error> {
         let first = self.pieces.records.len() as u32;
         for fragment in fragments {
             let fragment = fragment as usize;

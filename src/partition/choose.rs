@@ -1,9 +1,9 @@
 //! Chooses the planes between cells: medians of samples (J. L. Bentley, "Multidimensional binary search
 //! trees used for associative searching", 1975), along the axis on which these reach furthest.
 
-use super::{Extent, Partition, Subtree, Wall};
+use super::{CellRange, Extent, Partition, Wall};
 use crate::Error;
-use crate::exact::cell::Cell;
+use crate::exact::cell::CellBox;
 use crate::exact::{Faces, LATTICE_LIMIT};
 use crate::faces::{Tolerance, empty_faces};
 use crate::input::Point;
@@ -36,18 +36,18 @@ impl Partition {
 }
 
 /// A subtree to come: where its samples are, and the box that it divides.
-struct Part {
-    subtree: Subtree,
+struct Samples {
+    subtree: CellRange,
     samples: std::ops::Range<usize>,
-    room: Cell,
+    room: CellBox,
 }
 
-fn planes(samples: &mut [[f64; 3]], room: Cell, cells: usize) -> Result<Vec<Wall>, Error> {
+fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Result<Vec<Wall>, Error> {
     let mut planes = Vec::new();
     reserve(&mut planes, cells - 1)?;
-    let subtree = Subtree { plane: 0, cells: 0..cells };
-    let mut parts = vec![Part { subtree, samples: 0..samples.len(), room }];
-    while let Some(Part { subtree, samples: range, room }) = parts.pop() {
+    let subtree = CellRange { plane: 0, cells: 0..cells };
+    let mut parts = vec![Samples { subtree, samples: 0..samples.len(), room }];
+    while let Some(Samples { subtree, samples: range, room }) = parts.pop() {
         let count = subtree.cells.len();
         if count < 2 {
             continue;
@@ -59,15 +59,15 @@ fn planes(samples: &mut [[f64; 3]], room: Cell, cells: usize) -> Result<Vec<Wall
         let [mut back_room, mut front_room] = [room; 2];
         (back_room[1][wall.axis], front_room[0][wall.axis]) = (wall.at, wall.at);
         let [back, front] = subtree.sides();
-        push(&mut parts, Part { subtree: front, samples: behind..range.end, room: front_room })?;
-        push(&mut parts, Part { subtree: back, samples: range.start..behind, room: back_room })?;
+        push(&mut parts, Samples { subtree: front, samples: behind..range.end, room: front_room })?;
+        push(&mut parts, Samples { subtree: back, samples: range.start..behind, room: back_room })?;
     }
     Ok(planes)
 }
 
 /// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, as
 /// that often is a corner, which cuts fewer polygons. The same in whatever order the samples are.
-fn wall(samples: &mut [[f64; 3]], room: &Cell, count: usize) -> Wall {
+fn wall(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> Wall {
     let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for sample in &*samples {
         for axis in 0..3 {
@@ -95,7 +95,7 @@ fn wall(samples: &mut [[f64; 3]], room: &Cell, count: usize) -> Wall {
 }
 
 /// The axis on which a box reaches furthest, the first of equals.
-fn longest([low, high]: &Cell) -> usize {
+fn longest([low, high]: &CellBox) -> usize {
     let length = |axis: usize| high[axis] - low[axis];
     (1..3).fold(0, |best, axis| if length(axis) > length(best) { axis } else { best })
 }

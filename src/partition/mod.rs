@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::exact::cell::{Cell, EVERYWHERE};
+use crate::exact::cell::{CellBox, EVERYWHERE};
 use crate::exact::{Faces, Lattice};
 pub use extent::Extent;
 
@@ -106,12 +106,12 @@ struct Wall {
 
 /// A subtree: its first plane, and its cells.
 #[derive(Clone, Debug)]
-struct Subtree {
+struct CellRange {
     plane: usize,
     cells: Range<usize>,
 }
 
-impl Subtree {
+impl CellRange {
     /// What is behind its plane, and what is in front. There is a plane if there are two cells or more.
     fn sides(&self) -> [Self; 2] {
         let Self { plane, cells } = self;
@@ -152,8 +152,8 @@ impl Partition {
         [outer_low, outer_high]
     }
 
-    fn root(&self) -> Subtree {
-        Subtree { plane: 0, cells: 0..self.cells() }
+    fn root(&self) -> CellRange {
+        CellRange { plane: 0, cells: 0..self.cells() }
     }
 
     /// No faces so far, for those of a cell.
@@ -162,7 +162,7 @@ impl Partition {
     }
 
     /// The box of a cell, in lattice units.
-    fn cell(&self, cell: usize) -> Cell {
+    fn cell(&self, cell: usize) -> CellBox {
         assert!(cell < self.cells(), "cell {cell} of {}", self.cells());
         let (mut found, mut subtree) = (EVERYWHERE, self.root());
         while subtree.cells.len() > 1 {

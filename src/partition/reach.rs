@@ -3,9 +3,9 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{Partition, Subtree, Wall};
+use super::{CellRange, Partition, Wall};
 use crate::exact::LATTICE_LIMIT;
-use crate::exact::cell::Cell;
+use crate::exact::cell::CellBox;
 use crate::input::Polygon;
 
 /// How far beyond its corners a polygon may reach, in tolerances and in steps of the lattice: a corner
@@ -47,7 +47,7 @@ impl Partition {
         }
         let reach = [low.map(|c| c - margin), high.map(|c| c + margin)];
         let mut slot = None;
-        let mut rest: SmallVec<[(Subtree, Cell); 16]> = SmallVec::new();
+        let mut rest: SmallVec<[(CellRange, CellBox); 16]> = SmallVec::new();
         rest.push((self.root(), reach));
         while let Some((subtree, part)) = rest.pop() {
             if subtree.cells.len() == 1 {
@@ -103,7 +103,7 @@ impl Layer {
     }
 
     /// Whether some of a box, which reaches no further than the corners and the margin, is in it.
-    fn meets(&self, [low, high]: &Cell) -> bool {
+    fn meets(&self, [low, high]: &CellBox) -> bool {
         let [low, high] = [low, high].map(|&corner| DVec3::from(corner) - self.from);
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         let (along, reach) = (self.normal.dot(middle), self.normal.abs().dot(half));

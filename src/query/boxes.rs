@@ -18,7 +18,7 @@ pub(super) struct Boxes<'t> {
 /// Boxes count as larger by this share of the largest coordinate: what the direction, its inverse, the
 /// way to a side and the product with it lose is a fourth of that.
 /// Smaller: fragments that are met are passed over. Larger: more are looked at in vain.
-const ROUNDED: f64 = 8.0 * f64::EPSILON;
+const PARAMETER_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// One over the smallest coordinate of a direction that counts.
 const STEEP: f64 = 1e250;
@@ -35,7 +35,7 @@ impl<'t> Boxes<'t> {
         if ![reach, speed].iter().all(|size| SIZES.contains(size)) {
             return None;
         }
-        let slack = ROUNDED * reach;
+        let slack = PARAMETER_ERROR * reach;
         Some(Self {
             bounds,
             origins: probe.origin.map(|c| [c * unit + slack, c * unit - slack]),

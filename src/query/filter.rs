@@ -1,7 +1,7 @@
 //! Where a ray meets a fragment, in floats, where these are certain.
 
 use super::probe::Probe;
-use crate::exact::{Faces, PlaneId, PlaneKind, RoundedNormal};
+use crate::exact::{Faces, Line, PlaneId, PlaneKind, RoundedNormal};
 use crate::tree::Fragment;
 
 /// What floats can say.
@@ -62,6 +62,14 @@ impl RoundedAtRay {
         }
     }
 
+    /// The plane through an edge of a face and along an axis.
+    #[inline]
+    fn edge(probe: &Probe, corners: &[[f64; 3]], line: Line, axis: usize) -> Self {
+        let k = line.as_edge().unwrap_or(0) as usize;
+        let next = if k + 1 == corners.len() { 0 } else { k + 1 };
+        Self::upright(probe, &corners[k], &corners[next], axis)
+    }
+
     /// The plane through two corners and along an axis, in front on the right of the way from one to the
     /// other, seen against the axis.
     #[inline]
@@ -115,11 +123,7 @@ pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Gu
                 let inside = if line.is_behind() { -1.0 } else { 1.0 };
                 (RoundedAtRay::plane(probe, faces, plane), inside)
             }
-            None => {
-                let k = line.as_edge().unwrap_or(0) as usize;
-                let next = if k + 1 == corners.len() { 0 } else { k + 1 };
-                (RoundedAtRay::upright(probe, &corners[k], &corners[next], axis), inwards)
-            }
+            None => (RoundedAtRay::edge(probe, corners, line, axis), inwards),
         };
         let side = (bound.start * slope - bound.slope * start) * inside;
         let error = error * bound.size;

@@ -28,7 +28,7 @@ pub(super) struct Meeting {
 }
 
 /// A parameter that is rounded from the exact one is off by less than this share of it.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
+const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl Depth {
     fn between(spot: Spot, low: f64, high: f64) -> Self {
@@ -38,7 +38,7 @@ impl Depth {
     fn exact(spot: Spot, probe: &mut Probe, faces: &Faces) -> Option<Self> {
         let exact = probe.exact()?;
         let t = Probe::rounded(exact, &spot.parameter(exact, faces));
-        Some(Self::between(spot, t * (1.0 - ROUNDED), t * (1.0 + ROUNDED)))
+        Some(Self::between(spot, t * (1.0 - QUOTIENT_ERROR), t * (1.0 + QUOTIENT_ERROR)))
     }
 
     /// How the depths of two spots of a ray compare: exact.

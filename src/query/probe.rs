@@ -31,7 +31,7 @@ const SPEED_BITS: i32 = 52;
 /// shorter than this share of it lose more of their direction than a thousandth of a rounding.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
 /// So far out, floats and integers may differ by more, because both round.
-const FAR: f64 = (1u128 << 100) as f64;
+const PRECISE_REACH: f64 = (1u128 << 100) as f64;
 
 impl Probe {
     /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
@@ -71,13 +71,13 @@ impl Probe {
             reach,
             speed,
             is_endless: matches!(ray, Ray::Endless { .. }),
-            is_precise: speed >= least && reach < FAR,
+            is_precise: speed >= least && reach < PRECISE_REACH,
         })
     }
 
     /// Whether the beginning is off by no more than one rounding and a thousandth of one.
     pub(super) fn is_near(&self) -> bool {
-        self.reach < FAR
+        self.reach < PRECISE_REACH
     }
 
     /// The ray in integers. Never `None`, as there is a probe.

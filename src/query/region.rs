@@ -15,7 +15,7 @@ use crate::tree::{BLOCK, Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
 pub struct FragmentsIn<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
-    sides: SmallVec<[Side; 6]>,
+    sides: SmallVec<[RegionPlane; 6]>,
     next: u32,
     /// The fragments up to here are inside.
     inside: u32,
@@ -23,7 +23,7 @@ pub struct FragmentsIn<'t> {
 
 /// A plane of a region.
 #[derive(Clone, Debug)]
-struct Side {
+struct RegionPlane {
     exact: ExactHalfSpace,
     /// A box that is behind this has no point in front of the plane or on it.
     outer: HalfSpace,
@@ -44,7 +44,7 @@ impl<'t> FragmentsIn<'t> {
         let side = |&(normal, offset): &(glam::DVec3, f64)| {
             let of = |plane| HalfSpace::new(plane, lattice);
             let exact = ExactHalfSpace::new(normal, offset, lattice)?;
-            Some(Side { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
+            Some(RegionPlane { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
         };
         let sides = region.planes().iter().filter_map(side).collect();
         Self { tree, bounds, sides, next: 0, inside: 0 }

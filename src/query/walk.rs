@@ -23,7 +23,7 @@ pub(super) struct Walk<'t> {
     tree: &'t BspTree,
     boxes: Option<Boxes<'t>>,
     /// The one to be looked at next is on top.
-    pending: SmallVec<[Part; 24]>,
+    pending: SmallVec<[Pending; 24]>,
     /// The ray in units of 2⁵¹ lattice steps, as the tree's planes are given.
     origin: [f64; 3],
     direction: [f64; 3],
@@ -36,7 +36,7 @@ pub(super) struct Walk<'t> {
 
 /// A subtree, or fragments alone, and between which parameters the ray may meet them.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct Pending {
     /// [`LEAF`] for fragments alone.
     node: u32,
     first: u32,
@@ -55,7 +55,7 @@ const LEAF: u32 = u32::MAX;
 const PLANE_ERROR: f64 = 2.2e-7;
 
 /// Rounding of a plane's distance at a point of the ray, as a share of the probe's reach.
-const ROUNDED: f64 = 16.0 * f64::EPSILON;
+const REACH_ERROR: f64 = 16.0 * f64::EPSILON;
 
 impl<'t> Walk<'t> {
     /// The whole tree. With boxes, what the ray passes by is left out.
@@ -68,7 +68,7 @@ impl<'t> Walk<'t> {
             pending: SmallVec::new(),
             origin: probe.origin.map(|c| c * unit),
             direction: probe.direction.map(|c| c * unit),
-            slack: PLANE_ERROR + tolerance + ROUNDED * probe.reach * unit,
+            slack: PLANE_ERROR + tolerance + REACH_ERROR * probe.reach * unit,
             run: 0..0,
             span: [0.0; 2],
         };
@@ -100,8 +100,8 @@ impl<'t> Walk<'t> {
     }
 
     /// Goes down the near side of a subtree to the first fragments, and leaves the rest on the stack.
-    fn descend(&mut self, part: Part, limit: f64) {
-        let Part { mut node, first, end, mut from, mut to, .. } = part;
+    fn descend(&mut self, part: Pending, limit: f64) {
+        let Pending { mut node, first, end, mut from, mut to, .. } = part;
         let mut all = first..end;
         // How many fragments the last box that was looked at has; at first none was.
         let mut boxed = u32::MAX;
@@ -122,11 +122,7 @@ impl<'t> Walk<'t> {
                     return;
                 }
             }
-            let record = &self.tree.nodes[index];
-            let Ranges { own, front, back } = record.ranges(all);
-            let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
-            let (front, back) =
-                ((front, child(record.front_node(index))), (back, child(record.back_node(index))));
+            let (own, [front, back]) = self.divided(index, all);
             let distance = self.distance(index);
             let [begin, end] = [from, to].map(|t| distance.start + distance.slope * t);
             if begin > self.slack && end > self.slack {
@@ -157,6 +153,15 @@ impl<'t> Walk<'t> {
         (self.run, self.span) = (all, [from, to]);
     }
 
+    /// The fragments on a node's plane, and those on its sides, each side with the node that divides it.
+    #[inline]
+    fn divided(&self, node: usize, all: Range<u32>) -> (Range<u32>, [(Range<u32>, u32); 2]) {
+        let record = &self.tree.nodes[node];
+        let Ranges { own, front, back } = record.ranges(all);
+        let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
+        (own, [(front, child(record.front_node(node))), (back, child(record.back_node(node)))])
+    }
+
     /// How far the ray is from a node's plane.
     #[inline]
     fn distance(&self, node: usize) -> Distance {
@@ -171,7 +176,7 @@ impl<'t> Walk<'t> {
         }
         let below = self.pending.last().map_or(f64::INFINITY, |part| part.floor);
         let Range { start: first, end } = fragments;
-        self.pending.push(Part { node, first, end, from, to, floor: from.min(below) });
+        self.pending.push(Pending { node, first, end, from, to, floor: from.min(below) });
     }
 
     /// The parameters between which the ray is where corners can be; `None` if it never is.

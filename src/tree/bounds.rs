@@ -45,7 +45,7 @@ pub struct Bounds {
 }
 
 /// How many fragments one thread takes at a time: whole blocks.
-const PART: usize = 256 * BLOCK;
+const FRAGMENTS_A_THREAD: usize = 256 * BLOCK;
 
 /// A cut vertex is within three roundings of its exact position, each at most this share of a
 /// coordinate, and `STEP` lattice units, which is more than `POSITION_OFF`.
@@ -113,9 +113,9 @@ impl BspTree {
     fn fragment_bounds(&self) -> Result<Vec<Block>, Error> {
         let mut blocks = Vec::new();
         reserve(&mut blocks, self.len().div_ceil(BLOCK))?;
-        let starts = (0..self.len()).step_by(PART);
+        let starts = (0..self.len()).step_by(FRAGMENTS_A_THREAD);
         let parts = parallel_map::map(starts.collect(), |start| {
-            let end = (start + PART).min(self.len());
+            let end = (start + FRAGMENTS_A_THREAD).min(self.len());
             let boxes =
                 |first: usize| (first..end).map(|number| self.fragment(number as u32).bounds());
             collect((start..end).step_by(BLOCK).map(|first| Block::new(boxes(first))))

@@ -12,6 +12,7 @@ use super::bounds::normals::Arms;
 use super::node_record::Ranges;
 use super::order::eye_sides::View;
 use super::order::indices::write_from_nodes;
+use crate::bits::bits;
 use crate::exact::{Eye, PlaneId};
 use crate::frustum::Frustum;
 use crate::viewpoint::Viewpoint;
@@ -135,7 +136,7 @@ const LONG: usize = 64 * BLOCK;
 
 /// A subtree, or fragments alone.
 #[derive(Clone, Debug)]
-struct Part {
+struct Listed {
     /// None for fragments alone.
     nodes: Range<u32>,
     fragments: Range<u32>,
@@ -178,14 +179,14 @@ impl<'t> Cull<'t> {
     fn write(&self, order: &mut Vec<u32>) {
         let nodes = 0..self.tree.nodes.len() as u32;
         let fragments = 0..self.tree.len() as u32;
-        let mut pending = vec![Part { nodes, fragments, is_mixed: self.side.is_some() }];
+        let mut pending = vec![Listed { nodes, fragments, is_mixed: self.side.is_some() }];
         while let Some(part) = pending.pop() {
             self.descend(part, &mut pending, order);
         }
     }
 
     /// Writes the furthest fragments of a part, and puts the rest on the stack.
-    fn descend(&self, mut part: Part, pending: &mut Vec<Part>, order: &mut Vec<u32>) {
+    fn descend(&self, mut part: Listed, pending: &mut Vec<Listed>, order: &mut Vec<u32>) {
         while self.marks.any(&part.fragments) {
             if part.nodes.is_empty() {
                 return self.write_run(&part, order);
@@ -208,7 +209,7 @@ impl<'t> Cull<'t> {
             let record = &self.tree.nodes[node];
             let Ranges { own, front, back } = record.ranges(part.fragments);
             let middle = part.nodes.start + 1 + record.front_nodes;
-            let of = |nodes, fragments| Part { nodes, fragments, is_mixed: part.is_mixed };
+            let of = |nodes, fragments| Listed { nodes, fragments, is_mixed: part.is_mixed };
             let front = of(part.nodes.start + 1..middle, front);
             let back = of(middle..part.nodes.end, back);
             let is_in_front = self.view.is_in_front(self.tree, node);
@@ -224,7 +225,7 @@ impl<'t> Cull<'t> {
     }
 
     /// Writes those of a small subtree that are not left out.
-    fn write_few(&self, part: Part, order: &mut Vec<u32>) {
+    fn write_few(&self, part: Listed, order: &mut Vec<u32>) {
         let mut shown = self.marks.of_few(&part.fragments);
         if part.is_mixed {
             shown = self.show_side(part.fragments.clone(), shown);
@@ -245,7 +246,7 @@ impl<'t> Cull<'t> {
     }
 
     /// Writes those of some fragments alone that are not left out.
-    fn write_run(&self, part: &Part, order: &mut Vec<u32>) {
+    fn write_run(&self, part: &Listed, order: &mut Vec<u32>) {
         for (first, mut shown) in self.marks.words(&part.fragments) {
             if part.is_mixed {
                 let end = part.fragments.end.min(first + BLOCK as u32);
@@ -256,10 +257,7 @@ impl<'t> Cull<'t> {
                     .extend_from_slice(&std::array::from_fn::<u32, BLOCK, _>(|k| first + k as u32));
                 continue;
             }
-            while shown != 0 {
-                order.push(first + shown.trailing_zeros());
-                shown &= shown - 1;
-            }
+            order.extend(bits(shown.into()).map(|bit| first + bit as u32));
         }
     }
 
@@ -268,12 +266,8 @@ impl<'t> Cull<'t> {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
         let mut shown = fragments & if side.is_gt() { fronts } else { backs };
-        let mut left = fragments & !(fronts | backs);
-        while left != 0 {
-            let bit = left.trailing_zeros();
-            // Clears the lowest bit that is set.
-            left &= left - 1;
-            let face = self.tree.records[(run.start + bit) as usize].face;
+        for bit in bits((fragments & !(fronts | backs)).into()) {
+            let face = self.tree.records[run.start as usize + bit].face;
             let facing = self.tree.faces.plane(PlaneId::face(face)).facing(&self.eye);
             shown |= u32::from(facing == side) << bit;
         }

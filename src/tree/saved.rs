@@ -132,22 +132,8 @@ impl BspTree {
         let faces = Faces::read(&mut file, if flags & OF_CELL > 0 { 2 } else { 0 })?;
         let (mut preparation, dropped) = read_preparation(&mut file)?;
         let cuts = file.count("cuts", MOST_FRAGMENTS)?;
-        let pair = |bytes: &[u8; 8]| [u32_at(bytes, 0), u32_at(bytes, 4)];
         let nodes = file.list("nodes", MOST_FRAGMENTS, pair)?;
-        let mut vertices = 0_u64;
-        let records = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 8]| {
-            let [face, len] = pair(bytes);
-            let record = Record { face, vertices: u32::try_from(vertices).unwrap_or(u32::MAX) };
-            vertices += u64::from(len);
-            record
-        })?;
-        if vertices > u64::from(u32::MAX) {
-            return Err(LoadError::too_many("vertices", vertices, u32::MAX.into()));
-        }
-        let vertices = file.items("vertices", vertices as usize, |bytes: &[u8; 12]| {
-            let symbol = Symbol::from_bits([u32_at(bytes, 0), u32_at(bytes, 4)]);
-            ExactStored::new(symbol, Line::from_bits(u32_at(bytes, 8)))
-        })?;
+        let (records, vertices) = read_records(&mut file)?;
         file.finish()?;
         // Only now is it known that nothing is damaged: what is wrong from here on was written so.
         if flags > FOR_ONE_VIEW + OF_CELL {
@@ -191,6 +177,31 @@ impl BspTree {
         file.f64(found.flattened_by)?;
         file.f64(found.bent_by)
     }
+}
+
+fn pair(bytes: &[u8; 8]) -> [u32; 2] {
+    [u32_at(bytes, 0), u32_at(bytes, 4)]
+}
+
+/// The fragments, and the vertices of those that were cut.
+fn read_records(
+    file: &mut Reader<impl Read>,
+) -> Result<(Vec<Record>, Vec<ExactStored>), LoadError> {
+    let mut vertices = 0_u64;
+    let records = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 8]| {
+        let [face, len] = pair(bytes);
+        let record = Record { face, vertices: u32::try_from(vertices).unwrap_or(u32::MAX) };
+        vertices += u64::from(len);
+        record
+    })?;
+    if vertices > u64::from(u32::MAX) {
+        return Err(LoadError::too_many("vertices", vertices, u32::MAX.into()));
+    }
+    let vertices = file.items("vertices", vertices as usize, |bytes: &[u8; 12]| {
+        let symbol = Symbol::from_bits([u32_at(bytes, 0), u32_at(bytes, 4)]);
+        ExactStored::new(symbol, Line::from_bits(u32_at(bytes, 8)))
+    })?;
+    Ok((records, vertices))
 }
 
 /// What became of the polygons, but for how many there were, and the polygons that were dropped.

@@ -4,12 +4,11 @@ use super::BspTree;
 use super::walk::Walk;
 use crate::exact::{Plane, PlaneId};
 
-/// Statistics of a tree: [`BspTree::stats`].
+/// Statistics of a tree: [`BspTree::stats`]. What became of its polygons before they were divided is in
+/// [`BspTree::preparation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stats {
-    /// Polygons in the input.
-    pub polygons: usize,
     /// Convex faces: polygons, and the triangles of polygons that were triangulated;
     /// [`BspTree::face_count`].
     pub faces: usize,
@@ -25,25 +24,8 @@ pub struct Stats {
     pub splits: usize,
     /// The size of the tree in bytes: [`BspTree::bytes`].
     pub bytes: usize,
-    /// Polygons without area, which were dropped.
-    pub dropped: usize,
-    /// Polygons with the same corners as an earlier one; they are kept.
-    pub duplicates: usize,
-    /// Polygons that were triangulated.
-    pub triangulated: usize,
-    /// Of these, polygons that cross themselves.
-    pub crossing: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// Polygons that the tolerance made planar; see [`Preparation::flattened`](crate::Preparation::flattened).
-    pub flattened: usize,
-    /// How far their corners were off at most, a length.
-    pub flattened_by: f64,
-    /// Polygons that are bent by more than the tolerance, but by no more than a rounding; see
-    /// [`Preparation::bent`](crate::Preparation::bent).
-    pub bent: usize,
-    /// How far their corners are off at most, a length.
-    pub bent_by: f64,
     /// Faces that the tolerance alone made coplanar with a partition plane: the order of those on
     /// one plane is that of the input.
     pub nearly_coplanar: usize,
@@ -71,9 +53,7 @@ impl BspTree {
         }
         let fragments = self.len();
         let lattice = self.faces.lattice();
-        let found = &self.preparation;
         Stats {
-            polygons: found.polygons,
             faces: self.faces.len(),
             fragments,
             nodes: self.nodes.len(),
@@ -81,15 +61,7 @@ impl BspTree {
             depth_mean: depth_sum as f64 / fragments.max(1) as f64,
             splits: self.cuts,
             bytes: self.bytes(),
-            dropped: found.dropped,
-            duplicates: found.duplicates,
-            crossing: found.crossing,
-            triangulated: found.triangulated,
             tolerance: lattice.length_to_world(self.faces.tolerance()),
-            flattened: found.flattened,
-            flattened_by: found.flattened_by,
-            bent: found.bent,
-            bent_by: found.bent_by,
             nearly_coplanar: is_near.into_iter().filter(|&is_near| is_near).count(),
             nearly_coplanar_by: lattice.length_to_world(nearly_coplanar_by),
         }

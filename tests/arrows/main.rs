@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// What every layer may import.
 const GROUND: [&str; 10] = [
+    "bits",
     "error",
     "frustum",
     "input",
@@ -23,7 +24,6 @@ const GROUND: [&str; 10] = [
     "random",
     "ray",
     "save",
-    "threads",
     "viewpoint",
 ];
 

@@ -235,25 +235,25 @@ fn what_is_bent_flattened_or_nearly_coplanar_is_counted_and_measured() {
     let near = |found: f64, expected: f64| {
         assert!((found - expected).abs() <= 1e-3 * expected, "{found}, not {expected}");
     };
-    let stats = |tolerance, polygons: &[[DVec3; 4]]| {
+    let build = |tolerance, polygons: &[[DVec3; 4]]| {
         // The first of all that are left is the next plane.
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
-        options.with_tolerance(tolerance).build(polygons).unwrap().stats()
+        options.with_tolerance(tolerance).build(polygons).unwrap()
     };
     let quads = [quad(0.0), quad(3e-7), quad(2e-6), quad(0.5)];
-    let found = stats(1e-6, &quads);
+    let found = *build(1e-6, &quads).preparation();
     assert_eq!((found.flattened, found.bent, found.triangulated), (1, 1, 2));
     near(found.flattened_by, 3e-7);
     near(found.bent_by, 2e-6);
-    let found = stats(0.0, &quads);
+    let found = *build(0.0, &quads).preparation();
     assert_eq!((found.flattened, found.flattened_by, found.bent), (0, 0.0, 2));
     near(found.bent_by, 2e-6);
 
     let level = |z: f64| quad(0.0).map(|corner| corner + DVec3::Z * z);
     let layers = [level(0.0), level(1e-7), level(0.0), level(1.0)];
-    let found = stats(1e-6, &layers);
+    let found = build(1e-6, &layers).stats();
     assert_eq!(found.nearly_coplanar, 1);
     near(found.nearly_coplanar_by, 1e-7);
-    let found = stats(1e-8, &layers);
+    let found = build(1e-8, &layers).stats();
     assert_eq!((found.nearly_coplanar, found.nearly_coplanar_by), (0, 0.0));
 }

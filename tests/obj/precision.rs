@@ -40,13 +40,14 @@ fn it_is_four_units_in_the_last_decimal() {
 fn quads_that_only_the_decimals_bend_stay_whole() {
     let (scene, _) = layers(60, 1000.0, |c| format!("{c:.6}"));
     assert_eq!(scene.precision(), 4e-6);
-    let stats = BspTree::build(scene.polygons()).unwrap().stats();
-    assert!(stats.flattened > 40, "{stats:?}");
-    assert!(stats.triangulated == 0, "{stats:?}");
+    let prepared = *BspTree::build(scene.polygons()).unwrap().preparation();
+    assert!(prepared.flattened > 40, "{prepared:?}");
+    assert!(prepared.triangulated == 0, "{prepared:?}");
     // Of the same numbers, as if they were exact, most are triangulated.
     let exact: Vec<Vec<DVec3>> = scene.polygons().map(|polygon| polygon.to_vec()).collect();
-    let stats = BspTree::build(&exact).unwrap().stats();
-    assert!(stats.triangulated > 30 && stats.bent == stats.triangulated, "{stats:?}");
+    let prepared = *BspTree::build(&exact).unwrap().preparation();
+    assert!(prepared.triangulated > 30, "{prepared:?}");
+    assert_eq!(prepared.bent, prepared.triangulated);
 }
 
 /// Ways that files write six decimals: as they are, filled up with zeros, and with a stray here and
@@ -78,8 +79,8 @@ fn neither_zeros_at_the_end_nor_strays_raise_it() {
     for (k, write) in writers().iter().enumerate() {
         let (scene, _) = layers(60, 1000.0, write);
         assert_eq!(scene.precision(), 4e-6, "{k}");
-        let stats = BspTree::build(scene.polygons()).unwrap().stats();
-        assert!(stats.flattened > 40 && stats.triangulated == 0, "{k}: {stats:?}");
+        let prepared = *BspTree::build(scene.polygons()).unwrap().preparation();
+        assert!(prepared.flattened > 40 && prepared.triangulated == 0, "{k}: {prepared:?}");
     }
 }
 

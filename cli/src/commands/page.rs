@@ -53,7 +53,7 @@ fn figures(made: &Made) -> Vec<(String, String)> {
     let heuristic = made.heuristic.map_or("from a file".to_owned(), |built| built.to_string());
     let seconds = if made.heuristic.is_some() { "built in" } else { "read in" };
     let rows = [
-        ("polygons", stats.polygons.to_string()),
+        ("polygons", made.tree.preparation().polygons.to_string()),
         ("fragments", stats.fragments.to_string()),
         ("cuts", stats.splits.to_string()),
         ("nodes", stats.nodes.to_string()),

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use binspace::scene::Scene;
-use binspace::{BspTree, Heuristic, Stats};
+use binspace::{BspTree, Heuristic, Preparation, Stats};
 use serde::Serialize;
 
 use super::Outcome;
@@ -28,6 +28,7 @@ struct Figures {
     heuristic: Option<Heuristic>,
     /// The number of the cell that it is of.
     cell: Option<usize>,
+    prepared: Preparation,
     stats: Stats,
     /// The time to build the tree, or to read it.
     build_seconds: f64,
@@ -68,6 +69,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         let figures = Figures {
             heuristic: Some(heuristic),
             cell: None,
+            prepared: *tree.preparation(),
             stats: tree.stats(),
             build_seconds: seconds,
             order_nanoseconds: order_nanoseconds(&tree, &scene),
@@ -93,6 +95,7 @@ fn of_file(
     let figures = Figures {
         heuristic: None,
         cell: None,
+        prepared: *tree.preparation(),
         stats: tree.stats(),
         build_seconds: seconds,
         order_nanoseconds: order_nanoseconds(tree, scene),
@@ -111,6 +114,7 @@ fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
         let figures = Figures {
             heuristic: None,
             cell: Some(number),
+            prepared: *cell.tree.preparation(),
             stats: cell.tree.stats(),
             build_seconds: begin.elapsed().as_secs_f64(),
             order_nanoseconds: order_nanoseconds(&cell.tree, &cell.scene),
@@ -139,21 +143,21 @@ fn show(args: &StatsArgs, scene: &Scene, figures: &Figures, is_first: bool) -> R
     }
     let table = table();
     if is_first {
-        say(title(scene, &figures.stats))?;
+        say(title(scene, figures))?;
         say(styled(HEAD, table.head()))?;
     }
     say(row(&table, figures))
 }
 
-fn title(scene: &Scene, stats: &Stats) -> String {
+fn title(scene: &Scene, Figures { prepared, stats, .. }: &Figures) -> String {
     format!(
         "{}: {}, {}; {} dropped, {} triangulated, {}",
         styled(HEAD, scene.name()),
-        count(stats.polygons, "polygon"),
+        count(prepared.polygons, "polygon"),
         count(stats.faces, "face"),
-        stats.dropped,
-        stats.triangulated,
-        count(stats.duplicates, "duplicate"),
+        prepared.dropped,
+        prepared.triangulated,
+        count(prepared.duplicates, "duplicate"),
     )
 }
 
@@ -234,11 +238,11 @@ struct Line {
 }
 
 fn json(figures: &Figures) -> Result<String, Failure> {
-    let stats = &figures.stats;
+    let Figures { prepared, stats, .. } = figures;
     let line = Line {
         heuristic: figures.heuristic.map(|heuristic| heuristic.to_string()),
         cell: figures.cell,
-        polygons: stats.polygons,
+        polygons: prepared.polygons,
         faces: stats.faces,
         fragments: stats.fragments,
         nodes: stats.nodes,
@@ -248,15 +252,15 @@ fn json(figures: &Figures) -> Result<String, Failure> {
         build_seconds: figures.build_seconds,
         order_ns_per_fragment: figures.order_nanoseconds,
         bytes: stats.bytes,
-        dropped: stats.dropped,
-        triangulated: stats.triangulated,
-        duplicates: stats.duplicates,
-        crossing: stats.crossing,
+        dropped: prepared.dropped,
+        triangulated: prepared.triangulated,
+        duplicates: prepared.duplicates,
+        crossing: prepared.crossing,
         tolerance: stats.tolerance,
-        flattened: stats.flattened,
-        flattened_by: stats.flattened_by,
-        bent: stats.bent,
-        bent_by: stats.bent_by,
+        flattened: prepared.flattened,
+        flattened_by: prepared.flattened_by,
+        bent: prepared.bent,
+        bent_by: prepared.bent_by,
         nearly_coplanar: stats.nearly_coplanar,
         nearly_coplanar_by: stats.nearly_coplanar_by,
     };

@@ -3,8 +3,8 @@
 use std::mem::take;
 
 use super::state::{Builder, COMPACT};
-use crate::Error;
 use crate::build::job::Job;
+use crate::error::{Error, Limit};
 use crate::exact::Kernel;
 use crate::memory::collect;
 
@@ -25,7 +25,7 @@ impl<K: Kernel> Builder<'_, K> {
         self.compact_at = COMPACT.max(2 * self.arena.len());
         // Pieces index their vertices with 32 bits.
         let limit = self.shared.options.max_fragments;
-        if self.arena.len() > 1 << 31 { Err(Error::fragments(limit)) } else { Ok(()) }
+        if self.arena.len() > 1 << 31 { Err(Limit::Fragments(limit).error()) } else { Ok(()) }
     }
 
     /// Removes the set on top of the stack and gives it an arena of its own.

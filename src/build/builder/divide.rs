@@ -3,7 +3,7 @@
 use super::state::Builder;
 use crate::Error;
 use crate::build::live::Live;
-use crate::build::progress::AT_ONCE;
+use crate::build::progress::PIECES_AT_ONCE;
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::reserve;
 
@@ -19,7 +19,7 @@ impl<K: Kernel> Builder<'_, K> {
         let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
         self.scratch.sides.clear();
         reserve(&mut self.scratch.sides, self.pieces.len() - start)?;
-        for pieces in self.pieces[start..].chunks(AT_ONCE) {
+        for pieces in self.pieces[start..].chunks(PIECES_AT_ONCE) {
             self.shared.rules.watch.work(pieces.len())?;
             self.scratch.sides.extend(pieces.iter().map(side));
         }

@@ -40,7 +40,6 @@ impl<K: Kernel> Builder<'_, K> {
         let (back_child, front_child) = (child(back_is_leaf, back), child(front_is_leaf, front));
         let node = RawNode { plane, own: own as u32, front: front_child, back: back_child };
         self.output.push_node(node)?;
-        let arena = self.arena.len();
         // The back goes below the front, so that the front is built first, as nodes stand depth first.
         if !back_is_leaf {
             // The back is handed over because it is on top of the stack just now; this thread goes on
@@ -50,20 +49,24 @@ impl<K: Kernel> Builder<'_, K> {
                 false => None,
             };
             let range = start..self.pieces.len();
-            push(&mut self.pending, Pending { job, ..Pending::new(range, arena, depth) })?;
+            let back = Pending::new(range, self.arena.len(), depth);
+            push(&mut self.pending, Pending { job, ..back })?;
         }
-        if !front_is_leaf {
-            let start = self.pieces.len();
-            // An empty stack takes the list as it is, so that a large set is not in memory twice.
-            if start == 0 {
-                std::mem::swap(&mut self.pieces, &mut self.scratch.front);
-            } else {
-                reserve(&mut self.pieces, front)?;
-                self.pieces.extend_from_slice(&self.scratch.front);
-            }
-            push(&mut self.pending, Pending::new(start..self.pieces.len(), arena, depth))?;
+        if front_is_leaf { Ok(()) } else { self.push_front(depth) }
+    }
+
+    /// Puts the pieces in `scratch.front` on the stack.
+    fn push_front(&mut self, depth: usize) -> Result<(), Error> {
+        let start = self.pieces.len();
+        // An empty stack takes the list as it is, so that a large set is not in memory twice.
+        if start == 0 {
+            std::mem::swap(&mut self.pieces, &mut self.scratch.front);
+        } else {
+            reserve(&mut self.pieces, self.scratch.front.len())?;
+            self.pieces.extend_from_slice(&self.scratch.front);
         }
-        Ok(())
+        let front = Pending::new(start..self.pieces.len(), self.arena.len(), depth);
+        push(&mut self.pending, front)
     }
 
     /// Writes one node for each layer of pieces that is peeled off a set, and puts the rest of the set

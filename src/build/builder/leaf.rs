@@ -10,8 +10,8 @@ pub(super) fn is_leaf(pieces: &[Live]) -> bool {
     pieces.len() <= 1
 }
 
-/// As above, of a set of slots.
-pub(super) fn is_small_leaf(set: u64) -> bool {
+/// As above, of a set of slots of a table.
+pub(super) fn is_leaf_of_table(set: u64) -> bool {
     set.count_ones() <= 1
 }
 

@@ -70,12 +70,3 @@ impl<K: Kernel> Default for Table<K> {
         Self { slots: vec![], free: 0, planes: vec![], sets: vec![] }
     }
 }
-
-/// The slots of a set.
-pub(super) fn slots(mut set: u64) -> impl Iterator<Item = usize> + Clone {
-    std::iter::from_fn(move || {
-        let slot = (set != 0).then(|| set.trailing_zeros() as usize)?;
-        set &= set - 1;
-        Some(slot)
-    })
-}

@@ -1,10 +1,11 @@
 //! Small sets, divided down to the leaves from a table of where each piece lies against each plane.
 
-use super::leaf::is_small_leaf;
+use super::leaf::is_leaf_of_table;
 use super::state::{Builder, Pending, Shared};
-use super::table::{Open, Row, SLOTS, Slot, slots};
+use super::table::{Open, Row, SLOTS, Slot};
 use crate::Error;
-use crate::build::choose::{Best, Places, Quick, Rules, Set};
+use crate::bits::bits;
+use crate::build::choose::{Best, Quick, Rules, Set, cross};
 use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::{push, reserve};
@@ -35,7 +36,7 @@ impl<K: Kernel> Builder<'_, K> {
             let mut sides = [set & row.front & !spanning, set & row.back & !spanning];
             // Those on the plane are done with.
             let left = set & (row.front | row.back);
-            for slot in slots(spanning) {
+            for slot in bits(spanning) {
                 let parts = self.cut_slot(slot, left, &row.splitter)?;
                 sides[0] |= 1 << parts[0];
                 sides[1] |= 1 << parts[1];
@@ -77,20 +78,28 @@ impl<K: Kernel> Builder<'_, K> {
     /// free plane that cuts nothing, or the best of its own. (Where an own plane cannot be trusted, free
     /// planes come first.)
     fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row<K>, Error> {
+        let (own, ends_search) = self.best_own_of_table(set, quick)?;
+        if ends_search {
+            return Ok(own);
+        }
+        Ok(self.free_of_table(set)?.unwrap_or(own))
+    }
+
+    /// The best own plane of a set, and whether no free plane is better.
+    fn best_own_of_table(&mut self, set: u64, quick: &Quick) -> Result<(Row<K>, bool), Error> {
         let (kernel, faces) = (self.shared.kernel, self.shared.faces);
         let table = &mut self.table;
-        let pieces = slots(set).map(|slot| &table.slots[slot].piece);
+        let pieces = bits(set).map(|slot| &table.slots[slot].piece);
         let Rules { tuning, watch, .. } = self.shared.rules;
         let mut best: Option<Best> = None;
-        let places = Places::<K>::new(faces, &self.arena);
-        for slot in slots(set) {
+        for slot in bits(set) {
             let Slot { piece, row } = &table.slots[slot];
             let plane = &mut table.planes[*row];
             let unknown = set & !plane.known;
             if unknown != 0 {
                 watch.work(unknown.count_ones() as usize)?;
             }
-            for other in slots(unknown) {
+            for other in bits(unknown) {
                 let piece = table.slots[other].piece.piece(&self.arena);
                 plane.set(other, kernel.classify(faces, &plane.splitter, piece));
             }
@@ -98,39 +107,38 @@ impl<K: Kernel> Builder<'_, K> {
             // What crosses the piece has to be cut anyway, or the piece.
             if cut != 0
                 && cut.count_ones() as usize <= quick.crossings
-                && slots(cut).all(|cut| places.cross(piece, &table.slots[cut].piece))
+                && bits(cut).all(|cut| cross(faces, &self.arena, piece, &table.slots[cut].piece))
             {
-                return Ok(*plane);
+                return Ok((*plane, true));
             }
             let best = best.get_or_insert_with(|| Best::new(pieces.clone(), faces, tuning, quick));
             best.see(slot, piece, [set & plane.front, set & plane.back]);
-            if best.is_good() {
+            if best.is_even() {
                 break;
             }
         }
         let first = set.trailing_zeros() as usize;
         let own = table.planes[table.slots[best.as_ref().map_or(first, Best::slot)].row];
-        if best.is_some_and(|best| best.is_sure()) {
-            return Ok(own);
-        }
+        Ok((own, best.is_some_and(|best| best.cuts_nothing())))
+    }
+
+    /// A free plane that cuts nothing of a set.
+    fn free_of_table(&mut self, set: u64) -> Result<Option<Row<K>>, Error> {
         let Shared { kernel, faces, rules, .. } = self.shared;
         let listed = &mut self.scratch.own;
         listed.clear();
-        listed.extend(slots(set).map(|slot| table.slots[slot].piece));
-        let free = {
-            let set = Set::new(kernel, faces, listed, &self.arena);
-            self.chooser.clean(rules, &set)?
-        };
-        let Some(plane) = free else { return Ok(own) };
+        listed.extend(bits(set).map(|slot| self.table.slots[slot].piece));
+        let pieces = Set::new(kernel, faces, listed, &self.arena);
+        let Some(plane) = self.chooser.clean(rules, &pieces)? else { return Ok(None) };
         let mut row = Row::new(plane, kernel.splitter(faces, plane));
-        for slot in slots(set) {
-            let piece = table.slots[slot].piece.piece(&self.arena);
+        for slot in bits(set) {
+            let piece = self.table.slots[slot].piece.piece(&self.arena);
             row.set(slot, kernel.classify(faces, &row.splitter, piece));
         }
         // Free planes are found by rounded distances, so exact decisions can show that one separates
         // nothing.
         let separates = set & !row.front != 0 && set & !row.back != 0;
-        Ok(if separates { row } else { own })
+        Ok(separates.then_some(row))
     }
 
     /// Cuts the piece in a slot, and gives the slots of its parts, the one in front first.
@@ -151,8 +159,8 @@ impl<K: Kernel> Builder<'_, K> {
         table.slots[slot].piece = front;
         table.slots[other] = Slot { piece: back, ..whole };
         // Only the planes of pieces that are left in the set will be asked for.
-        let asked = slots(set).fold(0u64, |rows, slot| rows | 1 << table.slots[slot].row);
-        for row in slots(asked) {
+        let asked = bits(set).fold(0u64, |rows, slot| rows | 1 << table.slots[slot].row);
+        for row in bits(asked) {
             let row = &mut table.planes[row];
             row.known &= !(1 << other);
             if row.known >> slot & 1 == 0 {
@@ -179,22 +187,22 @@ impl<K: Kernel> Builder<'_, K> {
     ) -> Result<(), Error> {
         let listed = &mut self.scratch.own;
         listed.clear();
-        listed.extend(slots(own).map(|slot| self.table.slots[slot].piece));
+        listed.extend(bits(own).map(|slot| self.table.slots[slot].piece));
         listed.sort_unstable_by_key(Live::rank);
         let own_len = listed.len() as u32;
         (0..listed.len()).try_for_each(|i| self.store(self.scratch.own[i]))?;
         self.table.free |= own;
         let children = sides.map(|side| {
-            if is_small_leaf(side) { RawChild::Leaf(side.count_ones()) } else { RawChild::Node }
+            if is_leaf_of_table(side) { RawChild::Leaf(side.count_ones()) } else { RawChild::Node }
         });
-        for side in sides.into_iter().filter(|&side| is_small_leaf(side)) {
-            slots(side).try_for_each(|slot| self.store(self.table.slots[slot].piece))?;
+        for side in sides.into_iter().filter(|&side| is_leaf_of_table(side)) {
+            bits(side).try_for_each(|slot| self.store(self.table.slots[slot].piece))?;
             self.table.free |= side;
         }
         let [front, back] = children;
         self.output.push_node(RawNode { plane: row.plane, own: own_len, front, back })?;
         // The front comes off first, as nodes stand depth first.
-        let kept = sides.into_iter().rev().filter(|&side| !is_small_leaf(side));
+        let kept = sides.into_iter().rev().filter(|&side| !is_leaf_of_table(side));
         self.table.sets.extend(kept.map(|set| Open { set, depth }));
         Ok(())
     }
@@ -206,7 +214,7 @@ impl<K: Kernel> Builder<'_, K> {
             let Open { set, depth } = self.table.sets[i];
             let start = self.pieces.len();
             reserve(&mut self.pieces, set.count_ones() as usize)?;
-            self.pieces.extend(slots(set).map(|slot| self.table.slots[slot].piece));
+            self.pieces.extend(bits(set).map(|slot| self.table.slots[slot].piece));
             push(&mut self.pending, Pending::new(start..self.pieces.len(), arena, depth))?;
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
 use super::cost::{Candidate, Terms};
-use super::free::Sweep;
+use super::free::FreePlanes;
 use super::own::Contest;
 use super::peel::{Peeler, arrange};
 use super::quick::{Middle, even_plane};
@@ -12,13 +12,13 @@ use super::sketch::LANES;
 use super::tuning::Tuning;
 use crate::Error;
 use crate::build::live::Live;
-use crate::build::progress::AT_ONCE;
+use crate::build::progress::PIECES_AT_ONCE;
 use crate::exact::{Kernel, PlaneId, Side};
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
 #[derive(Debug, Default)]
 pub(super) struct Auto {
-    sweep: Sweep,
+    pub(super) free: FreePlanes,
     sample: Sample,
     contest: Contest,
     peeler: Peeler,
@@ -51,9 +51,9 @@ impl Auto {
             return Ok(Choice::Split(plane));
         }
         let free = if set.len() < tuning.clean_below {
-            self.sweep.clean(set, tuning)?
+            self.free.clean(set, tuning)?
         } else {
-            self.sweep.best(set, tuning, watch)?
+            self.free.best(set, tuning, watch)?
         };
         if let Some(free) = free
             && !free.cost.cuts
@@ -64,7 +64,7 @@ impl Auto {
             let middle = Middle::of(set, &quick);
             if !matches!(middle, Middle::Taken)
                 && set.len() >= tuning.clean_below
-                && let Some(gap) = self.sweep.clean(set, tuning)?
+                && let Some(gap) = self.free.clean(set, tuning)?
             {
                 // Through a corner that was cut off: only sorting finds it.
                 return Ok(Choice::Split(gap.plane));
@@ -154,7 +154,7 @@ impl Auto {
             sketch.clear();
             let arranged = arrange(set, tuning.groups_per_box)?;
             watch.work(set.len())?;
-            for part in arranged.chunks(AT_ONCE) {
+            for part in arranged.chunks(PIECES_AT_ONCE) {
                 sketch.extend(set, part.iter().copied())?;
                 watch.work(part.len())?;
             }

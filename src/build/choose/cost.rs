@@ -63,8 +63,7 @@ impl Cost {
     }
 
     pub(super) fn is_less(&self, other: &Self) -> bool {
-        (self.cuts, other.cuts) == (false, true)
-            || self.cuts == other.cuts && self.amount < other.amount
+        self.cmp(other).is_lt()
     }
 }
 

@@ -10,16 +10,17 @@
 //! | `peel` | which pieces are taken off one after the other, cutting nothing |
 //! | `sample`, `sketch` | with which pieces planes are compared, and on which side these are, rounded |
 //! | `scored` | the heuristics that count what each own plane does to all pieces |
-//! | `set`, `places` | what is known of a set and of its pieces |
+//! | `set` | what is known of a set and of its pieces |
+//! | `crossing` | whether two pieces cross |
 //! | `rules` | what the chooser is told, and what it answers |
 //! | `tuning` | the numbers |
 
 mod auto;
 mod cost;
+mod crossing;
 mod free;
 mod own;
 mod peel;
-mod places;
 mod quick;
 mod rules;
 mod sample;
@@ -35,9 +36,8 @@ use crate::Error;
 use crate::exact::{Kernel, PlaneId};
 use crate::random::mix;
 use auto::Auto;
-use free::Sweep;
+pub(super) use crossing::cross;
 pub(super) use peel::Peeled;
-pub(super) use places::Places;
 pub(super) use quick::Best;
 pub(super) use rules::{Choice, MOST_IN_TABLE, Rules};
 use scored::Scored;
@@ -47,7 +47,6 @@ pub use tuning::{Quick, Tuning};
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]
 pub(super) struct Chooser {
-    sweep: Sweep,
     scored: Scored,
     auto: Auto,
 }
@@ -87,7 +86,7 @@ impl Chooser {
                 if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
                     return Ok(Choice::Split(plane));
                 }
-                let free = self.sweep.best(set, rules.tuning, rules.watch)?;
+                let free = self.auto.free.best(set, rules.tuning, rules.watch)?;
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
@@ -100,7 +99,7 @@ impl Chooser {
         rules: &Rules<'_>,
         set: &Set<'_, K>,
     ) -> Result<Option<PlaneId>, Error> {
-        Ok(self.sweep.clean(set, rules.tuning)?.map(|free| free.plane))
+        Ok(self.auto.free.clean(set, rules.tuning)?.map(|free| free.plane))
     }
 
     /// The own plane of least weighted sum.

@@ -27,7 +27,7 @@ pub(in crate::build) struct Best {
     cost: Cost,
     slot: usize,
     is_trusted: bool,
-    is_good: bool,
+    is_even: bool,
     uneven: usize,
 }
 
@@ -60,7 +60,7 @@ impl Best {
             cost: Cost::MOST,
             slot: 0,
             is_trusted: false,
-            is_good: false,
+            is_even: false,
             uneven: tuning.uneven,
         }
     }
@@ -77,18 +77,18 @@ impl Best {
         if cost.is_less(&self.cost) {
             (self.cost, self.slot) = (cost, slot);
             self.is_trusted = share >= self.trusted_share;
-            self.is_good =
+            self.is_even =
                 self.is_trusted && Cost::of(&counts).divides_evenly(self.pieces, self.uneven);
         }
     }
 
     /// Whether the best plane can be trusted, cuts nothing, and leaves enough on both sides.
-    pub(in crate::build) fn is_good(&self) -> bool {
-        self.is_good
+    pub(in crate::build) fn is_even(&self) -> bool {
+        self.is_even
     }
 
-    /// Whether it can be trusted, and cuts nothing.
-    pub(in crate::build) fn is_sure(&self) -> bool {
+    /// Whether the best plane can be trusted, and cuts nothing.
+    pub(in crate::build) fn cuts_nothing(&self) -> bool {
         self.is_trusted && !self.cost.cuts
     }
 

@@ -4,7 +4,7 @@ use super::cost::Counts;
 use super::set::Set;
 use super::sketch::{LANES, Sketch, SketchPlane};
 use crate::Error;
-use crate::build::progress::{AT_ONCE, Watch};
+use crate::build::progress::{PIECES_AT_ONCE, Watch};
 use crate::exact::{Kernel, PlaneId};
 use crate::memory::reserve;
 
@@ -42,8 +42,8 @@ impl Scored {
             plane: sketch.plane(set, piece),
             counts: Counts::default(),
         }));
-        for start in (0..set.len()).step_by(AT_ONCE) {
-            let part = start..set.len().min(start + AT_ONCE);
+        for start in (0..set.len()).step_by(PIECES_AT_ONCE) {
+            let part = start..set.len().min(start + PIECES_AT_ONCE);
             if watch.work(part.len() * tried.len()).is_err() {
                 break;
             }

@@ -2,9 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::places::Places;
+use super::crossing::cross;
 use crate::build::live::Live;
-use crate::exact::{Faces, Kernel, PlaneId, Side};
+use crate::exact::{Faces, Kernel, Piece, PlaneId, Side};
 
 /// A set of pieces that is to be divided: at least one.
 #[derive(Debug)]
@@ -12,7 +12,6 @@ pub(crate) struct Set<'a, K: Kernel> {
     kernel: &'a K,
     pub(super) faces: &'a Faces,
     pub(super) pieces: &'a [Live],
-    places: Places<'a, K>,
     arena: &'a [K::Vertex],
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
@@ -42,8 +41,7 @@ impl<'a, K: Kernel> Set<'a, K> {
                 raise(&mut last_begin[axis], piece.min[axis]);
             }
         }
-        let places = Places::new(faces, arena);
-        Self { kernel, faces, pieces, places, arena, min, max, first_end, last_begin }
+        Self { kernel, faces, pieces, arena, min, max, first_end, last_begin }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -88,15 +86,16 @@ impl<'a, K: Kernel> Set<'a, K> {
         covered != u64::MAX
     }
 
-    /// The plane of a piece, see [`Places::plane`].
+    /// The plane of a piece's face, rounded: its unit normal, and a point on it.
     #[inline]
     pub(super) fn rounded_plane(&self, piece: usize) -> (Vec3, DVec3) {
-        self.places.plane(&self.pieces[piece])
+        let live = &self.pieces[piece];
+        let normal = self.faces.normal(live.face).normalize().as_vec3();
+        (normal, live.point(self.faces, self.arena))
     }
 
-    /// Whether two pieces cross, see [`Places::cross`].
     pub(super) fn cross(&self, a: usize, b: usize) -> bool {
-        self.places.cross(&self.pieces[a], &self.pieces[b])
+        cross(self.faces, self.arena, &self.pieces[a], &self.pieces[b])
     }
 
     /// The plane of a piece's face.
@@ -116,11 +115,12 @@ impl<'a, K: Kernel> Set<'a, K> {
     /// Calls a function with each vertex of a piece, in lattice units, rounded.
     #[inline]
     pub(super) fn for_each_vertex(&self, piece: usize, see: impl FnMut([f64; 3])) {
-        self.places.for_each_vertex(&self.pieces[piece], see);
+        self.pieces[piece].for_each_vertex(self.faces, self.arena, see);
     }
 
     pub(super) fn vertices(&self, piece: usize) -> usize {
-        self.places.vertices(&self.pieces[piece])
+        let Piece { face, cut } = self.pieces[piece].piece(self.arena);
+        cut.map_or(self.faces.corners(face).len(), <[_]>::len)
     }
 
     /// `count` of the pieces, spread evenly; all of them if there are not more.

@@ -12,7 +12,7 @@ use crate::parallel_map;
 use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
 
 /// How many faces one thread checks at a time.
-const PART: usize = 4096;
+const FACES_A_THREAD: usize = 4096;
 
 impl Faces {
     pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
@@ -92,8 +92,9 @@ impl Faces {
         if !Self::is_cell(&self.corners[..self.corners_of_cell()]) {
             return Err(LoadError::of("cell", "is outside the grid"));
         }
-        let ranges = (0..self.faces.len()).step_by(PART);
-        let ranges = ranges.map(|start| start..self.faces.len().min(start + PART)).collect();
+        let ranges = (0..self.faces.len()).step_by(FACES_A_THREAD);
+        let ranges =
+            ranges.map(|start| start..self.faces.len().min(start + FACES_A_THREAD)).collect();
         let check = |mut range: Range<usize>| range.try_for_each(|face| self.check_face(face));
         parallel_map::map(ranges, check).into_iter().collect::<Result<(), LoadError>>()?;
         self.check_numbers()?;

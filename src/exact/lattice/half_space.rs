@@ -16,7 +16,7 @@ pub(crate) struct HalfSpaceNumbers {
 /// The largest component of a normal is from 2¹¹⁶ to 2¹¹⁷.
 const BITS: i32 = 116;
 /// Offsets beyond two to this power are cut to it: normal·p is below 2¹⁷¹ at all points of a scene.
-const FAR: u32 = 180;
+const FAR_BITS: u32 = 180;
 /// Offsets beyond two to this power stay far beyond, whatever the lattice's origin takes off: it is below
 /// 2¹¹⁰, so its part is below 2²³⁰.
 const BEYOND: f64 = (1u128 << 120) as f64 * (1u128 << 120) as f64;
@@ -54,9 +54,9 @@ impl Lattice {
             let origin = part(0) + part(1) + part(2);
             parts.into_iter().fold(-origin, |sum, c| sum + Int::from_f64(c.round()))
         } else if largest > 0.0 {
-            Int::<2>::from(1_i128).shifted(FAR + 1)
+            Int::<2>::from(1_i128).shifted(FAR_BITS + 1)
         } else {
-            -Int::<2>::from(1_i128).shifted::<5>(FAR + 1)
+            -Int::<2>::from(1_i128).shifted::<5>(FAR_BITS + 1)
         };
         Some(HalfSpaceNumbers { normal, offset: cut(steps) })
     }
@@ -90,7 +90,7 @@ impl Sum {
 
 /// An offset, cut to what all points of a scene are this side of.
 fn cut(offset: Int<5>) -> Int<3> {
-    let far = Int::<2>::from(1_i128).shifted::<5>(FAR);
+    let far = Int::<2>::from(1_i128).shifted::<5>(FAR_BITS);
     let within = if (offset - far).is_negative() { offset } else { far };
     let within = if (within + far).is_negative() { -far } else { within };
     within.resize()

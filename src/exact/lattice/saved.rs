@@ -3,7 +3,7 @@
 
 use std::io::{self, Read, Write};
 
-use super::{FAR, Lattice, PowerOfTwo};
+use super::{FAR_ORIGIN, Lattice, PowerOfTwo};
 use crate::save::{LoadError, Reader, Writer};
 
 /// What messages call it.
@@ -34,7 +34,7 @@ impl Lattice {
         let exponent = self.exponent();
         let is_possible = |axis: usize| {
             let (origin, far) = (self.origin[axis], self.far[axis]);
-            let is_whole = origin.abs() <= FAR && origin.fract() == 0.0;
+            let is_whole = origin.abs() <= FAR_ORIGIN && origin.fract() == 0.0;
             is_whole && far.is_finite() && (origin == 0.0 || far == 0.0)
         };
         if EXPONENTS.contains(&exponent) && (0..3).all(is_possible) {
@@ -82,7 +82,7 @@ mod tests {
         let right = Lattice::default();
         let is_wrong = |lattice: Lattice| again(&lattice).check().is_err();
         assert!(!is_wrong(right));
-        for number in [f64::NAN, f64::INFINITY, 0.5, 2.0 * FAR] {
+        for number in [f64::NAN, f64::INFINITY, 0.5, 2.0 * FAR_ORIGIN] {
             assert!(is_wrong(Lattice { origin: [0.0, number, 0.0], ..right }), "{number}");
         }
         assert!(is_wrong(Lattice { far: [f64::NAN, 0.0, 0.0], ..right }));

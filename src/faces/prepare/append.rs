@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::ground::Ground;
+use super::lattice_and_tolerance::Ground;
 use super::{Preparation, Preparer};
-use crate::Error;
+use crate::error::{Error, InputFault, Kind};
 use crate::exact::Faces;
 use crate::faces::listener::Listener;
 use crate::input::Polygon;
@@ -17,7 +17,7 @@ impl Preparer {
     /// If a coordinate is not finite.
     pub(crate) fn hold(&mut self, room: Option<[DVec3; 2]>) -> Result<(), Error> {
         if room.iter().flatten().any(|corner| !corner.is_finite()) {
-            return Err(Error::bounds());
+            return Err(Kind::Bounds.error());
         }
         self.room = room;
         Ok(())
@@ -36,7 +36,7 @@ impl Preparer {
     ) -> Result<Preparation, Error> {
         self.input.read(polygons, limit, listener)?;
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
-            return Err(Error::off_grid(polygon));
+            return Err(InputFault::OffGrid.of_polygon(polygon));
         }
         self.outlines.clear();
         let (before, ground) = (faces.len(), Ground::of(faces));

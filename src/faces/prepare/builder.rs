@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::collect::Collected;
 use super::corners::Corners;
-use super::ground::Ground;
+use super::lattice_and_tolerance::Ground;
 use super::preparation::Preparation;
 use super::quad::Quad;
 use crate::Error;
@@ -40,13 +40,13 @@ enum Outcome {
 
 /// Makes faces of polygons, one after the other.
 #[derive(Debug, Default)]
-pub(super) struct Builder {
+pub(super) struct FaceBuilder {
     pub(super) faces: Faces,
     /// The corners of the current polygon.
     pub(super) corners: Corners,
 }
 
-impl Builder {
+impl FaceBuilder {
     pub(super) fn new(ground: &Ground) -> Self {
         let Ground { lattice, tolerance, .. } = *ground;
         let faces = Faces { lattice, tolerance, ..Faces::default() };
@@ -167,7 +167,7 @@ impl Builder {
         let found = if convex {
             triangulate::convex(&corners)?
         } else {
-            triangulate::any(&corners, plane, &|steps| listener.work(steps))?
+            triangulate::any(&corners, plane, listener)?
         };
         self.corners.find_runs()?;
         let before = self.faces.len();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::Error;
+use crate::error::{Error, InputFault, Limit};
 use crate::exact::{LATTICE_LIMIT, Lattice, MAX_LABELS};
 use crate::faces::listener::Listener;
 use crate::input::{MAX_CORNERS, Polygon};
@@ -80,12 +80,9 @@ impl Collected {
         listener: &dyn Listener,
     ) -> Result<(), Error> {
         let mut polygons = polygons.into_iter();
-        let too_many = || {
-            if limit <= MAX_LABELS {
-                Error::polygons(limit)
-            } else {
-                Error::too_many_polygons(MAX_LABELS)
-            }
+        let too_many = match limit <= MAX_LABELS {
+            true => Limit::PolygonsOfBudget(limit),
+            false => Limit::Polygons(MAX_LABELS),
         };
         let limit = limit.min(MAX_LABELS);
         let expected = polygons.size_hint().0;
@@ -97,10 +94,10 @@ impl Collected {
         let mut index = 0;
         while let Some(polygon) = polygons.next() {
             if index == limit {
-                return Err(too_many());
+                return Err(too_many.error());
             }
             if index == DOUBTED && polygons.size_hint().0 >= limit - index {
-                return Err(too_many());
+                return Err(too_many.error());
             }
             if index % POLYGONS_AT_ONCE == 0 {
                 listener.read(index)?;
@@ -129,7 +126,7 @@ impl Collected {
             // Infinity and NaN times 0 are NaN.
             let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
             if zero != DVec3::ZERO {
-                return Err(Error::non_finite(index));
+                return Err(InputFault::NonFinite.of_polygon(index));
             }
             read = self.points.len() - before;
         }
@@ -137,13 +134,13 @@ impl Collected {
         for (corner, point) in (read..).zip(corners) {
             if corner % CORNERS_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
-                    return Err(Error::polygon_corners(index, MAX_CORNERS));
+                    return Err(InputFault::Corners { limit: MAX_CORNERS }.of_polygon(index));
                 }
                 self.check_count()?;
                 listener.read(index)?;
             }
             if !point.is_finite() {
-                return Err(Error::non_finite(index));
+                return Err(InputFault::NonFinite.of_polygon(index));
             }
             push(&mut self.points, point)?;
         }
@@ -161,7 +158,7 @@ impl Collected {
     /// An error if there are more corners than can be named.
     fn check_count(&self) -> Result<(), Error> {
         if self.points.len() > MAX_LABELS {
-            return Err(Error::too_many_corners(MAX_LABELS));
+            return Err(Limit::Corners(MAX_LABELS).error());
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The lists of faces: clear, append and shrink.
 
-use crate::Error;
+use crate::error::{Error, Limit};
 use crate::exact::faces::{Face, Thin};
 use crate::exact::{Faces, MAX_LABELS};
 use crate::memory::{collect, reserve};
@@ -50,7 +50,7 @@ impl Faces {
     pub(super) fn append(&mut self, next: Self) -> Result<(), Error> {
         let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
         if corners + next.corners.len() >= MAX_LABELS {
-            return Err(Error::too_many_corners(MAX_LABELS));
+            return Err(Limit::Corners(MAX_LABELS).error());
         }
         let first = self.faces.len() as u32;
         reserve(&mut self.numbered, next.numbered.len())?;

@@ -2,8 +2,7 @@
 
 use super::Preparer;
 use super::corners::{Corner, keep_distinct};
-use crate::Error;
-use crate::error::InputKind;
+use crate::error::{Error, InputFault, InputKind};
 use crate::exact::faces::Frame;
 use crate::exact::{Faces, LATTICE_LIMIT, cross};
 use crate::faces::listener::Listener;
@@ -71,7 +70,7 @@ impl Preparer {
     ) -> Result<(), Error> {
         self.input.read(shapes, usize::MAX, listener).map_err(|error| error.of(kind))?;
         match self.input.first_off(&faces.lattice) {
-            Some(number) => Err(Error::off_grid(number).of(kind)),
+            Some(number) => Err(InputFault::OffGrid.of_polygon(number).of(kind)),
             None => Ok(()),
         }
     }

@@ -9,8 +9,8 @@ use std::cmp::Ordering;
 
 use super::edge::{Edge, Point, turn};
 use super::sweep_line::{NONE, Place, SweepLine};
-use super::work::{AT_ONCE, Work};
 use crate::Error;
+use crate::faces::listener::{Listener, STEPS_AT_ONCE};
 use crate::memory::{push, reserve};
 
 /// How overlapping edges count.
@@ -42,7 +42,7 @@ pub(super) struct Stop {
 }
 
 /// The edges that the sweep has met, and those that it has yet to meet.
-pub(super) struct Sweep<'a> {
+pub(super) struct ArrangementSweep<'a> {
     points: &'a [Point],
     rule: Rule,
     line: SweepLine,
@@ -79,9 +79,9 @@ struct Waiting {
 /// and memory.
 const MOST_PARTS: usize = 8;
 
-impl<'a> Sweep<'a> {
+impl<'a> ArrangementSweep<'a> {
     pub(super) fn new(points: &'a [Point], edges: &[Edge], rule: Rule) -> Result<Self, Error> {
-        let mut sweep = Sweep {
+        let mut sweep = ArrangementSweep {
             points,
             rule,
             line: SweepLine::new(),
@@ -109,20 +109,20 @@ impl<'a> Sweep<'a> {
     pub(super) fn run(
         mut self,
         stop_at_crossing: bool,
-        work: Work<'_>,
+        listener: &dyn Listener,
     ) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.points.len() as u32 {
             self.visit(point)?;
-            if self.steps >= AT_ONCE {
-                work(std::mem::take(&mut self.steps))?;
+            if self.steps >= STEPS_AT_ONCE {
+                listener.work(std::mem::take(&mut self.steps))?;
             }
             let crosses = stop_at_crossing && !self.crossings.is_empty();
             if crosses || self.waiting.len() > most {
                 return Ok(None);
             }
         }
-        work(self.steps)?;
+        listener.work(self.steps)?;
         Ok(Some(self))
     }
 

@@ -17,7 +17,7 @@ pub(super) struct Vertex {
 
 /// One of the two boundaries of a monotone polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum ChainSide {
     Lower,
     Upper,
 }
@@ -27,7 +27,7 @@ pub(super) enum Side {
 #[derive(Debug)]
 pub(super) struct Chain {
     stack: Vec<Vertex>,
-    side: Side,
+    side: ChainSide,
 }
 
 /// A list of triangles, each counter-clockwise.
@@ -35,11 +35,11 @@ pub(super) type Triangles = Vec<[u32; 3]>;
 
 impl Chain {
     pub(super) fn new(first: Vertex) -> Self {
-        Self { stack: vec![first], side: Side::Lower }
+        Self { stack: vec![first], side: ChainSide::Lower }
     }
 
     /// The point that the sweep met last, and its side.
-    pub(super) fn last(&self) -> (Vertex, Side) {
+    pub(super) fn last(&self) -> (Vertex, ChainSide) {
         (self.stack[self.stack.len() - 1], self.side)
     }
 
@@ -47,7 +47,7 @@ impl Chain {
     pub(super) fn add(
         &mut self,
         vertex: Vertex,
-        side: Side,
+        side: ChainSide,
         triangles: &mut Triangles,
     ) -> Result<(), Error> {
         if self.stack.len() > 1 && side == self.side {
@@ -72,8 +72,8 @@ impl Chain {
     /// Cuts triangles off between a new point and the points of the same side that it sees.
     fn cut_corners(&mut self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
         let outwards = match self.side {
-            Side::Lower => Ordering::Greater,
-            Side::Upper => Ordering::Less,
+            ChainSide::Lower => Ordering::Greater,
+            ChainSide::Upper => Ordering::Less,
         };
         while let [.., a, b] = self.stack[..]
             && turn(a.point, b.point, vertex.point) == outwards
@@ -103,8 +103,8 @@ impl Chain {
     ) -> Result<(), Error> {
         reserve(triangles, 1)?;
         triangles.push(match self.side {
-            Side::Lower => [a.corner, b.corner, c.corner],
-            Side::Upper => [a.corner, c.corner, b.corner],
+            ChainSide::Lower => [a.corner, b.corner, c.corner],
+            ChainSide::Upper => [a.corner, c.corner, b.corner],
         });
         Ok(())
     }

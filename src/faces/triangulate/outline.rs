@@ -1,11 +1,11 @@
 //! Triangulates a polygon in the plane: as it stands if it does not cross itself, else uncrossed.
 
-use super::arrange::{Rule, Sweep};
+use super::arrange::{ArrangementSweep, Rule};
 use super::edge::{Edge, Point};
 use super::sweep_line::NONE;
-use super::work::Work;
 use super::{edge, regions, uncross};
 use crate::Error;
+use crate::faces::listener::Listener;
 use crate::memory::reserve;
 
 /// Triangles, as corner numbers, in place of a polygon.
@@ -17,19 +17,23 @@ pub(in crate::faces) struct Triangulation {
 }
 
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
-pub(super) fn triangulate(corners: &[Point], work: Work<'_>) -> Result<Triangulation, Error> {
+pub(super) fn triangulate(
+    corners: &[Point],
+    listener: &dyn Listener,
+) -> Result<Triangulation, Error> {
     let outline = Outline::new(corners)?;
     let (points, names) = (&outline.points, &outline.corners);
-    let simple = Sweep::new(points, &outline.edges, Rule::Signed)?.run(true, work)?;
+    let simple =
+        ArrangementSweep::new(points, &outline.edges, Rule::Signed)?.run(true, listener)?;
     if let Some(sweep) = simple {
         let arrangement = sweep.finish();
-        let covered = regions::triangulate(points, names, &arrangement, Rule::Signed, work)?;
+        let covered = regions::triangulate(points, names, &arrangement, Rule::Signed, listener)?;
         let crosses_itself = !covered.winds_once;
         return Ok(Triangulation { triangles: covered.triangles, crosses_itself });
     }
-    let mut triangles = match uncross::uncross(points, outline.edges, work)? {
+    let mut triangles = match uncross::uncross(points, outline.edges, listener)? {
         Some(arrangement) => {
-            regions::triangulate(points, names, &arrangement, Rule::Parity, work)?.triangles
+            regions::triangulate(points, names, &arrangement, Rule::Parity, listener)?.triangles
         }
         None => vec![],
     };

@@ -5,11 +5,11 @@
 use std::ops::Range;
 
 use super::arrange::{Arrangement, Rule, Stop};
-use super::chain::{Chain, Side, Triangles, Vertex};
+use super::chain::{Chain, ChainSide, Triangles, Vertex};
 use super::edge::Point;
 use super::sweep_line::NONE;
-use super::work::{AT_ONCE, Work};
 use crate::Error;
+use crate::faces::listener::{Listener, STEPS_AT_ONCE};
 use crate::memory::reserve;
 
 /// The triangles of the inside, counter-clockwise, and whether the outline winds around all of it
@@ -32,7 +32,7 @@ enum Region {
     Two(Box<[Chain; 2]>),
 }
 
-struct Sweep<'a> {
+struct RegionSweep<'a> {
     points: &'a [Point],
     /// For each point, a corner of the polygon there.
     corners: &'a [u32],
@@ -62,18 +62,18 @@ pub(super) fn triangulate(
     corners: &[u32],
     arrangement: &Arrangement,
     rule: Rule,
-    work: Work<'_>,
+    listener: &dyn Listener,
 ) -> Result<Covered, Error> {
     let (mut above, mut triangles) = (vec![], vec![]);
     reserve(&mut above, arrangement.edges.len())?;
     reserve(&mut triangles, points.len())?;
     let (lowest, least, most) = (NONE, 0, 0);
     let mut sweep =
-        Sweep { points, corners, arrangement, rule, above, lowest, triangles, least, most };
+        RegionSweep { points, corners, arrangement, rule, above, lowest, triangles, least, most };
     let stops = &arrangement.stops;
     for (index, &stop) in stops.iter().enumerate() {
-        if index % AT_ONCE == 0 {
-            work(AT_ONCE)?;
+        if index % STEPS_AT_ONCE == 0 {
+            listener.work(STEPS_AT_ONCE)?;
         }
         let end = stops.get(index + 1).map_or(arrangement.edges.len() as u32, |next| next.first);
         sweep.visit(stop, stop.first..end)?;
@@ -84,7 +84,7 @@ pub(super) fn triangulate(
 /// An end of an edge: the edge, and which end.
 type End = (u32, usize);
 
-impl Sweep<'_> {
+impl RegionSweep<'_> {
     /// Sweeps over a point at which the edges in `starting` begin.
     fn visit(&mut self, stop: Stop, starting: Range<u32>) -> Result<(), Error> {
         // The point lies above `below`: either in the region between it and the next edge, or at
@@ -121,7 +121,7 @@ impl Sweep<'_> {
         if self.winding(stop.below) < 0 {
             ends.reverse();
         }
-        let low = region.add(self.vertex(point, ends), Side::Upper, &mut self.triangles)?;
+        let low = region.add(self.vertex(point, ends), ChainSide::Upper, &mut self.triangles)?;
         let mut edge = lowest;
         loop {
             let (winding, region, next) = (self.winding(edge), self.take(edge), self.next(edge));
@@ -131,7 +131,7 @@ impl Sweep<'_> {
                     ends.reverse();
                 }
                 let vertex = self.vertex(point, ends);
-                let high = region.add(vertex, Side::Lower, &mut self.triangles)?;
+                let high = region.add(vertex, ChainSide::Lower, &mut self.triangles)?;
                 return Ok(([low, high], next));
             }
             let ends = if winding < 0 { [edge, next] } else { [next, edge] };
@@ -223,15 +223,20 @@ impl Sweep<'_> {
 
 impl Region {
     /// Adds a point of a boundary.
-    fn add(self, vertex: Vertex, side: Side, triangles: &mut Triangles) -> Result<Self, Error> {
+    fn add(
+        self,
+        vertex: Vertex,
+        side: ChainSide,
+        triangles: &mut Triangles,
+    ) -> Result<Self, Error> {
         let (done, mut left) = match (self, side) {
             (Self::Outside, _) => return Ok(Self::Outside),
             (Self::One(chain), _) => (None, chain),
-            (Self::Two(chains), Side::Lower) => {
+            (Self::Two(chains), ChainSide::Lower) => {
                 let [low, high] = *chains;
                 (Some(low), high)
             }
-            (Self::Two(chains), Side::Upper) => {
+            (Self::Two(chains), ChainSide::Upper) => {
                 let [low, high] = *chains;
                 (Some(high), low)
             }
@@ -268,12 +273,12 @@ impl Region {
             Self::Two(chains) => *chains,
             // The last point sees this one, as the sweep met nothing of the region in between.
             Self::One(chain) => match chain.last() {
-                (last, Side::Lower) => [Chain::new(last), chain],
-                (last, Side::Upper) => [chain, Chain::new(last)],
+                (last, ChainSide::Lower) => [Chain::new(last), chain],
+                (last, ChainSide::Upper) => [chain, Chain::new(last)],
             },
         };
-        low.add(upper, Side::Upper, triangles)?;
-        high.add(lower, Side::Lower, triangles)?;
+        low.add(upper, ChainSide::Upper, triangles)?;
+        high.add(lower, ChainSide::Lower, triangles)?;
         Ok([Self::One(low), Self::One(high)])
     }
 

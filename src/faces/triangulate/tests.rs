@@ -2,29 +2,52 @@
 
 mod shapes;
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::edge::{Point, area, turn};
 use super::outline::{Triangulation, triangulate};
-use super::work::AT_ONCE;
 use crate::Error;
+use crate::faces::listener::{Listener, NoListener, STEPS_AT_ONCE};
 use crate::random::SplitMix64;
 use shapes::{Family, large, random_points, simple};
 
 fn run(corners: &[Point]) -> Triangulation {
-    triangulate(corners, &|_| Ok(())).expect("memory")
+    triangulate(corners, &NoListener).expect("memory")
+}
+
+/// Counts steps, and stops after so many.
+struct Counter {
+    steps: AtomicUsize,
+    most: usize,
+}
+
+impl Counter {
+    fn new(most: usize) -> Self {
+        Self { steps: AtomicUsize::new(0), most }
+    }
+
+    fn steps(&self) -> usize {
+        self.steps.load(Ordering::Relaxed)
+    }
+}
+
+impl Listener for Counter {
+    fn read(&self, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn work(&self, steps: usize) -> Result<(), Error> {
+        let steps = self.steps.fetch_add(steps, Ordering::Relaxed) + steps;
+        if steps > self.most { Err(Error::cancelled()) } else { Ok(()) }
+    }
 }
 
 /// How many steps a triangulation takes.
 fn steps(corners: &[Point]) -> (Triangulation, usize) {
-    let steps = Cell::new(0);
-    let count = |more: usize| {
-        steps.set(steps.get() + more);
-        Ok(())
-    };
-    let found = triangulate(corners, &count).expect("memory");
-    (found, steps.get())
+    let counter = Counter::new(usize::MAX);
+    let found = triangulate(corners, &counter).expect("memory");
+    (found, counter.steps())
 }
 
 fn twice_area(corners: &[Point]) -> i128 {
@@ -317,13 +340,10 @@ fn a_cancel_is_heard_within_one_polygon() {
     for (name, corners) in large(100_000) {
         let (_, all) = steps(&corners);
         for share in [0, 1, 3, 5, 7] {
-            let heard = Cell::new(0);
-            let stopped = triangulate(&corners, &|more| {
-                heard.set(heard.get() + more);
-                if heard.get() * 8 > all * share { Err(Error::cancelled()) } else { Ok(()) }
-            });
+            let counter = Counter::new(all * share / 8);
+            let stopped = triangulate(&corners, &counter);
             assert!(stopped.is_err_and(|error| error.is_cancelled()), "{name}");
-            assert!(heard.get() * 8 < all * share + 8 * 16 * AT_ONCE, "{name}");
+            assert!(counter.steps() * 8 < all * share + 8 * 16 * STEPS_AT_ONCE, "{name}");
         }
     }
 }

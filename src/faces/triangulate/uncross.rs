@@ -8,10 +8,10 @@
 //! travelling salesman tour in the plane”, 1981), so there is a budget. If it runs out, or if
 //! nothing is left inside, the triangles fan out from the first corner.
 
-use super::arrange::{Arrangement, Rule, Sweep};
+use super::arrange::{Arrangement, ArrangementSweep, Rule};
 use super::edge::{Edge, Point, area};
-use super::work::Work;
 use crate::Error;
+use crate::faces::listener::Listener;
 use crate::memory::reserve;
 
 /// Search budget of small polygons, in edges swept. Smaller: tangles of some hundred corners become
@@ -26,12 +26,14 @@ const SWEEPS: usize = 16;
 pub(super) fn uncross(
     points: &[Point],
     mut edges: Vec<Edge>,
-    work: Work<'_>,
+    listener: &dyn Listener,
 ) -> Result<Option<Arrangement>, Error> {
     let mut budget = PATIENCE.max(SWEEPS * edges.len());
     while let Some(left) = budget.checked_sub(edges.len()) {
         budget = left;
-        let Some(sweep) = Sweep::new(points, &edges, Rule::Parity)?.run(false, work)? else {
+        let Some(sweep) =
+            ArrangementSweep::new(points, &edges, Rule::Parity)?.run(false, listener)?
+        else {
             return Ok(None);
         };
         if sweep.crossings.is_empty() {

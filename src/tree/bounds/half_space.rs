@@ -20,7 +20,7 @@ pub(crate) struct HalfSpace {
 /// magnitudes: coordinates are at most 1.014, and the normal, products and sums are rounded, which makes
 /// 4 · 1.014 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off.
 /// Smaller: boxes that reach over the plane are behind; larger: more of those near it are not.
-const ROUNDED: f64 = 4.2 / (1_u64 << 24) as f64;
+const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 
 /// Roundings in the place of the plane, by `f64`.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
@@ -40,7 +40,7 @@ impl HalfSpace {
         let offset = offset / 8.0 / size;
         let sum = offset.abs() + normal.abs().dot(middle.abs());
         let margin = (sum * ROUNDINGS + f64::MIN_POSITIVE) / unit;
-        let margin = margin + normal.abs().element_sum() * ROUNDED;
+        let margin = margin + normal.abs().element_sum() * DISTANCE_ERROR;
         let least = ((offset - normal.dot(middle)) / unit - margin).clamp(-OUTSIDE, OUTSIDE);
         // The same margin for all boxes: so a box inside another never is on the front of a plane that the
         // larger one is behind.

@@ -16,7 +16,7 @@ pub(in crate::tree) struct Normals {
 
 /// A bound on the error of a unit normal's coordinate in `f32`. Smaller: a box may be without the exact
 /// normal; larger: fewer subtrees are decided at once.
-const ROUNDED: f32 = 2.0 * f32::EPSILON;
+const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {
     pub(super) const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
@@ -24,7 +24,7 @@ impl Normals {
     /// Of one, whose unit normal is given rounded.
     pub(super) fn of(normal: Vec3) -> Self {
         let normal = normal.to_array();
-        Self { low: normal.map(|c| c - ROUNDED), high: normal.map(|c| c + ROUNDED) }
+        Self { low: normal.map(|c| c - NORMAL_ERROR), high: normal.map(|c| c + NORMAL_ERROR) }
     }
 
     pub(super) fn union(self, other: Self) -> Self {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
+use crate::bits::bits;
 use crate::exact::Lattice;
 use crate::frustum::Frustum;
 use crate::tree::bounds::Bounds;
@@ -66,7 +67,7 @@ impl Marks {
         let mut met = ALL;
         // For each plane, the boxes that it may cross.
         let mut crossed = [0; PLANES];
-        for plane in bits(planes) {
+        for plane in bits(planes.into()) {
             met &= all[plane].meets(boxes);
             if level > 0 {
                 crossed[plane] = !all[plane].holds(boxes);
@@ -80,9 +81,9 @@ impl Marks {
         if level == 0 {
             return;
         }
-        for k in bits(met) {
-            let planes =
-                bits(planes).fold(0, |left, plane| left | (crossed[plane] >> k & 1) << plane);
+        for k in bits(met.into()) {
+            let planes = bits(planes.into())
+                .fold(0, |left, plane| left | (crossed[plane] >> k & 1) << plane);
             let doubt = Doubt { level: level - 1, block: first + k, planes };
             if planes == 0 { self.mark(bounds, doubt) } else { pending.push(doubt) }
         }
@@ -153,15 +154,4 @@ impl Marks {
         let [low, high] = words.map_or([0; 2], |words| [words[0], words[1]].map(u32::from));
         (low | high << BLOCK) >> (first as usize % BLOCK)
     }
-}
-
-/// The numbers of the bits that are set.
-#[inline]
-fn bits(mut set: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let bit = set.trailing_zeros();
-        // Clears the lowest bit that is set.
-        set &= set.checked_sub(1)?;
-        Some(bit as usize)
-    })
 }

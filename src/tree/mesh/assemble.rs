@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::outline::{Corner, triangulate};
+use super::outline::{OutlineVertex, triangulate};
 use super::points::{Points, coordinate};
-use super::survey::{Edge, Node, Survey, ends};
+use super::survey::{FragmentEdge, Node, Survey, ends};
 use super::triangles::Triangles;
-use crate::Error;
+use crate::error::{Error, Limit};
 use crate::exact::{Symbol, SymbolKind};
 use crate::memory::reserve;
 use crate::tree::BspTree;
@@ -45,7 +45,7 @@ pub(super) fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangl
             steps => steps.min(1),
         });
         let triangles = steps.sum::<u32>().saturating_sub(2);
-        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Error::too_many_indices())?;
+        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Limit::Indices.error())?;
     }
     let mut triangles = Triangles::with_lengths(lengths.into_iter())?;
     let mut assembler = Assembler::new(&survey, &points)?;
@@ -78,7 +78,7 @@ struct Assembler<'s, 't> {
     known: HashMap<Key, u32>,
     polygon: usize,
     /// The outline of the current fragment.
-    outline: Vec<Corner>,
+    outline: Vec<OutlineVertex>,
 }
 
 impl<'s, 't> Assembler<'s, 't> {
@@ -114,7 +114,7 @@ impl<'s, 't> Assembler<'s, 't> {
             before = Some(edge.carrier);
             let vertex = self.own_vertex(face, edge.from)?;
             reserve(&mut self.outline, 1 + from.abs_diff(to) as usize)?;
-            self.outline.push(Corner { vertex, straight });
+            self.outline.push(OutlineVertex { vertex, straight });
             if weld {
                 let inside = from.min(to) + 1..from.max(to);
                 for k in 0..inside.len() as u32 {
@@ -124,7 +124,7 @@ impl<'s, 't> Assembler<'s, 't> {
                         Some(k) => self.vertex_on_edge(face, k, edge.carrier, node)?,
                         None => self.own_vertex(face, node)?,
                     };
-                    self.outline.push(Corner { vertex, straight: true });
+                    self.outline.push(OutlineVertex { vertex, straight: true });
                 }
             }
         }
@@ -210,7 +210,7 @@ impl<'s, 't> Assembler<'s, 't> {
 
 /// The line of a fragment's last edge, given the places of each edge's ends. Edges without length are
 /// none.
-fn last_carrier(edges: &[Edge], places: &[[u32; 2]]) -> Option<u32> {
+fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
     let long = edges.iter().zip(places).rev().find(|(_, [from, to])| from != to);
     long.map(|(edge, _)| edge.carrier)
 }
@@ -241,11 +241,11 @@ fn edge_numbers(survey: &Survey<'_>, face: u32, k: u32) -> [u32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{Edge, last_carrier};
+    use super::{FragmentEdge, last_carrier};
 
     #[test]
     fn an_edge_without_length_is_not_the_one_before_the_first() {
-        let edges = [7, 8, 9].map(|carrier| Edge { carrier, from: 0 });
+        let edges = [7, 8, 9].map(|carrier| FragmentEdge { carrier, from: 0 });
         assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 3]]), Some(9));
         assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 2]]), Some(8));
         assert_eq!(last_carrier(&edges, &[[0, 0], [5, 5], [2, 2]]), None);

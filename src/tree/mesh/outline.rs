@@ -2,7 +2,7 @@
 
 /// A vertex of an outline.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct OutlineVertex {
     pub(super) vertex: u32,
     /// Whether the outline runs straight through it.
     pub(super) straight: bool,
@@ -12,7 +12,7 @@ pub(super) struct Corner {
 /// fill it, and none has all its vertices on one side of the outline, so none is without area.
 ///
 /// Each edge of the outline belongs to one triangle. An outline of two vertices or fewer has none.
-pub(super) fn triangulate(outline: &[Corner], mut triangle: impl FnMut([u32; 3])) {
+pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u32; 3])) {
     let n = outline.len();
     let at = |k: usize| outline[k % n];
     let mut emit = |a: usize, b: usize, c: usize| triangle([a, b, c].map(|k| at(k).vertex));
@@ -33,7 +33,7 @@ pub(super) fn triangulate(outline: &[Corner], mut triangle: impl FnMut([u32; 3])
 
 #[cfg(test)]
 mod tests {
-    use super::{Corner, triangulate};
+    use super::{OutlineVertex, triangulate};
     use std::collections::HashSet;
 
     /// Outlines of integer points on the sides of polygons, with every number of points inside each.
@@ -69,8 +69,10 @@ mod tests {
     }
 
     fn check(points: &[([i64; 2], bool)], shape: &[[i64; 2]]) {
-        let outline: Vec<Corner> =
-            (0..).zip(points).map(|(vertex, &(_, straight))| Corner { vertex, straight }).collect();
+        let outline: Vec<OutlineVertex> = (0..)
+            .zip(points)
+            .map(|(vertex, &(_, straight))| OutlineVertex { vertex, straight })
+            .collect();
         let (mut area, mut count, mut edges) = (0, 0, HashSet::new());
         triangulate(&outline, |triangle| {
             let [a, b, c] = triangle.map(|k| points[k as usize].0);

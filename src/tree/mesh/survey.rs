@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::lines::{Carrier, Lines};
-use crate::Error;
+use crate::error::{Error, Limit};
 use crate::exact::{Faces, PlaneId, Symbol, SymbolKind};
 use crate::memory::reserve;
 use crate::tree::BspTree;
@@ -14,7 +14,7 @@ pub(super) type Node = u32;
 
 /// An edge of a fragment. It ends where the fragment's next edge begins.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
+pub(super) struct FragmentEdge {
     pub(super) carrier: u32,
     pub(super) from: Node,
 }
@@ -26,7 +26,7 @@ pub(super) struct Survey<'t> {
     pub(super) fragments: Vec<u32>,
     /// Where the edges of each of `fragments` begin, and the end of the last.
     pub(super) starts: Vec<u32>,
-    pub(super) edges: Vec<Edge>,
+    pub(super) edges: Vec<FragmentEdge>,
     /// Nodes that are no corners: a face, and the vertex on it.
     pub(super) cuts: Vec<(u32, Symbol)>,
     pub(super) carriers: Vec<Carrier>,
@@ -39,7 +39,7 @@ impl<'t> Survey<'t> {
         let mut survey =
             Self { tree, fragments, starts, edges, cuts: Vec::new(), carriers: Vec::new() };
         let edges = tree.fragments().map(|fragment| fragment.vertex_count()).sum();
-        u32::try_from(2 * edges).map_err(|_| Error::too_many_indices())?;
+        u32::try_from(2 * edges).map_err(|_| Limit::Indices.error())?;
         reserve(&mut survey.edges, edges)?;
         reserve(&mut survey.starts, tree.len() + 1)?;
         let mut names = Names::default();
@@ -54,7 +54,7 @@ impl<'t> Survey<'t> {
                     Some(plane) => survey.carrier_of_cut(&mut names, plane),
                     None => survey.carrier_of_edge(&mut names, line.as_edge().unwrap_or(0)),
                 };
-                survey.edges.push(Edge { carrier, from });
+                survey.edges.push(FragmentEdge { carrier, from });
             }
         }
         survey.starts.push(survey.edges.len() as u32);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::Error;
+use crate::error::{Error, Kind, Limit};
 use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
@@ -31,7 +31,7 @@ impl Triangles {
         let mut sum = 0_u32;
         starts.push(sum);
         for length in lengths {
-            sum = sum.checked_add(length).ok_or(Error::too_many_indices())?;
+            sum = sum.checked_add(length).ok_or(Limit::Indices.error())?;
             starts.push(sum);
         }
         reserve(&mut indices, sum as usize + CHUNK)?;
@@ -105,10 +105,11 @@ impl Triangles {
     ) -> Result<usize, Error> {
         let (count, fragments) = (self.indices().len(), self.starts.len() - 1);
         if tree.len() != fragments {
-            return Err(Error::other_tree(tree.len(), fragments));
+            return Err(Kind::OtherTree { fragments: tree.len(), expected: fragments }.error());
         }
         let given = indices.len();
-        let places = indices.get_mut(..count).ok_or(Error::places(count, given))?;
+        let places =
+            indices.get_mut(..count).ok_or(Kind::Places { needed: count, given }.error())?;
         tree.back_to_front_into(viewpoint, order);
         self.write(order, places);
         Ok(count)
@@ -131,7 +132,8 @@ impl Triangles {
             None => order.iter().map(|&fragment| self.range(fragment).len()).sum(),
         };
         let given = indices.len();
-        let places = indices.get_mut(..count).ok_or(Error::places(count, given))?;
+        let places =
+            indices.get_mut(..count).ok_or(Kind::Places { needed: count, given }.error())?;
         self.write(order, places);
         Ok(count)
     }

@@ -9,6 +9,7 @@ use std::ops::Range;
 use glam::{DVec4, Vec4};
 
 use super::planes::{GROUP, Planes, WORD};
+use crate::bits::bits;
 use crate::exact::{Exact, Eye, Faces, Kernel, LATTICE_LIMIT, PlaneId};
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
@@ -131,15 +132,9 @@ impl View {
 
     /// Decides the nodes exactly that have a bit in `unsure`; bit 0 stands for node `first`.
     #[cold]
-    fn decide_rest(&self, tree: &BspTree, first: usize, mut unsure: u32) -> u32 {
-        let mut front = 0;
-        while unsure != 0 {
-            let bit = unsure.trailing_zeros();
-            // Clears the lowest bit that is set.
-            unsure &= unsure - 1;
-            front |= u32::from(self.decide(tree, first + bit as usize)) << bit;
-        }
-        front
+    fn decide_rest(&self, tree: &BspTree, first: usize, unsure: u32) -> u32 {
+        bits(unsure.into())
+            .fold(0, |front, bit| front | u32::from(self.decide(tree, first + bit)) << bit)
     }
 
     #[cold]

@@ -165,7 +165,7 @@ const TWIG: u32 = 1 << 31;
 const RUN: u32 = 1 << 30;
 
 /// A side of a branch.
-enum Side {
+enum BranchSide {
     Front,
     Back,
 }
@@ -179,17 +179,17 @@ struct Layout<'a> {
 }
 
 /// A subtree still to be laid out.
-struct Subtree {
+struct Unplaced {
     node: usize,
     nodes: usize,
     fragments: u32,
     /// The branch above it, and on which side of that it is.
-    parent: Option<(usize, Side)>,
+    parent: Option<(usize, BranchSide)>,
 }
 
 impl Layout<'_> {
     fn fill(&mut self, fragments: u32) -> Result<(), Error> {
-        let all = Subtree { node: 0, nodes: self.nodes.len(), fragments, parent: None };
+        let all = Unplaced { node: 0, nodes: self.nodes.len(), fragments, parent: None };
         let mut stack = if self.nodes.is_empty() { vec![] } else { vec![all] };
         while let Some(subtree) = stack.pop() {
             let is_twig = subtree.nodes <= NODES && subtree.fragments as usize <= FRAGMENTS;
@@ -206,15 +206,15 @@ impl Layout<'_> {
                 let part = if part == ROOT + branch as u32 + 1 { NEXT } else { part };
                 let branch = &mut self.schedule.branches[branch];
                 match side {
-                    Side::Front => branch.front_part = part,
-                    Side::Back => branch.back_part = part,
+                    BranchSide::Front => branch.front_part = part,
+                    BranchSide::Back => branch.back_part = part,
                 }
             }
         }
         Ok(())
     }
 
-    fn branch(&mut self, subtree: &Subtree, stack: &mut Vec<Subtree>) -> Result<u32, Error> {
+    fn branch(&mut self, subtree: &Unplaced, stack: &mut Vec<Unplaced>) -> Result<u32, Error> {
         let index = self.schedule.branches.len();
         let mut links = self.links(subtree);
         let first = self.next;
@@ -236,15 +236,15 @@ impl Layout<'_> {
         // The back goes on the stack first, so that the front comes off first: branches, twigs and
         // fragments must be numbered depth first, as they stand in memory.
         if node.back_is_node() {
-            let parent = Some((index, Side::Back));
+            let parent = Some((index, BranchSide::Back));
             let nodes = subtree.nodes - links - front_nodes;
             let node = node_index + 1 + front_nodes;
-            push(stack, Subtree { node, nodes, fragments: back, parent })?;
+            push(stack, Unplaced { node, nodes, fragments: back, parent })?;
         }
         if front_nodes > 0 {
-            let parent = Some((index, Side::Front));
+            let parent = Some((index, BranchSide::Front));
             let node = node_index + 1;
-            push(stack, Subtree { node, nodes: front_nodes, fragments: front, parent })?;
+            push(stack, Unplaced { node, nodes: front_nodes, fragments: front, parent })?;
         }
         let (own, own_first) =
             if links > 1 { (LIST | links as u32, first) } else { (own, own_first) };
@@ -255,7 +255,7 @@ impl Layout<'_> {
     }
 
     /// How many nodes at the top of a subtree form a list.
-    fn links(&self, subtree: &Subtree) -> usize {
+    fn links(&self, subtree: &Unplaced) -> usize {
         let mut fragments = subtree.fragments;
         let side = |node: &NodeRecord, fragments: u32| {
             let rest_is_front = node.front_len + 1 == fragments;

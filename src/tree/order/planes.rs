@@ -13,7 +13,7 @@ pub(super) const GROUP: usize = 4;
 pub(super) const WORD: usize = 32;
 
 /// How many groups one thread makes at a time.
-const PART: usize = 1024;
+const GROUPS_A_THREAD: usize = 1024;
 
 /// The rounded planes of a tree's nodes, or of its fragments, in their order and by fours: the three
 /// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
@@ -53,11 +53,11 @@ impl Planes {
             |nodes: &[NodeRecord]| group(nodes.iter().map(|node| rounded(faces, node.plane)));
         self.0.clear();
         reserve(&mut self.0, nodes.len().div_ceil(GROUP))?;
-        if nodes.len() <= PART * GROUP {
+        if nodes.len() <= GROUPS_A_THREAD * GROUP {
             self.0.extend(nodes.chunks(GROUP).map(group));
             return Ok(());
         }
-        let parts = parallel_map::map(nodes.chunks(PART * GROUP).collect(), |nodes| {
+        let parts = parallel_map::map(nodes.chunks(GROUPS_A_THREAD * GROUP).collect(), |nodes| {
             collect(nodes.chunks(GROUP).map(group))
         });
         for part in parts {

@@ -12,7 +12,7 @@ use crate::save::{LoadError, invalid};
 use crate::tree::parts::{Parts, Record};
 
 /// How many fragments one thread checks at a time.
-const PART: usize = 4096;
+const OUTLINES_A_THREAD: usize = 4096;
 
 /// An error unless each face has fragments, which are all of it or have outlines. If `keep`, writes
 /// down where their vertices are.
@@ -23,8 +23,8 @@ pub(super) fn check(
 ) -> Result<(), LoadError> {
     check_numbers(faces, parts)?;
     let Parts { records, vertices, positions, .. } = parts;
-    let ranges = (0..records.len()).step_by(PART);
-    let ranges = ranges.map(|start| start..records.len().min(start + PART)).collect();
+    let ranges = (0..records.len()).step_by(OUTLINES_A_THREAD);
+    let ranges = ranges.map(|start| start..records.len().min(start + OUTLINES_A_THREAD)).collect();
     let checked = parallel_map::map(ranges, |range: std::ops::Range<usize>| {
         let mut outline = Outline { faces, vertices: Vec::new() };
         let mut places = Vec::new();

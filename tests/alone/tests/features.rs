@@ -163,6 +163,7 @@ fn save_writes_a_tree_and_reads_it() {
     let again = BspTree::read(&file[..]).unwrap();
     assert_eq!(again.validate(), Ok(()));
     assert_eq!(again.stats(), tree.stats());
+    assert_eq!(again.preparation(), tree.preparation());
     let from_above = Viewpoint::direction([0.0, -1.0, 0.25]);
     let order = |tree: &BspTree| {
         tree.back_to_front(from_above).map(|fragment| fragment.index()).collect::<Vec<_>>()
@@ -183,6 +184,7 @@ fn mint_has_points_for_polygons_and_viewpoints() {
     // As precise as the arrays that they stand for.
     let arrays = BspTree::build([single, single.map(|[x, y, z]| [x, y, z + 1.0])]).unwrap();
     assert_eq!(tree.stats(), arrays.stats());
+    assert_eq!(tree.preparation(), arrays.preparation());
     let double = single.map(|c| mint::Point3::from(c.map(f64::from)));
     assert!(BspTree::build([double]).unwrap().fragment(0).vertices().len() == 3);
     let above = Viewpoint::eye(mint::Point3 { x: 0.0, y: 0.0, z: 9.0 });

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::Error;
+use crate::error::{Error, Kind};
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{Faces, LATTICE_LIMIT, Lattice};
 
@@ -56,7 +56,7 @@ impl Tolerance {
     pub(super) fn check(self) -> Result<(), Error> {
         match self {
             Self::Length(value) | Self::Relative(value) if value.is_nan() || value < 0.0 => {
-                Err(Error::tolerance(value))
+                Err(Kind::Tolerance { value }.error())
             }
             _ => Ok(()),
         }
@@ -117,7 +117,7 @@ pub(crate) fn empty_faces(
 ) -> Result<Faces, Error> {
     tolerance.check()?;
     if bounds.iter().any(|corner| !corner.is_finite()) {
-        return Err(Error::bounds());
+        return Err(Kind::Bounds.error());
     }
     let lattice = Lattice::new(bounds[0], bounds[1]);
     let Ground { tolerance, .. } = Ground::new(lattice, bounds, tolerance, precision);
