@@ -6,7 +6,7 @@ use super::edge_run::{EdgeKind, EdgeRun, SHORTEST};
 use super::frame::is_same_line;
 use super::half::Half;
 use super::halving::VISITED;
-use super::inner_edges::InnerEdges;
+use super::inner_edges::{FaceEdge, InnerEdges};
 use super::lines::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
@@ -22,8 +22,8 @@ use crate::memory::push;
 struct CutSide {
     line: u32,
     face: u32,
-    /// The face whose edge it is as well, across the edge: a polygon goes on there.
-    across: Option<u32>,
+    /// The edge of its face that lies there, inside the polygon, which goes on across it.
+    inner: Option<FaceEdge>,
     /// Whether the cell is where the line is negative.
     is_negative: bool,
     /// Where it begins and ends along the line, and in the picture.
@@ -99,7 +99,7 @@ impl VisibilityMap<'_> {
                     if b.is_negative != a.is_negative
                         && self.do_cross(a, b, inner, &mut are_crossing)?
                     {
-                        push(&mut common, CommonSide::new([a, b]))?;
+                        push(&mut common, CommonSide::new([a, b], inner))?;
                     }
                 }
             }
@@ -127,16 +127,16 @@ impl VisibilityMap<'_> {
             let (face, sides) = (self.stock.face(item), &cell.sides);
             for (i, side) in sides.iter().enumerate() {
                 let Some((line, is_same)) = cuts.of(lines, side.half)? else { continue };
-                let across = match edges.get(&(face, line)) {
+                let inner = match edges.get(&(face, line)) {
                     // A polygon that ends there does not go through another.
                     Some(None) => continue,
-                    Some(across) => *across,
+                    Some(inner) => *inner,
                     None => None,
                 };
                 let end = &sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
                 let is_negative = side.half.is_negative() == is_same;
                 let (places, ends) = self.along(line, [side.start.at, end.start.at]);
-                push(&mut found, CutSide { line, face, across, is_negative, places, ends })?;
+                push(&mut found, CutSide { line, face, inner, is_negative, places, ends })?;
             }
             Ok(())
         };
@@ -144,14 +144,14 @@ impl VisibilityMap<'_> {
         Ok(found)
     }
 
-    /// The edges of faces that lie on lines of cuts, to which those inside polygons are added: what is across each, by
-    /// face and line.
+    /// The edges of faces that lie on lines of cuts, to which those inside polygons are added, by face and line: `None`
+    /// for those of outlines.
     fn edges_on(
         &self,
         cuts: &mut CutLines,
         inner: &InnerEdges,
         watch: &Watch<'_>,
-    ) -> Result<Table<(u32, u32), Option<u32>>, Error> {
+    ) -> Result<Table<(u32, u32), Option<FaceEdge>>, Error> {
         let lines = &self.rims.lines;
         // Faces of polygons that do not show have no lines.
         let outlines =
@@ -171,8 +171,8 @@ impl VisibilityMap<'_> {
             for (k, half) in (0..).zip(halves) {
                 watch.work(VISITED)?;
                 if let Some((line, _)) = cuts.of(lines, *half)? {
-                    let across = inner.across((face, k)).map(|(face, _)| face);
-                    insert(&mut edges, (face, line), across)?;
+                    let edge = inner.across((face, k)).map(|_| (face, k));
+                    insert(&mut edges, (face, line), edge)?;
                 }
             }
         }
@@ -202,14 +202,16 @@ impl VisibilityMap<'_> {
             return Ok(false);
         }
         let [one, other] = [a.face.min(b.face), a.face.max(b.face)];
-        let is_bent = a.across.is_some() || b.across.is_some();
+        let is_bent = a.inner.is_some() || b.inner.is_some();
         if !is_bent && lines.key(a.line) == Key::Cut(one, PlaneId::face(other)) {
             return Ok(true);
         }
         known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
         Ok(*known.entry((a.line, [one, other])).or_insert_with(|| {
             if is_bent {
-                return inner.bend(faces, [one, other]).is_some();
+                // Of the edges of both only those on this line: others may end on it.
+                let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
+                return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
             }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
             let cut = one.cut(&other);
@@ -227,10 +229,13 @@ impl VisibilityMap<'_> {
 }
 
 impl CommonSide {
-    fn new([a, b]: [&CutSide; 2]) -> Self {
+    fn new([a, b]: [&CutSide; 2], inner: &InnerEdges) -> Self {
         let start = if a.places[0] > b.places[0] { a } else { b }.ends[0];
         let end = if a.places[1] < b.places[1] { a } else { b }.ends[1];
-        let first = |side: &CutSide| side.across.map_or(side.face, |face| face.min(side.face));
+        let first = |side: &CutSide| {
+            let across = side.inner.and_then(|edge| inner.across(edge));
+            across.map_or(side.face, |(face, _)| face.min(side.face))
+        };
         let (one, other) = (first(a), first(b));
         let faces = [one.min(other), one.max(other)];
         Self { line: a.line, faces, ends: [start, end] }

@@ -74,7 +74,7 @@ impl InnerEdges {
     }
 
     /// The same for an edge of a polygon, and a face of the other.
-    fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
+    pub(super) fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
         let across = self.across(edge)?;
         let ends = faces.ends(edge.0, edge.1);
         let is_on = |face: u32| ends.iter().all(|end| side(faces, face, end).is_eq());

@@ -5,7 +5,7 @@ use super::sightlines::{Origin, Sightlines};
 use super::support::model::Face;
 use super::support::rational::{self, Point, Rational};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
-use binspace::glam::DVec3;
+use binspace::glam::{DVec2, DVec3};
 use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
@@ -31,6 +31,34 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
             assert_eq!((run.polygon, run.kind, run.is_visible), (0, EdgeKind::Crossing(1), true));
             let length = (run.ends[1][0] - run.ends[0][0]).abs();
             assert!((length - 10.0 * expected).abs() < 1e-6, "{run:?}");
+        }
+    }
+}
+
+/// A wall goes through an L along an edge that its triangulation made.
+#[test]
+fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
+    let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let l = l.map(|[x, y]| [x, y, 0.0]).to_vec();
+    let wall = vec![[-1.0, -1.0, -1.0], [3.0, 3.0, -1.0], [3.0, 3.0, 1.0], [-1.0, -1.0, 1.0]];
+    for (turns, order) in (0..6).flat_map(|turns| [(turns, [0, 1]), (turns, [1, 0])]) {
+        let mut turned = l.clone();
+        turned.rotate_left(turns);
+        let polygons = [turned, wall.clone()];
+        let tree = BspTree::build(order.map(|i: usize| &polygons[i])).unwrap();
+        for eye in [[9.0, -2.0, 8.0], [-5.0, -9.0, 3.0], [3.0, -9.0, 8.0], [2.0, -3.0, -5.0]] {
+            let (eye, target) = (DVec3::from(eye), DVec3::new(1.0, 1.0, 0.0));
+            let camera = Camera::perspective(eye, target, DVec3::Z, 0.8, [320, 240]).unwrap();
+            let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+            let [a, b] = [DVec3::ZERO, target].map(|end| DVec2::from(camera.project(end).unwrap()));
+            let expected = a.distance(b);
+            for runs in [map.crossings(), map.crossings_with_hidden(), map.crossings_in_layers()] {
+                let runs = runs.unwrap();
+                let length = |run: &EdgeRun| DVec2::from(run.ends[0]).distance(run.ends[1].into());
+                let visible = runs.iter().all(|run| run.is_visible);
+                let length: f64 = runs.iter().map(length).sum();
+                assert!(visible && (length - expected).abs() < 1e-6, "{turns}, {eye}: {runs:?}");
+            }
         }
     }
 }
