@@ -5,12 +5,12 @@ use super::cut_lines::CutLines;
 use super::edge_run::{EdgeKind, EdgeRun, SHORTEST};
 use super::frame::is_same_line;
 use super::half::Half;
-use super::halving::VISITED;
+use super::halving::{CUT, VISITED};
 use super::inner_edges::{FaceEdge, InnerEdges};
 use super::lines::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
-use super::reporter::{each, sort_by};
+use super::reporter::{each, finish_item, sort_by};
 use super::table::{Table, insert};
 use crate::Error;
 use crate::build::progress::Watch;
@@ -112,15 +112,19 @@ impl VisibilityMap<'_> {
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let lines = &self.rims.lines;
         let mut cuts = CutLines::default();
-        let add_cuts = |_: u32, cell: &Cell| {
-            let is_cut = |line: u32| matches!(lines.key(line), Key::Cut(..));
-            let mut halves = cell.sides.iter().map(|side| side.half);
-            halves.try_for_each(|half| match half.number().filter(|&line| is_cut(line)) {
-                Some(line) => cuts.add(lines, half, line),
-                None => Ok(()),
-            })
-        };
-        self.for_each_part(add_cuts, watch)?;
+        let is_cut = |line: u32| matches!(lines.key(line), Key::Cut(..));
+        // Cells before they are divided: of two lines that are the same, parts have one.
+        for (i, leaf) in self.leaves.iter().enumerate() {
+            for visible in each(watch, CUT, &leaf.cells) {
+                let halves = visible?.cell.sides.iter().map(|side| side.half);
+                for half in halves {
+                    if let Some(line) = half.number().filter(|&line| is_cut(line)) {
+                        cuts.add(lines, half, line)?;
+                    }
+                }
+            }
+            finish_item(watch, i, self.leaves.len());
+        }
         let edges = self.edges_on(&mut cuts, inner, watch)?;
         let mut found = Vec::new();
         let add_sides = |item: u32, cell: &Cell| {

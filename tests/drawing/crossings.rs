@@ -42,6 +42,37 @@ fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
     }
 }
 
+/// A pane goes through a wall, and in the picture a third polygon's edge lies on part of the line.
+#[test]
+fn crossings_show_beside_an_edge_that_lies_on_them_in_the_picture() {
+    let wall = vec![[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
+    let pane = vec![[-2.0, -2.0, -2.0], [2.0, -2.0, -2.0], [2.0, 2.0, 2.0], [-2.0, 2.0, 2.0]];
+    let flap = vec![[-1.0, -3.0, 0.0], [0.0, -3.0, 0.0], [0.0, -3.0, 2.0]];
+    let polygons = [wall, pane, flap];
+    let eye = DVec3::new(0.0, -10.0, 0.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.5, [320, 240]).unwrap();
+    // Of four units those that the edge of the flap, at seven tenths of the distance, does not cover.
+    let at = |x: f64| camera.project(DVec3::new(x, 0.0, 0.0)).unwrap()[0];
+    let expected = at(2.0) - at(-2.0) - (at(0.0) - at(-1.0 / 0.7));
+    for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
+        for by in Heuristic::ALL {
+            let options = BuildOptions::DEFAULT.with_heuristic(*by);
+            let tree = options.build(order.map(|i: usize| &polygons[i])).unwrap();
+            let opacity = |i: usize| if order[i] == 1 { 0.5 } else { 1.0 };
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            let map = VisibilityMap::with_opacities(&tree, rays, opacity).unwrap();
+            let length = |runs: Vec<EdgeRun>| -> f64 {
+                let shown = runs.iter().filter(|run| run.is_visible);
+                shown.map(|run| (run.ends[1][0] - run.ends[0][0]).abs()).sum()
+            };
+            let found = [map.crossings(), map.crossings_with_hidden(), map.crossings_in_layers()]
+                .map(|runs| length(runs.unwrap()));
+            let are_right = found.iter().all(|length| (length - expected).abs() < 1e-6);
+            assert!(are_right, "{order:?}, {by:?}: {found:?}, {expected}");
+        }
+    }
+}
+
 /// A pane that lies on a board goes through it nowhere, though a third polygon goes through both there.
 #[test]
 fn polygons_of_one_plane_do_not_cross() {
