@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 use super::builder::{Memory, Shared};
 use super::choose::Tuning;
 use super::job::Job;
-use super::jobs;
 use super::live::Live;
 use super::options::BuildOptions;
 use super::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
+use super::threads;
 use crate::error::Error;
 use crate::exact::cell::Clipper;
 use crate::exact::{Exact, ExactVertex, Faces, Kernel};
@@ -112,7 +112,7 @@ pub(super) fn tree_of_faces(
         preparation.dropped = faces.dropped(preparation.polygons).count();
         watch.expect(faces.len())?;
         let shared = Shared::new(Exact, &faces, options, &Tuning::DEFAULT, watch)?;
-        jobs::run(&shared, job, &mut Memory::default())?
+        threads::run(&shared, job, &mut Memory::default())?
     };
     watch.end()?;
     BspTree::new(faces, preparation, parts)
@@ -265,5 +265,5 @@ fn divide_all<K: Kernel>(
         watch.work(some.len())?;
         pieces.extend(some.map(|face| Live::whole(faces, face)));
     }
-    jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
+    threads::run(shared, Job { pieces, arena, depth: 0 }, memory)
 }

@@ -7,7 +7,7 @@
 //! | `builder` | how a set of pieces becomes a node: a leaf, a plane, layers that are peeled off |
 //! | `choose` | which plane divides a set |
 //! | `knife`, `live` | what a piece is on its way down, and how it is cut |
-//! | `job`, `jobs` | which subtrees threads are given, and in which order they work |
+//! | `threads`, `job` | which subtrees threads are given, and when |
 //! | `assemble` | how the subtrees become one tree |
 //! | `budget`, `progress` | when a build ends early |
 //! | `frame_builder`, `extend` | trees of frames, and with more polygons |
@@ -23,12 +23,12 @@ mod extend;
 mod frame_builder;
 mod heuristic;
 mod job;
-mod jobs;
 pub(crate) mod knife;
 pub(crate) mod live;
 mod options;
 pub(crate) mod overlay_builder;
 pub(crate) mod progress;
+mod threads;
 
 pub use frame_builder::FrameBuilder;
 pub use heuristic::{Heuristic, ParseHeuristicError};

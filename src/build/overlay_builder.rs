@@ -5,10 +5,10 @@ use std::mem::take;
 use super::builder::{Memory, Shared};
 use super::choose::Tuning;
 use super::job::Job;
-use super::jobs;
 use super::live::Live;
 use super::options::BuildOptions;
 use super::progress::Watch;
+use super::threads;
 use crate::error::Error;
 use crate::exact::{Exact, ExactStored, ExactVertex, Faces};
 use crate::memory::reserve;
@@ -47,7 +47,7 @@ impl OverlayBuilder {
         // The budget counts all faces, the tree's among them.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
         let shared = Shared::new(Exact, faces, &options, &Tuning::FRAMES, watch)?;
-        jobs::run(&shared.with_positions(), job, memory)
+        threads::run(&shared.with_positions(), job, memory)
     }
 
     /// Keeps the memory of a tree for the next.

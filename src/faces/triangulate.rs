@@ -1,6 +1,7 @@
 //! Triangulates polygons that are not convex or not planar.
 
 mod arrange;
+mod arrangement;
 mod chain;
 mod edge;
 mod outline;

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::node_record::{NodeRecord, Sizes, finish, make_room};
-use super::order::layout::Schedule;
 use super::order::planes::Planes;
+use super::order::schedule::Schedule;
 use super::parts::{Parts, RawNode, Record};
 use crate::Error;
 use crate::exact::{ExactStored, Faces};

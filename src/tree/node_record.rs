@@ -9,7 +9,7 @@ use crate::memory::reserve;
 
 const BACK_IS_NODE: u32 = 1 << 31;
 
-/// The most fragments of a tree. While a [`Schedule`](super::order::layout::Schedule) is laid out, its
+/// The most fragments of a tree. While a [`Schedule`](super::order::schedule::Schedule) is laid out, its
 /// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
 pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
 

@@ -7,8 +7,8 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
-use super::order::layout::Schedule;
 use super::order::planes::Planes;
+use super::order::schedule::Schedule;
 use super::{BspTree, Fragment};
 use crate::exact::{Exact, Kernel};
 use fault::Fault;

@@ -9,7 +9,7 @@ use super::rules::{Choice, Rules};
 use super::sample::Sample;
 use super::set::Set;
 use super::sketch::LANES;
-use super::tuning::Tuning;
+use super::tuning::{Quick, Tuning};
 use crate::Error;
 use crate::build::live::Live;
 use crate::build::progress::PIECES_AT_ONCE;
@@ -60,24 +60,41 @@ impl Auto {
         {
             return Ok(Choice::Split(free.plane));
         }
-        if let Some(quick) = quick.filter(|quick| quick.probes > 0) {
-            let middle = Middle::of(set, &quick);
-            if !matches!(middle, Middle::Taken)
-                && set.len() >= tuning.clean_below
-                && let Some(gap) = self.free.clean(set, tuning)?
-            {
-                // Through a corner that was cut off: only sorting finds it.
-                return Ok(Choice::Split(gap.plane));
-            }
-            if let Middle::Crossing(plane) = middle {
-                return Ok(Choice::Split(plane));
-            }
+        if let Some(quick) = quick
+            && let Some(plane) = self.plane_in_the_middle(set, tuning, &quick)?
+        {
+            return Ok(Choice::Split(plane));
         }
         if set.len() < tuning.small {
             self.best_of_small(rules, set, free, is_peeled)
         } else {
             self.best_of_large(rules, set, free)
         }
+    }
+
+    /// A free plane that cuts nothing, if nothing or only what has to be cut is in the middle of the set;
+    /// else the plane there that cuts only what has to be cut.
+    fn plane_in_the_middle<K: Kernel>(
+        &mut self,
+        set: &Set<'_, K>,
+        tuning: &Tuning,
+        quick: &Quick,
+    ) -> Result<Option<PlaneId>, Error> {
+        if quick.probes == 0 {
+            return Ok(None);
+        }
+        let middle = Middle::of(set, quick);
+        if !matches!(middle, Middle::Taken)
+            && set.len() >= tuning.clean_below
+            && let Some(gap) = self.free.clean(set, tuning)?
+        {
+            // Through a corner that was cut off: only sorting finds it.
+            return Ok(Some(gap.plane));
+        }
+        Ok(match middle {
+            Middle::Crossing(plane) => Some(plane),
+            Middle::Gap | Middle::Taken => None,
+        })
     }
 
     /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.

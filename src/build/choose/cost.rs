@@ -52,18 +52,26 @@ impl Cost {
     /// More than that of any plane.
     pub(super) const MOST: Self = Self { cuts: true, amount: f64::INFINITY };
 
-    pub(super) fn cmp(&self, other: &Self) -> Ordering {
-        self.cuts.cmp(&other.cuts).then(self.amount.total_cmp(&other.amount))
-    }
-
     /// Whether it is that of a plane that cuts nothing, and leaves at least one in so many pieces on
     /// either side.
     pub(super) fn divides_evenly(&self, pieces: usize, uneven: usize) -> bool {
         !self.cuts && self.amount <= work(pieces / uneven) + work(pieces - pieces / uneven)
     }
 
+    /// Whether the plane is better than another.
+    #[inline]
     pub(super) fn is_less(&self, other: &Self) -> bool {
-        self.cmp(other).is_lt()
+        (self.cuts, other.cuts) == (false, true)
+            || self.cuts == other.cuts && self.amount < other.amount
+    }
+
+    /// The order by [`is_less`](Self::is_less); no amount is NaN.
+    pub(super) fn cmp(&self, other: &Self) -> Ordering {
+        match (self.is_less(other), other.is_less(self)) {
+            (true, _) => Ordering::Less,
+            (_, true) => Ordering::Greater,
+            _ => Ordering::Equal,
+        }
     }
 }
 

@@ -7,39 +7,12 @@
 
 use std::cmp::Ordering;
 
-use super::edge::{Edge, Point, turn};
+use super::arrangement::{Arrangement, Rule, Stop};
+use super::edge::{Edge, Point, shared_corner, turn};
 use super::sweep_line::{NONE, Place, SweepLine};
 use crate::Error;
 use crate::faces::listener::{Listener, STEPS_AT_ONCE};
 use crate::memory::{push, reserve};
-
-/// How overlapping edges count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rule {
-    /// By direction: opposite edges cancel, two of the same direction count 2.
-    Signed,
-    /// By parity: any two cancel.
-    Parity,
-}
-
-/// Edges that meet at their ends only.
-#[derive(Debug)]
-pub(super) struct Arrangement {
-    /// In the order of their first ends; those of one point from the lowest to the highest.
-    pub(super) edges: Vec<Edge>,
-    /// The points at which edges begin or end, in order.
-    pub(super) stops: Vec<Stop>,
-}
-
-/// A point at which edges begin or end.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stop {
-    pub(super) point: u32,
-    /// The edge next below it, or [`NONE`].
-    pub(super) below: u32,
-    /// The first edge that begins here, or the next one that begins anywhere.
-    pub(super) first: u32,
-}
 
 /// The edges that the sweep has met, and those that it has yet to meet.
 pub(super) struct ArrangementSweep<'a> {
@@ -255,10 +228,10 @@ impl<'a> ArrangementSweep<'a> {
     /// the points where they begin.
     fn merge_alike(&mut self, point: u32, edges: &[Edge]) -> Result<Option<Edge>, Error> {
         let (mut weight, mut from, mut kept) = (edges.iter().map(|e| e.weight).sum(), point, None);
-        let mut corner = corner(edges, 0, weight);
+        let mut corner = shared_corner(edges, 0, weight);
         for part in edges.chunk_by(|a, b| a.ends[1] == b.ends[1]) {
             let to = part[0].ends[1];
-            let corners = [corner, self::corner(part, 1, weight)];
+            let corners = [corner, shared_corner(part, 1, weight)];
             let reduced = match self.rule {
                 Rule::Signed => weight,
                 Rule::Parity => weight & 1,
@@ -324,12 +297,4 @@ impl<'a> ArrangementSweep<'a> {
             Ordering::Greater => self.place(low, high_end) == Place::Below,
         }
     }
-}
-
-/// The corner at an end that edges share: preferably of an edge with the direction of their sum.
-fn corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
-    let at = |edge: &&Edge| edge.corners[end] != NONE;
-    let along = |edge: &&Edge| at(edge) && edge.weight.signum() == weight.signum();
-    let best = edges.iter().find(along).or_else(|| edges.iter().find(at));
-    best.map_or(NONE, |edge| edge.corners[end])
 }

@@ -49,3 +49,11 @@ impl Edge {
         ]
     }
 }
+
+/// The corner at an end that edges share: preferably of an edge with the direction of their sum.
+pub(super) fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
+    let at = |edge: &&Edge| edge.corners[end] != NONE;
+    let along = |edge: &&Edge| at(edge) && edge.weight.signum() == weight.signum();
+    let best = edges.iter().find(along).or_else(|| edges.iter().find(at));
+    best.map_or(NONE, |edge| edge.corners[end])
+}

@@ -1,6 +1,7 @@
 //! Triangulates a polygon in the plane: as it stands if it does not cross itself, else uncrossed.
 
-use super::arrange::{ArrangementSweep, Rule};
+use super::arrange::ArrangementSweep;
+use super::arrangement::Rule;
 use super::edge::{Edge, Point};
 use super::sweep_line::NONE;
 use super::{edge, regions, uncross};

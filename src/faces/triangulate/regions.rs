@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use super::arrange::{Arrangement, Rule, Stop};
+use super::arrangement::{Arrangement, Rule, Stop};
 use super::chain::{Chain, ChainSide, Triangles, Vertex};
 use super::edge::Point;
 use super::sweep_line::NONE;

@@ -8,7 +8,8 @@
 //! travelling salesman tour in the plane”, 1981), so there is a budget. If it runs out, or if
 //! nothing is left inside, the triangles fan out from the first corner.
 
-use super::arrange::{Arrangement, ArrangementSweep, Rule};
+use super::arrange::ArrangementSweep;
+use super::arrangement::{Arrangement, Rule};
 use super::edge::{Edge, Point, area};
 use crate::Error;
 use crate::faces::listener::Listener;

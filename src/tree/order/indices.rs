@@ -7,7 +7,7 @@ use std::hint::select_unpredictable;
 use std::ops::Range;
 
 use super::eye_sides::View;
-use super::layout::{Branch, List, NEXT, ROOT, Run, Schedule};
+use super::schedule::{Branch, List, NEXT, ROOT, Run, Schedule};
 use super::twig::{FRAGMENTS, NODES};
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;

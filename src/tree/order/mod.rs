@@ -6,6 +6,7 @@ pub(super) mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
 mod same;
+pub(crate) mod schedule;
 mod twig;
 mod walk;
 
