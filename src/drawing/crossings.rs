@@ -7,7 +7,7 @@ use super::frame::is_same_line;
 use super::half::Half;
 use super::halving::VISITED;
 use super::inner_edges::InnerEdges;
-use super::lines::Key;
+use super::key::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
 use super::reporter::{each, sort_by};

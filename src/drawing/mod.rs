@@ -53,6 +53,7 @@
 // | `twofold` | the same in pairs of floats |
 // | `exact_lines` | on which side of a line two others meet, where floats cannot tell |
 // | `feet` | lines found by where they are |
+// | `key` | what made a line |
 // | `lines` | all lines of a picture, by what made them |
 // | `rect` | boxes in the picture |
 // | `cell` | convex cells, and how a line cuts them |
@@ -116,6 +117,7 @@ mod in_front;
 mod inner_edges;
 mod intervals;
 mod join;
+mod key;
 mod lines;
 mod map;
 mod narrow;

@@ -1,9 +1,10 @@
 use glam::DVec3;
 
-use super::{Adopted, Key, Lines, Rounded};
+use super::{Adopted, Lines, Rounded};
 use crate::BuildOptions;
 use crate::build::progress::Watch;
 use crate::drawing::half::Half;
+use crate::drawing::key::Key;
 use crate::drawing::rims::Rims;
 use crate::drawing::stock::Stock;
 use crate::drawing::twofold::Twofold;
