@@ -57,6 +57,7 @@
 // | `lines` | all lines of a picture, by what made them |
 // | `rect` | boxes in the picture |
 // | `cell` | convex cells, and how a line cuts them |
+// | `near_vertices` | vertices of fragments, nearly |
 // | `stock` | the pieces that may show |
 // | `rims` | the lines that bound them, made when they are asked for |
 // | `tile` | tiles of the picture |
@@ -122,6 +123,7 @@ mod lines;
 mod map;
 mod narrow;
 mod near;
+mod near_vertices;
 mod opaque;
 mod order;
 mod outline;

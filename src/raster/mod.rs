@@ -33,6 +33,8 @@ mod sheet;
 pub(crate) mod tests;
 mod zbuffer;
 
+#[cfg(feature = "drawing")]
+pub(crate) use bounds::VERTEX_ERROR;
 pub use canvas::blend;
 pub(crate) use canvas::for_each_shaded;
 pub(crate) use compare_pictures::is_open;
@@ -49,7 +51,7 @@ pub use picture::{brightness, colour_of, depth_map, difference, picture};
 pub(crate) use rays::Pencil;
 pub use rays::Rays;
 #[cfg(feature = "drawing")]
-pub(crate) use sheet::Sheet;
+pub(crate) use sheet::{Sheet, normal_of};
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};
 
