@@ -13,7 +13,7 @@ use super::reaches::{Reach, Reaches};
 use super::rect::{NOWHERE, Rect, are_apart};
 use super::reporter::each;
 use super::rims::Rims;
-use super::stock::Stock;
+use super::stock::{FEW, Stock};
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
@@ -170,13 +170,18 @@ impl<'l> LeafReaches<'l> {
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
 fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> bool {
     let outline = rims.known_outline(stock.face(visible.item));
-    let mut own: SmallVec<[u64; 8]> = outline.iter().map(|half| half.line()).collect();
-    own.sort_unstable();
-    visible
-        .cell
-        .sides
-        .iter()
-        .all(|side| side.half.number().is_none() || own.binary_search(&side.half.line()).is_ok())
+    // Of most faces, to look at all edges is quicker.
+    let is_many = outline.len() > FEW;
+    let mut own: SmallVec<[u64; FEW]> = SmallVec::new();
+    if is_many {
+        own.extend(outline.iter().map(|half| half.line()));
+        own.sort_unstable();
+    }
+    let is_own = |line: u64| match is_many {
+        true => own.binary_search(&line).is_ok(),
+        false => outline.iter().any(|half| half.line() == line),
+    };
+    visible.cell.sides.iter().all(|side| side.half.number().is_none() || is_own(side.half.line()))
 }
 
 /// The box around leaves.

@@ -7,7 +7,7 @@ use super::frame::is_same_line;
 use super::half::Half;
 use super::halving::{CUT, VISITED};
 use super::inner_edges::{FaceEdge, InnerEdges};
-use super::lines::Key;
+use super::key::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
 use super::reporter::{each, finish_item, sort_by};

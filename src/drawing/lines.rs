@@ -1,34 +1,22 @@
 //! The lines of a picture, each known by what made it.
 
 mod adopted;
-mod coefficients;
+mod of_halves;
 #[cfg(test)]
 mod tests;
 
 pub(super) use adopted::Adopted;
 
 use super::feet::{Feet, Foot};
-use super::frame::{Frame, is_opposite, is_same_line};
+use super::frame::{ExactLine, Frame, is_opposite, is_same_line};
 use super::half::Half;
+use super::key::Key;
 use super::rounded::Rounded;
 use super::table::{Table, insert};
 use super::twofold::Twofold;
 use crate::Error;
 use crate::exact::{PlaneId, PlaneKind};
 use crate::memory::push;
-
-/// What made a line. Equal keys are equal lines, up to their direction; those of other keys may be, too,
-/// but for edges: edges on one line have its first key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Key {
-    /// The edge between two points, the lower number first.
-    Edge([u32; 2]),
-    /// A face's edge from its corner to the next, one of which was moved onto the face's plane, or may have
-    /// been.
-    Upright(u32, u32),
-    /// The cut of a face by a plane: of two faces' planes, of the lower by the higher.
-    Cut(u32, PlaneId),
-}
 
 /// The number of no point.
 pub(super) const NOWHERE: u32 = u32::MAX;
@@ -249,23 +237,18 @@ impl<'t> Lines<'t> {
         Ok(number)
     }
 
-    /// The foot of a half's line.
-    pub(super) fn foot(&self, half: Half) -> Foot {
-        Foot::of(&self.rounded(half), self.reach)
-    }
-
-    /// That of some lines which is the line of a half, if there is one, and whether both are positive on the same
-    /// side.
-    pub(super) fn same_line(&self, lines: &Feet, half: Half) -> Option<(u32, bool)> {
-        let exact = self.exact(half);
-        lines.near(&self.foot(half)).find_map(|line| {
-            let other = self.exact_of(self.key(line));
-            is_same_line(&exact, &other).then(|| (line, !is_opposite(&exact, &other)))
-        })
-    }
-
     /// What made a line.
     pub(super) fn key(&self, line: u32) -> Key {
         self.keys[line as usize]
+    }
+
+    /// A line in floats.
+    fn rounded_of(&self, key: Key) -> Rounded {
+        key.rounded(&self.frame, &self.corners, self.reach)
+    }
+
+    /// A line in integers.
+    fn exact_of(&self, key: Key) -> ExactLine {
+        key.exact(&self.frame, &self.corners)
     }
 }

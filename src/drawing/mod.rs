@@ -53,9 +53,11 @@
 // | `twofold` | the same in pairs of floats |
 // | `exact_lines` | on which side of a line two others meet, where floats cannot tell |
 // | `feet` | lines found by where they are |
+// | `key` | what made a line |
 // | `lines` | all lines of a picture, by what made them |
 // | `rect` | boxes in the picture |
 // | `cell` | convex cells, and how a line cuts them |
+// | `near_vertices` | vertices of fragments, nearly |
 // | `stock` | the pieces that may show |
 // | `rims` | the lines that bound them, made when they are asked for |
 // | `tile` | tiles of the picture |
@@ -116,10 +118,12 @@ mod in_front;
 mod inner_edges;
 mod intervals;
 mod join;
+mod key;
 mod lines;
 mod map;
 mod narrow;
 mod near;
+mod near_vertices;
 mod opaque;
 mod order;
 mod outline;

@@ -1,8 +1,7 @@
 //! What a picture is made of: pieces of faces, front to back.
 
-use smallvec::SmallVec;
-
 use super::frame::Frame;
+use super::near_vertices::NEAR;
 use super::rect::{NOWHERE, Rect, common, is_empty};
 use super::reporter::each;
 use super::tile::Tile;
@@ -11,7 +10,7 @@ use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::{collect, reserve};
 use crate::parallel_map;
-use crate::raster::{Rays, Sheet};
+use crate::raster::{Rays, Sheet, VERTEX_ERROR};
 use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may show.
@@ -99,14 +98,14 @@ impl<'t> Stock<'t> {
         if fragment.is_whole() {
             return Some(item(around));
         }
-        let vertices: SmallVec<[[f64; 3]; 8]> = fragment.lattice_vertices().collect();
-        self.around(&vertices).map(item)
+        self.around(&self.frame.near_vertices(fragment), NEAR).map(item)
     }
 
-    /// A box around the part of a convex hull that is in the picture; `None` if there is none.
-    fn around(&self, points: &[[f64; 3]]) -> Option<Rect> {
+    /// A box around the part of a convex hull that is in the picture, of points that may be off by so much; `None` if
+    /// there is none.
+    fn around(&self, points: &[[f64; 3]], off: f64) -> Option<Rect> {
         let picture = Tile::picture(self.frame.rays.size()).sides();
-        let around = common(&self.frame.rays.region(points)?, &picture);
+        let around = common(&self.frame.rays.region(points, off)?, &picture);
         (!is_empty(&around)).then_some(around)
     }
 
@@ -117,7 +116,9 @@ impl<'t> Stock<'t> {
         if opacity == 0.0 {
             return unseen;
         }
-        let Some(around) = self.around(faces.corners(face)) else { return unseen };
+        let Some(around) = self.around(faces.corners(face), VERTEX_ERROR) else {
+            return unseen;
+        };
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
         let side = certain.unwrap_or_else(|| self.frame.sheet(plane).side());

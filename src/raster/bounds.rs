@@ -15,7 +15,7 @@ pub(super) struct Window {
 
 /// The largest error of a vertex's coordinate, in lattice units: 2, and room for the rounding of
 /// coordinates beyond 2⁵³.
-const VERTEX_ERROR: f64 = 2.5;
+pub(crate) const VERTEX_ERROR: f64 = 2.5;
 /// Margin around a polygon's projection, in pixels, for the rounding of the projection.
 const MARGIN: f64 = 1.0 / 256.0;
 
@@ -26,7 +26,7 @@ impl Rays {
     /// A polygon that reaches behind the eye may be anywhere in the picture, unless all of it is
     /// beyond one of the picture's sides.
     pub(super) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
-        let [[left, top], [right, bottom]] = self.region(points)?;
+        let [[left, top], [right, bottom]] = self.region(points, VERTEX_ERROR)?;
         let range = |axis: usize, low: f64, high: f64| {
             let first = low.ceil().max(0.0) as u32;
             let last = high.floor().min(f64::from(self.size[axis]) - 1.0);
@@ -37,9 +37,9 @@ impl Rays {
     }
 
     /// A box in the picture, least and largest coordinates in pixels from the centre of the first one,
-    /// that has all of the convex hull of these points, each given to within `VERTEX_ERROR`; `None` if
-    /// the picture shows nothing of it. It is infinite for a polygon that reaches behind the eye.
-    pub(crate) fn region(&self, points: &[[f64; 3]]) -> Option<[[f64; 2]; 2]> {
+    /// that has all of the convex hull of these points, each given to within `off` lattice units along each axis;
+    /// `None` if the picture shows nothing of it. It is infinite for a polygon that reaches behind the eye.
+    pub(crate) fn region(&self, points: &[[f64; 3]], off: f64) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
         // The picture's sides, in pixels from the middle of the picture of which it is a part.
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
@@ -49,7 +49,7 @@ impl Rays {
         // Whether all points so far are beyond the left, right, upper, lower side.
         let mut beyond = [true; 4];
         for &point in points {
-            let (at, error) = self.in_picture(point);
+            let (at, error) = self.in_picture(point, off);
             let (z, slack) = (at.z, error.z);
             ahead &= z > 4.0 * slack;
             behind &= z < -slack;
@@ -78,7 +78,7 @@ impl Rays {
     /// centre of the first one, times the last, which is positive ahead of the eye. With bounds on their errors.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
-        let (at, error) = self.in_picture(point);
+        let (at, error) = self.in_picture(point, VERTEX_ERROR);
         let ([x, y, z], [ex, ey, ez]) = (at.to_array(), error.to_array());
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
         let shift = [0.5 * f64::from(self.size[0]) - 0.5, -top - 0.5];
@@ -90,17 +90,17 @@ impl Rays {
         ([x + shift[0] * z, y + shift[1] * z, z], errors)
     }
 
-    /// A point in multiples of right, down and the direction through the middle (the last is 1
-    /// for parallel rays), with bounds on their errors.
+    /// A point, given to within `off`, in multiples of right, down and the direction through the middle (the last
+    /// is 1 for parallel rays), with bounds on their errors.
     #[inline]
-    fn in_picture(&self, point: [f64; 3]) -> (DVec3, DVec3) {
+    fn in_picture(&self, point: [f64; 3], off: f64) -> (DVec3, DVec3) {
         let (arm, parallel) = match self.pencil {
             Pencil::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
             Pencil::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
         };
         // The matrix is the inverse of one with nearly perpendicular columns. So the errors of its
         // entries, and of their products with the arm, are far below the 2⁻⁴⁶ allowed here.
-        let slack = VERTEX_ERROR + arm.abs().max_element() * 2f64.powi(-46);
+        let slack = off + arm.abs().max_element() * 2f64.powi(-46);
         let [a, b, c] = self.to_picture;
         let norm = |row: DVec3| row.abs().element_sum() * slack;
         let mut at = DVec3::new(a.dot(arm), b.dot(arm), c.dot(arm));

@@ -34,6 +34,8 @@ pub(crate) mod tests;
 mod zbuffer;
 
 pub use crate::exact::Faces;
+#[cfg(feature = "drawing")]
+pub(crate) use bounds::VERTEX_ERROR;
 pub use canvas::blend;
 pub(crate) use canvas::for_each_shaded;
 pub(crate) use compare_pictures::is_open;
@@ -50,7 +52,7 @@ pub use picture::{brightness, colour_of, depth_map, difference, picture};
 pub(crate) use rays::Pencil;
 pub use rays::Rays;
 #[cfg(feature = "drawing")]
-pub(crate) use sheet::Sheet;
+pub(crate) use sheet::{Sheet, normal_of};
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};
 

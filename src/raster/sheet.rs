@@ -110,7 +110,7 @@ impl Sheet {
 
 /// The normal of a triangle of lattice points, and its components' sizes |u_j w_k| + |u_k w_j|:
 /// each component is off by at most 2.01 roundings of its size.
-pub(super) fn normal_of([p, q, r]: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
+pub(crate) fn normal_of([p, q, r]: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
     let (mut normal, mut size) = ([0.0; 3], [0.0; 3]);
     for i in 0..3 {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);

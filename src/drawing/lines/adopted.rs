@@ -1,8 +1,9 @@
 //! Lines taken over from another list.
 
-use super::{Key, Lines, NOWHERE};
+use super::{Lines, NOWHERE};
 use crate::Error;
 use crate::drawing::half::Half;
+use crate::drawing::key::Key;
 use crate::drawing::table::insert;
 use crate::memory::filled;
 

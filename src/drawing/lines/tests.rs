@@ -1,14 +1,16 @@
 use glam::DVec3;
 
-use super::{Adopted, Key, Lines, Rounded};
+use super::{Adopted, Lines, Rounded};
 use crate::BuildOptions;
 use crate::build::progress::Watch;
 use crate::drawing::half::Half;
+use crate::drawing::key::Key;
 use crate::drawing::rims::Rims;
 use crate::drawing::stock::Stock;
 use crate::drawing::twofold::Twofold;
 use crate::random::SplitMix64;
 use crate::raster::Rays;
+use crate::scene::Builtin;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
@@ -115,8 +117,17 @@ fn lines_of_another_list_keep_their_sides() {
     // All of them are flattened.
     let tree = BuildOptions::DEFAULT.with_tolerance(1e-6).build(&quads).unwrap();
     let camera = Camera::perspective(DVec3::splat(2.5), DVec3::ZERO, DVec3::Z, 1.0, SIZE).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
-    let stock = Stock::new(&tree, rays, vec![], &Watch::default()).unwrap();
+    check_lists(&tree, &camera);
+    // Neighbours number the corners that they share in either order.
+    let teapot = Builtin::Teapot.build(Some(3), 1);
+    let (low, high) = teapot.bounds().unwrap();
+    let camera = Camera::looking_at_all([low, high], teapot.up(), SIZE).unwrap();
+    check_lists(&BspTree::build(teapot.polygons()).unwrap(), &camera);
+}
+
+fn check_lists(tree: &BspTree, camera: &Camera) {
+    let rays = Rays::new(camera, tree.faces()).unwrap();
+    let stock = Stock::new(tree, rays, vec![], &Watch::default()).unwrap();
     let count = stock.items.len() as u32;
     assert!(count > 15, "{count}");
     // The one list asks from the front to the back, the other the other way.
