@@ -257,7 +257,8 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         rows,
     );
     chapter.text(
-        "Judged at the centres of pixels, by fractions of integers. A polygon's sides are 6 long.",
+        "Each polygon is covered by squares of side 1. Judged at the centres of pixels, by fractions of \
+         integers; the largest error is in sides of a square.",
     );
     Ok(())
 }

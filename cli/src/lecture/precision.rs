@@ -122,8 +122,10 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
         "Two sheets fill the picture and recede from depth 20 (below) to 190 (above). Along each ray the \
          orange one is further away than the blue one, by a fixed share of the depth, so no orange should be \
-         seen. Where both are stored as the same number, the one that is drawn first stays. That must happen \
-         wherever they are less than a step apart, and then in a share of all places that is known as well.",
+         seen. But where a buffer stores the same number for both, the one that was drawn first stays, and \
+         that is the orange one. It happens only where the sheets are less than one step of the buffer apart; \
+         where they are a share s of a step apart, it happens in 1 − s of the pixels. So both the depths of \
+         the fight and the number of wrong pixels can be predicted.",
     );
     let (coarse, fine) = (Sheets::new(6e-4, SIZE), Sheets::new(2.4e-6, SIZE));
     let nearest = Sheets::new(5e-5, SIZE);
@@ -163,21 +165,21 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
         [
             "stored",
             "apart by",
-            "steps predict depths",
+            "predicted at depths",
             "with roundings",
             "seen at depths",
-            "predicted wrong",
+            "predicted wrong pixels",
             "wrong pixels",
         ],
         rows,
     );
     chapter.text(
         "For z the fight begins at depth f n (2^bits - 1) / (f - n) times the share, and everything beyond is \
-         lost; a buffer of w fights in front of a distance instead. The integers \
-         are right wherever the steps predict it. The pipeline before an f32 rounds as much as the f32 itself, \
-         so there it begins earlier. The column with roundings knows the planes as the pipeline sets them up, \
-         and bounds for what is rounded in each pixel: nothing is wrong at other depths, which the tests check \
-         in each format. The tree compares no depths: it decides once on which side of a sheet the other \
+         lost; a buffer of w fights in front of a distance instead. Integers \
+         fight where their steps predict it. What is computed before an f32 is stored is rounded as much as \
+         the f32 itself, so there it begins earlier. The column \"with roundings\" takes that into account: \
+         it takes the planes as the buffer computes them, and bounds what is rounded in each pixel. The tests \
+         check, in each format, that nothing is wrong at other depths. The tree compares no depths: it decides once on which side of a sheet the other \
          lies, exactly, and no pixel is wrong however near they are.",
     );
     Ok(())

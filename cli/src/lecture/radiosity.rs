@@ -63,12 +63,17 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let room = Room::new(FINE, 1).map_err(failure)?;
     let [direct, once] = [0, 1].map(|bounces| room.leaving(bounces));
     chapter.text(format!(
-        "The pictures have {} patches and {} sight lines, one a pair that may see one another. The \
-         ceiling gets no light straight from the lamp, which lies in it; one bounce lights it, and the \
-         red and the green wall colour what is beside them. The measurements, the camera, and what \
-         the paints reflect at 620, 540 and 460 nm, shown as red, green and blue, are those that Cornell \
-         University measured and published; the lamp is taken as white. Their picture is not ours to show: it \
-         is beside these data, at graphics.cornell.edu/online/box.",
+        "The pictures have {} patches and {} sight lines, one a pair that may see one another. Each patch \
+         has one colour. The ceiling gets no light straight from the lamp, which lies in it; one bounce \
+         lights it, and the red and the green wall colour what is beside them. Cornell University built \
+         and measured this box. Its measurements are used here: the surfaces, the camera, and what the \
+         paints reflect at 620, 540 and 460 nm, shown as red, green and blue; the lamp is taken as white. \
+         The published pictures are not ours to copy. They are at https://www.graphics.cornell.edu/online/box \
+         under \"Comparison\", a photograph beside a computed one, and the measurements under \"Data\". \
+         What should be the same: where the outlines of the walls and blocks are, where the blocks throw \
+         their shadows, and which sides of the blocks and parts of the floor turn red or green. What differs: \
+         theirs has all bounces, so its shadows are lighter, and the lamp's own colour, which is warmer; and \
+         its shading is smooth.",
         room.patches.len(),
         room.factors.sight_lines,
     ));

@@ -96,7 +96,11 @@ fn spaces(chapter: &mut Chapter) {
          characterization of ten hidden-surface algorithms\", 1974): among the polygons of the scene, at \
          whatever resolution it is drawn (object space), in each pixel (image space), or with priorities \
          among polygons that are found partly in the one and partly in the other. These are the methods that \
-         are compared here and in the report.",
+         are compared here and in the report. In their names, bsp is the tree: exact, or decided in numbers \
+         of 64 or 32 bits with the tolerance that follows. z is a depth buffer of so many bits, or of \
+         floating-point numbers (f32); w is one that stores the depth itself instead of the usual z; what \
+         follows says how pixels are found and which depths count as nearer. The chapters below explain \
+         them.",
     );
     let methods = all(&Options::DEFAULT);
     let row = |space: Space| {

@@ -127,6 +127,8 @@ function resize() {
   const ratio = window.devicePixelRatio || 1;
   CANVAS.width = Math.max(1, Math.round(CANVAS.clientWidth * ratio));
   CANVAS.height = Math.max(1, Math.round(CANVAS.clientHeight * ratio));
+  // Another size empties the canvas, and it is shown before the next chance to draw.
+  draw(1);
   change();
 }
 
@@ -259,6 +261,6 @@ for (const [name, value] of DATA.figures) {
 $("place").max = TREE.fragments;
 $("place").value = TREE.fragments;
 listen();
-resize();
 readControls();
+resize();
 describe();

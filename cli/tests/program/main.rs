@@ -22,6 +22,7 @@ mod output;
 mod page;
 mod page_orders;
 mod page_pictures;
+mod page_speed;
 mod pipes;
 mod png_picture;
 mod real_scenes;

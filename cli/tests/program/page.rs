@@ -102,6 +102,13 @@ const DEEDS: &str = "
     check('pause', !state.isPlaying && $('play').textContent === 'Play');
     set('place', TREE.fragments, 'input');
 
+    CANVAS.style.maxWidth = '300px';
+    resize();
+    const corner = CANVAS.getContext('2d').getImageData(0, 0, 1, 1).data;
+    check('resized', CANVAS.width === 300 * devicePixelRatio && corner[0] === style.background[0]);
+    CANVAS.style.maxWidth = '';
+    resize();
+
     draw(2);
     check('smooth', fine.width === 2 * coarse.width && fine.lineWidth === 2);
     const named = [...document.querySelectorAll('button, input, select, canvas')];

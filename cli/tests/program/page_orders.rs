@@ -9,14 +9,14 @@ use crate::run::{CROSSING, Folder};
 
 /// An eye at a point of the grid, or a direction to look in, of components that are kept as they are.
 #[derive(Clone, Copy, Debug)]
-enum Eye {
+pub(crate) enum Eye {
     At([f64; 3]),
     Towards([f64; 3]),
 }
 
 impl Eye {
     /// The eye as the library takes it; `None` if its position cannot be expressed.
-    fn viewpoint(self, tree: &BspTree) -> Option<Viewpoint> {
+    pub(crate) fn viewpoint(self, tree: &BspTree) -> Option<Viewpoint> {
         let grid = tree.grid();
         match self {
             Self::At(point) => {
@@ -70,22 +70,29 @@ fn eyes(tree: &BspTree, count: usize, seed: u64) -> Vec<Eye> {
 }
 
 /// A number of a list, by the hash of Fowler, Noll and Vo over its words.
-fn hash(order: &[u32]) -> u32 {
+pub(crate) fn hash(order: &[u32]) -> u32 {
     order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
 }
 
-const HASHES: &str = "
-    let integers = 0;
-    const exact = isInFront;
-    isInFront = (...args) => { integers++; return exact(...args); };
-    const hashes = EYES.map(eye => backToFront(TREE, eye).reduce(
-        (hash, number) => Math.imul(hash ^ number, 16777619), 2166136261 | 0) >>> 0);
-    return [integers, ...hashes].join(' ');";
+/// The same of a list of the script's.
+pub(crate) fn hash_in_script(list: &str) -> String {
+    format!(
+        "({list}.reduce((hash, number) => Math.imul(hash ^ number, 16777619), 2166136261 | 0) >>> 0)"
+    )
+}
 
 /// How many planes were decided by integers, and the orders of a page, hashed.
 fn orders_of_page(browser: &str, folder: &Folder, page: &str, eyes: &[Eye]) -> Vec<u32> {
     let eyes: Vec<String> = eyes.iter().map(|eye| eye.script()).collect();
-    let script = format!("const EYES = [{}]; {HASHES}", eyes.join(",\n"));
+    let script = format!(
+        "let integers = 0;
+        const exact = isInFront;
+        isInFront = (...args) => {{ integers++; return exact(...args); }};
+        const hashes = [{}].map(eye => {});
+        return [integers, ...hashes].join(' ');",
+        eyes.join(",\n"),
+        hash_in_script("backToFront(TREE, eye)"),
+    );
     let said = said(browser, folder, page, &script);
     said.split(' ').map(|number| number.parse().unwrap()).collect()
 }

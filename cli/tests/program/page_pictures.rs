@@ -1,7 +1,5 @@
 //! The script of a page paints as the library does.
 
-use std::io::Write;
-
 use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::LATTICE_LIMIT;
@@ -12,7 +10,7 @@ use binspace::view::{Camera, Projection, views};
 use crate::chromium::{browser, page_and_tree, said};
 use crate::run::Folder;
 
-/// Cameras around a tree and inside it, and a parallel one; each with whether backs are left out.
+/// Cameras around a tree and inside it, and a parallel one twice; each with whether backs are left out.
 fn cameras(tree: &BspTree) -> Vec<(Camera, bool)> {
     let corners = tree.fragments().flat_map(|fragment| fragment.vertices());
     let [low, high] = corners
@@ -21,8 +19,9 @@ fn cameras(tree: &BspTree) -> Vec<(Camera, bool)> {
     let mut cameras = views([low, high], DVec3::Z, 4, size, 5).unwrap();
     let (middle, extent) = (0.5 * (low + high), (high - low).length());
     let direction = DVec3::new(-1.0, -2.0, -1.5);
-    cameras.push(Camera::parallel(direction, DVec3::Z, middle, extent, size).unwrap());
-    cameras.into_iter().enumerate().map(|(i, camera)| (camera, i % 4 == 2)).collect()
+    let parallel = Camera::parallel(direction, DVec3::Z, middle, extent, size).unwrap();
+    cameras.extend([parallel, parallel]);
+    cameras.into_iter().enumerate().map(|(i, camera)| (camera, i == 2 || i == 5)).collect()
 }
 
 /// Paints with a camera, each polygon in a colour of its own, and gives the polygon of each pixel.
@@ -109,37 +108,4 @@ fn pictures_are_those_of_the_library() {
     }
     assert!(shown > 400_000, "{shown}");
     assert!(differ <= 10, "{differ}");
-}
-
-/// Of the processor alone, as pixels are painted: `cargo test -p binspace-cli --test program
-/// pictures_a_second -- --ignored --nocapture`.
-#[test]
-#[ignore = "measures"]
-fn pictures_a_second() {
-    let Some(browser) = browser() else { return };
-    let folder = Folder::new("page_speed");
-    for scene in ["city:10000", "teapot:14", "random:910"] {
-        let (page, tree) = page_and_tree(&folder, scene);
-        let script = "
-            [CANVAS.width, CANVAS.height] = [1280, 720];
-            const picture = pictureOf(1280, 720);
-            const measured = () => {
-                const times = [];
-                for (let i = 0; i < 240; i++) {
-                    camera.yaw = i * Math.PI / 120;
-                    const begin = performance.now();
-                    paint(TREE, camera, picture, style, TREE.fragments);
-                    show(picture);
-                    times.push(performance.now() - begin);
-                }
-                times.sort((a, b) => a - b);
-                return (1000 / times[120]).toFixed(0);
-            };
-            measured();
-            const plain = measured();
-            style.edges = style.cuts = [0, 0, 0];
-            return `${plain} pictures a second, with edges ${measured()}`;";
-        let said = said(browser, &folder, &page, script);
-        let _ = writeln!(std::io::stderr().lock(), "{scene}: {} fragments, {said}", tree.len());
-    }
 }

@@ -88,10 +88,11 @@ pub fn over_the_city(size: [u32; 2]) -> Result<Camera, CameraError> {
     Camera::perspective(eye, eye + dvec3(1.0, 0.8, -0.3), DVec3::Z, 1.0, size)
 }
 
-/// The fragments that own a pixel, back to front, of those that are wanted.
+/// Sets `left` to the fragments that own a pixel, back to front, of those that are wanted, and returns
+/// how many subtrees it entered to find them.
 ///
 /// One walk from front to back finds them: it skips subtrees that are out of view or hidden by what it
-/// met before.
+/// met before. The mask alone would find most of what is out of view as well.
 pub fn unhidden(
     tree: &BspTree,
     bounds: &Bounds,
@@ -99,7 +100,9 @@ pub fn unhidden(
     rays: &Rays,
     is_wanted: impl Fn(&Fragment<'_>) -> bool,
     left: &mut Vec<u32>,
-) {
+) -> usize {
+    left.clear();
+    let mut entered = 0;
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let mut mask = CoverageMask::new(tree, rays, 1);
     let _ = tree.walk_front_to_back(viewpoint, |part| {
@@ -109,6 +112,7 @@ pub fn unhidden(
                 if !frustum.meets(region) || mask.hides(region) {
                     return Flow::Skip;
                 }
+                entered += 1;
             }
             Part::Fragment(fragment) if is_wanted(&fragment) => {
                 if mask.cover(&fragment) {
@@ -120,6 +124,7 @@ pub fn unhidden(
         if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
     });
     left.reverse();
+    entered
 }
 
 #[cfg(test)]
@@ -171,6 +176,48 @@ mod tests {
         }
         assert!(sums.windows(2).all(|pair| pair[1] < pair[0]), "{sums:?}");
         assert!(sums[3] * 20 < sums[0], "{sums:?}");
+    }
+
+    /// How many subtrees are entered if only the mask tells what is out of view, and what is left.
+    fn entered_by_the_mask_alone(
+        tree: &BspTree,
+        bounds: &Bounds,
+        camera: &Camera,
+        rays: &Rays,
+    ) -> (usize, Vec<u32>) {
+        let mut mask = CoverageMask::new(tree, rays, 1);
+        let (mut entered, mut left) = (0, Vec::new());
+        let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
+            match part {
+                Part::Subtree(node) if mask.hides(bounds.of(node)) => return Flow::Skip,
+                Part::Subtree(_) => entered += 1,
+                Part::Fragment(fragment) if mask.cover(&fragment) => left.push(fragment.index()),
+                Part::Fragment(_) => {}
+            }
+            if mask.is_full() { Flow::Break(()) } else { Flow::Descend }
+        });
+        left.reverse();
+        (entered, left)
+    }
+
+    #[test]
+    fn subtrees_out_of_view_are_not_entered() {
+        let tree = BspTree::build(scene::city(3000, 1).polygons()).unwrap();
+        let bounds = tree.bounds().unwrap();
+        let mut random = SplitMix64::new(4);
+        let (mut entered, mut by_mask, mut left) = (0, 0, Vec::new());
+        for _ in 0..12 {
+            let eye = dvec3(360.0, 360.0, random.range(2.0, 200.0));
+            let target = eye + random.point(-1.0, 1.0) * dvec3(1.0, 1.0, 0.3);
+            let camera = Camera::perspective(eye, target, DVec3::Z, 1.0, [80, 60]).unwrap();
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            entered += unhidden(&tree, &bounds, &camera, &rays, |_| true, &mut left);
+            let (others, same) = entered_by_the_mask_alone(&tree, &bounds, &camera, &rays);
+            assert_eq!(left, same);
+            by_mask += others;
+        }
+        // Few more, as the mask has no pixels for most of what is out of view.
+        assert!(entered < by_mask && entered > 1000, "{entered} of {by_mask}");
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A scene with its views and their truth: what every method is held against.
 
+use std::panic::resume_unwind;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use binspace::glam::DVec3;
@@ -94,8 +96,7 @@ impl Trial {
             let start = Instant::now();
             method.prepare(&self.faces).map(|prepared| (prepared, start.elapsed()))
         })?;
-        let mut picture = PictureError::default();
-        let (mut orders, mut draws) = (Vec::new(), Vec::new());
+        let (mut images, mut orders, mut draws) = (Vec::new(), Vec::new(), Vec::new());
         let (mut pieces, mut removed) = (0, 0);
         for view in &self.views {
             let painted = paint(&mut *prepared, view)?;
@@ -103,14 +104,19 @@ impl Trial {
             draws.push(painted.draw);
             pieces = pieces.max(painted.pieces);
             removed += painted.removed;
-            picture += PictureError::of(&view.rays, &self.faces, &painted.image, &view.truth);
+            images.push(painted.image);
         }
+        // Only now: nothing else runs while a method is timed.
+        let (picture, (accuracy, area)) = self.judge(&images, || {
+            let area = area_error(&self.faces, |visit| prepared.for_each_piece(visit));
+            (prepared.accuracy(), area)
+        });
         let extent = extent(&self.faces);
         let unit = self.faces.lattice().length_to_world(1.0);
         Ok(Figures {
             picture,
-            accuracy: prepared.accuracy(),
-            area: area_error(&self.faces, |visit| prepared.for_each_piece(visit)),
+            accuracy,
+            area,
             removed: removed as f64 / (self.views.len() * self.faces.len()).max(1) as f64,
             grid: if extent > 0.0 { unit / extent } else { 0.0 },
             pieces,
@@ -118,6 +124,28 @@ impl Trial {
             order: median(orders),
             draw: median(draws),
             bytes: prepared.bytes(),
+        })
+    }
+
+    /// Judges a picture of each view on a thread of its own, and does something else meanwhile.
+    fn judge<T>(&self, images: &[Image], meanwhile: impl FnOnce() -> T) -> (PictureError, T) {
+        let error = &|(view, image): (&View, &Image)| {
+            PictureError::of(&view.rays, &self.faces, image, &view.truth)
+        };
+        thread::scope(|scope| {
+            let start =
+                |pair| (pair, thread::Builder::new().spawn_scoped(scope, move || error(pair)));
+            let started: Vec<_> = self.views.iter().zip(images).map(start).collect();
+            let other = meanwhile();
+            let mut sum = PictureError::default();
+            for (pair, thread) in started {
+                sum += match thread {
+                    Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+                    // Without a thread it is done here.
+                    Err(_) => error(pair),
+                };
+            }
+            (sum, other)
         })
     }
 }

@@ -18,7 +18,7 @@ use super::outline::{Outline, Plane, apart, clip, holds, hull};
 pub(super) const SLACK: f64 = 1e-7;
 /// Openings that are nearer to the source do not narrow the view: lines from the source through them
 /// would carry roundings too far. Larger: more is kept in vain; smaller: `SLACK` has to be larger.
-const NEAREST: f64 = 2e-4;
+pub(super) const NEAREST: f64 = 2e-4;
 /// How often a portal's visible part may grow before all of the portal counts as visible. Less:
 /// more is kept than can be seen; more: crowded scenes take longer.
 const GROWTHS: u32 = 24;
@@ -52,11 +52,17 @@ impl Cells {
     /// What an eye may see within a frustum, through portals that are within the portals before
     /// them (C. Jones 1971; D. Luebke and C. Georges 1995).
     pub fn seen_from(&self, eye: DVec3, frustum: &Frustum) -> Seen {
-        self.seen_with(SLACK, eye, frustum)
+        self.seen_with(SLACK, NEAREST, eye, frustum)
     }
 
-    /// The same with another slack, so that it can be shown what it is for.
-    pub(super) fn seen_with(&self, slack: f64, eye: DVec3, frustum: &Frustum) -> Seen {
+    /// The same with other bounds of roundings, so that it can be shown what they are for.
+    pub(super) fn seen_with(
+        &self,
+        slack: f64,
+        nearest: f64,
+        eye: DVec3,
+        frustum: &Frustum,
+    ) -> Seen {
         let ease = slack * self.extent;
         let plane = |&(normal, offset): &(DVec3, f64)| {
             let length = normal.length();
@@ -64,7 +70,7 @@ impl Cells {
         };
         let bounds: Vec<Plane> = frustum.planes().iter().map(plane).collect();
         let mut seen = Seen::nothing(self);
-        Sight::new(self, slack, &[eye], &bounds).look(&self.at(eye), &mut seen);
+        Sight::new(self, [slack, nearest], &[eye], &bounds).look(&self.at(eye), &mut seen);
         seen
     }
 
@@ -76,7 +82,7 @@ impl Cells {
         self.look_around(cell, &[], &mut seen);
         for &(number, side) in &self.cells[cell].portals {
             let portal = &self.portals[number];
-            Sight::new(self, SLACK, &portal.outline, &[])
+            Sight::new(self, [SLACK, NEAREST], &portal.outline, &[])
                 .look(&[portal.cells[1 - side]], &mut seen);
         }
         seen
@@ -97,6 +103,7 @@ impl Cells {
 struct Sight<'a> {
     cells: &'a Cells,
     slack: f64,
+    nearest: f64,
     source: &'a [DVec3],
     bounds: &'a [Plane],
     /// The visible part of each portal, first to the back, then to the front; and how often it grew.
@@ -106,9 +113,14 @@ struct Sight<'a> {
 }
 
 impl<'a> Sight<'a> {
-    fn new(cells: &'a Cells, slack: f64, source: &'a [DVec3], bounds: &'a [Plane]) -> Self {
+    fn new(
+        cells: &'a Cells,
+        [slack, nearest]: [f64; 2],
+        source: &'a [DVec3],
+        bounds: &'a [Plane],
+    ) -> Self {
         let parts = vec![<[(Outline, u32); 2]>::default(); cells.portals.len()];
-        Self { cells, slack, source, bounds, parts, pending: VecDeque::new() }
+        Self { cells, slack, nearest, source, bounds, parts, pending: VecDeque::new() }
     }
 
     /// Marks all that is seen, where the source is in some cells or on their walls.
@@ -164,7 +176,7 @@ impl<'a> Sight<'a> {
     fn planes(&self, portal: usize, side: usize) -> Vec<Plane> {
         let part = &self.parts[portal][side].0;
         let Portal { plane, .. } = &self.cells.portals[portal];
-        if apart(self.source, part, plane) < NEAREST * self.cells.extent {
+        if apart(self.source, part, plane) < self.nearest * self.cells.extent {
             return self.bounds.to_vec();
         }
         let mut planes = between(self.source, part, NOISE * self.cells.extent);

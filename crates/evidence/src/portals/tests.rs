@@ -2,7 +2,7 @@
 
 use super::Cells;
 use super::outline::{Plane, apart, clip, hull, split, without};
-use super::sight::SLACK;
+use super::sight::{NEAREST, SLACK};
 use crate::interior;
 use binspace::BspTree;
 use binspace::glam::{DVec3, dvec3};
@@ -106,7 +106,51 @@ fn a_strip_along_the_rim_of_an_opening_is_seen() {
     let frustum = camera.frustum();
     assert!(strip < SLACK * cells.extent);
     assert!(cells.seen_from(eye, &frustum).polygons[2]);
-    assert!(!cells.seen_with(-SLACK, eye, &frustum).polygons[2]);
+    assert!(!cells.seen_with(-SLACK, NEAREST, eye, &frustum).polygons[2]);
+}
+
+/// Eyes so close to the rim of an opening that its rounding turns the view by more than the slack: what
+/// they see along the rim is kept, and would not be if openings as near as that narrowed the view.
+#[test]
+fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
+    // Upright rectangles, from one point of the ground to another.
+    let upright = |from: DVec3, to: DVec3| {
+        [(from, -20.0), (to, -20.0), (to, 20.0), (from, 20.0)].map(|(p, z)| p.with_z(z)).to_vec()
+    };
+    let mut random = SplitMix64::new(9);
+    let (mut shown, mut lost) = (0, 0);
+    for _ in 0..300 {
+        // A wall along `along` with an opening that begins at `rim`, and an eye before it.
+        let angle = random.range(0.0, std::f64::consts::TAU);
+        let along = dvec3(angle.cos(), angle.sin(), 0.0);
+        let rim = random.point(-5.0, 5.0).with_z(0.0);
+        let across = dvec3(-along.y, along.x, 0.0);
+        let size = 10f64.powf(random.range(-10.0, -8.0));
+        let eye = rim - (across + along * random.range(-0.5, 0.5)) * size;
+        // The line of sight along the rim, and a target that reaches a little past it.
+        let sight = (rim - eye).normalize();
+        let left = dvec3(sight.y, -sight.x, 0.0);
+        let end = eye + sight * 30.0 + left * 1e-5;
+        let scene = [
+            upright(rim - along * 20.0, rim),
+            upright(rim + along * 3.0, rim + along * 20.0),
+            upright(end - left * 5.0, end),
+            upright(eye - across * 20.0 - along * 20.0, eye - across * 20.0 + along * 20.0),
+            upright(eye + across * 40.0 - along * 20.0, eye + across * 40.0 + along * 20.0),
+        ];
+        let tree = BspTree::build(&scene).unwrap();
+        let cells = Cells::new(&tree, scene.len());
+        let target = end - left * 5e-6;
+        let camera = Camera::perspective(eye, target, DVec3::Z, 0.5, [1, 1]).unwrap();
+        if owners(&tree, &camera) != [2] {
+            continue;
+        }
+        shown += 1;
+        let frustum = camera.frustum();
+        assert!(cells.seen_from(eye, &frustum).polygons[2], "from {eye}");
+        lost += usize::from(!cells.seen_with(SLACK, 0.0, eye, &frustum).polygons[2]);
+    }
+    assert!(shown > 100 && lost > 5, "{lost} of {shown}");
 }
 
 /// A slit of a 4-millionth of the scene, a hundred times what counts as closed: the far wall is seen.
