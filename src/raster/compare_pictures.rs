@@ -1,6 +1,6 @@
 //! Compares a painted picture with a depth buffer's, pixel by pixel.
 
-use super::exact::{Plane, determinant};
+use super::exact::{Pair, Plane};
 use super::image::{Image, NONE};
 use super::rays::{Given, Rays};
 use crate::exact::{Faces, PlaneId};
@@ -65,15 +65,20 @@ const MOVED_CORNERS: f64 = 4.0;
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
+    let mut pairs = Pairs::default();
     let judge = |(i, (&shown, &nearest)): (usize, (&u32, &u32))| match (shown, nearest) {
         (NONE, NONE) => Verdict::Empty,
         (NONE, _) => Verdict::Hole,
         (_, NONE) => Verdict::Spill,
         _ if faces.polygon(shown) == faces.polygon(nearest) => Verdict::Right,
-        _ if is_contested(rays, faces, shown, nearest, (i % width) as u32, (i / width) as u32) => {
-            Verdict::Contested
+        _ => {
+            let pixel = rays.pixel((i % width) as u32, (i / width) as u32);
+            if is_contested(rays, faces, pairs.of(rays, faces, [shown, nearest]), pixel) {
+                Verdict::Contested
+            } else {
+                Verdict::WrongOrder
+            }
         }
-        _ => Verdict::WrongOrder,
     };
     result.verdicts = painted.faces().iter().zip(truth.faces()).enumerate().map(judge).collect();
     let count = |verdict| result.verdicts.iter().filter(|&&v| v == verdict).count();
@@ -85,26 +90,37 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
     result
 }
 
-/// Whether the tolerance allows either of the faces `p` and `q` in front on the ray of a pixel.
-fn is_contested(rays: &Rays, faces: &Faces, p: u32, q: u32, x: u32, y: u32) -> bool {
-    let [p, q] = [p, q].map(|face| Plane::of(faces, face));
-    let pixel = rays.pixel(x, y);
-    // Symmetric in the two planes: it suffices that the ray meets either face near the other's
-    // plane.
-    let met = |to, on| distance(rays, to, on, pixel);
-    let tolerance = faces.tolerance();
-    let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
-    met(&p, &q).min(met(&q, &p)) <= allowed
+/// The planes of two faces, kept from one pixel to the next: the same two meet in many.
+#[derive(Default)]
+pub(super) struct Pairs(Option<([u32; 2], Pair)>);
+
+impl Pairs {
+    pub(super) fn of(&mut self, rays: &Rays, faces: &Faces, both: [u32; 2]) -> &Pair {
+        let last = self.0.take().filter(|&(last, _)| last == both);
+        let pair = || (both, Pair::new(rays, both.map(|face| Plane::of(faces, face))));
+        &self.0.insert(last.unwrap_or_else(pair)).1
+    }
 }
 
-/// The distance from the plane `to` of the point where the ray of a pixel meets the plane `on`, in
+/// Whether the tolerance allows either of two faces in front on the ray of a pixel.
+fn is_contested(rays: &Rays, faces: &Faces, pair: &Pair, pixel: Given) -> bool {
+    let tolerance = faces.tolerance();
+    let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
+    // Symmetric in the two planes: it suffices that the ray meets either face near the other's
+    // plane.
+    let [p, q] = distances(rays, pair, pixel);
+    p.min(q) <= allowed
+}
+
+/// The distances from each of two planes of the point where the ray of a pixel meets the other, in
 /// lattice units, rounded.
-fn distance(rays: &Rays, to: &Plane, on: &Plane, pixel: Given) -> f64 {
-    let divisor = if rays.is_perspective() { on.phi(pixel) } else { on.kappa(rays) };
+fn distances(rays: &Rays, pair: &Pair, pixel: Given) -> [f64; 2] {
+    let at = pair.at(pixel);
+    let divisors = pair.divisors(rays, &at);
     // The determinant is exact and is rounded only here, so a tie gives exactly 0. A ray within the
-    // plane `on` gives 0 / 0 = NaN, which compares as too far.
-    let value = determinant(rays, to, on, pixel).to_f64().abs();
-    value / (divisor.to_f64().abs() * to.normal().length())
+    // plane that it is to meet gives 0 / 0 = NaN, which compares as too far.
+    let value = at.determinant.to_f64().abs();
+    [0, 1].map(|to| value / (divisors[1 - to].abs() * pair.planes[to].normal().length()))
 }
 
 /// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the
@@ -131,7 +147,10 @@ pub(crate) fn is_open(
     let allowed = tolerance + MOVED_CORNERS;
     let plane = Plane::new(faces, plane);
     let pixel = rays.pixel(x, y);
-    let meets = |face| distance(rays, &plane, &Plane::of(faces, face), pixel) <= allowed;
+    let meets = |face| {
+        let pair = Pair::new(rays, [plane, Plane::of(faces, face)]);
+        distances(rays, &pair, pixel)[0] <= allowed
+    };
     let begins = || {
         let height = plane.kappa(rays).to_f64().abs() / plane.normal().length();
         rays.is_perspective() && height <= allowed

@@ -1,8 +1,8 @@
 //! How far wrongly painted faces lie behind the ones that should show.
 
-use super::compare_pictures::{Comparison, Verdict};
+use super::compare_pictures::{Comparison, Pairs, Verdict};
 use super::coverage::Coverage;
-use super::exact::{Plane, determinant};
+use super::exact::Pair;
 use super::image::Image;
 use super::piece::Outline;
 use super::rays::Rays;
@@ -32,15 +32,24 @@ pub fn depth_error(
 ) -> DepthError {
     let width = rays.size()[0] as usize;
     let mut result = DepthError::default();
+    let mut pairs = Pairs::default();
+    let mut last = None;
     let pixels = painted.faces().iter().zip(truth.faces()).zip(&comparison.verdicts).enumerate();
     for (i, ((&shown, &nearest), &verdict)) in pixels {
+        if verdict != Verdict::WrongOrder {
+            continue;
+        }
         let (x, y) = ((i % width) as u32, (i / width) as u32);
-        let is_met = || {
-            let coverage = Coverage::new(rays, faces, shown, Outline::Whole);
-            coverage.is_some_and(|coverage| coverage.covers(x, y))
-        };
-        if verdict == Verdict::WrongOrder && is_met() {
-            let depth = difference(rays, faces, shown, nearest, x, y);
+        // The same face mostly shows in the next wrong pixel, too.
+        let (_, coverage) = last
+            .take()
+            .filter(|&(face, _)| face == shown)
+            .unwrap_or_else(|| (shown, Coverage::new(rays, faces, shown, Outline::Whole)));
+        let is_met = coverage.as_ref().is_some_and(|coverage| coverage.covers(x, y));
+        last = Some((shown, coverage));
+        if is_met {
+            let pair = pairs.of(rays, faces, [shown, nearest]);
+            let depth = difference(rays, pair, x, y);
             result.pixels += 1;
             result.max = result.max.max(depth);
             result.sum += depth;
@@ -52,13 +61,8 @@ pub fn depth_error(
 /// The distance along the ray of a pixel between its points on two planes. The points are at −κ/φ
 /// for a perspective, at −φ/κ for parallel rays; they are subtracted exactly before anything is
 /// rounded.
-fn difference(rays: &Rays, faces: &Faces, p: u32, q: u32, x: u32, y: u32) -> f64 {
-    let [p, q] = [p, q].map(|face| Plane::of(faces, face));
-    let pixel = rays.pixel(x, y);
-    let divisor = |plane: &Plane| {
-        let value = if rays.is_perspective() { plane.phi(pixel) } else { plane.kappa(rays) };
-        value.to_f64()
-    };
-    let steps = determinant(rays, &p, &q, pixel).to_f64() / divisor(&p) / divisor(&q);
-    (steps * rays.depth_unit).abs()
+fn difference(rays: &Rays, pair: &Pair, x: u32, y: u32) -> f64 {
+    let at = pair.at(rays.pixel(x, y));
+    let [p, q] = pair.divisors(rays, &at);
+    (at.determinant.to_f64() / p / q * rays.depth_unit).abs()
 }
