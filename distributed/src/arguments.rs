@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use binspace::glam::DVec3;
-use binspace::view::{Camera, CameraError};
-use binspace::partition::Extent;
 use binspace::BuildOptions;
+use binspace::glam::DVec3;
+use binspace::partition::Extent;
+use binspace::view::{Camera, CameraError};
 use clap::Parser;
 
 /// The vertical field of view in radians.

@@ -17,9 +17,9 @@ mod share;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use binspace::partition::{Extent, Partition};
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::partition::{Extent, Partition};
 use binspace::{BspTree, BuildOptions};
 use clap::Parser;
 use mpi::topology::SimpleCommunicator;
@@ -202,8 +202,13 @@ fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Re
         let look =
             |polygon: usize| (share.polygons[polygon].colour, share.polygons[polygon].opacity);
         let viewpoint = camera.viewpoint();
-        let pixels =
-            binspace::paint::paint_tree_in_colour(&tree, viewpoint, &rays, look, picture::BACKGROUND);
+        let pixels = binspace::paint::paint_tree_in_colour(
+            &tree,
+            viewpoint,
+            &rays,
+            look,
+            picture::BACKGROUND,
+        );
         picture::write(&arguments.output, camera.size(), &pixels)
     };
     together(world, draw())

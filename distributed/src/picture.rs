@@ -5,10 +5,10 @@ use std::io;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
+use binspace::BspTree;
+use binspace::paint::for_each_painted;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::paint::for_each_painted;
-use binspace::BspTree;
 
 use crate::polygon::Given;
 

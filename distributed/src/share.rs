@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use binspace::glam::DVec3;
-use binspace::scene::ObjStream;
-use binspace::partition::Extent;
 use binspace::Error;
+use binspace::glam::DVec3;
+use binspace::partition::Extent;
+use binspace::scene::ObjStream;
 
 use crate::polygon::Given;
 
