@@ -7,7 +7,8 @@ pub enum EdgeKind {
     /// No other polygon has the same edge, or several do.
     Border,
     /// One polygon at the edge is seen from its front, the other from behind, or one of them edge-on; or so
-    /// are two parts of one polygon that is not planar: a body ends there, as seen from the eye.
+    /// are two parts of one polygon that is not planar: a body ends there, as seen from the eye. (Of two whose
+    /// fronts are not on one side of the surface, one is turned round for this.)
     Silhouette,
     /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
     /// back on the other.

@@ -30,10 +30,11 @@ impl VisibilityMap<'_> {
     /// beginning to its end.
     ///
     /// What is visible is read off the map, so it is as exact: only the ends of runs are rounded. An edge
-    /// is hidden by what lies before it, not by the polygons that have it. Polygons have an edge in common
+    /// is hidden by what lies before it, not by the faces that have it (though by another part of a polygon that is
+    /// not planar). Polygons have an edge in common
     /// if both of its corners are the same. Edges inside a polygon, which triangulation made, are none, but
     /// for silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge,
-    /// and from behind on the other. Nor are edges of polygons that are all seen exactly edge-on. Where
+    /// and from behind on the other. Nor are edges at which all polygons are seen exactly edge-on. Where
     /// polygons go through one another, [`crossings`](Self::crossings) tells.
     ///
     /// O(n log n) for n edges and cells. (What is hidden, and how to tell for lines: A. Appel, "The notion

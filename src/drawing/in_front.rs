@@ -49,8 +49,9 @@ impl VisibilityMap<'_> {
     /// number of polygons in front of them changes.
     ///
     /// All polygons count that show a side to the camera, once each, be they hidden themselves; but not
-    /// those of which a face has the edge. One counts at least, as where the edge of a shelf lies on the wall that
-    /// hides the shelf. Time and memory go with how many lie in front of hidden edges.
+    /// the faces that have the edge (of a polygon that is not planar, another face may lie in front). One counts at
+    /// least, as where the edge of a shelf lies on the wall that hides the shelf. Time and memory go with how many
+    /// lie in front of hidden edges.
     ///
     /// # Errors
     ///
