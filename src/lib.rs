@@ -118,8 +118,6 @@ pub mod internals {
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
     pub use crate::input::MAX_CORNERS;
-    #[cfg(feature = "raster")]
-    pub use crate::paint::paint_order;
     pub use crate::query::Spot;
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]

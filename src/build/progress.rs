@@ -93,6 +93,10 @@ impl<'a> Watch<'a> {
         if self.is_cancelled() {
             return Err(Error::cancelled());
         }
+        if pieces == 0 {
+            // All threads share the counter.
+            return Ok(());
+        }
         let before = self.work.fetch_add(pieces, Ordering::Relaxed);
         if before / PULSE == before.wrapping_add(pieces) / PULSE { Ok(()) } else { self.call() }
     }

@@ -4,8 +4,6 @@
 //! painted too; a piece of a translucent one, before or after each that shows there, as they lie. What is
 //! hidden by a third needs no order.
 
-use smallvec::SmallVec;
-
 use super::halving::{CUT, VISITED, found_in};
 use super::lines::Lines;
 use super::pairs::{Found, Pair, add, sorted};
@@ -13,11 +11,11 @@ use super::reaches::{Reach, Reaches};
 use super::rect::{NOWHERE, Rect, are_apart};
 use super::reporter::each;
 use super::rims::Rims;
-use super::stock::{FEW, Stock};
+use super::stock::{FEW_CORNERS, Stock};
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{push, reserve};
+use crate::memory::{collect, push, reserve};
 
 /// Leaves with the opaque faces that may reach into them, and the translucent items.
 struct LeafReaches<'l> {
@@ -99,7 +97,7 @@ impl<'l> LeafReaches<'l> {
             let visible = visible?;
             let face = stock.face(visible.item);
             watch.work(stock.edges_work(face))?;
-            if is_whole(stock, rims, visible) {
+            if is_whole(stock, rims, visible)? {
                 push(&mut whole, face)?;
             }
         }
@@ -168,20 +166,17 @@ impl<'l> LeafReaches<'l> {
 }
 
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
-fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> bool {
+fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> Result<bool, Error> {
     let outline = rims.known_outline(stock.face(visible.item));
+    let sides = visible.cell.sides.iter().map(|side| side.half);
+    let mut sides = sides.filter(|half| half.number().is_some());
     // Of most faces, to look at all edges is quicker.
-    let is_many = outline.len() > FEW;
-    let mut own: SmallVec<[u64; FEW]> = SmallVec::new();
-    if is_many {
-        own.extend(outline.iter().map(|half| half.line()));
-        own.sort_unstable();
+    if outline.len() <= FEW_CORNERS {
+        return Ok(sides.all(|side| outline.iter().any(|half| half.line() == side.line())));
     }
-    let is_own = |line: u64| match is_many {
-        true => own.binary_search(&line).is_ok(),
-        false => outline.iter().any(|half| half.line() == line),
-    };
-    visible.cell.sides.iter().all(|side| side.half.number().is_none() || is_own(side.half.line()))
+    let mut own = collect(outline.iter().map(|half| half.line()))?;
+    own.sort_unstable();
+    Ok(sides.all(|side| own.binary_search(&side.line()).is_ok()))
 }
 
 /// The box around leaves.

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::half::Half;
 use super::lines::Lines;
 use super::rect::{NOWHERE, Rect};
-use super::stock::FEW;
+use super::stock::FEW_CORNERS;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::reserve;
@@ -129,7 +129,7 @@ impl Cell {
     /// To look at all corners takes as long as a build takes to examine so many pieces; 0 for few, which are part
     /// of what is counted for a cell.
     fn corners_work(&self) -> usize {
-        if self.sides.len() > FEW { self.sides.len() } else { 0 }
+        if self.sides.len() > FEW_CORNERS { self.sides.len() } else { 0 }
     }
 
     /// A box around it.

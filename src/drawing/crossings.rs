@@ -113,7 +113,8 @@ impl VisibilityMap<'_> {
         let lines = &self.rims.lines;
         let mut cuts = CutLines::default();
         let is_cut = |line: u32| matches!(lines.key(line), Key::Cut(..));
-        // Cells before they are divided: of two lines that are the same, parts have one.
+        // Before tiles are divided: a side of a part has one of several lines that are the same, which may be
+        // another polygon's edge.
         for (i, leaf) in self.leaves.iter().enumerate() {
             for visible in each(watch, CUT, &leaf.cells) {
                 let halves = visible?.cell.sides.iter().map(|side| side.half);

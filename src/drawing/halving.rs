@@ -8,7 +8,7 @@ use crate::build::progress::Watch;
 use crate::memory::{push, reserve};
 use crate::parallel_map;
 
-/// The picture is halved so often before its parts are shared out to threads.
+/// So often both halves of a part are offered to all threads; deeper, one goes on alone.
 const SHARED: usize = 6;
 /// To compare an item with a tile takes as long as a build takes to examine so many pieces.
 pub(super) const NARROWED: usize = 8;

@@ -12,12 +12,12 @@ use crate::tree::Fragment;
 
 /// Vertices are at most so far off along each axis, in lattice units: 2⁻³³ of the lattice. Smaller: more are
 /// computed by integers; larger: boxes are larger than they need be.
-pub(super) const NEAR: f64 = (1u64 << 20) as f64;
+pub(super) const NEAR_VERTEX: f64 = (1u64 << 20) as f64;
 /// What is rounded at the end, and the error of vertices from integers.
-const ROUNDED: f64 = 8.0;
+const ROUNDING: f64 = 8.0;
 
 impl Frame<'_> {
-    /// The vertices of a fragment, each to within [`NEAR`]: by floats where they can tell, else by integers.
+    /// The vertices of a fragment, each to within [`NEAR_VERTEX`]: by floats where they can tell, else by integers.
     pub(super) fn near_vertices(&self, fragment: &Fragment<'_>) -> SmallVec<[[f64; 3]; 8]> {
         let (faces, face) = (self.faces, fragment.face());
         let near: Option<_> =
@@ -26,7 +26,7 @@ impl Frame<'_> {
     }
 }
 
-/// A vertex of a face to within [`NEAR`]; `None` if floats cannot tell.
+/// A vertex of a face to within [`NEAR_VERTEX`]; `None` if floats cannot tell.
 fn near_vertex(faces: &Faces, face: u32, vertex: Symbol) -> Option<[f64; 3]> {
     match vertex.kind() {
         SymbolKind::Corner(k) => Some(faces.corners(face)[k as usize]),
@@ -52,8 +52,8 @@ fn on_edge(faces: &Faces, [a, b]: [[f64; 3]; 2], plane: PlaneId) -> Option<[f64;
     near(a, arm.map(|c| share * c), arm.map(|c| spread * c.abs()))
 }
 
-/// Where two planes meet that of a triangle. With the values of each plane at the three corners, their vector
-/// product are the weights of the corners.
+/// Where two planes meet that of a triangle. The weights of its corners there are the vector product of the
+/// values of the one plane at the three corners and those of the other.
 fn meeting(faces: &Faces, triangle: [[f64; 3]; 3], planes: [PlaneId; 2]) -> Option<[f64; 3]> {
     let [(g, g_off), (h, h_off)] = planes.map(|plane| values(faces, plane, triangle));
     let [g_most, h_most] = [g, h].map(|v| v.iter().fold(0.0f64, |most, c| most.max(c.abs())));
@@ -62,7 +62,8 @@ fn meeting(faces: &Faces, triangle: [[f64; 3]; 3], planes: [PlaneId; 2]) -> Opti
         g[j] * h[k] - g[k] * h[j]
     });
     let total = weights[0] + weights[1] + weights[2];
-    // A weight is two products of values that are off, by two roundings each, and has a third of the sum's.
+    // A weight g h − g′ h′ is off by 2 (|g| δh + |h| δg + δg δh), and by the roundings of the two products, of their
+    // difference and, in part, of the sum.
     let off = 2.0 * (g_most * h_off + h_most * g_off + g_off * h_off)
         + 16.0 * f64::EPSILON * g_most * h_most;
     let least = total.abs() - 3.0 * off;
@@ -80,9 +81,9 @@ fn meeting(faces: &Faces, triangle: [[f64; 3]; 3], planes: [PlaneId; 2]) -> Opti
     near(triangle[0], from, spread)
 }
 
-/// A point away from another by what is off by up to `spread`, if that is near enough.
+/// `point` + `from`, where `from` is off by up to `spread`, if that is near enough.
 fn near(point: [f64; 3], from: [f64; 3], spread: [f64; 3]) -> Option<[f64; 3]> {
-    let is_near = spread.iter().all(|off| *off <= NEAR - ROUNDED);
+    let is_near = spread.iter().all(|off| *off <= NEAR_VERTEX - ROUNDING);
     is_near.then(|| std::array::from_fn(|i| point[i] + from[i]))
 }
 

@@ -1,7 +1,7 @@
 //! What a picture is made of: pieces of faces, front to back.
 
 use super::frame::Frame;
-use super::near_vertices::NEAR;
+use super::near_vertices::NEAR_VERTEX;
 use super::rect::{NOWHERE, Rect, common, is_empty};
 use super::reporter::each;
 use super::tile::Tile;
@@ -50,8 +50,8 @@ pub(super) struct Stock<'t> {
 
 /// So many faces, or pieces, are looked at by one thread.
 const SHARE: usize = 1024;
-/// Faces and cells of more corners count by them.
-pub(super) const FEW: usize = 32;
+/// Faces and cells of more corners count as that much work.
+pub(super) const FEW_CORNERS: usize = 32;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
@@ -98,7 +98,7 @@ impl<'t> Stock<'t> {
         if fragment.is_whole() {
             return Some(item(around));
         }
-        self.around(&self.frame.near_vertices(fragment), NEAR).map(item)
+        self.around(&self.frame.near_vertices(fragment), NEAR_VERTEX).map(item)
     }
 
     /// A box around the part of a convex hull that is in the picture, of points that may be off by so much; `None` if
@@ -150,7 +150,7 @@ impl<'t> Stock<'t> {
     /// corners, whose edges are part of what is counted for a face.
     pub(super) fn edges_work(&self, face: u32) -> usize {
         let corners = self.frame.faces.corners(face).len();
-        if corners > FEW { corners } else { 0 }
+        if corners > FEW_CORNERS { corners } else { 0 }
     }
 
     /// The tree's fragment that an item is.

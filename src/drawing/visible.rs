@@ -12,7 +12,7 @@ use super::narrow::List;
 use super::rect::{Rect, are_apart};
 use super::reporter::finish_item;
 use super::rims::Rims;
-use super::stock::{FEW, Stock};
+use super::stock::{FEW_CORNERS, Stock};
 use super::tile::{IN_VAIN, Tile, in_vain};
 use crate::Error;
 use crate::build::progress::Watch;
@@ -154,7 +154,7 @@ impl TileList {
             }
             let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
             // Of others it is counted above.
-            if halves.len() > FEW {
+            if halves.len() > FEW_CORNERS {
                 watch.work(open.len() * halves.len())?;
             }
             let (lines, is_opaque) = (&rims.lines, stock.is_opaque(item));

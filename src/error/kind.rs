@@ -63,7 +63,7 @@ pub(crate) enum InputFault {
     Layer,
 }
 
-/// What there may not be more of.
+/// What is limited.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Limit {
     Polygons(usize),

@@ -1,6 +1,6 @@
 //! Compares a painted picture with a depth buffer's, pixel by pixel.
 
-use super::exact::{Pair, Plane};
+use super::exact::{Plane, PlanePair};
 use super::image::{Image, NONE};
 use super::rays::{Given, Rays};
 use crate::exact::{Faces, PlaneId};
@@ -65,7 +65,7 @@ const MOVED_CORNERS: f64 = 4.0;
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
-    let mut pairs = Pairs::default();
+    let mut pair = LastPair::new(rays, faces);
     let judge = |(i, (&shown, &nearest)): (usize, (&u32, &u32))| match (shown, nearest) {
         (NONE, NONE) => Verdict::Empty,
         (NONE, _) => Verdict::Hole,
@@ -73,7 +73,7 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
         _ if faces.polygon(shown) == faces.polygon(nearest) => Verdict::Right,
         _ => {
             let pixel = rays.pixel((i % width) as u32, (i / width) as u32);
-            if is_contested(rays, faces, pairs.of(rays, faces, [shown, nearest]), pixel) {
+            if is_contested(rays, faces, pair.of([shown, nearest]), pixel) {
                 Verdict::Contested
             } else {
                 Verdict::WrongOrder
@@ -91,19 +91,27 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
 }
 
 /// The planes of two faces, kept from one pixel to the next: the same two meet in many.
-#[derive(Default)]
-pub(super) struct Pairs(Option<([u32; 2], Pair)>);
+pub(super) struct LastPair<'a> {
+    rays: &'a Rays,
+    faces: &'a Faces,
+    last: Option<([u32; 2], PlanePair)>,
+}
 
-impl Pairs {
-    pub(super) fn of(&mut self, rays: &Rays, faces: &Faces, both: [u32; 2]) -> &Pair {
-        let last = self.0.take().filter(|&(last, _)| last == both);
-        let pair = || (both, Pair::new(rays, both.map(|face| Plane::of(faces, face))));
-        &self.0.insert(last.unwrap_or_else(pair)).1
+impl<'a> LastPair<'a> {
+    pub(super) fn new(rays: &'a Rays, faces: &'a Faces) -> Self {
+        Self { rays, faces, last: None }
+    }
+
+    pub(super) fn of(&mut self, both: [u32; 2]) -> &PlanePair {
+        let last = self.last.take().filter(|&(last, _)| last == both);
+        let planes = || both.map(|face| Plane::of(self.faces, face));
+        let pair = || (both, PlanePair::new(self.rays, planes()));
+        &self.last.insert(last.unwrap_or_else(pair)).1
     }
 }
 
 /// Whether the tolerance allows either of two faces in front on the ray of a pixel.
-fn is_contested(rays: &Rays, faces: &Faces, pair: &Pair, pixel: Given) -> bool {
+fn is_contested(rays: &Rays, faces: &Faces, pair: &PlanePair, pixel: Given) -> bool {
     let tolerance = faces.tolerance();
     let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
     // Symmetric in the two planes: it suffices that the ray meets either face near the other's
@@ -114,7 +122,7 @@ fn is_contested(rays: &Rays, faces: &Faces, pair: &Pair, pixel: Given) -> bool {
 
 /// The distances from each of two planes of the point where the ray of a pixel meets the other, in
 /// lattice units, rounded.
-fn distances(rays: &Rays, pair: &Pair, pixel: Given) -> [f64; 2] {
+fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
     let at = pair.at(pixel);
     let divisors = pair.divisors(rays, &at);
     // The determinant is exact and is rounded only here, so a tie gives exactly 0. A ray within the
@@ -148,7 +156,7 @@ pub(crate) fn is_open(
     let plane = Plane::new(faces, plane);
     let pixel = rays.pixel(x, y);
     let meets = |face| {
-        let pair = Pair::new(rays, [plane, Plane::of(faces, face)]);
+        let pair = PlanePair::new(rays, [plane, Plane::of(faces, face)]);
         distances(rays, &pair, pixel)[0] <= allowed
     };
     let begins = || {

@@ -1,8 +1,8 @@
 //! How far wrongly painted faces lie behind the ones that should show.
 
-use super::compare_pictures::{Comparison, Pairs, Verdict};
+use super::compare_pictures::{Comparison, LastPair, Verdict};
 use super::coverage::Coverage;
-use super::exact::Pair;
+use super::exact::PlanePair;
 use super::image::Image;
 use super::piece::Outline;
 use super::rays::Rays;
@@ -32,7 +32,7 @@ pub fn depth_error(
 ) -> DepthError {
     let width = rays.size()[0] as usize;
     let mut result = DepthError::default();
-    let mut pairs = Pairs::default();
+    let mut pairs = LastPair::new(rays, faces);
     let mut last = None;
     let pixels = painted.faces().iter().zip(truth.faces()).zip(&comparison.verdicts).enumerate();
     for (i, ((&shown, &nearest), &verdict)) in pixels {
@@ -48,7 +48,7 @@ pub fn depth_error(
         let is_met = coverage.as_ref().is_some_and(|coverage| coverage.covers(x, y));
         last = Some((shown, coverage));
         if is_met {
-            let pair = pairs.of(rays, faces, [shown, nearest]);
+            let pair = pairs.of([shown, nearest]);
             let depth = difference(rays, pair, x, y);
             result.pixels += 1;
             result.max = result.max.max(depth);
@@ -61,7 +61,7 @@ pub fn depth_error(
 /// The distance along the ray of a pixel between its points on two planes. The points are at −κ/φ
 /// for a perspective, at −φ/κ for parallel rays; they are subtracted exactly before anything is
 /// rounded.
-fn difference(rays: &Rays, pair: &Pair, x: u32, y: u32) -> f64 {
+fn difference(rays: &Rays, pair: &PlanePair, x: u32, y: u32) -> f64 {
     let at = pair.at(rays.pixel(x, y));
     let [p, q] = pair.divisors(rays, &at);
     (at.determinant.to_f64() / p / q * rays.depth_unit).abs()

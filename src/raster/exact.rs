@@ -77,37 +77,37 @@ impl Plane {
 
 /// κ_f φ_h − κ_h φ_f at a ray's parameter.
 pub(super) fn determinant(rays: &Rays, f: &Plane, h: &Plane, given: Given) -> Long {
-    Pair::new(rays, [*f, *h]).at(given).determinant
+    PlanePair::new(rays, [*f, *h]).at(given).determinant
 }
 
 /// Two planes f and h with their κ, which are the same for all rays of a picture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
+pub(super) struct PlanePair {
     pub(super) planes: [Plane; 2],
     pub(super) kappas: [Short; 2],
 }
 
 /// Two planes at a ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PairAt {
+pub(super) struct PlanePairAt {
     pub(super) phis: [Short; 2],
     /// κ_f φ_h − κ_h φ_f.
     pub(super) determinant: Long,
 }
 
-impl Pair {
+impl PlanePair {
     pub(super) fn new(rays: &Rays, planes: [Plane; 2]) -> Self {
         Self { planes, kappas: planes.each_ref().map(|plane| plane.kappa(rays)) }
     }
 
-    pub(super) fn at(&self, given: Given) -> PairAt {
+    pub(super) fn at(&self, given: Given) -> PlanePairAt {
         let phis = self.planes.each_ref().map(|plane| plane.phi(given));
         let [above, below] = [0, 1].map(|i| [&self.kappas[i], &phis[i]]);
-        PairAt { phis, determinant: digits::determinant([above, below]) }
+        PlanePairAt { phis, determinant: digits::determinant([above, below]) }
     }
 
     /// What lengths along rays are divided by: φ for a perspective, κ for parallel rays. Rounded.
-    pub(super) fn divisors(&self, rays: &Rays, at: &PairAt) -> [f64; 2] {
+    pub(super) fn divisors(&self, rays: &Rays, at: &PlanePairAt) -> [f64; 2] {
         let values = if rays.is_perspective() { at.phis } else { self.kappas };
         values.map(|value| value.to_f64())
     }

@@ -58,7 +58,7 @@ impl Scene {
     ///
     /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has
     /// a coordinate that is malformed or not finite, or a face that names a corner which is not
-    /// there or has more than 2²². The error names the line and face.
+    /// there, or that has more than 2²² corners. The error names the line and face.
     pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), ObjError> {
         let path = path.as_ref();
         let name = path.display().to_string();

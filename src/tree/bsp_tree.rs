@@ -177,16 +177,16 @@ use crate::faces::Preparation;
 /// |---|---|---|
 /// | `f64` | 10⁻⁹ of the extent | 0 if layers, however thin, must never be exchanged |
 /// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | 0 if no computation has touched them, as on integers |
-/// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent | a larger length if most quads are [`bent`](crate::Stats::bent) by a coarse rounding |
+/// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent | a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
 /// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), at least 10⁻⁹ of the extent | |
 /// | thin layers in a scene of large extent | | a length below half the distance of the layers |
 ///
 /// Too small, and polygons that were meant to be coplanar cut each other into slivers, and quads
 /// that rounding has bent are triangulated. Too large, and layers that were meant to be apart come
-/// in input order. [`Stats`](crate::Stats) tells: how many polygons are
-/// [`bent`](crate::Stats::bent) by little more than the tolerance, how many it
-/// [`flattened`](crate::Stats::flattened) or made [coplanar](crate::Stats::nearly_coplanar), and by
-/// how much. A share of the extent is one of *all* corners: a stray vertex far off makes it larger,
+/// in input order. [`Preparation`](crate::Preparation) tells how many polygons are
+/// [`bent`](crate::Preparation::bent) by little more than the tolerance, and how many it
+/// [`flattened`](crate::Preparation::flattened), [`Stats`](crate::Stats) how many it made
+/// [coplanar](crate::Stats::nearly_coplanar), and both by how much. A share of the extent is one of *all* corners: a stray vertex far off makes it larger,
 /// so remove the vertex, or give a length.
 ///
 /// # T-junctions

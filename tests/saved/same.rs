@@ -23,7 +23,6 @@ fn assert_same(tree: &BspTree, eyes: &[Viewpoint]) {
     assert_eq!(Snapshot::of(&again), Snapshot::of(tree));
     assert_eq!(again.stats(), tree.stats());
     assert_eq!(again.preparation(), tree.preparation());
-    assert_eq!(again.preparation(), tree.preparation());
     assert!(again.dropped().eq(tree.dropped()));
     for (a, b) in again.fragments().zip(tree.fragments()) {
         assert!(a.weights().eq(b.weights()) && a.edges().eq(b.edges()));

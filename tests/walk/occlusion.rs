@@ -2,8 +2,8 @@
 
 use crate::{rooms, trees};
 use binspace::glam::DVec3;
-use binspace::internals::paint_order;
 use binspace::occlusion::CoverageMask;
+use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::{self, Camera};

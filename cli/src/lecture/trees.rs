@@ -1,7 +1,7 @@
 //! Trees: an example worked by hand, a grid of pixels, and the worst cases.
 
 use binspace::glam::DVec3;
-use binspace::internals::paint_order;
+use binspace::paint::paint_order;
 use binspace::scene::{Builtin, Material, Scene};
 use binspace::{BuildOptions, Heuristic};
 use binspace_evidence::method::{Bsp, Centroid};

@@ -99,17 +99,22 @@ function show(picture) {
 
 /** Draws a picture soon, and a smooth one when nothing has changed for a while. */
 function change() {
-  clearTimeout(state.restTimer);
-  state.restTimer = setTimeout(() => {
-    draw(CANVAS.clientWidth * CANVAS.clientHeight < MOST_SMOOTH ? 2 : 1);
-    describe();
-  }, REST);
+  smoothSoon();
   if (state.isDirty) return;
   state.isDirty = true;
   requestAnimationFrame(() => {
     state.isDirty = false;
     draw(1);
   });
+}
+
+/** Draws a smooth picture when nothing has changed for a while. */
+function smoothSoon() {
+  clearTimeout(state.restTimer);
+  state.restTimer = setTimeout(() => {
+    draw(CANVAS.clientWidth * CANVAS.clientHeight < MOST_SMOOTH ? 2 : 1);
+    describe();
+  }, REST);
 }
 
 /** Says in words what is painted. */
@@ -129,7 +134,7 @@ function resize() {
   CANVAS.height = Math.max(1, Math.round(CANVAS.clientHeight * ratio));
   // Another size empties the canvas, and it is shown before the next chance to draw.
   draw(1);
-  change();
+  smoothSoon();
 }
 
 // Moving.

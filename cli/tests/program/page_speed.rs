@@ -9,7 +9,7 @@ use crate::run::Folder;
 /// How many pictures are painted to warm up, without edges and with all.
 const PICTURES: [usize; 3] = [20, 60, 60];
 
-/// Of the processor alone, as pixels are painted. A machine's speed is printed, not judged; judged is that
+/// Measures the processor alone: no graphics card paints. A machine's speed is printed, not judged; judged is that
 /// each picture asked for is painted, that it is another one than before, and that its order is the
 /// library's.
 #[test]

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::internals::paint_order;
 use binspace::occlusion::CoverageMask;
+use binspace::paint::paint_order;
 use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::{Camera, CameraError};
 use binspace::{Bounds, BspTree, Culling, Flow, Fragment, Part, Sides};
@@ -216,8 +216,8 @@ mod tests {
             assert_eq!(left, same);
             by_mask += others;
         }
-        // Few more, as the mask has no pixels for most of what is out of view.
-        assert!(entered < by_mask && entered > 1000, "{entered} of {by_mask}");
+        // 7 more of 2450: the mask has no pixels for most of what is out of view.
+        assert!(entered + 5 <= by_mask && entered > 1000, "{entered} of {by_mask}");
     }
 
     #[test]

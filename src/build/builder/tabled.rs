@@ -119,7 +119,7 @@ impl<K: Kernel> Builder<'_, K> {
         }
         let first = set.trailing_zeros() as usize;
         let own = table.planes[table.slots[best.as_ref().map_or(first, Best::slot)].row];
-        Ok((own, best.is_some_and(|best| best.cuts_nothing())))
+        Ok((own, best.is_some_and(|best| best.is_sure())))
     }
 
     /// A free plane that cuts nothing of a set.

@@ -88,7 +88,7 @@ impl Best {
     }
 
     /// Whether the best plane can be trusted, and cuts nothing.
-    pub(in crate::build) fn cuts_nothing(&self) -> bool {
+    pub(in crate::build) fn is_sure(&self) -> bool {
         self.is_trusted && !self.cost.cuts
     }
 

@@ -27,21 +27,33 @@ fn vertices_are_as_near_as_they_say() {
     for (flat, thin) in [(1.0, 1.0), (1e-6, 1.0), (1e-12, 1.0), (1.0, 1e-6), (1e-4, 1e-9)] {
         scenes.push(crossing(flat, thin));
     }
-    let (mut all, mut by_floats) = (0, 0);
+    // Flattened: their edges are not straight through their corners.
+    let flattened = (0..40).map(|_| {
+        let [a, u, v, bend] = [1.0, 1.0, 1.0, 1e-8].map(|size| random.point(-size, size));
+        vec![a, a + u, a + u + v + bend, a + v]
+    });
+    scenes.push(flattened.collect());
+    let (mut all, mut by_floats, mut upright) = (0, 0, 0);
     for polygons in scenes {
         let tree = BspTree::build(&polygons).unwrap();
         let faces = tree.faces();
         for fragment in tree.fragments() {
+            let is_upright = faces.upright_axis(fragment.face()).is_some();
             for (symbol, exact) in fragment.symbols().zip(fragment.lattice_vertices()) {
+                upright += u32::from(is_upright && matches!(symbol.kind(), SymbolKind::OnEdge(..)));
                 all += 1;
                 let Some(near) = near_vertex(faces, fragment.face(), symbol) else {
                     continue;
                 };
                 by_floats += 1;
                 let off = difference(near, exact).map(f64::abs);
-                assert!(off.iter().all(|off| *off <= NEAR), "{symbol:?}: {near:?}, not {exact:?}");
+                assert!(
+                    off.iter().all(|off| *off <= NEAR_VERTEX),
+                    "{symbol:?}: {near:?}, not {exact:?}"
+                );
             }
         }
     }
     assert!(all > 10_000 && by_floats * 5 > all * 4, "{by_floats} of {all}");
+    assert!(upright > 50, "{upright}");
 }

@@ -20,7 +20,7 @@ const DOUBTED: usize = 1 << 20;
 
 /// Polygons that are read between two checks for a cancel. Smaller: time for checks; larger: a
 /// cancel takes longer.
-const POLYGONS_AT_ONCE: usize = 1 << 10;
+const POLYGONS_READ_AT_ONCE: usize = 1 << 10;
 
 /// Corners of one polygon that are read between two checks for a cancel. Smaller: time for checks;
 /// larger: a cancel takes longer.
@@ -99,7 +99,7 @@ impl Collected {
             if index == DOUBTED && polygons.size_hint().0 >= limit - index {
                 return Err(too_many.error());
             }
-            if index % POLYGONS_AT_ONCE == 0 {
+            if index % POLYGONS_READ_AT_ONCE == 0 {
                 listener.read(index)?;
             }
             self.add(index, &polygon, listener)?;

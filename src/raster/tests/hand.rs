@@ -248,6 +248,29 @@ fn faces_that_are_not_met_have_no_depth_error() {
     }
 }
 
+/// Two faces behind a third, painted in turn: each pixel is judged by the faces of its own.
+#[test]
+fn each_pixel_is_judged_by_its_own_faces() {
+    let tolerance = 0.01;
+    let all = [0.0, -1.5 * tolerance, -5.0].map(|z| square([0.0, 0.0], [6.0, 6.0], z));
+    let alternating = |one: u32, other: u32| {
+        (0..SIZE[0] * SIZE[1]).map(|i| if i % 2 == 0 { one } else { other }).collect()
+    };
+    for (tolerance, wrong, max, sum) in
+        [(0.0, 36, 5.0, 18.0 * (5.0 + 0.015)), (tolerance, 18, 5.0, 18.0 * 5.0)]
+    {
+        let faces = faces(&all, Some(tolerance));
+        let rays = rays(&faces);
+        let truth = zbuffer(&rays, &faces);
+        let painted = Image::from_faces(SIZE, alternating(1, 2), 0);
+        let comparison = compare(&rays, &faces, &painted, truth.image());
+        assert_eq!((comparison.wrong_order, comparison.contested), (wrong, 36 - wrong));
+        let error = depth_error(&rays, &faces, &painted, truth.image(), &comparison);
+        assert_eq!(error.pixels, wrong);
+        assert!((error.max - max).abs() < 1e-12 && (error.sum - sum).abs() < 1e-9, "{error:?}");
+    }
+}
+
 /// So near that the rounding of its corners would put the eye behind it.
 #[test]
 fn an_eye_a_few_units_before_a_face_sees_nothing_else() {

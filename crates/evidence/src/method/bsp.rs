@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::{Method, MethodError, Painted, Prepared, Space};
 use crate::{Accuracy, Float, KernelTree, accuracy};
-use binspace::internals::{Exact, Faces, Kernel, Tuning, paint_order, tree_of};
+use binspace::internals::{Exact, Faces, Kernel, Tuning, tree_of};
+use binspace::paint::paint_order;
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Preparation};
