@@ -5,8 +5,7 @@ use std::cell::Cell;
 use std::iter;
 
 use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::internals::MAX_CORNERS;
+use binspace::internals::{Faces, MAX_CORNERS};
 use binspace::{BspTree, BuildOptions, Error, Polygon};
 
 #[global_allocator]

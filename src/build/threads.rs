@@ -25,7 +25,7 @@ type Outputs<S> = Mutex<Vec<Option<Result<Output<S>, Error>>>>;
 
 /// Builds a job on a thread of the pool, and spawns the jobs that it hands over.
 #[cfg(feature = "parallel")]
-fn spawn<'s, K: Kernel>(
+fn build_and_spawn<'s, K: Kernel>(
     scope: &rayon::Scope<'s>,
     shared: &'s Shared<'s, K>,
     outputs: &'s Outputs<K::Stored>,
@@ -38,7 +38,7 @@ fn spawn<'s, K: Kernel>(
         memory::push(&mut listed, None)?;
         drop(listed);
         scope.spawn(move |scope| {
-            spawn(scope, shared, outputs, (number, job), &mut Memory::default());
+            build_and_spawn(scope, shared, outputs, (number, job), &mut Memory::default());
         });
         Ok(number)
     });
@@ -57,9 +57,9 @@ pub(super) fn run<K: Kernel>(
     }
     let outputs = Mutex::new(vec![None]);
     if job.pieces.len() < ALONE {
-        rayon::in_place_scope(|scope| spawn(scope, shared, &outputs, (0, job), memory));
+        rayon::in_place_scope(|scope| build_and_spawn(scope, shared, &outputs, (0, job), memory));
     } else {
-        rayon::scope(|scope| spawn(scope, shared, &outputs, (0, job), memory));
+        rayon::scope(|scope| build_and_spawn(scope, shared, &outputs, (0, job), memory));
     }
     let outputs = outputs.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut finished = Vec::new();

@@ -19,7 +19,7 @@ use crate::memory::{push, reserve};
 pub(super) struct Divided {
     pub(super) cells: Vec<LayeredCell>,
     /// Each comes after the one in front of it. The first is of no item.
-    pub(super) layers: Vec<Layer>,
+    pub(super) layers: Vec<ItemLayer>,
 }
 
 /// A convex part: all of it shows the same items.
@@ -30,9 +30,9 @@ pub(super) struct LayeredCell {
     pub(super) layer: u32,
 }
 
-/// An item that shows, and what is in front of it. Parts have them in common, so that they take no more memory
+/// An item that shows, and what is in front of it. Cells have them in common, so that they take no more memory
 /// where many items lie over one another.
-pub(super) struct Layer {
+pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,
     /// The newest of those that have this one before them.
@@ -47,7 +47,7 @@ impl Divided {
         lines: &Lines<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let none = Layer { item: u32::MAX, before: 0, newest: 0 };
+        let none = ItemLayer { item: u32::MAX, before: 0, newest: 0 };
         let mut divided = Self { cells: vec![], layers: vec![none] };
         if is_opaque(leaf, stock) {
             for visible in each(watch, CUT, &leaf.cells) {
@@ -99,7 +99,7 @@ impl Divided {
             return Ok(newest);
         }
         let layer = self.layers.len() as u32;
-        push(&mut self.layers, Layer { item, before, newest: 0 })?;
+        push(&mut self.layers, ItemLayer { item, before, newest: 0 })?;
         self.layers[before as usize].newest = layer;
         Ok(layer)
     }

@@ -5,7 +5,7 @@ use super::plane::Plane;
 
 /// An edge of a face.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FaceEdge {
+pub(super) struct ExactEdge {
     /// The lattice points of its two corners.
     pub(super) ends: [[f64; 3]; 2],
     /// How they are moved onto the face's plane; `None` if both are on it.
@@ -24,7 +24,7 @@ pub(super) struct Moved {
 impl Faces {
     /// The edge of a face that begins at its corner `k`.
     #[inline]
-    pub(super) fn edge(&self, face: u32, k: u32) -> FaceEdge {
+    pub(super) fn edge(&self, face: u32, k: u32) -> ExactEdge {
         let corners = self.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k + 1 };
         let ends = [k, next].map(|k| corners[k as usize]);
@@ -41,7 +41,7 @@ impl Faces {
             // get the same bits.
             (offs != [0; 2]).then_some(Moved { axis, offs, slope })
         });
-        FaceEdge { ends, moved }
+        ExactEdge { ends, moved }
     }
 
     /// The axis along which a corner is moved onto its face's plane, if it is off it.

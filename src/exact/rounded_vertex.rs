@@ -5,7 +5,7 @@
 //! the quotient could be off by more than [`OFF`], because terms cancel, it is computed in full.
 
 use super::Int;
-use super::edge::{FaceEdge, Moved};
+use super::edge::{ExactEdge, Moved};
 use super::faces::Faces;
 use super::label::{PlaneKind, Symbol, SymbolKind};
 use super::lattice::LIMIT;
@@ -78,8 +78,8 @@ fn ratio<const K: usize>(points: &[[f64; 3]; K], weights: &[Int<5>; K]) -> [f64;
 }
 
 /// Where a plane meets an edge; `None` if the leading bits do not tell.
-fn on_edge(edge: &FaceEdge, plane: &Plane) -> Option<[f64; 3]> {
-    let FaceEdge { ends, moved } = edge;
+fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
+    let ExactEdge { ends, moved } = edge;
     let ends = ends.map(whole);
     let values = ends.map(|end| at(plane, end));
     let dropped = (bits_of(values.map(|value| value.high)) + LOW_BITS).saturating_sub(HALF);

@@ -18,7 +18,7 @@
 use std::cmp::Ordering;
 
 use super::Int;
-use super::edge::{FaceEdge, Moved};
+use super::edge::{ExactEdge, Moved};
 use super::faces::Faces;
 use super::flatten::{Flattener, Off};
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
@@ -121,7 +121,7 @@ impl Faces {
                 Weights::Inside([a, b, c], [area(b, c), area(c, a), area(a, b)])
             }
             SymbolKind::OnEdge(k, plane) => {
-                let FaceEdge { ends: [a, b], moved } = self.edge(face, k);
+                let ExactEdge { ends: [a, b], moved } = self.edge(face, k);
                 let plane = self.plane(plane);
                 match moved {
                     None => Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)]),

@@ -2,8 +2,7 @@
 
 use binspace::BuildOptions;
 use binspace::paint::paint_tree;
-use binspace::raster::Faces;
-use binspace::raster::{NONE, Rays, colour_of};
+use binspace::raster::{Faces, NONE, Rays, colour_of};
 use binspace_evidence::curved::{Patch, Shared, Sphere, Surfaces, mesh, nearest};
 use binspace_evidence::panes::{panes, world_polygons};
 use binspace_evidence::plain::PlainView;

@@ -1,8 +1,9 @@
 //! How a depth buffer is filled: scan conversion, and a section of the picture at a time.
 
 use binspace::glam::DVec3;
-use binspace::raster::Faces;
-use binspace::raster::{Comparison, Image, Rays, Verdict, colour_of, compare, picture, zbuffer};
+use binspace::raster::{
+    Comparison, Faces, Image, Rays, Verdict, colour_of, compare, picture, zbuffer,
+};
 use binspace::scene;
 use binspace::view::Camera;
 use binspace_evidence::method::{DepthBuffer, DepthFormat, Interpolation, Method};

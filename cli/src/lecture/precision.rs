@@ -1,8 +1,7 @@
 //! How precise depths are, and what is seen where they are not precise enough.
 
 use binspace::BuildOptions;
-use binspace::raster::Faces;
-use binspace::raster::{NONE, Rays, picture};
+use binspace::raster::{Faces, NONE, Rays, picture};
 use binspace_evidence::fighting::{Fight, PLANES, Sheets};
 use binspace_evidence::method::{Bsp, DepthFormat};
 

@@ -1,8 +1,7 @@
 //! Shadows as pieces of polygons.
 
 use binspace::glam::DVec3;
-use binspace::raster::Faces;
-use binspace::raster::{NONE, Rays, picture, zbuffer};
+use binspace::raster::{Faces, NONE, Rays, picture, zbuffer};
 use binspace::view::Camera;
 use binspace::{Bounds, BspTree};
 use binspace_evidence::shadows::{Piece, Pieces, Zone, lamp, pieces};

@@ -5,7 +5,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
 
 use super::super::{Int, LATTICE_LIMIT};
-use super::{FaceEdge, KEPT, Leading, Moved, Plane, meeting, nearest, on_edge, ratio, whole};
+use super::{ExactEdge, KEPT, Leading, Moved, Plane, meeting, nearest, on_edge, ratio, whole};
 use crate::random::SplitMix64;
 
 /// Lattice coordinates of any size, often few bits or near the limit.
@@ -101,7 +101,7 @@ proptest! {
         let (plane, ends) = (Plane::through(plane), [ends[0], ends[1]]);
         let [a, b] = [0, 1].map(|i| value(&plane, &ends[i]));
         prop_assume!((&a * &b).is_negative());
-        let position = on_edge(&FaceEdge { ends, moved: None }, &plane);
+        let position = on_edge(&ExactEdge { ends, moved: None }, &plane);
         prop_assert!(position.is_some(), "the weights do not cancel");
         let off = roundings(position.unwrap_or_default(), &ends, &[-b, a]);
         prop_assert!(off <= 3.04, "{off}");
@@ -198,10 +198,10 @@ fn moved_edge(random: &mut SplitMix64) -> (Corners, [[f64; 3]; 2], Corners) {
     ([a, b, c].map(|corner| corner.to_array()), ends, other)
 }
 
-fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> FaceEdge {
+fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> ExactEdge {
     let offs = ends.map(|end| own.last_bits_at(&end));
     let moved = Moved { axis: own.main_axis(), offs, slope: own.normal()[own.main_axis()] };
-    FaceEdge { ends, moved: Some(moved) }
+    ExactEdge { ends, moved: Some(moved) }
 }
 
 /// The position is that of the edge between the points where the ends are moved to, exactly, and the
