@@ -18,8 +18,8 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     paint_order(tree, &order, rays)
 }
 
-/// Paints fragments of a tree one over the other, as of a list that leaves out what is not in view. Numbers that
-/// name no fragment are skipped.
+/// Paints the fragments of a list, the first at the bottom, as of an order that leaves out what is not in view.
+/// Numbers that name no fragment are skipped.
 pub fn paint_order(tree: &BspTree, order: &[u32], rays: &Rays) -> Image {
     paint_list(tree, order, Order::BackToFront, rays, None)
 }

@@ -42,19 +42,22 @@ fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
     }
 }
 
-/// A pane goes through a wall, and in the picture a third polygon's edge lies on part of the line.
+/// A pane goes through a wall, and in the picture edges of two others lie on parts of the line.
 #[test]
-fn crossings_show_beside_an_edge_that_lies_on_them_in_the_picture() {
+fn crossings_show_beside_edges_that_lie_on_them_in_the_picture() {
     let wall = vec![[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
     let pane = vec![[-2.0, -2.0, -2.0], [2.0, -2.0, -2.0], [2.0, 2.0, 2.0], [-2.0, 2.0, 2.0]];
     let flap = vec![[-1.0, -3.0, 0.0], [0.0, -3.0, 0.0], [0.0, -3.0, 2.0]];
-    let polygons = [wall, pane, flap];
+    // From below, on another part of the line.
+    let other = vec![[0.5, -3.0, 0.0], [1.0, -3.0, 0.0], [0.5, -3.0, -2.0]];
+    let polygons = [wall, pane, flap, other];
     let eye = DVec3::new(0.0, -10.0, 0.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.5, [320, 240]).unwrap();
-    // Of four units those that the edge of the flap, at seven tenths of the distance, does not cover.
+    // Of four units those that the edges of the flaps, at seven tenths of the distance, do not cover.
     let at = |x: f64| camera.project(DVec3::new(x, 0.0, 0.0)).unwrap()[0];
-    let expected = at(2.0) - at(-2.0) - (at(0.0) - at(-1.0 / 0.7));
-    for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
+    let hidden = |from: f64, to: f64| at(to / 0.7) - at(from / 0.7);
+    let expected = at(2.0) - at(-2.0) - hidden(-1.0, 0.0) - hidden(0.5, 1.0);
+    for order in [[0, 1, 2, 3], [3, 2, 0, 1], [1, 3, 2, 0], [2, 1, 3, 0]] {
         for by in Heuristic::ALL {
             let options = BuildOptions::DEFAULT.with_heuristic(*by);
             let tree = options.build(order.map(|i: usize| &polygons[i])).unwrap();
