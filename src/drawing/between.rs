@@ -4,68 +4,101 @@ use std::collections::BTreeMap;
 
 use super::edge_run::SHORTEST;
 use super::halving::VISITED;
-use super::overlaid::{LineRun, Overlaid, sights, spots};
-use super::passes::{Pass, Passing, Pieces, passes};
+use super::overlaid::{LineRun, MarkerView, Overlaid, sights, spots};
+use super::pairs::Pair;
+use super::passes::{Pass, Passes, Passing, Pieces, passes};
 use super::reaches::Reaches;
 use super::reporter::{each, sort_by};
 use super::rims::Rims;
+use super::sight::Sight;
 use super::stock::Stock;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{filled, push};
+use crate::memory::push;
 use crate::overlay::Overlay;
+use crate::overlay::given::GivenSegment;
 
-/// The path of what is not in the picture.
-pub(super) const NO_PATH: u32 = u32::MAX;
+/// An overlay's lines and points, each with how many parts come before it in the order that it goes with.
+pub(super) type Placed = Vec<(u32, Overlaid)>;
 
-/// The lines and points of an overlay, each with how many of the paths come before it, in order: a phase. `path_of`
-/// has the path of each item.
-pub(super) fn between(
-    stock: &Stock<'_>,
-    rims: &Rims<'_>,
-    path_of: &[u32],
-    paths: u32,
-    overlay: &Overlay,
-    watch: &Watch<'_>,
-) -> Result<Vec<(u32, Overlaid)>, Error> {
-    let (segments, sights) = sights(&rims.lines, overlay, watch)?;
-    let (markers, spots) = spots(&rims.lines, overlay, watch)?;
-    let mut reaches = Reaches::default();
-    for item in each(watch, VISITED, 0..stock.items.len() as u32) {
-        let item = item?;
-        if path_of[item as usize] != NO_PATH {
-            reaches.push(item, rims.known_item(stock, item))?;
-        }
-    }
-    let face = |item: u32| stock.face(item);
-    let around = |item: u32| stock.items[item as usize].around;
-    let pieces = Pieces { lines: &rims.lines, reaches, face: &face, around: &around };
-    let passing = Passing { sights: &sights, spots: &spots };
-    let mut found = passes(pieces, passing, |_| true, watch)?;
-    sort_by(&mut found.sights, watch, |a, b| a.sight.cmp(&b.sight))?;
-    let mut rest = &found.sights[..];
-    let mut overlaid = Vec::new();
-    for (number, (segment, sight)) in (0..).zip(segments.iter().zip(&sights)) {
-        let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
-        rest = others;
-        for (below, places) in in_order(sight.course.places, own, path_of, paths, watch)? {
-            let run = LineRun::new(segment, places.map(|place| sight.course.at(place)), true);
-            push(&mut overlaid, (below, Overlaid::Line(run)))?;
-        }
-    }
-    let mut room = filled(spots.len(), Room::of(paths))?;
-    for pass in each(watch, 1, &found.spots) {
-        let pass = pass?;
-        room[pass.spot as usize].narrow(path_of[pass.piece as usize], pass.is_behind);
-    }
-    for (marker, room) in markers.into_iter().zip(room) {
-        push(&mut overlaid, (room.last(), Overlaid::Marker(marker)))?;
-    }
-    sort_by(&mut overlaid, watch, |(a, _), (b, _)| a.cmp(b))?;
-    Ok(overlaid)
+/// The lines and points of an overlay, with the items that they pass.
+pub(super) struct Between {
+    segments: Vec<GivenSegment>,
+    sights: Vec<Sight>,
+    markers: Vec<MarkerView>,
+    /// Sorted by the lines and points.
+    passes: Passes,
 }
 
-/// Where in an order something may come: after so many paths.
+impl Between {
+    pub(super) fn of(
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        overlay: &Overlay,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let (segments, sights) = sights(&rims.lines, overlay, watch)?;
+        let (markers, spots) = spots(&rims.lines, overlay, watch)?;
+        let mut reaches = Reaches::default();
+        for item in each(watch, VISITED, 0..stock.items.len() as u32) {
+            let item = item?;
+            reaches.push(item, rims.known_item(stock, item))?;
+        }
+        let face = |item: u32| stock.face(item);
+        let around = |item: u32| stock.items[item as usize].around;
+        let pieces = Pieces { lines: &rims.lines, reaches, face: &face, around: &around };
+        let passing = Passing { sights: &sights, spots: &spots };
+        let mut passes = passes(pieces, passing, |_| true, watch)?;
+        sort_by(&mut passes.sights, watch, |a, b| a.sight.cmp(&b.sight))?;
+        sort_by(&mut passes.spots, watch, |a, b| a.spot.cmp(&b.spot))?;
+        Ok(Self { segments, sights, markers, passes })
+    }
+
+    /// What comes where in an order of so many parts, by the place of each item in it; and pairs of items that
+    /// the order would have to keep for a line or point between them.
+    pub(super) fn placed(
+        &self,
+        places: &[u32],
+        count: usize,
+        watch: &Watch<'_>,
+    ) -> Result<(Placed, Vec<Pair>), Error> {
+        let count = count as u32;
+        let mut rest = &self.passes.sights[..];
+        let (mut placed, mut missed) = (Vec::new(), Vec::new());
+        for (number, (segment, sight)) in (0..).zip(self.segments.iter().zip(&self.sights)) {
+            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
+            rest = others;
+            let parts = in_order(sight.course.places, own, places, count, &mut missed, watch)?;
+            for (below, places) in parts {
+                let run = LineRun::new(segment, places.map(|place| sight.course.at(place)), true);
+                push(&mut placed, (below, Overlaid::Line(run)))?;
+            }
+        }
+        let mut rest = &self.passes.spots[..];
+        for (number, marker) in (0..).zip(&self.markers) {
+            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.spot == number));
+            rest = others;
+            let mut passed = Passed::new();
+            for pass in each(watch, VISITED, own) {
+                let pass = pass?;
+                passed.insert((pass.is_behind, places[pass.piece as usize], pass.piece), 1);
+            }
+            add_missed(&passed, &mut missed, watch)?;
+            let below = Room::between(&passed, count).most;
+            push(&mut placed, (below, Overlaid::Marker(*marker)))?;
+        }
+        sort_by(&mut placed, watch, |(a, _), (b, _)| a.cmp(b))?;
+        Ok((placed, missed))
+    }
+}
+
+/// An item that is passed: whether it is in front, its place in the order, and its number.
+type Key = (bool, u32, u32);
+
+/// What is passed somewhere, and how often.
+type Passed = BTreeMap<Key, i32>;
+
+/// Where in an order something may come: after so many parts.
 #[derive(Clone, Copy, Debug)]
 struct Room {
     least: u32,
@@ -74,62 +107,77 @@ struct Room {
 
 impl Room {
     /// Anywhere.
-    const fn of(paths: u32) -> Self {
-        Self { least: 0, most: paths }
+    const fn of(count: u32) -> Self {
+        Self { least: 0, most: count }
     }
 
-    /// Before or after a path.
-    fn narrow(&mut self, path: u32, is_behind: bool) {
-        if is_behind {
-            self.most = self.most.min(path);
-        } else {
-            self.least = self.least.max(path + 1);
-        }
+    /// After what is passed before it, and before what is in front. Where that is nowhere, only the first.
+    fn between(passed: &Passed, count: u32) -> Self {
+        let [last, first] = ends(passed);
+        let least = last.map_or(0, |last| last.1 + 1);
+        Self { least, most: first.map_or(count, |first| first.1).max(least) }
     }
 
-    /// The last place: what lies beside then covers least of a wide stroke. Where a line passes between two
-    /// paths that only touch there, one of them in front of it and the other behind, there may be no place
-    /// between them; then both come before it.
-    const fn last(self) -> u32 {
-        if self.most < self.least { self.least } else { self.most }
+    /// What is in both.
+    fn common(self, other: Self) -> Option<Self> {
+        let (least, most) = (self.least.max(other.least), self.most.min(other.most));
+        (least <= most).then_some(Self { least, most })
     }
 }
 
-/// A segment in as few parts as can be, each with how many paths come before it, by what it passes.
+/// What comes last of what is passed before it, and first of what is in front.
+fn ends(passed: &Passed) -> [Option<Key>; 2] {
+    let before = passed.range(..(true, 0, 0)).next_back();
+    let in_front = passed.range((true, 0, 0)..).next();
+    [before, in_front].map(|end| end.map(|(key, _)| *key))
+}
+
+/// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
+/// and does not; and of what is first of all that has to come after, and all that has to come before and does
+/// not.
+fn add_missed(passed: &Passed, missed: &mut Vec<Pair>, watch: &Watch<'_>) -> Result<(), Error> {
+    let [Some(below), Some(above)] = ends(passed) else { return Ok(()) };
+    if above.1 >= below.1 {
+        return Ok(());
+    }
+    for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
+        push(missed, Pair { below: below.2, above: early?.0.2 })?;
+    }
+    for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
+        push(missed, Pair { below: late?.0.2, above: above.2 })?;
+    }
+    Ok(())
+}
+
+/// A segment in as few parts as can be, each with how many parts of the drawing come before it, by what it
+/// passes. Adds pairs that leave no place between them.
 fn in_order(
-    places: [f64; 2],
+    ends: [f64; 2],
     passes: &[Pass],
-    path_of: &[u32],
-    paths: u32,
+    places: &[u32],
+    count: u32,
+    missed: &mut Vec<Pair>,
     watch: &Watch<'_>,
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
     // Where each pass begins and ends.
     let mut events = Vec::new();
     for pass in passes {
-        let path = path_of[pass.piece as usize];
-        for (place, change) in [(pass.places[0], 1), (pass.places[1], -1)] {
-            push(&mut events, (place, (pass.is_behind, path), change))?;
+        let key = (pass.is_behind, places[pass.piece as usize], pass.piece);
+        for (at, change) in [(pass.places[0], 1), (pass.places[1], -1)] {
+            push(&mut events, (at, key, change))?;
         }
     }
     sort_by(&mut events, watch, |a, b| a.0.total_cmp(&b.0))?;
-    // How many passes of each path there are, those before it and those behind it.
-    let mut passed: BTreeMap<(bool, u32), i32> = BTreeMap::new();
-    let mut parts = Vec::new();
-    let [mut start, mut done] = [places[0]; 2];
-    let mut room = Room::of(paths);
-    let ends = events.iter().map(|event| event.0.clamp(places[0], places[1]));
-    for numbered in each(watch, 2 * VISITED, ends.chain([places[1]]).enumerate()) {
+    let (mut passed, mut parts) = (Passed::new(), Vec::new());
+    let [mut start, mut done] = [ends[0]; 2];
+    let mut room = Room::of(count);
+    let stops = events.iter().map(|event| event.0.clamp(ends[0], ends[1]));
+    for numbered in each(watch, 2 * VISITED, stops.chain([ends[1]]).enumerate()) {
         let (i, to) = numbered?;
         if to - done >= SHORTEST {
-            let mut next = Room::of(paths);
-            let before = passed.range(..(true, 0)).next_back();
-            let behind = passed.range((true, 0)..).next();
-            for (&(is_behind, path), _) in before.into_iter().chain(behind) {
-                next.narrow(path, is_behind);
-            }
-            next.most = next.last();
-            let common = Room { least: room.least.max(next.least), most: room.most.min(next.most) };
-            if common.least <= common.most {
+            add_missed(&passed, missed, watch)?;
+            let next = Room::between(&passed, count);
+            if let Some(common) = room.common(next) {
                 room = common;
             } else {
                 push(&mut parts, (room.most, [start, done]))?;
@@ -145,6 +193,7 @@ fn in_order(
             }
         }
     }
-    push(&mut parts, (room.most, [start, places[1]]))?;
+    // The last place: what lies beside then covers least of a wide stroke.
+    push(&mut parts, (room.most, [start, ends[1]]))?;
     Ok(parts)
 }

@@ -70,21 +70,37 @@ impl Groups {
             return Ok(());
         }
         let (a, b) = if self.place[a as usize] < self.place[b as usize] { (a, b) } else { (b, a) };
-        let Some(after) = self.reach(a, b, Way::After, watch)? else { return Ok(()) };
-        let Some(before) = self.reach(b, a, Way::Before, watch)? else { return Ok(()) };
-        // What has to come before keeps its order in the first of their places, then the joined
-        // group, then what has to come after.
-        let ends = [&before[..], &[a, b], &after[..]].concat();
-        let mut places: Vec<u32> = ends.iter().map(|&group| self.place[group as usize]).collect();
+        if self.bring_together(a, b, watch)? { self.unite(a, b) } else { Ok(()) }
+    }
+
+    /// Adds a pair of nodes, unless `above` has to come before `below`, or may have to as far as a search of
+    /// limited length can tell. Whether it was added.
+    pub(super) fn add(&mut self, pair: Pair, watch: &Watch<'_>) -> Result<bool, Error> {
+        watch.work(VISITED)?;
+        let [below, above] = [self.group(pair.below), self.group(pair.above)];
+        let is_in_order = self.place[below as usize] < self.place[above as usize];
+        if below == above || !is_in_order && !self.bring_together(above, below, watch)? {
+            return Ok(false);
+        }
+        push(&mut self.after[below as usize], above)?;
+        push(&mut self.before[above as usize], below)?;
+        Ok(true)
+    }
+
+    /// Moves groups so that `b`, until now after `a`, is next before it, and all pairs are kept. Whether it did:
+    /// not if these ask for `a` before `b`, as far as a search of limited length can tell.
+    fn bring_together(&mut self, a: u32, b: u32, watch: &Watch<'_>) -> Result<bool, Error> {
+        let Some(after) = self.reach(a, b, Way::After, watch)? else { return Ok(false) };
+        let Some(before) = self.reach(b, a, Way::Before, watch)? else { return Ok(false) };
+        // What has to come before keeps its order in the first of their places, then the two groups, then what
+        // has to come after.
+        let groups = [&before[..], &[b, a], &after[..]].concat();
+        let mut places: Vec<u32> = groups.iter().map(|&group| self.place[group as usize]).collect();
         places.sort_unstable();
-        let first = before.iter().chain([&a]);
-        for (&group, &place) in first.zip(&places) {
+        for (&group, &place) in groups.iter().zip(&places) {
             self.place[group as usize] = place;
         }
-        for (&group, &place) in after.iter().rev().zip(places.iter().rev()) {
-            self.place[group as usize] = place;
-        }
-        self.unite(a, b)
+        Ok(true)
     }
 
     /// The groups between two that are reached from the first, in their order; `None` if the second is
@@ -207,6 +223,36 @@ mod tests {
             }
         }
         assert!(joined > 500 && refused > 500, "{joined} {refused}");
+    }
+
+    #[test]
+    fn pairs_are_added_unless_they_close_a_circle() {
+        let mut random = SplitMix64::new(2);
+        let (mut added, mut moved, mut refused) = (0, 0, 0);
+        for round in 0..300 {
+            let nodes = 2 + round % 14;
+            let mut below = |most: u64| (random.next() % most) as u32;
+            let mut groups = Groups::new(nodes, &[], &Watch::default()).unwrap();
+            let mut pairs: Vec<[u32; 2]> = vec![];
+            for _ in 0..3 * nodes {
+                let [a, b] = [below(nodes as u64), below(nodes as u64)];
+                let closes = a == b || leads(&pairs, b, a);
+                let is_moved = groups.place[a as usize] > groups.place[b as usize];
+                let pair = Pair { below: a, above: b };
+                assert_eq!(groups.add(pair, &Watch::default()).unwrap(), !closes);
+                if closes {
+                    refused += 1;
+                    continue;
+                }
+                *if is_moved { &mut moved } else { &mut added } += 1;
+                pairs.push([a, b]);
+                for pair in &pairs {
+                    let [x, y] = pair.map(|node| groups.place[node as usize]);
+                    assert!(x < y);
+                }
+            }
+        }
+        assert!(added > 500 && moved > 500 && refused > 500, "{added} {moved} {refused}");
     }
 
     /// The search goes through all that lies between: more than it may.

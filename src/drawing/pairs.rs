@@ -16,6 +16,13 @@ pub(super) struct Pair {
     pub(super) above: u32,
 }
 
+impl Pair {
+    /// The pair of what a function has for both.
+    pub(super) fn map(self, of: impl Fn(u32) -> u32) -> Self {
+        Self { below: of(self.below), above: of(self.above) }
+    }
+}
+
 /// Pairs that were found so far, each once.
 pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
 

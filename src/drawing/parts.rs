@@ -2,11 +2,10 @@
 
 use std::cmp::Reverse;
 
-use super::between::NO_PATH;
 use super::cell::Cell;
 use super::halving::{CUT, VISITED};
 use super::join::Groups;
-use super::order::{cycles, order};
+use super::order::{Ordered, cycles, order};
 use super::outline::Edge;
 use super::pairs::Pair;
 use super::paths::{Drawing, add_edges, add_sides};
@@ -16,7 +15,7 @@ use super::stock::Stock;
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{collect, push, reserve};
+use crate::memory::{collect, filled, push, reserve};
 
 /// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.
 const NEXT: usize = 16;
@@ -26,18 +25,23 @@ pub(super) struct Parts {
     of_item: Vec<u32>,
     /// The items of each, one face after another.
     items: Vec<Vec<u32>>,
+    /// Pairs of items that touch, which an order of the parts can keep beside those that overlap.
+    touching: Vec<Pair>,
 }
 
 impl Parts {
-    /// Parts of which an order is left that keeps the pairs of items that overlap.
+    /// Parts of which an order is left that keeps the pairs of items that overlap, and as many as can be of
+    /// others that only touch: those the order of the tree may not keep.
     pub(super) fn new(
         stock: &Stock<'_>,
         overlaps: &[Pair],
+        touching: &[Pair],
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let units = units(stock, overlaps, watch)?;
         let count = units.iter().max().map_or(0, |&most| most as usize + 1);
-        let cycles = cycles(count, &contracted(overlaps, &units, watch)?, watch)?;
+        let all = overlaps.iter().chain(touching);
+        let cycles = cycles(count, &contracted(all, &units, watch)?, watch)?;
         // Units in no cycle are whole. The pieces of the others start by themselves.
         let mut nodes: Vec<u32> = Vec::new();
         for item in each(watch, 1, 0..units.len() as u32) {
@@ -54,17 +58,28 @@ impl Parts {
         for (node, &item) in (0..).zip(&nodes) {
             node_of[item as usize] = node;
         }
+        let in_nodes = |pair: &Pair| {
+            let [a, b] = [pair.below, pair.above].map(cycle);
+            (a.is_some() && a == b).then(|| pair.map(|item| node_of[item as usize]))
+        };
         let mut pairs = Vec::new();
         for pair in each(watch, VISITED, overlaps) {
-            let Pair { below, above } = *pair?;
-            let ends = [below, above];
-            let [a, b] = ends.map(cycle);
-            if a.is_some() && a == b {
-                let [below, above] = ends.map(|item| node_of[item as usize]);
-                push(&mut pairs, Pair { below, above })?;
+            if let Some(pair) = in_nodes(pair?) {
+                push(&mut pairs, pair)?;
             }
         }
         let mut groups = Groups::new(nodes.len(), &pairs, watch)?;
+        let mut kept = Vec::new();
+        for pair in each(watch, VISITED, touching) {
+            let pair = pair?;
+            let is_kept = match in_nodes(pair) {
+                Some(pair) => groups.add(pair, watch)?,
+                None => true,
+            };
+            if is_kept {
+                push(&mut kept, *pair)?;
+            }
+        }
         for (a, b) in candidates(&nodes, &units, watch)? {
             groups.join(a, b, watch)?;
         }
@@ -81,19 +96,18 @@ impl Parts {
         for items in &mut items {
             sort_by(items, watch, |&a, &b| stock.face(a).cmp(&stock.face(b)))?;
         }
-        Ok(Self { of_item, items })
+        Ok(Self { of_item, items, touching: kept })
     }
 
-    /// The parts in an order to paint them, a phase: it keeps all pairs, and else that of the tree. Where something
-    /// is hidden, `leaves` have what shows. With them the path of each item, or [`NO_PATH`].
-    pub(super) fn drawing(
+    /// An order to paint the parts in: it keeps all pairs of items, and else that of the tree. Where something is
+    /// hidden, `leaves` have what shows, and opaque polygons in cycles are clipped.
+    pub(super) fn order(
         &self,
         stock: &Stock<'_>,
-        rims: &Rims<'_>,
         pairs: &[Pair],
         leaves: Option<&[Leaf]>,
         watch: &Watch<'_>,
-    ) -> Result<(Drawing, Vec<u32>), Error> {
+    ) -> Result<Ordered, Error> {
         let count = stock.items.len() as u32;
         let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
         let ranks = collect(self.items.iter().map(rank))?;
@@ -101,16 +115,39 @@ impl Parts {
             let first = self.items[part as usize].first();
             leaves.is_some() && first.is_some_and(|&item| stock.is_opaque(item))
         };
-        let pairs = contracted(pairs, &self.of_item, watch)?;
-        let ordered = order(self.items.len(), &pairs, &ranks, &is_opaque, watch)?;
+        let pairs = contracted(pairs.iter().chain(&self.touching), &self.of_item, watch)?;
+        order(self.items.len(), &pairs, &ranks, &is_opaque, watch)
+    }
+
+    /// The place of each item's part in an order.
+    pub(super) fn places(&self, ordered: &Ordered) -> Result<Vec<u32>, Error> {
+        let mut places = filled(self.items.len(), 0)?;
+        for (place, &part) in (0..).zip(&ordered.order) {
+            places[part as usize] = place;
+        }
+        collect(self.of_item.iter().map(|&part| places[part as usize]))
+    }
+
+    /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each number
+    /// of parts.
+    pub(super) fn drawing(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        ordered: &Ordered,
+        leaves: Option<&[Leaf]>,
+        watch: &Watch<'_>,
+    ) -> Result<(Drawing, Vec<u32>), Error> {
         let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
         let mut drawing = Drawing::empty(stock.frame.rays.size());
-        reserve(&mut drawing.paths, ordered.order.len())?;
-        let counts = Counts::of(stock)?;
-        let mut path_of: Vec<u32> = collect(stock.items.iter().map(|_| NO_PATH))?;
-        let mut edges = Vec::new();
         let count = ordered.order.len();
-        for (i, part) in ordered.order.into_iter().enumerate() {
+        reserve(&mut drawing.paths, count)?;
+        let counts = Counts::of(stock)?;
+        let mut paths = Vec::new();
+        reserve(&mut paths, count + 1)?;
+        paths.push(0);
+        let mut edges = Vec::new();
+        for (i, &part) in ordered.order.iter().enumerate() {
             watch.work(CUT)?;
             let items = &self.items[part as usize];
             let shown = cells.as_ref().map(|cells| &cells[part as usize]);
@@ -126,15 +163,14 @@ impl Parts {
                 _ => counts.add_pieces(stock, rims, items, &mut edges, watch)?,
             }
             if !edges.is_empty() {
-                let path = drawing.paths.len() as u32;
-                items.iter().for_each(|&item| path_of[item as usize] = path);
                 let polygon = stock.polygon(items[0]);
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
                 drawing.push(polygon, is_part, &edges, watch)?;
             }
+            paths.push(drawing.paths.len() as u32);
             finish_item(watch, i, count);
         }
-        Ok((drawing, path_of))
+        Ok((drawing, paths))
     }
 
     /// What shows of each.
@@ -221,13 +257,16 @@ fn units(stock: &Stock<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<
 }
 
 /// The pairs between what items belong to.
-fn contracted(overlaps: &[Pair], of_item: &[u32], watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
+fn contracted<'p>(
+    of_items: impl Iterator<Item = &'p Pair>,
+    of_item: &[u32],
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
     let mut pairs = Vec::new();
-    for pair in each(watch, 1, overlaps) {
-        let Pair { below, above } = *pair?;
-        let [below, above] = [below, above].map(|item| of_item[item as usize]);
-        if below != above {
-            push(&mut pairs, Pair { below, above })?;
+    for pair in each(watch, 1, of_items) {
+        let pair = pair?.map(|item| of_item[item as usize]);
+        if pair.below != pair.above {
+            push(&mut pairs, pair)?;
         }
     }
     sort_unique(&mut pairs, watch)?;

@@ -3,13 +3,14 @@
 use std::ops::ControlFlow;
 
 use super::above::pairs;
-use super::between::between;
+use super::between::Between;
 use super::halving::LINES;
+use super::overlaid::Overlaid;
 use super::overlaps::overlaps;
 use super::pairs::Pair;
 use super::parts::Parts;
 use super::paths::Drawing;
-use super::reporter::{Reporter, each, finish_item};
+use super::reporter::{Reporter, each, finish_item, sort_unique};
 use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
@@ -17,7 +18,7 @@ use super::visible::Leaf;
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::Watch;
-use crate::memory::{collect, push};
+use crate::memory::{collect, push, reserve};
 use crate::overlay::Overlay;
 use crate::raster::Rays;
 use crate::tree::BspTree;
@@ -61,10 +62,15 @@ impl Drawing {
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last: nothing is cut then but what it says is
     /// hidden.
     ///
-    /// No path is cut because of them; a segment is, where it goes from one place of the order to another.
-    /// Each part comes after all that lies behind it, or that it lies on, and before what lies in front of
-    /// it, as `lines` tells these apart. Lines and points in one place of the order come in input order, lines
-    /// first, and so may those that cross in the picture.
+    /// A segment is cut where it goes from one place of the order to another. Each part comes after all that
+    /// lies behind it, or that it lies on, and before what lies in front of it, as `lines` tells these apart.
+    /// Lines and points in one place of the order come in input order, lines first, and so may those that
+    /// cross in the picture.
+    ///
+    /// Paths are as without them, but where a line runs along a border between polygons that only touch there,
+    /// one behind it and the other in front: these are then painted in that order too. Where that closes a
+    /// circle, as it may where many borders lie on one another in the picture, the part comes after what lies
+    /// behind it, and what lies in front may be painted before it.
     ///
     /// # Errors
     ///
@@ -111,12 +117,27 @@ impl Drawing {
                 finish_item(watch, item, count);
             }
             let overlaps = overlaps(&stock, &rims, picture, watch)?;
-            let parts = Parts::new(&stock, &overlaps, watch)?;
-            let (mut drawing, path_of) = parts.drawing(&stock, &rims, &overlaps, None, watch)?;
-            if let Some(overlay) = overlay {
-                let count = drawing.paths.len() as u32;
-                drawing.overlaid = between(&stock, &rims, &path_of, count, overlay, watch)?;
-            }
+            let between = overlay.map(|overlay| Between::of(&stock, &rims, overlay, watch));
+            let between = between.transpose()?;
+            let mut touching = Vec::new();
+            let (parts, ordered, placed) = loop {
+                let parts = Parts::new(&stock, &overlaps, &touching, watch)?;
+                let ordered = parts.order(&stock, &overlaps, None, watch)?;
+                let Some(between) = &between else { break (parts, ordered, vec![]) };
+                let places = parts.places(&ordered)?;
+                let (placed, mut missed) = between.placed(&places, ordered.order.len(), watch)?;
+                // Again with all that was missed so far, until that is nothing new.
+                let known = touching.len();
+                reserve(&mut touching, missed.len())?;
+                touching.append(&mut missed);
+                sort_unique(&mut touching, watch)?;
+                if touching.len() == known {
+                    break (parts, ordered, placed);
+                }
+            };
+            let (mut drawing, paths) = parts.drawing(&stock, &rims, &ordered, None, watch)?;
+            let below = |(parts, what): (u32, Overlaid)| (paths[parts as usize], what);
+            drawing.overlaid = collect(placed.into_iter().map(below))?;
             Ok(drawing)
         })
     }
@@ -157,7 +178,8 @@ pub(super) fn mixed(
             push(&mut blended, pair)?;
         }
     }
-    let parts = Parts::new(stock, &blended, watch)?;
-    let (drawing, _) = parts.drawing(stock, rims, &pairs, Some(leaves), watch)?;
+    let parts = Parts::new(stock, &blended, &[], watch)?;
+    let ordered = parts.order(stock, &pairs, Some(leaves), watch)?;
+    let (drawing, _) = parts.drawing(stock, rims, &ordered, Some(leaves), watch)?;
     Ok(drawing)
 }
