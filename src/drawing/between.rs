@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::edge_run::SHORTEST;
 use super::halving::VISITED;
 use super::overlaid::{LineRun, MarkerView, Overlaid, sights, spots};
-use super::pairs::Pair;
+use super::pairs::{Found, Pair, add};
 use super::passes::{Pass, Passes, Passing, Pieces, passes};
 use super::reaches::Reaches;
 use super::reporter::{each, sort_by};
@@ -61,10 +61,10 @@ impl Between {
         places: &[u32],
         count: usize,
         watch: &Watch<'_>,
-    ) -> Result<(Placed, Vec<Pair>), Error> {
+    ) -> Result<(Placed, Found), Error> {
         let count = count as u32;
         let mut rest = &self.passes.sights[..];
-        let (mut placed, mut missed) = (Vec::new(), Vec::new());
+        let (mut placed, mut missed) = (Vec::new(), Found::default());
         for (number, (segment, sight)) in (0..).zip(self.segments.iter().zip(&self.sights)) {
             let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
             rest = others;
@@ -135,16 +135,16 @@ fn ends(passed: &Passed) -> [Option<Key>; 2] {
 /// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
 /// and does not; and of what is first of all that has to come after, and all that has to come before and does
 /// not.
-fn add_missed(passed: &Passed, missed: &mut Vec<Pair>, watch: &Watch<'_>) -> Result<(), Error> {
+fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
     let [Some(below), Some(above)] = ends(passed) else { return Ok(()) };
     if above.1 >= below.1 {
         return Ok(());
     }
     for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
-        push(missed, Pair { below: below.2, above: early?.0.2 })?;
+        add(missed, Pair { below: below.2, above: early?.0.2 })?;
     }
     for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
-        push(missed, Pair { below: late?.0.2, above: above.2 })?;
+        add(missed, Pair { below: late?.0.2, above: above.2 })?;
     }
     Ok(())
 }
@@ -156,7 +156,7 @@ fn in_order(
     passes: &[Pass],
     places: &[u32],
     count: u32,
-    missed: &mut Vec<Pair>,
+    missed: &mut Found,
     watch: &Watch<'_>,
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
     // Where each pass begins and ends.

@@ -18,10 +18,14 @@ use super::visible::Leaf;
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::Watch;
-use crate::memory::{collect, push, reserve};
+use crate::memory::{collect, push};
 use crate::overlay::Overlay;
 use crate::raster::Rays;
 use crate::tree::BspTree;
+
+/// So often at most an order is sought that has room for an overlay. One is enough for nearly all scenes and
+/// views; heaps of rectangles in a grid, seen along its diagonal with all their edges, need up to five.
+const ROUNDS: usize = 8;
 
 impl Drawing {
     /// The view of all polygons as filled outlines, nothing hidden: painted one over another, each with
@@ -68,9 +72,9 @@ impl Drawing {
     /// cross in the picture.
     ///
     /// Paths are as without them, but where a line runs along a border between polygons that only touch there,
-    /// one behind it and the other in front: these are then painted in that order too. Where that closes a
-    /// circle, as it may where many borders lie on one another in the picture, the part comes after what lies
-    /// behind it, and what lies in front may be painted before it.
+    /// one behind it and the other in front: these are then painted in that order too. That may close a circle,
+    /// or need too many rounds, where many borders lie on one another in the picture. Then the part comes
+    /// after what lies behind it, and what lies in front may be painted before it.
     ///
     /// # Errors
     ///
@@ -120,18 +124,21 @@ impl Drawing {
             let between = overlay.map(|overlay| Between::of(&stock, &rims, overlay, watch));
             let between = between.transpose()?;
             let mut touching = Vec::new();
+            let mut rounds = 0;
             let (parts, ordered, placed) = loop {
                 let parts = Parts::new(&stock, &overlaps, &touching, watch)?;
                 let ordered = parts.order(&stock, &overlaps, None, watch)?;
                 let Some(between) = &between else { break (parts, ordered, vec![]) };
                 let places = parts.places(&ordered)?;
-                let (placed, mut missed) = between.placed(&places, ordered.order.len(), watch)?;
+                let (placed, missed) = between.placed(&places, ordered.order.len(), watch)?;
                 // Again with all that was missed so far, until that is nothing new.
                 let known = touching.len();
-                reserve(&mut touching, missed.len())?;
-                touching.append(&mut missed);
+                for pair in each(watch, 1, missed) {
+                    push(&mut touching, pair?)?;
+                }
                 sort_unique(&mut touching, watch)?;
-                if touching.len() == known {
+                rounds += 1;
+                if touching.len() == known || rounds == ROUNDS {
                     break (parts, ordered, placed);
                 }
             };
