@@ -18,7 +18,8 @@ use crate::memory::push;
 use crate::overlay::Overlay;
 use crate::overlay::given::GivenSegment;
 
-/// An overlay's lines and points, each with how many parts come before it in the order that it goes with.
+/// An overlay's lines and points, each with how many parts of the drawing come before it: in input order, lines
+/// first.
 pub(super) type Placed = Vec<(u32, Overlaid)>;
 
 /// The lines and points of an overlay, with the items that they pass.
@@ -69,8 +70,8 @@ impl Between {
             let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
             rest = others;
             let parts = in_order(sight.course.places, own, places, count, &mut missed, watch)?;
-            for (below, places) in parts {
-                let run = LineRun::new(segment, places.map(|place| sight.course.at(place)), true);
+            for (below, ends) in parts {
+                let run = LineRun::new(segment, ends.map(|end| sight.course.at(end)), true);
                 push(&mut placed, (below, Overlaid::Line(run)))?;
             }
         }
@@ -87,7 +88,6 @@ impl Between {
             let below = Room::between(&passed, count).most;
             push(&mut placed, (below, Overlaid::Marker(*marker)))?;
         }
-        sort_by(&mut placed, watch, |(a, _), (b, _)| a.cmp(b))?;
         Ok((placed, missed))
     }
 }
@@ -113,7 +113,7 @@ impl Room {
 
     /// After what is passed before it, and before what is in front. Where that is nowhere, only the first.
     fn between(passed: &Passed, count: u32) -> Self {
-        let [last, first] = ends(passed);
+        let [last, first] = outermost(passed);
         let least = last.map_or(0, |last| last.1 + 1);
         Self { least, most: first.map_or(count, |first| first.1).max(least) }
     }
@@ -126,7 +126,7 @@ impl Room {
 }
 
 /// What comes last of what is passed before it, and first of what is in front.
-fn ends(passed: &Passed) -> [Option<Key>; 2] {
+fn outermost(passed: &Passed) -> [Option<Key>; 2] {
     let before = passed.range(..(true, 0, 0)).next_back();
     let in_front = passed.range((true, 0, 0)..).next();
     [before, in_front].map(|end| end.map(|(key, _)| *key))
@@ -136,7 +136,7 @@ fn ends(passed: &Passed) -> [Option<Key>; 2] {
 /// and does not; and of what is first of all that has to come after, and all that has to come before and does
 /// not.
 fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
-    let [Some(below), Some(above)] = ends(passed) else { return Ok(()) };
+    let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
     if above.1 >= below.1 {
         return Ok(());
     }
@@ -149,7 +149,7 @@ fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<
     Ok(())
 }
 
-/// A segment in as few parts as can be, each with how many parts of the drawing come before it, by what it
+/// A segment in as few runs as can be, each with how many parts of the drawing come before it, by what it
 /// passes. Adds pairs that leave no place between them.
 fn in_order(
     ends: [f64; 2],
@@ -161,7 +161,8 @@ fn in_order(
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
     // Where each pass begins and ends.
     let mut events = Vec::new();
-    for pass in passes {
+    for pass in each(watch, VISITED, passes) {
+        let pass = pass?;
         let key = (pass.is_behind, places[pass.piece as usize], pass.piece);
         for (at, change) in [(pass.places[0], 1), (pass.places[1], -1)] {
             push(&mut events, (at, key, change))?;

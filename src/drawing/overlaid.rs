@@ -30,7 +30,7 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether it shows.
     pub is_visible: bool,
-    /// How many polygons lie in front of it; `None` if they were not counted. Of a visible run that is 0: what it
+    /// How many polygons lie in front of it; `None` if they were not counted. Where they are, that is 0 of a visible run: what it
     /// is seen through does not count.
     pub layers: Option<u32>,
 }

@@ -120,11 +120,13 @@ impl Parts {
     }
 
     /// The place of each item's part in an order.
-    pub(super) fn places(&self, ordered: &Ordered) -> Result<Vec<u32>, Error> {
+    pub(super) fn places(&self, ordered: &Ordered, watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
         let mut places = filled(self.items.len(), 0)?;
-        for (place, &part) in (0..).zip(&ordered.order) {
+        for placed in each(watch, 1, (0..).zip(&ordered.order)) {
+            let (place, &part) = placed?;
             places[part as usize] = place;
         }
+        watch.work(self.of_item.len())?;
         collect(self.of_item.iter().map(|&part| places[part as usize]))
     }
 

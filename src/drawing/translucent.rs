@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use super::above::pairs;
 use super::between::Between;
-use super::halving::LINES;
+use super::halving::{LINES, VISITED};
 use super::overlaid::Overlaid;
 use super::overlaps::overlaps;
-use super::pairs::Pair;
+use super::pairs::{Found, Pair, add, sorted};
 use super::parts::Parts;
 use super::paths::Drawing;
-use super::reporter::{Reporter, each, finish_item, sort_unique};
+use super::reporter::{Reporter, each, finish_item, sort_by};
 use super::rims::Rims;
 use super::stock::Stock;
 use super::tile::Tile;
@@ -71,10 +71,13 @@ impl Drawing {
     /// Lines and points in one place of the order come in input order, lines first, and so may those that
     /// cross in the picture.
     ///
-    /// Paths are as without them, but where a line runs along a border between polygons that only touch there,
-    /// one behind it and the other in front: these are then painted in that order too. That may close a circle,
-    /// or need too many rounds, where many borders lie on one another in the picture. Then the part comes
-    /// after what lies behind it, and what lies in front may be painted before it.
+    /// Paths are those without them, but where a line runs along a border between polygons that only touch
+    /// there, one behind it and the other in front: these are then painted in that order too, and polygons may
+    /// be in more paths for it, or in fewer. Where such pairs close a cycle, or do not come to an end in a few
+    /// rounds, a part comes after what lies behind it, and what lies in front may be painted before it. So may
+    /// a bent polygon that lies behind a line with one face and in front with another: it is one path.
+    ///
+    /// All runs and points in the drawing are said to be visible, whatever lies in front of them.
     ///
     /// # Errors
     ///
@@ -123,28 +126,34 @@ impl Drawing {
             let overlaps = overlaps(&stock, &rims, picture, watch)?;
             let between = overlay.map(|overlay| Between::of(&stock, &rims, overlay, watch));
             let between = between.transpose()?;
-            let mut touching = Vec::new();
+            let (mut touching, mut known) = (Vec::new(), Found::default());
             let mut rounds = 0;
             let (parts, ordered, placed) = loop {
                 let parts = Parts::new(&stock, &overlaps, &touching, watch)?;
                 let ordered = parts.order(&stock, &overlaps, None, watch)?;
                 let Some(between) = &between else { break (parts, ordered, vec![]) };
-                let places = parts.places(&ordered)?;
+                let places = parts.places(&ordered, watch)?;
                 let (placed, missed) = between.placed(&places, ordered.order.len(), watch)?;
-                // Again with all that was missed so far, until that is nothing new.
-                let known = touching.len();
-                for pair in each(watch, 1, missed) {
-                    push(&mut touching, pair?)?;
-                }
-                sort_unique(&mut touching, watch)?;
+                // Again with all that was missed so far, until that is nothing new. What was kept stays so: new
+                // pairs come last.
+                let mut new = sorted(vec![missed], watch)?;
+                new.retain(|pair| !known.contains(pair));
                 rounds += 1;
-                if touching.len() == known || rounds == ROUNDS {
+                if new.is_empty() || rounds == ROUNDS {
                     break (parts, ordered, placed);
+                }
+                for pair in each(watch, VISITED, new) {
+                    let pair = pair?;
+                    add(&mut known, pair)?;
+                    push(&mut touching, pair)?;
                 }
             };
             let (mut drawing, paths) = parts.drawing(&stock, &rims, &ordered, None, watch)?;
-            let below = |(parts, what): (u32, Overlaid)| (paths[parts as usize], what);
-            drawing.overlaid = collect(placed.into_iter().map(below))?;
+            for placed in each(watch, 1, placed) {
+                let (parts, what): (u32, Overlaid) = placed?;
+                push(&mut drawing.overlaid, (paths[parts as usize], what))?;
+            }
+            sort_by(&mut drawing.overlaid, watch, |(a, _), (b, _)| a.cmp(b))?;
             Ok(drawing)
         })
     }
