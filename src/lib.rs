@@ -1,6 +1,7 @@
 //! Exact back-to-front orders of polygons from one BSP tree.
 //!
-//! [`BspTree`] is the library's main type, and its page is the manual. Around it:
+//! [`BspTree`] is the library's main type, and its page is the manual. The [`guide`] has a page for each
+//! subject, such as frames on a GPU, vector drawings and moving things. Around the tree:
 //!
 //! | | |
 //! |---|---|
@@ -45,6 +46,8 @@
 //!
 //! Without features the library depends on glam and smallvec alone.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 mod bits;
 mod build;
 #[cfg(feature = "drawing")]
@@ -53,6 +56,8 @@ mod error;
 mod exact;
 mod faces;
 mod frustum;
+#[cfg(any(doc, doctest))]
+pub mod guide;
 mod input;
 #[cfg(feature = "layers")]
 pub mod layers;

@@ -171,7 +171,7 @@ pub(crate) struct StatsArgs {
 /// Show what a course on visibility teaches, measured and judged, as one page
 ///
 /// Pictures and graphs with a few sentences each, in the order of a course, in one HTML file that needs no
-/// network. All figures come from the run, which takes a minute or two on two processors.
+/// network. All figures come from the run, which takes less than half a minute on two processors.
 #[derive(Args, Debug)]
 #[command(after_help = examples::LECTURE)]
 pub(crate) struct LectureArgs {

@@ -45,6 +45,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("verify", &["exact", "tree", "view", "raster", "paint"]),
     ("occlusion", &["tree", "raster", "paint"]),
     ("drawing", &["exact", "tree", "build", "overlay", "raster"]),
+    // Pages of text.
+    ("guide", &[]),
 ];
 
 fn source() -> PathBuf {

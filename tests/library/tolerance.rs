@@ -1,4 +1,4 @@
-//! Which orders the coplanar tolerance leaves open, and which not: the statements of README.md.
+//! Which orders the coplanar tolerance leaves open, and which not: the statements of `docs/guide/exact.md`.
 
 use binspace::glam::{DVec2, DVec3, dvec3};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};

@@ -80,7 +80,7 @@ impl Errors {
                     let off = (rational::exact(vertex[axis]) - &place).abs();
                     let off = off.to_f64().expect("in range");
                     let own = ulp(vertex[axis]);
-                    // As the README says.
+                    // As `docs/guide/exact.md` says.
                     prop_assert!(off <= 0.77 * step + own, "{off:e}: {own:e} and {step:e}");
                     let worst = if own < step { &mut self.steps } else { &mut self.ulps };
                     *worst = worst.max(off / own.max(step));

@@ -374,10 +374,10 @@ fn the_background_does_not_show_in_seams() {
     assert!(f64::from(sum) < 0.2 * f64::from(pixels), "{sum} in {pixels} pixels, {worst}");
 }
 
-/// What the README says of drawings.
+/// What `docs/guide/drawings.md` says.
 #[test]
-fn figures_of_the_readme_are_so() {
-    let folder = Folder::new("draw_readme");
+fn figures_of_the_guide_are_so() {
+    let folder = Folder::new("draw_guide");
     for (arguments, expected) in [
         ("random:500 -o a.svg", [("fragments", 3413), ("paths", 282), ("lines", 0)]),
         ("city:2000 -o a.svg", [("fragments", 2001), ("paths", 649), ("lines", 0)]),
