@@ -7,10 +7,10 @@ use binspace::glam::DVec3;
 use binspace::internals::{PlaneKind, SymbolKind};
 use binspace::scene;
 
-use crate::polygons::triangles;
-use crate::support::dice::Dice;
-use crate::support::divided::Divided;
-use crate::support::shapes::Corners;
+use crate::cells::polygons::triangles;
+use testkit::dice::Dice;
+use testkit::divided::Divided;
+use testkit::shapes::Corners;
 
 /// A plane between cells: its axis, and the bits of its lattice coordinate.
 type Wall = (usize, u64);

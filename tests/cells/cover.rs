@@ -6,13 +6,13 @@ use proptest::test_runner::{Config, TestRunner};
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
 
-use crate::polygons::{stars, tiles, triangles};
-use crate::support::cell_cover::check;
-use crate::support::dice::Dice;
-use crate::support::divided::Divided;
-use crate::support::hard;
-use crate::support::judge::{Verdict, ensure};
-use crate::support::shapes::Corners;
+use crate::cells::polygons::{stars, tiles, triangles};
+use testkit::cell_cover::check;
+use testkit::dice::Dice;
+use testkit::divided::Divided;
+use testkit::hard;
+use testkit::judge::{Verdict, ensure};
+use testkit::shapes::Corners;
 
 fn checked(polygons: Vec<Corners>, options: BuildOptions, cells: usize) -> usize {
     let scene = Divided::new(polygons, options, cells).unwrap();

@@ -7,14 +7,14 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
 
-use crate::polygons::{stars, tiles, triangles};
-use crate::support::cell_orders::{Score, judge, places, shoot};
-use crate::support::dice::Dice;
-use crate::support::divided::Divided;
-use crate::support::hard;
-use crate::support::rays::{Ray, Rays};
-use crate::support::shapes::Corners;
-use crate::support::views::View;
+use crate::cells::polygons::{stars, tiles, triangles};
+use testkit::cell_orders::{Score, judge, places, shoot};
+use testkit::dice::Dice;
+use testkit::divided::Divided;
+use testkit::hard;
+use testkit::rays::{Ray, Rays};
+use testkit::shapes::Corners;
+use testkit::views::View;
 
 fn judged(polygons: Vec<Corners>, tolerance: Option<f64>, cells: usize, seed: u64) -> Score {
     let mut score = Score::default();

@@ -4,11 +4,11 @@ use binspace::glam::DVec3;
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
 
-use crate::polygons::{stars, tiles, triangles};
-use crate::support::dice::Dice;
-use crate::support::divided::{Divided, extent};
-use crate::support::shapes::Corners;
-use crate::support::snapshot::Snapshot;
+use crate::cells::polygons::{stars, tiles, triangles};
+use testkit::dice::Dice;
+use testkit::divided::{Divided, extent};
+use testkit::shapes::Corners;
+use testkit::snapshot::Snapshot;
 
 /// What is seen of a tree: where its fragments are, and whose.
 fn fragments(tree: &BspTree, number: impl Fn(usize) -> usize) -> Vec<(usize, Vec<DVec3>)> {
@@ -387,7 +387,6 @@ fn budgets_and_cancels_count_in_cells() {
 }
 
 /// A drawing would take the polygons of a cell whole.
-#[cfg(feature = "drawing")]
 #[test]
 fn a_drawing_of_a_cell_is_an_error() {
     use binspace::drawing::VisibilityMap;

@@ -3,11 +3,11 @@
 use binspace::partition::Partition;
 use binspace::{BspTree, BuildOptions};
 
-use crate::polygons::{stars, tiles, triangles};
-use crate::support::dice::Dice;
-use crate::support::divided::Divided;
-use crate::support::saved::{bytes, seal, use_all};
-use crate::support::snapshot::Snapshot;
+use crate::cells::polygons::{stars, tiles, triangles};
+use testkit::dice::Dice;
+use testkit::divided::Divided;
+use testkit::saved::{bytes, seal, use_all};
+use testkit::snapshot::Snapshot;
 
 fn written(partition: &Partition) -> Vec<u8> {
     let mut bytes = Vec::new();

@@ -2,8 +2,6 @@
 
 use super::overlay::{between, origin, place_in, project};
 use super::sightlines::{Origin, Sightlines};
-use super::support::model::Face;
-use super::support::rational::{self, Point, Rational};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::{DVec2, DVec3};
 use binspace::internals::SplitMix64;
@@ -13,6 +11,8 @@ use binspace::{BspTree, BuildOptions};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use testkit::model::Face;
+use testkit::rational::{self, Point, Rational};
 
 /// A quad that is bent along its shorter diagonal, which a wall goes through.
 #[test]

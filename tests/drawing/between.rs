@@ -2,10 +2,6 @@
 
 use super::overlay::{between, for_each_crowd, hard_shapes, origin, place_in, project, square};
 use super::sightlines::Sightlines;
-use super::support::dice::Dice;
-use super::support::hard;
-use super::support::rational::{self, Point};
-use super::support::tally::tally;
 use binspace::drawing::{DisplayItem, Drawing, LineRun, Path, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shapes};
@@ -14,6 +10,10 @@ use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::hard;
+use testkit::rational::{self, Point};
+use testkit::tally::tally;
 
 /// What was compared.
 #[derive(Debug, Default)]

@@ -1,15 +1,15 @@
 //! Small scenes full of coincidences, from hard places.
 
-use super::support::hard::{self, HardScene};
-use super::support::tally::tally;
-use crate::support::fill::{Score, check};
-use crate::support::layered::{Layers, check_layers, check_mixed};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::fill::{Score, check};
+use testkit::hard::{self, HardScene};
+use testkit::layered::{Layers, check_layers, check_mixed};
+use testkit::tally::tally;
 
 #[test]
 fn hard_scenes_are_drawn_as_rays_meet_them() {

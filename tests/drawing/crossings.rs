@@ -1,12 +1,12 @@
 //! Where polygons go through one another, by hand and against rays.
 
-use crate::support::fill::ray;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use testkit::fill::ray;
 
 fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let rays = Rays::new(camera, tree.faces()).unwrap();

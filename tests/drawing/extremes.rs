@@ -1,11 +1,11 @@
 //! Scenes, views and opacities at their limits.
 
-use crate::support::layered::{Layers, check_mixed};
 use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::layered::{Layers, check_mixed};
 
 fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]

@@ -2,13 +2,13 @@
 
 use super::scenes::cameras;
 use super::translucent::crossing_triangles;
-use crate::support::layered::{Layers, check_mixed, check_sight};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
+use testkit::layered::{Layers, check_mixed, check_sight};
 
 /// Opacities of a third of the polygons, of nearly all, and with some left out.
 const MIXES: [fn(usize) -> f64; 3] = [

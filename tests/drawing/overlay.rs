@@ -1,10 +1,6 @@
 //! Lines and points of an overlay in a picture, by hand and against rays in rationals.
 
 use super::sightlines::{Origin, Sightlines};
-use super::support::dice::Dice;
-use super::support::hard;
-use super::support::rational::{self, Point};
-use super::support::tally::tally;
 use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
@@ -14,6 +10,10 @@ use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::hard;
+use testkit::rational::{self, Point};
+use testkit::tally::tally;
 
 /// What was compared.
 #[derive(Debug, Default)]

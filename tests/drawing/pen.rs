@@ -1,12 +1,12 @@
 //! Lines for a pen, against what graphs and exhaustive searches say.
 
-use super::support::dice::Dice;
 use binspace::BspTree;
 use binspace::drawing::{Polyline, VisibilityMap, polylines};
 use binspace::glam::DVec3;
 use binspace::internals::cuboid;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::dice::Dice;
 
 type Segment = [[f64; 2]; 2];
 

@@ -1,6 +1,5 @@
 //! Scenes large enough for every part: tiles, threads, cycles.
 
-use crate::support::fill::{Score, check, check_rays};
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
@@ -8,6 +7,7 @@ use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions};
+use testkit::fill::{Score, check, check_rays};
 
 const SIZE: [u32; 2] = [240, 180];
 

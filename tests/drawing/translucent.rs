@@ -1,12 +1,12 @@
 //! Drawings in which nothing is hidden, of whole scenes.
 
 use super::scenes::cameras;
-use crate::support::layered::{Layers, check_layers};
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
+use testkit::layered::{Layers, check_layers};
 
 fn check_scene(scene: &Scene, score: &mut Layers) {
     let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();

@@ -1,13 +1,13 @@
 //! The order of pages, judged at points of the screen by the exact depths of the layers given.
 
 use super::oracle::{Point2, Truth, covers, number};
-use super::pages::{Page, SCREEN};
-use super::support::dice::Dice;
-use super::support::rational::{Rational, exact};
 use super::{Given, page_of, wild};
 use binspace::glam::DVec2;
 use binspace::layers::Layers;
 use num_traits::Signed;
+use testkit::dice::Dice;
+use testkit::pages::{Page, SCREEN};
+use testkit::rational::{Rational, exact};
 
 /// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by
 /// less in pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.

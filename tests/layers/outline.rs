@@ -1,12 +1,12 @@
 //! What is seen of one layer, and where in it.
 
 use super::oracle::{Point2, area, number};
-use super::support::dice::Dice;
-use super::support::rational::exact;
 use super::{Given, VIEWPORT, page_of, pages, wild};
 use binspace::glam::DVec3;
 use binspace::layers::LayerVertex;
 use num_traits::{Signed, Zero};
+use testkit::dice::Dice;
+use testkit::rational::exact;
 
 /// Twenty steps of `f64`, times what the terms of a coordinate add up to.
 const STEPS: f64 = 20.0 * f64::EPSILON;

@@ -2,10 +2,10 @@
 //! would decide wrongly. The kernel decides them rightly, so the bound is large enough there; they
 //! exist, so the bound is hardly larger than necessary.
 
-use crate::support::dice::Dice;
 use binspace::internals::{Exact, ExactVertex, Faces, Kernel, Piece, PlaneId, Side, Vertex};
 use num_bigint::BigInt;
 use num_traits::{Signed, ToPrimitive, Zero};
+use testkit::dice::Dice;
 
 /// The largest coordinate of a scene whose lattice step is 1.
 const EDGE: i64 = (1 << 51) - 1;

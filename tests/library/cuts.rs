@@ -1,15 +1,15 @@
 //! Cuts that other libraries get wrong, and cuts that neighbours must agree on.
 
-use crate::support::hard;
-use crate::support::model::{self, Face};
-use crate::support::rational;
-use crate::support::shapes::Corners;
-use crate::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, SymbolKind, Vertex, split};
 use num_traits::Zero;
 use proptest::prelude::*;
 use std::collections::HashMap;
+use testkit::hard;
+use testkit::model::{self, Face};
+use testkit::rational;
+use testkit::shapes::Corners;
+use testkit::tally::tally;
 
 type ExactVertex = <Exact as Kernel>::Vertex;
 

@@ -3,9 +3,9 @@
 
 use std::cmp::Ordering;
 
-use crate::support::dice::Dice;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Viewpoint};
+use testkit::dice::Dice;
 
 #[test]
 fn bounds_of_normals_hold_the_exact_normals() {

@@ -1,7 +1,7 @@
 //! Inputs that a fuzz target once failed on, and a few to start from, replayed.
 
-use crate::support::targets;
 use std::path::Path;
+use testkit::targets;
 
 /// Runs a target on every file of its folder; the file's name says what it is about.
 fn replay(target: &str, run: fn(&[u8])) {
@@ -52,13 +52,11 @@ fn query_regressions_pass() {
     replay("query", targets::query::run);
 }
 
-#[cfg(feature = "drawing")]
 #[test]
 fn drawing_regressions_pass() {
     replay("drawing", targets::drawing::run);
 }
 
-#[cfg(feature = "obj")]
 #[test]
 fn obj_regressions_pass() {
     replay("obj", targets::obj::run);

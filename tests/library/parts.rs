@@ -1,9 +1,9 @@
 //! Scenes so large that they are prepared in parts: the result is the same as in one part.
 
-use crate::support::shapes::Corners;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{BspTree, BuildOptions, Preparation};
+use testkit::shapes::Corners;
 
 /// More than what is prepared at once, which is sixteen parts of 1024 polygons.
 const COUNT: usize = 20_000;

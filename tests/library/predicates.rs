@@ -1,14 +1,15 @@
 //! The exact kernel against exact rationals, on scenes that are hard to decide.
 
-use crate::support::hard::{self, HardScene};
-use crate::support::model::{self, Face};
-use crate::support::rational::{self, Point, Rational};
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, Vertex, split};
 use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{TestCaseError, TestRunner};
+use testkit::hard::{self, HardScene};
+use testkit::model::{self, Face};
+use testkit::rational::{self, Point, Rational};
+use testkit::tally::cases;
 
 type ExactVertex = <Exact as Kernel>::Vertex;
 type Outcome<T> = Result<T, TestCaseError>;
@@ -198,7 +199,7 @@ fn follow(scene: &HardScene, plan: &Plan, tally: &mut Tally) -> Outcome<()> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(cases(1500, file!()))]
 
     #[test]
     fn pieces_are_those_of_exact_rationals(scene in hard::scene(), plan in plan()) {

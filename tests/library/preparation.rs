@@ -1,15 +1,16 @@
 //! From polygons of any kind to convex planar faces, by example: what becomes triangles, what is
 //! dropped, what is an error.
 
-use crate::support::checks::{area, assert_convex_and_planar, face_area};
-use crate::support::hard;
-use crate::support::rational;
-use crate::support::shapes::{self, Corners};
 use binspace::Preparation;
 use binspace::glam::{DMat3, DVec3};
 use binspace::internals::{DEFAULT_TOLERANCE, Faces, LATTICE_LIMIT};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
+use testkit::checks::{area, assert_convex_and_planar, face_area};
+use testkit::hard;
+use testkit::rational;
+use testkit::shapes::{self, Corners};
+use testkit::tally::cases;
 
 fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
     Faces::new(polygons, None).expect("finite")
@@ -374,6 +375,8 @@ fn corners_folded_onto_one_another_are_not_taken_for_convex() {
 }
 
 proptest! {
+    #![proptest_config(cases(256, file!()))]
+
     #[test]
     fn triangles_cover_shapes_anywhere_but_for_rounding(
         shape in prop::sample::select(vec![l_shape(), star(), spiral()]),

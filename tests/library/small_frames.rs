@@ -1,8 +1,8 @@
 //! Trees of frames, of the small sets that are divided from a table: squares of a few planes, many on
 //! one plane and many cut.
 
-use crate::support::dice::Dice;
 use binspace::{BuildOptions, FrameBuilder};
+use testkit::dice::Dice;
 
 type Square = [[f64; 3]; 4];
 

@@ -1,11 +1,6 @@
 //! The errors of the vertices that a tree returns, in the scene's own coordinates, against exact
 //! rationals: in scenes far from the origin, tiny, and huge.
 
-use crate::support::hard::{self, HardScene};
-use crate::support::judge::meeting;
-use crate::support::model::Face;
-use crate::support::rational::{self, Rational};
-use crate::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Line, PlaneId, PlaneKind, SymbolKind};
 use binspace::{BspTree, BuildOptions, Heuristic};
@@ -13,6 +8,11 @@ use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
+use testkit::hard::{self, HardScene};
+use testkit::judge::meeting;
+use testkit::model::Face;
+use testkit::rational::{self, Rational};
+use testkit::tally::tally;
 
 /// World coordinates as (lattice + origin) · step, found from the corners of the scene if they tell.
 struct World {

@@ -1,12 +1,12 @@
 //! Closed bodies stay closed when they are cut and welded, and do not when they are not welded.
 
 use super::{is_closed_once, open_edges};
-use crate::support::real_scenes;
-use crate::support::shapes::{cuboid, rotation};
 use binspace::glam::{DVec3, vec3};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic, Tolerance};
 use std::ops::Range;
+use testkit::real_scenes;
+use testkit::shapes::{cuboid, rotation};
 
 fn polygons(scene: &Scene) -> Vec<Vec<DVec3>> {
     scene.polygons().map(|polygon| polygon.to_vec()).collect()

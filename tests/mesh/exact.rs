@@ -1,10 +1,6 @@
 //! Points, triangles and weights against exact rationals.
 
 use super::open_edges;
-use crate::support::hard::{self, Tolerance};
-use crate::support::model::{Face, main_axis};
-use crate::support::rational::{self, Point, difference, product};
-use crate::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::internals::{LATTICE_LIMIT, Line};
 use binspace::mesh::Mesh;
@@ -13,6 +9,10 @@ use num_traits::ToPrimitive;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
+use testkit::hard::{self, Tolerance};
+use testkit::model::{Face, main_axis};
+use testkit::rational::{self, Point, difference, product};
+use testkit::tally::tally;
 
 /// What was checked.
 #[derive(Debug, Default)]

@@ -1,9 +1,9 @@
 //! Many polygons that meet in one place: they have one point there.
 
-use crate::support::dice::Dice;
 use binspace::glam::{DVec3, dvec3};
 use binspace::{BuildOptions, Heuristic};
 use std::f64::consts::{SQRT_2, TAU};
+use testkit::dice::Dice;
 
 /// Integers of up to `bits` bits, most of them with all.
 fn whole(dice: &mut Dice, bits: i32) -> DVec3 {

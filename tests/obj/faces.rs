@@ -1,6 +1,6 @@
 //! What is kept of faces, and how they may be written.
 
-use crate::{CORNERS, read, sides, with_corners};
+use crate::obj::{CORNERS, read, sides, with_corners};
 use binspace::glam::{DVec3, dvec3};
 use binspace::scene::{self, ObjReport, Scene};
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stderr, reason = "what is left out is said")]
 
-use crate::{real_scenes, sides};
+use crate::obj::{real_scenes, sides};
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use std::path::Path;

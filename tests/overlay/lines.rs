@@ -4,9 +4,9 @@ use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{BspTree, BuildOptions, Heuristic};
 
-use crate::oracle::{self, Counts};
-use crate::support::dice::Dice;
-use crate::tiling::{self, Given};
+use crate::overlay::oracle::{self, Counts};
+use crate::overlay::tiling::{self, Given};
+use testkit::dice::Dice;
 
 type Corners = Vec<DVec3>;
 

@@ -6,7 +6,7 @@ use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shape, Shapes};
 use binspace::{BspTree, BuildOptions, Viewpoint};
 
-use crate::support::dice::Dice;
+use testkit::dice::Dice;
 
 /// Half the side of the grid.
 const ROOM: f64 = 64.0;

@@ -6,10 +6,10 @@ use binspace::overlay::{Overlay, Shapes};
 use binspace::scene::{self, Scene};
 use binspace::view::Camera;
 
-use crate::judge::{self, Judged};
-use crate::oracle::{self, Counts};
-use crate::support::dice::Dice;
-use crate::tiling::{self, Given};
+use crate::overlay::judge::{self, Judged};
+use crate::overlay::oracle::{self, Counts};
+use crate::overlay::tiling::{self, Given};
+use testkit::dice::Dice;
 
 /// A polygon that walks and turns.
 struct Mover {

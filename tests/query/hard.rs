@@ -1,13 +1,13 @@
 //! Small scenes full of coincidences.
 
-use super::support::dice::Dice;
-use super::support::hard::{self, HardScene};
-use super::support::hits::{Oracle, Score};
-use super::support::shots::Shots;
-use super::support::tally::tally;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::hard::{self, HardScene};
+use testkit::hits::{Oracle, Score};
+use testkit::shots::Shots;
+use testkit::tally::tally;
 
 #[test]
 fn rays_hit_what_rationals_say() {

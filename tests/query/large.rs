@@ -1,14 +1,14 @@
 //! Scenes of hundreds and thousands of faces.
 
-use super::support::dice::Dice;
-use super::support::hits::{Oracle, Score};
-use super::support::quick_hits::QuickOracle;
-use super::support::shapes;
-use super::support::shots::Shots;
 use binspace::glam::{DMat3, DVec3};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use rayon::prelude::*;
+use testkit::dice::Dice;
+use testkit::hits::{Oracle, Score};
+use testkit::quick_hits::QuickOracle;
+use testkit::shapes;
+use testkit::shots::Shots;
 
 type Polygons = Vec<Vec<DVec3>>;
 

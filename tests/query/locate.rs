@@ -1,14 +1,14 @@
 //! Where points are, by planes in rationals.
 
-use super::support::dice::Dice;
-use super::support::hits::Oracle;
-use super::support::shots::Shots;
-use super::support::{model, rational};
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, Child, Heuristic, Ray};
 use num_traits::Zero;
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::hits::Oracle;
+use testkit::shots::Shots;
+use testkit::{model, rational};
 
 #[test]
 fn points_are_where_rationals_say() {

@@ -1,11 +1,11 @@
 //! From what the library says in public, everything about a hit can be computed exactly.
 
-use super::support::dice::Dice;
-use super::support::rational::{self, Plane, Point, Rational};
-use super::support::shots::Shots;
 use binspace::glam::DVec3;
 use binspace::{BspTree, Child, Grid, Ray, scene};
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use testkit::dice::Dice;
+use testkit::rational::{self, Plane, Point, Rational};
+use testkit::shots::Shots;
 
 fn world(grid: Grid, point: [i64; 3]) -> Point {
     let two = Rational::from_integer(2.into());

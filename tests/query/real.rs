@@ -7,14 +7,14 @@
 
 #![allow(clippy::print_stderr, reason = "the scores are shown on request")]
 
-use super::support::dice::Dice;
-use super::support::hits::{Oracle, Score};
-use super::support::quick_hits::QuickOracle;
-use super::support::real_scenes;
-use super::support::shots::Shots;
 use binspace::BspTree;
 use binspace::scene::Scene;
 use rayon::prelude::*;
+use testkit::dice::Dice;
+use testkit::hits::{Oracle, Score};
+use testkit::quick_hits::QuickOracle;
+use testkit::real_scenes;
+use testkit::shots::Shots;
 
 const SCENES: [&str; 7] = [
     "bunny_4k.obj",

@@ -1,17 +1,17 @@
 //! Which fragments meet a region, by clipping every one of them in rationals.
 
-use super::support::dice::Dice;
-use super::support::hard;
-use super::support::hits::Oracle;
-use super::support::rational::{self, Plane, Point};
-use super::support::shots::Shots;
-use super::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Viewpoint};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::hard;
+use testkit::hits::Oracle;
+use testkit::rational::{self, Plane, Point};
+use testkit::shots::Shots;
+use testkit::tally::tally;
 
 /// What was compared: of all pairs of a fragment and a region.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,9 +1,9 @@
 //! Files that are cut short, damaged, forged, or of something else.
 
-use crate::support::saved::{bytes, checksum, seal};
-use crate::support::targets::saved::try_file;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder};
+use testkit::saved::{bytes, checksum, seal};
+use testkit::targets::saved::try_file;
 
 /// Files of small trees: with cuts, bent faces, triangulated and dropped polygons, and for one view.
 fn files() -> Vec<Vec<u8>> {

@@ -1,7 +1,7 @@
 //! Forged fragments: outlines and lists that are wrong in one thing, which nothing else would notice.
 
-use crate::support::saved::{bytes, seal};
 use binspace::{BspTree, BuildOptions, Heuristic};
+use testkit::saved::{bytes, seal};
 
 type Square = [[f64; 3]; 4];
 

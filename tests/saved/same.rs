@@ -1,14 +1,15 @@
 //! What is read is what was written, bit for bit.
 
-use crate::support::dice::Dice;
-use crate::support::rays::Rays;
-use crate::support::saved::{bytes, use_all};
-use crate::support::snapshot::{Snapshot, order};
-use crate::support::{hard, views};
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use proptest::prelude::*;
+use testkit::dice::Dice;
+use testkit::rays::Rays;
+use testkit::saved::{bytes, use_all};
+use testkit::snapshot::{Snapshot, order};
+use testkit::tally::cases;
+use testkit::{hard, views};
 
 fn again(tree: &BspTree) -> BspTree {
     let file = bytes(tree);
@@ -41,7 +42,7 @@ const EYES: [Viewpoint; 3] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(cases(600, file!()))]
 
     #[test]
     fn trees_of_hard_scenes_come_back(

@@ -1,9 +1,9 @@
 //! Scenes that are written and read back.
 
-use crate::support::saved::seal;
 use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::scene::{self, Material, Scene};
+use testkit::saved::seal;
 
 fn bytes(scene: &Scene) -> Vec<u8> {
     let mut bytes = Vec::new();

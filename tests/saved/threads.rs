@@ -1,8 +1,8 @@
 //! What is read, and which fault is found, on any number of threads.
 
-use crate::support::saved::{bytes, seal};
 use binspace::BspTree;
 use binspace::scene;
+use testkit::saved::{bytes, seal};
 
 /// Where the faces begin; each is 12 bytes.
 const FACES: usize = 88;

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::support::dice::Dice;
-use crate::support::snapshot::Snapshot;
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
+use testkit::dice::Dice;
+use testkit::snapshot::Snapshot;
 
 type Corners = Vec<DVec3>;
 

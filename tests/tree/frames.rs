@@ -5,12 +5,12 @@ use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Polygon, Viewpoint};
 use proptest::prelude::*;
 
-use crate::support::dice::Dice;
-use crate::support::hard;
-use crate::support::rays::Rays;
-use crate::support::tally::tally;
-use crate::support::{orders, views};
-use crate::{fail, heuristic, options, shoot};
+use crate::tree::{fail, heuristic, options, shoot};
+use testkit::dice::Dice;
+use testkit::hard;
+use testkit::rays::Rays;
+use testkit::tally::tally;
+use testkit::{orders, views};
 
 fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {
     let vertices: Vec<_> = fragment.vertices().map(|v| v.to_array().map(f64::to_bits)).collect();

@@ -8,11 +8,11 @@ use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 
-use crate::support::dice::Dice;
-use crate::support::hard::{self, HardScene, Tolerance};
-use crate::support::rays::Rays;
-use crate::support::tally::tally;
-use crate::support::views::some_view;
+use testkit::dice::Dice;
+use testkit::hard::{self, HardScene, Tolerance};
+use testkit::rays::Rays;
+use testkit::tally::tally;
+use testkit::views::some_view;
 
 const SIZE: [u32; 2] = [40, 30];
 

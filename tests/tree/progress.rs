@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use crate::support::snapshot::Snapshot;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Error, Heuristic, Progress};
+use testkit::snapshot::Snapshot;
 
 const BY: [Heuristic; 3] =
     [Heuristic::Auto, Heuristic::FreePlanes, Heuristic::Sampled { candidates: 4 }];
@@ -23,10 +23,7 @@ fn build(
             if heard.len() < stop { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         })
     };
-    #[cfg(feature = "parallel")]
     let tree = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap().install(go);
-    #[cfg(not(feature = "parallel"))]
-    let tree = std::iter::once_with(go).last().expect("a result");
     (tree, heard)
 }
 
@@ -125,7 +122,6 @@ fn more_polygons_than_fragments_allowed_are_noticed_before_they_are_all_read() {
 
 /// A callback that waits for other work of the pool may be given a part of the same build to do,
 /// which calls it again on the same stack.
-#[cfg(feature = "parallel")]
 #[test]
 fn a_callback_may_do_other_work_of_the_pool() {
     use std::sync::mpsc;

@@ -5,7 +5,7 @@ use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Error, Heuristic, Viewpoint};
 use std::thread;
 
-use crate::support::orders;
+use testkit::orders;
 
 const LARGE: u32 = 100_000;
 
@@ -15,13 +15,8 @@ pub(crate) fn with_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T 
     thread::scope(|scope| {
         let small = thread::Builder::new().stack_size(STACK);
         let thread = small.spawn_scoped(scope, || {
-            #[cfg(feature = "parallel")]
-            {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK);
-                pool.build().expect("a pool").install(work)
-            }
-            #[cfg(not(feature = "parallel"))]
-            work()
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK);
+            pool.build().expect("a pool").install(work)
         });
         thread.expect("a thread").join().expect("no panic")
     })

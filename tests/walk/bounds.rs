@@ -1,13 +1,13 @@
 //! Boxes against exact vertices.
 
-use crate::support::dice::Dice;
-use crate::support::model::Face;
-use crate::support::rational::{self, Point, Rational};
-use crate::trees;
+use crate::walk::trees;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Culling, Ray, Viewpoint, scene};
 use num_traits::ToPrimitive;
 use std::panic::{RefUnwindSafe, catch_unwind};
+use testkit::dice::Dice;
+use testkit::model::Face;
+use testkit::rational::{self, Point, Rational};
 
 /// The exact vertices of each fragment, in the world.
 fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {

@@ -1,11 +1,6 @@
 //! What culled orders leave out, against brute force in rationals and against exact pictures.
 
-use crate::support::dice::Dice;
-use crate::support::model;
-use crate::support::rational::{self, Plane, Rational};
-use crate::support::shapes;
-use crate::support::views::View;
-use crate::{rooms, trees, viewpoints};
+use crate::walk::{trees, viewpoints};
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
 use binspace::paint::paint_order;
@@ -18,6 +13,12 @@ use binspace::{
 use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::model;
+use testkit::rational::{self, Plane, Rational};
+use testkit::shapes;
+use testkit::tally::cases;
+use testkit::views::View;
 
 fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
     let mut order = Vec::new();
@@ -188,7 +189,7 @@ fn body() -> impl Strategy<Value = Vec<Vec<DVec3>>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(cases(48, file!()))]
 
     /// Of a convex body, the fronts alone make the picture, in any order.
     #[test]
@@ -254,7 +255,7 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
 /// with many others, are left out too.
 #[test]
 fn indices_of_what_is_in_view_are_those_of_the_list() {
-    let level: Vec<_> = rooms::rooms(12).into_iter().map(|(_, quad)| quad).collect();
+    let level = testkit::interior::rooms(12);
     let tree = BspTree::build(&level).unwrap();
     let (bounds, mesh) = (tree.bounds().unwrap(), tree.mesh().unwrap());
     let eye = DVec3::new(20.0, 20.0, 1.7);

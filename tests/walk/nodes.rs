@@ -1,10 +1,10 @@
 //! Nodes and their planes.
 
-use crate::support::rational::{self, Plane};
-use crate::{scenes, trees};
+use crate::walk::{scenes, trees};
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Child, Heuristic, Node};
 use num_traits::{Signed, ToPrimitive};
+use testkit::rational::{self, Plane};
 
 /// All nodes below a node, depth first, by its children.
 fn below(root: Node<'_>) -> Vec<Node<'_>> {

@@ -1,9 +1,9 @@
 //! Walks against whole orders.
 
-use crate::support::dice::Dice;
-use crate::{trees, viewpoints};
+use crate::walk::{trees, viewpoints};
 use binspace::{BspTree, Flow, Node, Part, Viewpoint};
 use std::ops::ControlFlow;
+use testkit::dice::Dice;
 
 /// The fragments and nodes that a walk comes to.
 fn walked(

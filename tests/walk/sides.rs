@@ -1,14 +1,14 @@
 //! Back faces for eyes so far away, and so nearly in the polygons' planes, that rounded normals show the
 //! wrong side.
 
-use crate::support::dice::Dice;
-use crate::support::model;
-use crate::support::rational::Plane;
-use crate::support::views::View;
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
 use binspace::{BspTree, Culling, Sides};
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::model;
+use testkit::rational::Plane;
+use testkit::views::View;
 
 /// Parallel squares, one behind the other and beside each other.
 fn tiles(normal: DVec3) -> Vec<[DVec3; 4]> {

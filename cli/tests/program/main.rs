@@ -12,8 +12,6 @@ mod draw_png;
 mod draw_refused;
 mod draw_seams;
 mod draw_translucent;
-#[path = "../../../tests/support/fragment_pixels.rs"]
-mod fragment_pixels;
 mod help;
 mod lecture;
 mod notes;
