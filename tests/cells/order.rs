@@ -3,6 +3,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use testkit::effort::times;
 
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
@@ -77,7 +78,7 @@ fn the_judge_sees_a_wrong_order_of_cells() {
     let scene = scene.unwrap();
     let mut rays: Vec<Rays<'_>> = scene.cells.iter().map(|cell| Rays::new(&cell.tree)).collect();
     let (mut dice, mut wrong) = (Dice(9), 0);
-    for _ in 0..10 {
+    for _ in 0..times(10) {
         let view = View::direction(DVec3::new(0.3, 0.2 + dice.share(), 0.5));
         let mut places = places(&scene, view.viewpoint).unwrap();
         let first: Vec<usize> =

@@ -3,6 +3,7 @@
 use binspace::glam::DVec3;
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
+use testkit::effort::times;
 
 use crate::cells::polygons::{stars, tiles, triangles};
 use testkit::dice::Dice;
@@ -347,7 +348,7 @@ fn a_cell_is_a_tree_as_any_other() {
         .sum();
     assert!((area - expected).abs() < 1e-9 * expected, "{area} {expected}");
     let mut dice = Dice(8);
-    for _ in 0..200 {
+    for _ in 0..times(200) {
         let from = DVec3::new(dice.share() * 60.0, dice.share() * 60.0, 90.0);
         let ray = binspace::Ray::new(from, DVec3::new(0.1, 0.05, -1.0));
         let found = whole.hits(ray).count();

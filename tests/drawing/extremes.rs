@@ -5,6 +5,7 @@ use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::effort::times;
 use testkit::layered::{Layers, check_mixed};
 
 fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
@@ -13,10 +14,10 @@ fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
         .to_vec()
 }
 
-/// A hundred thousand squares behind a wall of ten; a million with `BINSPACE_LONG`, in some 20 seconds.
+/// A hundred thousand squares behind a wall of ten; a million with an effort of ten, in some 20 seconds.
 #[test]
 fn ten_of_a_million_polygons_show() {
-    let layers = if std::env::var_os("BINSPACE_LONG").is_some() { 100 } else { 10 };
+    let layers = times(10).min(100) as u32;
     let mut polygons: Vec<Vec<DVec3>> = Vec::new();
     for k in 0..10 {
         let [x, y] = [f64::from(k % 5) - 2.0, f64::from(k / 5) - 0.5];

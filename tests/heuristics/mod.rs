@@ -8,6 +8,7 @@ use binspace::internals::{PlaneId, PlaneKind};
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
 use divided::{Counts, Divided, nodes, work};
 use testkit::dice::Dice;
+use testkit::effort::seeds;
 use testkit::shapes::{self, Corners};
 
 /// A scene on a small lattice, of one of several kinds.
@@ -100,7 +101,7 @@ fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
     // Of many seeds, each polygon of a set is the choice of some: none is left out.
     let scene: Vec<Corners> = scene(&mut Dice(4), 5);
     let mut counts = [0; 5];
-    for seed in 0..200 {
+    for seed in seeds(200) {
         let tree = build(&scene, Heuristic::Random { seed });
         let plane = tree.root().expect("a node").plane();
         let PlaneKind::Face(face) = plane.kind() else { panic!("{plane:?}") };

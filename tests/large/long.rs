@@ -1,9 +1,8 @@
-//! The long run: seed after seed, until the time is up.
+//! The long run: seed after seed.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::time::{Duration, Instant};
 
 use binspace::Heuristic;
 
@@ -11,6 +10,7 @@ use super::court::Score;
 use super::kinds::{self, KINDS};
 use super::trial::Trial;
 use testkit::dice::Dice;
+use testkit::effort::effort;
 
 /// The sum of what was judged of scenes of one name.
 #[derive(Default)]
@@ -80,18 +80,11 @@ fn one(seed: u64, kind: usize) -> (String, Score) {
 }
 
 #[test]
-fn scenes_of_seed_after_seed_are_in_order_for_long() {
-    let Ok(seconds) = std::env::var("BINSPACE_LONG") else { return };
-    let seconds = seconds.parse().expect("BINSPACE_LONG is a number of seconds");
-    let (start, mut table) = (Instant::now(), Table::default());
-    let is_over = || start.elapsed() > Duration::from_secs(seconds);
-    let scenes = (1000..).flat_map(|seed| (0..KINDS + 2).map(move |kind| (seed, kind)));
-    for (seed, kind) in scenes {
-        // Every kind has its turn at least once.
-        if seed > 1000 && is_over() {
-            break;
-        }
-        table.add(one(seed, kind));
+#[ignore = "takes a minute for each unit of BINSPACE_EFFORT"]
+fn scenes_of_seed_after_seed_are_in_order() {
+    let mut table = Table::default();
+    for seed in (1000..).take(effort()) {
+        (0..KINDS + 2).for_each(|kind| table.add(one(seed, kind)));
     }
     std::io::stdout().write_all(table.text().as_bytes()).expect("standard output");
     assert!(table.0.len() >= KINDS, "every kind had its turn");

@@ -6,11 +6,11 @@
 //! cells that [`nodes`](binspace::BspTree::nodes) describes. Then every pair must come far
 //! before near, pairs in one plane in input order, and every hit must find its polygon covered once.
 //!
-//! For longer runs, over seed after seed and scenes of up to 5 000 polygons, name the seconds; a
-//! table of what was judged goes to standard output:
+//! A longer run, over seed after seed and scenes of up to 5 000 polygons, writes a table of what was
+//! judged to standard output:
 //!
 //! ```sh
-//! BINSPACE_LONG=60 cargo test --release --test strangers for_long -- --nocapture
+//! BINSPACE_EFFORT=10 cargo test --release large::long -- --ignored --nocapture
 //! ```
 
 mod bodies;

@@ -4,6 +4,7 @@ use super::{Given, Rect, VIEWPORT, camera, wild};
 use binspace::glam::{DMat4, DVec4, Mat4, dvec3};
 use binspace::layers::{Layer, Layers};
 use testkit::dice::Dice;
+use testkit::effort::{seeds, times};
 
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
 
@@ -169,7 +170,7 @@ fn what_is_too_far_or_too_small_has_no_piece_and_what_is_a_little_less_so_has() 
 fn the_scale_of_a_matrix_does_not_matter() {
     let mut dice = Dice(31);
     let mut compared = 0;
-    for _ in 0..40 {
+    for _ in 0..times(40) {
         let Given { rect, matrix } = wild(&mut dice);
         let mut pages = [1.0, 2f64.powi(600), 2f64.powi(-600), 2f64.powi(-900)].map(|scale| {
             let mut page = Layers::new(VIEWPORT);
@@ -190,7 +191,7 @@ fn extreme_numbers_do_no_harm() {
     let mut dice = Dice(32);
     let (mut seen, mut errors) = (0, 0);
     let mut page = Layers::new(VIEWPORT);
-    for round in 0..3000 {
+    for round in seeds(3000) {
         let largest = if round % 2 == 0 { 300 } else { 8 };
         let mut any = || {
             let sizes =

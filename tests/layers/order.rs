@@ -6,6 +6,7 @@ use binspace::glam::DVec2;
 use binspace::layers::Layers;
 use num_traits::Signed;
 use testkit::dice::Dice;
+use testkit::effort::times;
 use testkit::pages::{Page, SCREEN};
 use testkit::rational::{Rational, exact};
 
@@ -109,7 +110,7 @@ fn pages_are_painted_by_depth() {
 #[test]
 fn layers_that_reach_behind_the_eye_are_painted_by_depth() {
     let (mut dice, mut tally) = (Dice(22), Tally::default());
-    for _ in 0..20 {
+    for _ in 0..times(20) {
         let layers: Vec<Given> = (0..20).map(|_| wild(&mut dice)).collect();
         judge(&layers, &page_of(&layers), 30, &mut dice, &mut tally);
     }

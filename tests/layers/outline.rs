@@ -6,6 +6,7 @@ use binspace::glam::DVec3;
 use binspace::layers::LayerVertex;
 use num_traits::{Signed, Zero};
 use testkit::dice::Dice;
+use testkit::effort::times;
 use testkit::rational::exact;
 
 /// Twenty steps of `f64`, times what the terms of a coordinate add up to.
@@ -28,7 +29,7 @@ fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
 fn what_is_seen_is_what_the_exact_clip_leaves() {
     let mut dice = Dice(11);
     let (mut seen, mut unseen, mut clipped) = (0, 0, 0);
-    for _ in 0..600 {
+    for _ in 0..times(600) {
         let given = wild(&mut dice);
         let truth = given.truth();
         let expected = truth.clipped([0.0, 0.0, -REACH], [VIEWPORT[1][0], VIEWPORT[1][1], REACH]);
@@ -71,7 +72,7 @@ fn what_is_seen_is_what_the_exact_clip_leaves() {
 fn edges_of_the_rectangle_are_told_from_clips() {
     let mut dice = Dice(12);
     let (mut own, mut clips) = (0, 0);
-    for _ in 0..400 {
+    for _ in 0..times(400) {
         let given = wild(&mut dice);
         let [[u0, v0], [u1, v1]] = given.rect;
         let page = page_of(&[given]);

@@ -7,10 +7,10 @@ use binspace::internals::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
 use num_traits::Signed;
 use proptest::prelude::*;
 use std::cmp::Ordering;
+use testkit::effort::cases;
 use testkit::hard;
 use testkit::model;
 use testkit::rational::{self, Plane, Point, Rational};
-use testkit::tally::cases;
 use testkit::views::{power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {

@@ -7,11 +7,11 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestCaseError;
 use testkit::checks::{area, assert_convex_and_planar};
+use testkit::effort::cases;
 use testkit::hard::{self, HardScene};
 use testkit::model::Face;
 use testkit::rational::{self, Rational};
 use testkit::shapes;
-use testkit::tally::cases;
 
 /// Corners moved onto a plane moved by little, the others not at all.
 fn assert_corners_are_the_input_s(

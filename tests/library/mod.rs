@@ -12,6 +12,7 @@ mod facing_bounds;
 mod fuzz_regressions;
 mod manual;
 mod many_parts;
+#[cfg(target_os = "linux")]
 mod out_of_memory;
 mod parts;
 mod peeled;

@@ -6,10 +6,10 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{TestCaseError, TestRunner};
+use testkit::effort::{cases, times};
 use testkit::hard::{self, HardScene};
 use testkit::model::{self, Face};
 use testkit::rational::{self, Point, Rational};
-use testkit::tally::cases;
 
 type ExactVertex = <Exact as Kernel>::Vertex;
 type Outcome<T> = Result<T, TestCaseError>;
@@ -213,7 +213,7 @@ fn hard_scenes_reach_the_integers() {
     let mut runner = TestRunner::deterministic();
     let mut tally = Tally::default();
     let samples = (hard::scene(), plan());
-    for _ in 0..1000 {
+    for _ in 0..times(1000) {
         let (scene, plan) = samples.new_tree(&mut runner).expect("no rejection").current();
         follow(&scene, &plan, &mut tally).expect("as in rationals");
     }

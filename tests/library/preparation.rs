@@ -7,10 +7,10 @@ use binspace::internals::{DEFAULT_TOLERANCE, Faces, LATTICE_LIMIT};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
 use testkit::checks::{area, assert_convex_and_planar, face_area};
+use testkit::effort::cases;
 use testkit::hard;
 use testkit::rational;
 use testkit::shapes::{self, Corners};
-use testkit::tally::cases;
 
 fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
     Faces::new(polygons, None).expect("finite")

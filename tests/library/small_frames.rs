@@ -3,6 +3,7 @@
 
 use binspace::{BuildOptions, FrameBuilder};
 use testkit::dice::Dice;
+use testkit::effort::seeds;
 
 type Square = [[f64; 3]; 4];
 
@@ -28,7 +29,7 @@ fn rectangles(dice: &mut Dice, count: usize) -> Vec<Square> {
 fn small_sets_with_many_cuts_are_divided_right() {
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
     let (mut cuts, mut together) = (0, 0);
-    for seed in 0..600 {
+    for seed in seeds(600) {
         let mut dice = Dice(seed);
         let count = 4 + dice.below(28);
         let polygons = rectangles(&mut dice, count);

@@ -122,8 +122,9 @@ fn corners_inside_an_edge_are_welded() {
 }
 
 #[test]
-fn the_bunny_stays_closed() {
-    let Some(folder) = real_scenes::folder("the bunny stays closed") else { return };
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
+fn the_bunny_of_the_real_scenes_stays_closed() {
+    let folder = real_scenes::folder();
     let (scene, _) = Scene::read_obj(folder.join("bunny_4k.obj")).unwrap();
     let tree = BspTree::build(scene.polygons()).unwrap();
     let loose = tree.mesh().unwrap();

@@ -6,8 +6,7 @@ mod faces;
 mod materials;
 mod noise;
 mod precision;
-mod real;
-use testkit::real_scenes;
+mod real_scenes;
 mod stream;
 
 use binspace::scene::{ObjError, ObjReport, Scene};

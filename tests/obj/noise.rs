@@ -3,7 +3,7 @@
 use crate::obj::{read, with_corners};
 use binspace::scene::{ObjError, ObjReport, Scene};
 use proptest::prelude::*;
-use testkit::tally::cases;
+use testkit::effort::cases;
 
 /// What a scene read from anything must satisfy.
 fn check(result: Result<(Scene, ObjReport), ObjError>) {

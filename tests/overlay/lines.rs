@@ -3,6 +3,7 @@
 use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{BspTree, BuildOptions, Heuristic};
+use testkit::effort::seeds;
 
 use crate::overlay::oracle::{self, Counts};
 use crate::overlay::tiling::{self, Given};
@@ -153,7 +154,7 @@ fn judge_overlay(
 #[test]
 fn lines_and_points_come_in_the_exact_order_where_much_coincides() {
     let mut counts = Counts::default();
-    for seed in 0..120 {
+    for seed in seeds(120) {
         let mut dice = Dice(seed);
         let scene = scene(&mut dice);
         let by = Heuristic::ALL[dice.below(Heuristic::ALL.len())];
@@ -185,7 +186,7 @@ fn tangle(polygons: usize, lines: usize, points: usize, dice: &mut Dice) -> Scen
 #[test]
 fn lines_and_points_come_in_the_exact_order_in_a_tangle() {
     let mut counts = Counts::default();
-    for seed in 0..16 {
+    for seed in seeds(16) {
         let mut dice = Dice(1000 + seed);
         let scene = tangle(dice.below(12), 3 + dice.below(12), 12, &mut dice);
         let by = Heuristic::ALL[dice.below(Heuristic::ALL.len())];

@@ -85,7 +85,7 @@ fn movers_in_a_city_are_right_in_every_pixel() {
 }
 
 /// ```sh
-/// cargo test --release --test overlay thousand -- --ignored
+/// cargo test --release overlay::walks -- --ignored
 /// ```
 #[test]
 #[ignore = "takes minutes"]

@@ -5,6 +5,7 @@ use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use rayon::prelude::*;
 use testkit::dice::Dice;
+use testkit::effort::times;
 use testkit::hits::{Oracle, Score};
 use testkit::quick_hits::QuickOracle;
 use testkit::shapes;
@@ -154,7 +155,7 @@ fn hits_are_the_same_in_every_tree() {
         .map(|&heuristic| BuildOptions::DEFAULT.with_heuristic(heuristic).build(&scene).unwrap())
         .collect();
     let (shots, mut dice, mut hits) = (Shots::new(trees[0].faces()), Dice(9), 0);
-    for _ in 0..2000 {
+    for _ in 0..times(2000) {
         let ray = shots.ray(&mut dice);
         let of = |tree: &BspTree| -> Vec<(usize, f64, [f64; 3])> {
             let hits = tree.hits(ray);

@@ -7,5 +7,5 @@ mod hard;
 mod large;
 mod locate;
 mod names;
-mod real;
+mod real_scenes;
 mod region;

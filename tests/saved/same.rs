@@ -5,10 +5,10 @@ use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use proptest::prelude::*;
 use testkit::dice::Dice;
+use testkit::effort::cases;
 use testkit::rays::Rays;
 use testkit::saved::{bytes, use_all};
 use testkit::snapshot::{Snapshot, order};
-use testkit::tally::cases;
 use testkit::{hard, views};
 
 fn again(tree: &BspTree) -> BspTree {

@@ -1,6 +1,7 @@
 //! Polygons added to a finished tree.
 
 use std::ops::ControlFlow;
+use testkit::effort::seeds;
 
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
@@ -85,7 +86,7 @@ fn what_cannot_be_added_leaves_the_tree_as_it_was() {
 fn duplicates_of_old_and_new_polygons_are_counted() {
     let mut dice = Dice(3);
     let (mut counted, mut triangulated) = (0, 0);
-    for round in 0..60 {
+    for round in seeds(60) {
         let point = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(3)));
         let mut all: Vec<Corners> = Vec::new();
         for _ in 0..30 {

@@ -9,10 +9,10 @@ use proptest::prelude::*;
 use std::cmp::Ordering;
 use std::ops::Range;
 use testkit::dice::Dice;
+use testkit::effort::cases;
 use testkit::hard;
 use testkit::judge::{Verdict, ensure};
 use testkit::rational::Plane;
-use testkit::tally::cases;
 use testkit::views::View;
 use testkit::{model, orders};
 

@@ -4,9 +4,9 @@ use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 use proptest::prelude::*;
+use testkit::effort::cases;
 use testkit::hard;
 use testkit::snapshot::{Snapshot, order};
-use testkit::tally::cases;
 
 #[test]
 fn any_number_of_threads_builds_the_same_tree() {

@@ -6,6 +6,7 @@ use binspace::{BspTree, BuildOptions, Culling, Ray, Viewpoint, scene};
 use num_traits::ToPrimitive;
 use std::panic::{RefUnwindSafe, catch_unwind};
 use testkit::dice::Dice;
+use testkit::effort::times;
 use testkit::model::Face;
 use testkit::rational::{self, Point, Rational};
 
@@ -77,7 +78,7 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
 fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
     let mut dice = Dice(8);
     let [mut moved, mut cut, mut beyond] = [0; 3];
-    for _ in 0..60 {
+    for _ in 0..times(60) {
         let mut share = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
         // Planar but for a rounding that counts, and through each other.
         let quad = |_| {

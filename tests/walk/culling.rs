@@ -14,10 +14,10 @@ use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 use std::cmp::Ordering;
 use testkit::dice::Dice;
+use testkit::effort::cases;
 use testkit::model;
 use testkit::rational::{self, Plane, Rational};
 use testkit::shapes;
-use testkit::tally::cases;
 use testkit::views::View;
 
 fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {

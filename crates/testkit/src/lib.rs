@@ -7,6 +7,7 @@ pub mod checks;
 pub mod decode;
 pub mod dice;
 pub mod divided;
+pub mod effort;
 pub mod fill;
 pub mod fragment_pixels;
 pub mod hard;

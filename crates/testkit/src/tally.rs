@@ -1,40 +1,9 @@
-//! Properties held against many cases, and loops over scenes: how many, one place decides.
+//! Properties that count what they compare, and floors under such counts.
 
+use super::effort::cases;
 use proptest::prelude::*;
-use proptest::test_runner::{FileFailurePersistence, TestCaseError, TestRunner};
+use proptest::test_runner::{TestCaseError, TestRunner};
 use std::cell::RefCell;
-use std::path::Path;
-use std::sync::LazyLock;
-
-/// By how much scenes, rays and cases are multiplied: `BINSPACE_EFFORT`, 1 without it.
-pub fn effort() -> usize {
-    static EFFORT: LazyLock<usize> = LazyLock::new(|| match std::env::var("BINSPACE_EFFORT") {
-        Ok(text) => match text.parse() {
-            Ok(effort @ 1..) => effort,
-            _ => panic!("BINSPACE_EFFORT is a whole number from 1, not {text:?}"),
-        },
-        Err(_) => 1,
-    });
-    *EFFORT
-}
-
-/// Options for a property: this many cases times the effort. Failing cases are kept in
-/// `tests/proptest-regressions`, in a file named after the source file, and come first.
-pub fn cases(count: usize, source: &'static str) -> ProptestConfig {
-    let path = Path::new(source);
-    let stem = match path.file_stem().expect("a source file") {
-        name if name == "mod" => path.parent().and_then(Path::file_name).expect("a folder"),
-        name => name,
-    };
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/proptest-regressions");
-    let file = Path::new(folder).join(stem).with_extension("txt");
-    let kept: &'static str = file.to_string_lossy().into_owned().leak();
-    ProptestConfig {
-        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(kept))),
-        source_file: Some(source),
-        ..ProptestConfig::with_cases((count * effort()) as u32)
-    }
-}
 
 /// Holds a property against this many cases, times the effort, and gives back what they counted.
 pub fn tally<S: Strategy, T: Default>(
@@ -50,4 +19,22 @@ pub fn tally<S: Strategy, T: Default>(
         panic!("{error}");
     }
     total.into_inner()
+}
+
+/// Asserts that enough was compared: counts above floors. Panics with each that falls short.
+#[macro_export]
+macro_rules! enough {
+    ($($count:expr => $floor:expr),+ $(,)?) => {
+        $crate::tally::assert_above(&[$((stringify!($count), $count as f64, $floor as f64)),+])
+    };
+}
+
+/// Panics unless each count is above its floor.
+#[track_caller]
+pub fn assert_above(counts: &[(&str, f64, f64)]) {
+    let short = |(name, count, floor): &(&str, f64, f64)| {
+        (count <= floor).then(|| format!("{name} is {count}, not above {floor}"))
+    };
+    let short: Vec<String> = counts.iter().filter_map(short).collect();
+    assert!(short.is_empty(), "too little was compared: {}", short.join("; "));
 }

@@ -10,6 +10,7 @@ use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use std::cmp::Ordering;
+use testkit::effort::times;
 use testkit::hard;
 use testkit::homogeneous::Homogeneous;
 use testkit::model::{self, Face};
@@ -292,7 +293,7 @@ fn the_errors_of_rounded_trees_of_large_scenes_are_those_that_rationals_count() 
 fn the_errors_of_rounded_trees_of_hard_scenes_are_those_that_rationals_count() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let mut tally = Tally::default();
-    for _ in 0..200 {
+    for _ in 0..times(200) {
         let scene = hard::scene().new_tree(&mut runner).expect("a scene").current();
         let options = BuildOptions::DEFAULT;
         let options = scene.tolerance().map_or(options, |t| options.with_tolerance(t));

@@ -1,6 +1,7 @@
 //! Areas in pixels against rational numbers, and what is known of sums.
 
 use std::array::from_fn;
+use testkit::effort::times;
 
 use binspace::drawing::VisibilityMap;
 use binspace::glam::{DVec3, dvec3};
@@ -81,7 +82,7 @@ fn owned(pixel: &[Point], [a, b, c]: &[Vec<Point>; 3]) -> [f64; 3] {
 #[test]
 fn areas_in_pixels_are_those_of_rationals() {
     let (mut random, mut parts) = (SplitMix64::new(5), 0);
-    for _ in 0..40 {
+    for _ in 0..times(40) {
         let triangles: [[[i64; 2]; 3]; 3] = from_fn(|_| triangle(&mut random));
         let mut scene = Scene::new("three", DVec3::Y);
         for (depth, corners) in (0..).zip(&triangles) {

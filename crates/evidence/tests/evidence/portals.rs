@@ -40,8 +40,9 @@ fn owners(tree: &BspTree, camera: &Camera) -> BTreeSet<usize> {
 }
 
 #[test]
-fn nothing_that_owns_a_pixel_of_a_level_is_left_out() {
-    let Some(folder) = testkit::real_scenes::folder("portals of levels") else { return };
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
+fn nothing_that_owns_a_pixel_of_levels_among_the_real_scenes_is_left_out() {
+    let folder = testkit::real_scenes::folder();
     // Sets of cells take seconds each in the larger level.
     for (name, step, eyes_a_set) in
         [("doom_e1m1.obj", 2, Some(8)), ("doom_map12_big.obj", 35, None)]

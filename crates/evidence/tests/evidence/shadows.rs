@@ -6,6 +6,7 @@ use binspace::internals::SplitMix64;
 use binspace::scene::Scene;
 use binspace::{BspTree, Ray};
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
+use testkit::effort::times;
 
 type Point = [i128; 3];
 
@@ -110,7 +111,7 @@ fn zones_are_those_of_many_more_points_but_for_a_rim() {
     let mut random = SplitMix64::new(4);
     let (corners, some, many) = (lamp(2), lamp(5), lamp(25));
     let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
-    for _ in 0..1500 {
+    for _ in 0..times(1500) {
         let point = point(&scene, &mut random);
         let hidden = |at: &DVec3| polygons.iter().any(|p| blocks(p, whole(point), whole(*at)));
         let truth = match many.iter().filter(|at| hidden(at)).count() {

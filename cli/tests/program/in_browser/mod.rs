@@ -1,7 +1,12 @@
-//! Pages, and what a browser without a window makes of them.
+//! Pages, and what a browser without a window makes of them. These tests are ignored, as they need
+//! Chromium: `cargo test in_browser -- --ignored` runs them.
+
+mod deeds;
+mod orders;
+mod pictures;
+mod speed;
 
 use std::fs;
-use std::io::Write;
 use std::process::{Command, Stdio};
 
 use binspace::BspTree;
@@ -19,18 +24,14 @@ pub(crate) fn page_and_tree(folder: &Folder, scene: &str) -> (String, BspTree) {
 /// What Chromium is called.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome"];
 
-/// The browser's name; without one, says that the test is skipped, also where its output is caught.
-pub(crate) fn browser() -> Option<&'static str> {
+/// The browser's name.
+pub(crate) fn browser() -> &'static str {
     let runs = |name: &&&str| {
         let mut command = Command::new(name);
         command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
         command.status().is_ok_and(|status| status.success())
     };
-    let found = NAMES.iter().find(runs);
-    if found.is_none() {
-        let _ = writeln!(std::io::stderr().lock(), "skipped: no Chromium");
-    }
-    found.copied()
+    NAMES.iter().find(runs).unwrap_or_else(|| panic!("none of {NAMES:?} is installed"))
 }
 
 /// What a script says at the end of a page: the body of a function that returns a text without markup.

@@ -1,8 +1,7 @@
-//! Real scenes, from the folder that `BINSPACE_SCENES` names. With `BINSPACE_LONG` it is a million rays, which
-//! take some minutes:
+//! Real scenes, from the folder that `BINSPACE_SCENES` names. A million rays take some minutes:
 //!
 //! ```sh
-//! BINSPACE_LONG=1 BINSPACE_SCENES=… cargo test --release --test query real -- --nocapture
+//! BINSPACE_EFFORT=140 BINSPACE_SCENES=… cargo test --release query::real_scenes -- --ignored --nocapture
 //! ```
 
 #![allow(clippy::print_stderr, reason = "the scores are shown on request")]
@@ -11,6 +10,7 @@ use binspace::BspTree;
 use binspace::scene::Scene;
 use rayon::prelude::*;
 use testkit::dice::Dice;
+use testkit::effort::effort;
 use testkit::hits::{Oracle, Score};
 use testkit::quick_hits::QuickOracle;
 use testkit::real_scenes;
@@ -47,9 +47,10 @@ fn shoot(
 }
 
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn rays_at_real_scenes_hit_what_integers_say() {
-    let Some(folder) = real_scenes::folder("rays at real scenes") else { return };
-    let rays = if std::env::var_os("BINSPACE_LONG").is_some() { 1_000_000 } else { 7_000 };
+    let folder = real_scenes::folder();
+    let rays = 7_000 * effort();
     let mut all = Score::default();
     for name in SCENES {
         let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
@@ -68,8 +69,9 @@ fn rays_at_real_scenes_hit_what_integers_say() {
 
 /// A few, by the other oracle.
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn rays_at_real_scenes_hit_what_rationals_say() {
-    let Some(folder) = real_scenes::folder("rays at real scenes") else { return };
+    let folder = real_scenes::folder();
     for name in ["forklift_1k.obj", "spider_1k.obj"] {
         let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
         let tree = BspTree::build(scene.polygons()).expect("within budget");

@@ -1,11 +1,10 @@
 //! Real files, where there are any: the folder of them is what `BINSPACE_SCENES` names.
 
-#![allow(clippy::print_stderr, reason = "what is left out is said")]
-
-use crate::obj::{real_scenes, sides};
+use crate::obj::sides;
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use std::path::Path;
+use testkit::real_scenes;
 
 /// The manifest's rows: name, faces, triangles, quads, larger, low, high.
 fn manifest(folder: &Path) -> Vec<(String, [usize; 4], DVec3, DVec3)> {
@@ -26,15 +25,12 @@ fn manifest(folder: &Path) -> Vec<(String, [usize; 4], DVec3, DVec3)> {
 }
 
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn real_scenes_match_their_manifest() {
-    let Some(folder) = real_scenes::folder("real scenes match their manifest") else { return };
+    let folder = real_scenes::folder();
     let rows = manifest(&folder);
     assert!(rows.len() >= 10, "{} rows", rows.len());
     for (name, counts, low, high) in rows {
-        if !folder.join(&name).exists() {
-            eprintln!("skipped: {name} is not there");
-            continue;
-        }
         let (scene, report) = Scene::read_obj(folder.join(&name)).expect(&name);
         let sides = sides(&scene);
         let count = |wanted: fn(usize) -> bool| sides.iter().filter(|&&n| wanted(n)).count();
@@ -48,11 +44,9 @@ fn real_scenes_match_their_manifest() {
 }
 
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn torture_files_are_read_or_refused_with_a_reason() {
-    let Some(folder) = real_scenes::folder("torture files are read or refused with a reason")
-    else {
-        return;
-    };
+    let folder = real_scenes::folder();
     let read = |name: &str| Scene::read_obj(folder.join("torture").join(name));
     for (name, reason) in [
         ("box_UTF16BE.obj", "UTF-16"),
@@ -80,10 +74,9 @@ fn torture_files_are_read_or_refused_with_a_reason() {
 /// Two independent evaluations of the published patches: every corner of one is
 /// a corner of the other. The file has 5 decimals.
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn generated_teapot_agrees_with_the_real_one() {
-    let Some(folder) = real_scenes::folder("generated teapot agrees with the real one") else {
-        return;
-    };
+    let folder = real_scenes::folder();
     let (file, _) = Scene::read_obj(folder.join("teapot_quads_2k.obj")).expect("the teapot");
     let ours = scene::teapot(8);
     assert_eq!(file.len(), ours.len());
@@ -97,10 +90,9 @@ fn generated_teapot_agrees_with_the_real_one() {
 }
 
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn generated_cornell_box_agrees_with_the_real_one() {
-    let Some(folder) = real_scenes::folder("generated cornell box agrees with the real one") else {
-        return;
-    };
+    let folder = real_scenes::folder();
     let (file, _) = Scene::read_obj(folder.join("cornell_box.obj")).expect("the Cornell box");
     let ours = scene::cornell_box();
     let near = |a: &DVec3, b: &DVec3| a.distance(*b) < 1e-4;
