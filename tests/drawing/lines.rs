@@ -8,6 +8,7 @@ use binspace::scene::Builtin;
 use binspace::view::{Camera, views};
 use binspace::{BspTree, Viewpoint};
 use testkit::dice::Dice;
+use testkit::enough;
 use testkit::fill::ray;
 
 fn edges(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
@@ -223,6 +224,6 @@ fn rays_agree_with_runs() {
         }
     }
     assert!(score.visible + score.hidden > 1_000_000, "{score:?}");
-    assert!(score.visible > 300_000 && score.hidden > 300_000, "{score:?}");
+    enough!(score.visible > 300_000, score.hidden > 300_000; "{score:?}");
     assert!(score.unsure * 10 < score.visible + score.hidden, "{score:?}");
 }

@@ -9,6 +9,7 @@ use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
 use divided::{Counts, Divided, nodes, work};
 use testkit::dice::Dice;
 use testkit::effort::seeds;
+use testkit::enough;
 use testkit::shapes::{self, Corners};
 
 /// A scene on a small lattice, of one of several kinds.
@@ -67,7 +68,7 @@ fn assert_least(by: Heuristic, score: impl Fn(&Counts, bool) -> f64) {
         choices += usize::from(most > least);
     });
     // Where all planes are alike, nothing is chosen.
-    assert!(found > 150 && choices > 80, "{by}: {found} nodes, {choices} choices");
+    enough!(found > 150, choices > 80; "{by}: {found} nodes, {choices} choices");
 }
 
 #[test]
@@ -78,7 +79,7 @@ fn first_takes_the_plane_of_the_first_polygon() {
         assert_eq!(node.plane, PlaneId::face(first));
         later += usize::from(node.set[0].face != first || first > 0);
     });
-    assert!(found > 150 && later > 100, "{found} {later}");
+    enough!(found > 150, later > 100; "{found} {later}");
 }
 
 #[test]
@@ -90,7 +91,7 @@ fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
             assert!(node.set.iter().any(|piece| piece.face == face));
             planes.push(face);
         });
-        assert!(planes.len() > 100, "{}", planes.len());
+        enough!(planes.len() > 100; "{}", planes.len());
         planes
     };
     let some: Vec<Vec<u32>> = (0..6).map(planes).collect();
@@ -136,7 +137,7 @@ fn weighted_takes_a_plane_of_least_weighted_sum() {
                 assert!(chosen <= least + 1e-9, "{by}: {chosen}, not {least}");
                 choices += usize::from(node.own_planes().any(|(c, a)| score(&c, a) > least));
             });
-            assert!(found > 40 && choices > 15, "{by}: {found} nodes, {choices} choices");
+            enough!(found > 40, choices > 15; "{by}: {found} nodes, {choices} choices");
         }
     }
 }
@@ -231,8 +232,8 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
             });
         }
     }
-    assert!(clean > 2000 && cut > 50, "{clean} {cut}");
-    assert!(clean_of_frames > 2000 && needed > 10, "{clean_of_frames} {needed}");
+    enough!(clean > 2000, cut > 50; "{clean} {cut}");
+    enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
 }
 
 /// Where every plane cuts, `auto` takes the own plane of least work less the reward for its size; in a
@@ -267,8 +268,8 @@ fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
                 usize::from(planes.iter().any(|(counts, _)| counts.work() < node.counts.work()));
         });
     }
-    assert!(cut[0] > 50 && cut[1] > 25 && rewarded > 5, "{cut:?} {rewarded}");
-    assert!(crossings > 25, "{crossings}");
+    enough!(cut[0] > 50, cut[1] > 25, rewarded > 5; "{cut:?} {rewarded}");
+    enough!(crossings > 25; "{crossings}");
 }
 
 /// Squares of z = x² + y² over a grid of integers: exactly planar, in exactly convex position.

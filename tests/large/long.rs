@@ -6,8 +6,8 @@ use std::io::Write as _;
 
 use binspace::Heuristic;
 
-use super::court::Score;
-use super::kinds::{self, KINDS};
+use super::all_scenes::{self, KINDS};
+use super::trees_by_rays::Score;
 use super::trial::Trial;
 use testkit::dice::Dice;
 use testkit::effort::effort;
@@ -73,8 +73,8 @@ fn one(seed: u64, kind: usize) -> (String, Score) {
     let mut dice = Dice(seed);
     let n = if large { 1000 + dice.below(4000) } else { 450 + dice.below(400) };
     let scene = match kind.checked_sub(KINDS) {
-        None => kinds::scene(kind, &mut dice, n),
-        Some(noisy) => kinds::noisy(noisy, &mut dice, n),
+        None => all_scenes::scene(kind, &mut dice, n),
+        Some(noisy) => all_scenes::noisy(noisy, &mut dice, n),
     };
     (scene.name.clone(), trial.hold(&scene, seed))
 }

@@ -13,20 +13,20 @@
 //! BINSPACE_EFFORT=10 cargo test --release large::long -- --ignored --nocapture
 //! ```
 
-mod bodies;
+mod all_scenes;
 mod cells;
 mod copies;
-mod court;
 mod drawing;
 mod exact;
 mod heaps;
-mod kinds;
 mod layers;
 mod long;
+mod not_cut;
 mod order;
+mod planes_through_lines;
 mod ray;
+mod round_bodies;
 mod scene;
-mod sheaves;
+mod trees_by_rays;
 mod trial;
 mod view;
-mod whole;

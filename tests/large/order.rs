@@ -1,9 +1,10 @@
 //! Orders of trees past every threshold of the builder.
 
 use binspace::Heuristic;
+use testkit::enough;
 
-use super::court::Score;
-use super::kinds::{self, KINDS};
+use super::all_scenes::{self, KINDS};
+use super::trees_by_rays::Score;
 use super::trial::Trial;
 
 fn total(scores: &[(String, Score)]) -> Score {
@@ -13,15 +14,15 @@ fn total(scores: &[(String, Score)]) -> Score {
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
     let trial = Trial { heuristics: Heuristic::ALL, views: 20, rays: 12, most: 100 };
-    let scores = trial.hold_all(KINDS, 1, |kind, dice| kinds::scene(kind, dice, 500));
+    let scores = trial.hold_all(KINDS, 1, |kind, dice| all_scenes::scene(kind, dice, 500));
     for (name, score) in &scores {
-        assert!(score.trees >= 6 && score.pairs > 100, "{name}: {score:?}");
+        enough!(score.trees >= 6, score.pairs > 100; "{name}: {score:?}");
     }
     let all = total(&scores);
     assert!(all.trees + all.given_up == KINDS * Heuristic::ALL.len(), "{all:?}");
     assert!(all.given_up <= 20, "{all:?}");
-    assert!(all.rays > 45_000 && all.pairs > 2_000_000, "{all:?}");
-    assert!(all.coplanar > 30_000 && all.borders > 50_000, "{all:?}");
+    enough!(all.rays > 45_000, all.pairs > 2_000_000; "{all:?}");
+    enough!(all.coplanar > 30_000, all.borders > 50_000; "{all:?}");
     assert!(all.grazing < all.pairs / 20 && all.excused == 0, "{all:?}");
 }
 
@@ -31,21 +32,21 @@ fn large_scenes_of_every_kind_are_in_order() {
     let trial = Trial { heuristics: &heuristics, views: 10, rays: 12, most: 20 };
     let scores = trial.hold_all(KINDS, 2, |kind, dice| {
         let n = if kind % 5 == 0 { 5000 } else { 1500 };
-        kinds::scene(kind, dice, n)
+        all_scenes::scene(kind, dice, n)
     });
     for (name, score) in &scores {
-        assert!(score.trees >= 1 && score.pairs > 20, "{name}: {score:?}");
+        enough!(score.trees >= 1, score.pairs > 20; "{name}: {score:?}");
     }
     let all = total(&scores);
-    assert!(all.rays > 5000 && all.pairs > 300_000, "{all:?}");
+    enough!(all.rays > 5000, all.pairs > 300_000; "{all:?}");
 }
 
 #[test]
 fn noisy_scenes_are_in_order_but_for_the_tolerance() {
     let trial = Trial { heuristics: Heuristic::ALL, views: 20, rays: 30, most: 30 };
-    let scores = trial.hold_all(6, 3, |kind, dice| kinds::noisy(kind, dice, 600));
+    let scores = trial.hold_all(6, 3, |kind, dice| all_scenes::noisy(kind, dice, 600));
     let all = total(&scores);
-    assert!(all.trees >= 40 && all.pairs > 100_000, "{all:?}");
+    enough!(all.trees >= 40, all.pairs > 100_000; "{all:?}");
     assert!(all.borders < all.pairs / 100, "{all:?}");
     assert!(all.excused > 0 && all.excused < all.pairs / 5, "{all:?}");
 }

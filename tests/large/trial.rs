@@ -3,9 +3,9 @@
 use binspace::Heuristic;
 use rayon::prelude::*;
 
-use super::court::{Court, Score, Shot, shots};
 use super::ray::Targets;
 use super::scene::Scene;
+use super::trees_by_rays::{Court, Score, Shot, shots};
 use testkit::dice::Dice;
 
 /// How a scene is tried.

@@ -7,6 +7,7 @@ use binspace::layers::Layers;
 use num_traits::Signed;
 use testkit::dice::Dice;
 use testkit::effort::times;
+use testkit::enough;
 use testkit::pages::{Page, SCREEN};
 use testkit::rational::{Rational, exact};
 
@@ -102,7 +103,7 @@ fn pages_are_painted_by_depth() {
             judge(&layers, &drawn, 45, &mut dice, &mut tally);
         }
         let Tally { compared, coplanar, hits } = tally;
-        assert!(compared > 50 && hits > 50, "{page:?} {tally:?}");
+        enough!(compared > 50, hits > 50; "{page:?} {tally:?}");
         assert!(coplanar > 10 || page != Page::Stack, "{coplanar}");
     }
 }
@@ -114,7 +115,7 @@ fn layers_that_reach_behind_the_eye_are_painted_by_depth() {
         let layers: Vec<Given> = (0..20).map(|_| wild(&mut dice)).collect();
         judge(&layers, &page_of(&layers), 30, &mut dice, &mut tally);
     }
-    assert!(tally.compared > 200 && tally.hits > 200, "{tally:?}");
+    enough!(tally.compared > 200, tally.hits > 200; "{tally:?}");
 }
 
 #[test]

@@ -10,8 +10,9 @@ mod faces;
 mod facing;
 mod facing_bounds;
 mod fuzz_regressions;
-mod manual;
+mod iterators;
 mod many_parts;
+mod odd_viewpoints;
 #[cfg(target_os = "linux")]
 mod out_of_memory;
 mod parts;
@@ -24,4 +25,4 @@ mod send_sync;
 mod size_hints;
 mod small_frames;
 mod tolerance;
-mod world;
+mod vertex_errors;

@@ -3,6 +3,7 @@
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{BspTree, BuildOptions, Preparation};
+use testkit::enough;
 use testkit::shapes::Corners;
 
 /// More than what is prepared at once, which is sixteen parts of 1024 polygons.
@@ -107,7 +108,7 @@ fn every_polygon_becomes_what_it_becomes_beside_the_ground_alone() {
     }
     assert_eq!((face as usize, report), (faces.len(), expected));
     assert!(faces.dropped(report.polygons).eq(dropped));
-    assert!(report.dropped > 1000 && report.triangulated > 1000, "{report:?}");
+    enough!(report.dropped > 1000, report.triangulated > 1000; "{report:?}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use num_traits::ToPrimitive;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
+use testkit::enough;
 use testkit::hard::{self, Tolerance};
 use testkit::model::{Face, main_axis};
 use testkit::rational::{self, Point, difference, product};
@@ -223,7 +224,7 @@ fn triangles_fill_fragments_exactly() {
         options.tolerance = scene.tolerance().into();
         check(&options.build(&scene.polygons).unwrap(), &scene.polygons, seen)
     });
-    assert!(seen.triangles > 3000 && seen.inserted > 150, "{seen:?}");
+    enough!(seen.triangles > 3000, seen.inserted > 150; "{seen:?}");
     assert!(3 * seen.skipped < seen.fragments, "{seen:?}");
 }
 
@@ -240,5 +241,5 @@ fn triangles_fill_fragments_of_moved_faces() {
         options.tolerance = scene.tolerance().into();
         check_moved(&options.build(&scene.polygons).unwrap(), &scene.polygons, seen)
     });
-    assert!(seen.triangles > 2000 && seen.inserted > 100 && seen.moved > 70, "{seen:?}");
+    enough!(seen.triangles > 2000, seen.inserted > 100, seen.moved > 70; "{seen:?}");
 }

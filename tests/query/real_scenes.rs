@@ -11,6 +11,7 @@ use binspace::scene::Scene;
 use rayon::prelude::*;
 use testkit::dice::Dice;
 use testkit::effort::effort;
+use testkit::enough;
 use testkit::hits::{Oracle, Score};
 use testkit::quick_hits::QuickOracle;
 use testkit::real_scenes;
@@ -77,6 +78,6 @@ fn rays_at_real_scenes_hit_what_rationals_say() {
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         let oracle = Oracle::new(&tree);
         let score = shoot((name, &tree), 500, |ray, score| oracle.check(ray, score));
-        assert!(score.rays >= 500 && score.hits > 500, "{score:?}");
+        enough!(score.rays >= 500, score.hits > 500; "{score:?}");
     }
 }

@@ -4,6 +4,7 @@ use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Error, Heuristic, Viewpoint};
 use std::thread;
+use testkit::enough;
 
 use testkit::orders;
 
@@ -72,7 +73,7 @@ fn a_list_of_20_000_nodes_is_built_ordered_validated_and_dropped_on_a_small_stac
     let chain = scene::chain(20_000);
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let stats = go_through(&chain, options);
-    assert!(stats.depth_max >= 19_999, "{stats:?}");
+    enough!(stats.depth_max >= 19_999; "{stats:?}");
     validate(&scene::chain(5_000), options);
 }
 

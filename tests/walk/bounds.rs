@@ -7,6 +7,7 @@ use num_traits::ToPrimitive;
 use std::panic::{RefUnwindSafe, catch_unwind};
 use testkit::dice::Dice;
 use testkit::effort::times;
+use testkit::enough;
 use testkit::model::Face;
 use testkit::rational::{self, Point, Rational};
 
@@ -68,7 +69,7 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
             check(bounds.of(node), node.fragments(), "node");
         }
     }
-    assert!(cut > 1000 && exact > 1000, "{cut} {exact}");
+    enough!(cut > 1000, exact > 1000; "{cut} {exact}");
 }
 
 /// Corners that the tolerance moves are stored as the nearest points of the grid: the exact ones may be

@@ -15,6 +15,7 @@ use proptest::prelude::*;
 use std::cmp::Ordering;
 use testkit::dice::Dice;
 use testkit::effort::cases;
+use testkit::enough;
 use testkit::model;
 use testkit::rational::{self, Plane, Rational};
 use testkit::shapes;
@@ -164,7 +165,7 @@ fn sides_are_those_that_rationals_say() {
             }
         }
     }
-    assert!(fronts > 5000 && backs > 5000 && whole > 500, "{fronts} {backs} {whole}");
+    enough!(fronts > 5000, backs > 5000, whole > 500; "{fronts} {backs} {whole}");
 }
 
 /// A convex body: points on a sphere's lattice of circles, moved, turned and stretched.
@@ -385,7 +386,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
             }
         }
     }
-    assert!(kept > 960 && inexact > 300, "{inexact} of {kept}");
+    enough!(kept > 960, inexact > 300; "{inexact} of {kept}");
 }
 
 /// Of many coplanar polygons, whose boxes are looked at by the block, those in the region alone.
@@ -416,5 +417,5 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
             compared += expected.len();
         }
     }
-    assert!(compared > 4000, "{compared}");
+    enough!(compared > 4000; "{compared}");
 }

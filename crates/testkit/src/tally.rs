@@ -21,20 +21,19 @@ pub fn tally<S: Strategy, T: Default>(
     total.into_inner()
 }
 
-/// Asserts that enough was compared: counts above floors. Panics with each that falls short.
+/// Asserts that enough was compared: each count above its floor. Panics with those that fall short, and
+/// with what is said of all.
 #[macro_export]
 macro_rules! enough {
-    ($($count:expr => $floor:expr),+ $(,)?) => {
-        $crate::tally::assert_above(&[$((stringify!($count), $count as f64, $floor as f64)),+])
-    };
-}
-
-/// Panics unless each count is above its floor.
-#[track_caller]
-pub fn assert_above(counts: &[(&str, f64, f64)]) {
-    let short = |(name, count, floor): &(&str, f64, f64)| {
-        (count <= floor).then(|| format!("{name} is {count}, not above {floor}"))
-    };
-    let short: Vec<String> = counts.iter().filter_map(short).collect();
-    assert!(short.is_empty(), "too little was compared: {}", short.join("; "));
+    ($($enough:expr),+; $($what:tt)+) => {{
+        let floors = [$((stringify!($enough), $enough)),+];
+        let short = floors.into_iter().filter(|(_, is_enough)| !is_enough).map(|(floor, _)| floor);
+        let short: Vec<&str> = short.collect();
+        assert!(
+            short.is_empty(),
+            "too little was compared, not {}: {}",
+            short.join(", nor "),
+            format_args!($($what)+)
+        );
+    }};
 }

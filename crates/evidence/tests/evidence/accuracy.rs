@@ -11,6 +11,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use std::cmp::Ordering;
 use testkit::effort::times;
+use testkit::enough;
 use testkit::hard;
 use testkit::homogeneous::Homogeneous;
 use testkit::model::{self, Face};
@@ -260,7 +261,7 @@ fn exact_trees_of_large_scenes_misplace_nothing_by_rationals() {
         assert_exact(options, &polygons).unwrap_or_else(|error| panic!("{name}: {error}"));
         trees += 1;
     }
-    assert!(trees > 30, "{trees}");
+    enough!(trees > 30; "{trees}");
 }
 
 #[test]
@@ -285,8 +286,8 @@ fn the_errors_of_rounded_trees_of_large_scenes_are_those_that_rationals_count() 
         tally.compare_all(options, &polygons).unwrap_or_else(|error| panic!("{name}: {error}"));
     }
     assert_eq!(tally.unclear, 0, "{tally:?}");
-    assert!(tally.trees > 90 && tally.faces >= 150, "{tally:?}");
-    assert!(tally.misplaced > 40 && tally.torn >= 3 && tally.drifted > 20, "{tally:?}");
+    enough!(tally.trees > 90, tally.faces >= 150; "{tally:?}");
+    enough!(tally.misplaced > 40, tally.torn >= 3, tally.drifted > 20; "{tally:?}");
 }
 
 #[test]
@@ -301,5 +302,5 @@ fn the_errors_of_rounded_trees_of_hard_scenes_are_those_that_rationals_count() {
         tally.compare_all(options, &scene.polygons).unwrap_or_else(|e| panic!("{scene:?}: {e}"));
     }
     assert!(tally.trees > 500 && tally.unclear * 10 < tally.trees, "{tally:?}");
-    assert!(tally.misplaced > 100 && tally.undefined > 0 && tally.torn > 15, "{tally:?}");
+    enough!(tally.misplaced > 100, tally.undefined > 0, tally.torn > 15; "{tally:?}");
 }

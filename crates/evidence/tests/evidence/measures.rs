@@ -8,6 +8,7 @@ use binspace::scene::Scene;
 use binspace::view::Camera;
 use binspace_evidence::measure::{PictureError, area_error, extent};
 use binspace_evidence::{Accuracy, Family, Float, KernelTree, accuracy};
+use testkit::enough;
 
 /// A square of side 2 around the z axis.
 fn square(z: f64) -> [[f64; 3]; 4] {
@@ -106,7 +107,7 @@ fn accuracy_of(kernel: Float<f64>, scene: &Scene) -> Accuracy {
 fn a_kernel_that_is_far_off_misplaces_vertices_and_moves_them() {
     let scene = Family::Penetration.scene(30.0, 2);
     let far = accuracy_of(Float::new(0.05), &scene);
-    assert!(far.misplaced > 50, "{far:?}");
+    enough!(far.misplaced > 50; "{far:?}");
     assert!(far.drift_max > 1e10 && far.torn > 0, "{far:?}");
     let near = accuracy_of(Float::new(1e-12), &scene);
     assert!(near.misplaced < far.misplaced / 10, "{near:?}");

@@ -3,7 +3,7 @@
 use binspace::glam::DVec3;
 use binspace::{Heuristic, Viewpoint};
 
-use super::bodies;
+use super::round_bodies;
 use super::scene::{Scene, tilt};
 use testkit::dice::Dice;
 
@@ -36,7 +36,7 @@ fn coplanar_sets_are_not_cut() {
 #[test]
 fn convex_bodies_are_not_cut_by_auto() {
     for count in [450, 2000, 5000] {
-        let sphere = bodies::sphere(&mut Dice(1), count);
+        let sphere = round_bodies::sphere(&mut Dice(1), count);
         let tree = sphere.build(Heuristic::Auto, 100 * count).expect("within budget");
         assert_eq!(tree.len(), sphere.len());
         assert!(tree.len() > count * 9 / 10);

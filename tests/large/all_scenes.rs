@@ -1,7 +1,7 @@
 //! All kinds of scenes.
 
 use super::scene::Scene;
-use super::{bodies, copies, heaps, layers, sheaves};
+use super::{copies, heaps, layers, planes_through_lines, round_bodies};
 use testkit::dice::Dice;
 
 type Make = fn(&mut Dice, usize) -> Scene;
@@ -18,14 +18,14 @@ const SHAPED: [Make; 19] = [
     heaps::heap,
     heaps::duplicates,
     heaps::tangent,
-    bodies::sphere,
-    bodies::rough_globe,
-    bodies::shells,
-    bodies::cones,
-    bodies::pipe,
-    sheaves::rulings,
-    sheaves::fans,
-    sheaves::far_line,
+    round_bodies::sphere,
+    round_bodies::rough_globe,
+    round_bodies::shells,
+    round_bodies::cones,
+    round_bodies::pipe,
+    planes_through_lines::rulings,
+    planes_through_lines::fans,
+    planes_through_lines::far_line,
 ];
 
 /// How many kinds there are without a tolerance.
