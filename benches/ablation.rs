@@ -13,8 +13,8 @@ use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::internals::{Faces, Quick, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
-use support::pages::Page;
 use support::{SEED, Table, boxes, check, print_head, random_quads, scene, small_triangles};
+use testkit::pages::Page;
 
 const BUILTIN: [&str; 13] = [
     "crossing:100",

@@ -7,8 +7,8 @@ use binspace::layers::{Layer, Layers};
 use binspace::{BspTree, Viewpoint};
 use std::f64::consts::FRAC_PI_2;
 use std::time::{Duration, Instant};
-use support::pages::{Page, PageLayer, SCREEN, camera};
 use support::{SEED, Table, best_of, time};
+use testkit::pages::{Page, PageLayer, SCREEN, camera};
 
 const COUNT: usize = 30;
 /// At how many points of the screen layers must lie over each other, so that a table shows something.

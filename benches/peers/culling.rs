@@ -1,17 +1,14 @@
 //! Orders of what is in view, against whole orders: a level of rooms with about one in a hundred of
 //! its polygons in view, and a large one of 2.6 million.
 
-#[path = "../../examples/level/rooms.rs"]
-mod rooms;
-
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{Bounds, BspTree, Culling, Frustum, Sides};
 use binspace_evidence::culling::unhidden;
-use rooms::{HEIGHT, ROOM};
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, time};
+use testkit::interior::{HEIGHT, ROOM, rooms};
 
 /// The rooms on a side of each level.
 const SIDES: [usize; 4] = [40, 100, 200, 475];
@@ -38,7 +35,7 @@ pub(crate) fn run() {
     );
     let mut steps = Vec::new();
     for side in SIDES {
-        let level: Vec<_> = rooms::rooms(side).into_iter().map(|(_, quad)| quad).collect();
+        let level = rooms(side);
         let tree = BspTree::build(&level).expect("memory");
         let begin = Instant::now();
         let bounds = tree.bounds().expect("memory");

@@ -6,8 +6,8 @@ use euclid::default::Point3D;
 use plane_split::BspSplitter;
 use rayon::ThreadPoolBuilder;
 use std::time::Duration;
-use support::pages::{Page, SCREEN};
 use support::{SEED, Table, Target, against, best_of, time};
+use testkit::pages::{Page, SCREEN};
 
 type Outline = [[f64; 3]; 4];
 

@@ -2,8 +2,6 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
 
-pub mod pages;
-
 use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::internals::SplitMix64;
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};

@@ -58,12 +58,8 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "needs mpirun of Open MPI"]
     fn a_panic_on_one_rank_ends_all() {
-        let said = Command::new("mpirun").arg("--version").output();
-        if !said.is_ok_and(|said| String::from_utf8_lossy(&said.stdout).contains("Open MPI")) {
-            eprintln!("skipped: there is no `mpirun` of Open MPI");
-            return;
-        }
         let mut command = Command::new("timeout");
         command.args(["100", "mpirun", "--allow-run-as-root", "--oversubscribe", "-np", "4"]);
         command.arg(std::env::current_exe().unwrap());

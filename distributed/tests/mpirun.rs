@@ -1,7 +1,7 @@
 //! Runs the program by `mpirun`: pictures are the same, bit for bit, on any number of ranks, and an error
 //! on one rank ends all.
 //!
-//! Where there is no `mpirun`, the tests say so and check nothing.
+//! They are ignored, as they need Open MPI: `cargo test --test mpirun -- --ignored` runs them.
 
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -14,15 +14,6 @@ struct Run {
     status: Option<i32>,
     out: String,
     err: String,
-}
-
-fn has_mpirun() -> bool {
-    let said = Command::new("mpirun").arg("--version").output();
-    let found = said.is_ok_and(|said| String::from_utf8_lossy(&said.stdout).contains("Open MPI"));
-    if !found {
-        eprintln!("skipped: there is no `mpirun` of Open MPI");
-    }
-    found
 }
 
 /// Runs the program on some ranks, in a folder.
@@ -74,39 +65,34 @@ fn same_on_all(folder: &Path, scene: &str, views: &[&str], least: usize) {
 const FAR_AND_INSIDE: [&str; 2] = ["", "--eye=5,3,1 --target=40,30,20"];
 
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn pictures_are_those_of_one_process() {
-    if has_mpirun() {
-        let folder = tempfile::tempdir().unwrap();
-        same_on_all(folder.path(), "cloud:4000", &FAR_AND_INSIDE, 2000);
-    }
+    let folder = tempfile::tempdir().unwrap();
+    same_on_all(folder.path(), "cloud:4000", &FAR_AND_INSIDE, 2000);
 }
 
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn pictures_of_a_scene_in_one_corner_are_the_same() {
-    if has_mpirun() {
-        let folder = tempfile::tempdir().unwrap();
-        same_on_all(folder.path(), "lump:3000", &["", "--eye=38,39,47 --target=40,40,40"], 30);
-    }
+    let folder = tempfile::tempdir().unwrap();
+    same_on_all(folder.path(), "lump:3000", &["", "--eye=38,39,47 --target=40,40,40"], 30);
 }
 
 /// More ranks than polygons, one polygon, and none at all.
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn ranks_without_polygons_do_their_part() {
-    if has_mpirun() {
-        let folder = tempfile::tempdir().unwrap();
-        for (scene, least) in [("cloud:5", 10), ("cloud:1", 10), ("cloud:0", 0)] {
-            same_on_all(folder.path(), scene, &[""], least);
-        }
+    let folder = tempfile::tempdir().unwrap();
+    for (scene, least) in [("cloud:5", 10), ("cloud:1", 10), ("cloud:0", 0)] {
+        same_on_all(folder.path(), scene, &[""], least);
     }
 }
 
 /// All polygons in the cell of one rank: they share their first corners, so all samples are in one place
 /// but for a far one, of a face without area, which makes the room large.
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn a_scene_in_one_cell_of_many_is_the_same() {
-    if !has_mpirun() {
-        return;
-    }
     let folder = tempfile::tempdir().unwrap();
     let mut text = "mtllib m.mtl\nv 1 1 1\nv 100 90 80\nf 2 2 2\n".to_owned();
     for k in 0..40 {
@@ -167,22 +153,19 @@ fn write_parts(folder: &Path) {
 }
 
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn files_that_ranks_share_are_one_scene() {
-    if has_mpirun() {
-        let folder = tempfile::tempdir().unwrap();
-        write_parts(folder.path());
-        let views = ["", "--eye=9,3,7", "--eye=2,2,2.2 --target=0,1,0"];
-        same_on_all(folder.path(), ".", &views, 2000);
-    }
+    let folder = tempfile::tempdir().unwrap();
+    write_parts(folder.path());
+    let views = ["", "--eye=9,3,7", "--eye=2,2,2.2 --target=0,1,0"];
+    same_on_all(folder.path(), ".", &views, 2000);
 }
 
 /// A bad file on one rank, a budget that one rank exceeds, an output that rank 0 cannot write, and a
 /// command line that is wrong on all: one message, exit status 2, and no picture.
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn an_error_on_one_rank_ends_all() {
-    if !has_mpirun() {
-        return;
-    }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     write_parts(path);
@@ -214,10 +197,8 @@ fn an_error_on_one_rank_ends_all() {
 }
 
 #[test]
+#[ignore = "needs mpirun of Open MPI"]
 fn figures_have_a_line_for_each_rank() {
-    if !has_mpirun() {
-        return;
-    }
     let folder: PathBuf = tempfile::tempdir().unwrap().keep();
     let run = run(&folder, 3, "cloud:2000 -o p.png --figures");
     fs::remove_dir_all(&folder).unwrap();

@@ -1,51 +1,47 @@
 //! What the fuzz targets do with their bytes: the code that the library's own tests replay
-//! crash inputs with, under `tests/support`.
-
-#![allow(dead_code, reason = "every target uses its own part")]
-
-mod support;
+//! crash inputs with.
 
 /// Cuts a face of a scene again and again, and compares with exact rationals.
 pub fn split(data: &[u8]) {
-    support::targets::split::run(data);
+    testkit::targets::split::run(data);
 }
 
 /// Builds a tree and judges it, its orders by rays.
 pub fn tree(data: &[u8]) {
-    support::targets::tree::run(data);
+    testkit::targets::tree::run(data);
 }
 
 /// Builds a scene as cells and judges them together, or reads partitions, forged ones and any bytes.
 pub fn cells(data: &[u8]) {
-    support::targets::cells::run(data);
+    testkit::targets::cells::run(data);
 }
 
 /// Reads an OBJ file whose content is known, or any bytes.
 pub fn obj(data: &[u8]) {
-    support::targets::obj::run(data);
+    testkit::targets::obj::run(data);
 }
 
 /// Builds trees of some hundred or thousand faces, with budgets, cancelled, by several threads.
 pub fn large(data: &[u8]) {
-    support::targets::large::run(data);
+    testkit::targets::large::run(data);
 }
 
 /// Reads files of trees, forged ones and any bytes, and uses what is read.
 pub fn saved(data: &[u8]) {
-    support::targets::saved::run(data);
+    testkit::targets::saved::run(data);
 }
 
 /// Prepares polygons of up to some thousand corners.
 pub fn faces(data: &[u8]) {
-    support::targets::faces::run(data);
+    testkit::targets::faces::run(data);
 }
 
 /// Asks what rays hit, and where points are, and compares with exact rationals.
 pub fn query(data: &[u8]) {
-    support::targets::query::run(data);
+    testkit::targets::query::run(data);
 }
 
 /// Draws views of small scenes, and compares with what the tree paints.
 pub fn drawing(data: &[u8]) {
-    support::targets::drawing::run(data);
+    testkit::targets::drawing::run(data);
 }

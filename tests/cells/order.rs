@@ -3,18 +3,20 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use testkit::effort::times;
+use testkit::enough;
 
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
 
-use crate::polygons::{stars, tiles, triangles};
-use crate::support::cell_orders::{Score, judge, places, shoot};
-use crate::support::dice::Dice;
-use crate::support::divided::Divided;
-use crate::support::hard;
-use crate::support::rays::{Ray, Rays};
-use crate::support::shapes::Corners;
-use crate::support::views::View;
+use crate::cells::polygons::{stars, tiles, triangles};
+use testkit::cell_orders::{Score, judge, places, shoot};
+use testkit::dice::Dice;
+use testkit::divided::Divided;
+use testkit::hard;
+use testkit::rays::{Ray, Rays};
+use testkit::shapes::Corners;
+use testkit::views::View;
 
 fn judged(polygons: Vec<Corners>, tolerance: Option<f64>, cells: usize, seed: u64) -> Score {
     let mut score = Score::default();
@@ -41,7 +43,7 @@ fn triangles_tiles_and_stars_come_far_before_near() {
         }
     }
     assert_eq!(total.excused, 0);
-    assert!(total.pairs > 10_000 && total.apart > 5_000 && total.coplanar > 50, "{total:?}");
+    enough!(total.pairs > 10_000, total.apart > 5_000, total.coplanar > 50; "{total:?}");
 }
 
 #[test]
@@ -64,7 +66,7 @@ fn hard_scenes_come_far_before_near() {
     judged.unwrap();
     let total = total.into_inner();
     assert!(total.scenes == 100 && total.pairs > 3_000 && total.apart > 500, "{total:?}");
-    assert!(total.empty_cells > 20, "{total:?}");
+    enough!(total.empty_cells > 20; "{total:?}");
     // What the tolerance excuses is the exception, also of pairs in different cells.
     assert!(total.excused * 50 < total.apart, "{total:?}");
 }
@@ -77,7 +79,7 @@ fn the_judge_sees_a_wrong_order_of_cells() {
     let scene = scene.unwrap();
     let mut rays: Vec<Rays<'_>> = scene.cells.iter().map(|cell| Rays::new(&cell.tree)).collect();
     let (mut dice, mut wrong) = (Dice(9), 0);
-    for _ in 0..10 {
+    for _ in 0..times(10) {
         let view = View::direction(DVec3::new(0.3, 0.2 + dice.share(), 0.5));
         let mut places = places(&scene, view.viewpoint).unwrap();
         let first: Vec<usize> =
@@ -95,5 +97,5 @@ fn the_judge_sees_a_wrong_order_of_cells() {
             );
         }
     }
-    assert!(wrong > 50, "{wrong}");
+    enough!(wrong > 50; "{wrong}");
 }

@@ -3,12 +3,14 @@
 use binspace::glam::DVec3;
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
+use testkit::effort::times;
+use testkit::enough;
 
-use crate::polygons::{stars, tiles, triangles};
-use crate::support::dice::Dice;
-use crate::support::divided::{Divided, extent};
-use crate::support::shapes::Corners;
-use crate::support::snapshot::Snapshot;
+use crate::cells::polygons::{stars, tiles, triangles};
+use testkit::dice::Dice;
+use testkit::divided::{Divided, extent};
+use testkit::shapes::Corners;
+use testkit::snapshot::Snapshot;
 
 /// What is seen of a tree: where its fragments are, and whose.
 fn fragments(tree: &BspTree, number: impl Fn(usize) -> usize) -> Vec<(usize, Vec<DVec3>)> {
@@ -152,7 +154,7 @@ fn preparations_count_each_polygon_once() {
             [polygons, dropped, duplicates, triangulated, crossing]
         };
         assert_eq!(counts(&found), counts(whole.preparation()), "{cells} cells");
-        assert!(found.duplicates > 10 && found.triangulated > 5 && found.dropped > 0, "{found:?}");
+        enough!(found.duplicates > 10, found.triangulated > 5, found.dropped > 0; "{found:?}");
         let cell = &scene.cells[cells - 1].tree;
         assert_eq!(cell.dropped().count(), cell.preparation().dropped);
     }
@@ -347,7 +349,7 @@ fn a_cell_is_a_tree_as_any_other() {
         .sum();
     assert!((area - expected).abs() < 1e-9 * expected, "{area} {expected}");
     let mut dice = Dice(8);
-    for _ in 0..200 {
+    for _ in 0..times(200) {
         let from = DVec3::new(dice.share() * 60.0, dice.share() * 60.0, 90.0);
         let ray = binspace::Ray::new(from, DVec3::new(0.1, 0.05, -1.0));
         let found = whole.hits(ray).count();
@@ -355,7 +357,7 @@ fn a_cell_is_a_tree_as_any_other() {
         assert_eq!(found, in_cells);
         hits[usize::from(found > 0)] += 1;
     }
-    assert!(hits[1] > 20, "{hits:?}");
+    enough!(hits[1] > 20; "{hits:?}");
 }
 
 /// More polygons or fragments than allowed, polygons without end among them, and a build that is
@@ -387,7 +389,6 @@ fn budgets_and_cancels_count_in_cells() {
 }
 
 /// A drawing would take the polygons of a cell whole.
-#[cfg(feature = "drawing")]
 #[test]
 fn a_drawing_of_a_cell_is_an_error() {
     use binspace::drawing::VisibilityMap;

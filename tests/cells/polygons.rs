@@ -2,8 +2,8 @@
 
 use binspace::glam::DVec3;
 
-use crate::support::dice::Dice;
-use crate::support::shapes::Corners;
+use testkit::dice::Dice;
+use testkit::shapes::Corners;
 
 /// Triangles at random with whole corners from −n to n.
 pub(crate) fn triangles(dice: &mut Dice, count: usize, n: u32) -> Vec<Corners> {

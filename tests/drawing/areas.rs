@@ -7,6 +7,7 @@ use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::Scene;
+use testkit::effort::times;
 
 /// Six walls around some triangles.
 fn room() -> Scene {
@@ -25,7 +26,7 @@ fn room() -> Scene {
             );
         }
     }
-    for _ in 0..300 {
+    for _ in 0..times(300) {
         let centre = random.point(-4.0, 4.0);
         scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0)), 0);
     }

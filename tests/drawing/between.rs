@@ -2,10 +2,6 @@
 
 use super::overlay::{between, for_each_crowd, hard_shapes, origin, place_in, project, square};
 use super::sightlines::Sightlines;
-use super::support::dice::Dice;
-use super::support::hard;
-use super::support::rational::{self, Point};
-use super::support::tally::tally;
 use binspace::drawing::{DisplayItem, Drawing, LineRun, Path, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shapes};
@@ -14,6 +10,11 @@ use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::enough;
+use testkit::hard;
+use testkit::rational::{self, Point};
+use testkit::tally::tally;
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -222,7 +223,7 @@ fn lines_and_points_come_between_polygons_that_touch() {
     }
     let trees = 2 * Heuristic::ALL.len();
     assert_eq!([score.marker_below, score.marker_above, score.runs, score.segments], [trees; 4]);
-    assert!(score.below > 12 * trees && score.above > 12 * trees, "{score:?}");
+    enough!(score.below > 12 * trees, score.above > 12 * trees; "{score:?}");
 }
 
 /// All edges of three of the polygons lie on one line of the picture, along which they are cut: two pieces of
@@ -245,7 +246,7 @@ fn lines_come_between_pieces_that_were_cut_along_them() {
         check(&tree, &camera, std::slice::from_ref(&line), &[], (&mut dice, 200, 1e-7), &mut score)
             .unwrap();
     }
-    assert!(score.below > 20 && score.above > 20, "{score:?}");
+    enough!(score.below > 20, score.above > 20; "{score:?}");
 }
 
 #[test]
@@ -277,8 +278,8 @@ fn lines_come_between_hard_polygons() {
         }
         Ok(())
     });
-    assert!(score.below > 2000 && score.above > 2000, "{score:?}");
-    assert!(score.marker_below > 250 && score.marker_above > 250, "{score:?}");
+    enough!(score.below > 2000, score.above > 2000; "{score:?}");
+    enough!(score.marker_below > 250, score.marker_above > 250; "{score:?}");
 }
 
 #[test]
@@ -287,8 +288,8 @@ fn lines_come_between_triangles() {
     for_each_crowd(6, |tree, camera, lines, points, dice| {
         check(tree, camera, lines, points, (dice, 30, UNTOLD), &mut score).unwrap();
     });
-    assert!(score.below > 1000 && score.above > 2000, "{score:?}");
-    assert!(score.marker_below > 20 && score.marker_above > 40, "{score:?}");
+    enough!(score.below > 1000, score.above > 2000; "{score:?}");
+    enough!(score.marker_below > 20, score.marker_above > 40; "{score:?}");
     // Most segments pass several triangles, and are cut more seldom.
     assert!(score.runs > score.segments && score.runs < 4 * score.segments, "{score:?}");
 }

@@ -1,15 +1,16 @@
 //! Small scenes full of coincidences, from hard places.
 
-use super::support::hard::{self, HardScene};
-use super::support::tally::tally;
-use crate::support::fill::{Score, check};
-use crate::support::layered::{Layers, check_layers, check_mixed};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::enough;
+use testkit::fill::{Score, check};
+use testkit::hard::{self, HardScene};
+use testkit::layered::{Layers, check_layers, check_mixed};
+use testkit::tally::tally;
 
 #[test]
 fn hard_scenes_are_drawn_as_rays_meet_them() {
@@ -21,8 +22,8 @@ fn hard_scenes_are_drawn_as_rays_meet_them() {
         })
         .map_err(TestCaseError::fail)
     });
-    assert!(score.pictures > 400 && score.pixels > 500_000, "{score:?}");
-    assert!(score.paths > 1000 && score.clipped > 10, "{score:?}");
+    enough!(score.pictures > 400, score.pixels > 500_000; "{score:?}");
+    enough!(score.paths > 1000, score.clipped > 10; "{score:?}");
 }
 
 #[test]
@@ -35,7 +36,7 @@ fn layers_of_hard_scenes_are_those_of_the_tree() {
         })
         .map_err(TestCaseError::fail)
     });
-    assert!(score.pixels > 500_000 && score.layers > 100_000, "{score:?}");
+    enough!(score.pixels > 500_000, score.layers > 100_000; "{score:?}");
     assert!(
         score.paths > score.polygons + 10 && 2 * score.fragments > 3 * score.paths,
         "{score:?}"
@@ -53,8 +54,8 @@ fn layers_of_hard_scenes_end_at_what_is_opaque() {
         })
         .map_err(TestCaseError::fail)
     });
-    assert!(score.pixels > 500_000 && score.layers > 50_000, "{score:?}");
-    assert!(score.hidden > 100 && score.small > 10 && score.regions > 1_000, "{score:?}");
+    enough!(score.pixels > 500_000, score.layers > 50_000; "{score:?}");
+    enough!(score.hidden > 100, score.small > 10, score.regions > 1_000; "{score:?}");
 }
 
 fn for_each_view(

@@ -1,12 +1,13 @@
 //! Where polygons go through one another, by hand and against rays.
 
-use crate::support::fill::ray;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use testkit::enough;
+use testkit::fill::ray;
 
 fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
@@ -299,6 +300,6 @@ fn rays_agree_with_crossings() {
             check(&triangles, &camera, &mut score);
         }
     }
-    assert!(score.visible > 500 && score.hidden > 5000 && score.on_runs > 500, "{score:?}");
+    enough!(score.visible > 500, score.hidden > 5000, score.on_runs > 500; "{score:?}");
     assert!(score.unsure * 20 < score.visible + score.hidden, "{score:?}");
 }

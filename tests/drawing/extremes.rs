@@ -1,11 +1,13 @@
 //! Scenes, views and opacities at their limits.
 
-use crate::support::layered::{Layers, check_mixed};
 use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::effort::times;
+use testkit::enough;
+use testkit::layered::{Layers, check_mixed};
 
 fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
@@ -13,10 +15,10 @@ fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
         .to_vec()
 }
 
-/// A hundred thousand squares behind a wall of ten; a million with `BINSPACE_LONG`, in some 20 seconds.
+/// A hundred thousand squares behind a wall of ten; a million with an effort of ten, in some 20 seconds.
 #[test]
 fn ten_of_a_million_polygons_show() {
-    let layers = if std::env::var_os("BINSPACE_LONG").is_some() { 100 } else { 10 };
+    let layers = times(10).min(100) as u32;
     let mut polygons: Vec<Vec<DVec3>> = Vec::new();
     for k in 0..10 {
         let [x, y] = [f64::from(k % 5) - 2.0, f64::from(k / 5) - 0.5];
@@ -116,7 +118,7 @@ fn eyes_on_panes_and_away_from_all() {
             assert!(all.paths().len() >= map.drawing().unwrap().paths().len());
         }
     }
-    assert!(score.polygons > 20, "{score:?}");
+    enough!(score.polygons > 20; "{score:?}");
     let none = BspTree::build::<Vec<DVec3>>([]).unwrap();
     let camera = Camera::perspective(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [9, 9]).unwrap();
     let rays = Rays::new(&camera, none.faces()).unwrap();

@@ -1,11 +1,11 @@
 //! What is just hidden, and what just shows.
 
-use crate::support::fill::{Score, check};
 use binspace::BspTree;
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::fill::{Score, check};
 
 fn shown(tree: &BspTree, camera: &Camera) -> Vec<usize> {
     let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();

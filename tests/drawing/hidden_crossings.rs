@@ -2,8 +2,6 @@
 
 use super::overlay::{between, origin, place_in, project, square, triangles};
 use super::sightlines::{Origin, Sightlines};
-use super::support::model::Face;
-use super::support::rational::{self, Point};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
@@ -11,6 +9,8 @@ use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use num_traits::Signed;
+use testkit::model::Face;
+use testkit::rational::{self, Point};
 
 fn length(run: &EdgeRun) -> f64 {
     let [[ax, ay], [bx, by]] = run.ends;

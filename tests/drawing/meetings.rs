@@ -1,13 +1,13 @@
 //! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide all that is
 //! behind, until a part is missing.
 
-use crate::support::fill::{Score, check};
-use crate::support::layered::{Layers, check_mixed};
 use binspace::BspTree;
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::fill::{Score, check};
+use testkit::layered::{Layers, check_mixed};
 
 fn camera() -> Camera {
     let eye = DVec3::new(3.0, 5.0, 900.0);

@@ -1,10 +1,6 @@
 //! Lines and points of an overlay in a picture, by hand and against rays in rationals.
 
 use super::sightlines::{Origin, Sightlines};
-use super::support::dice::Dice;
-use super::support::hard;
-use super::support::rational::{self, Point};
-use super::support::tally::tally;
 use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
@@ -14,6 +10,11 @@ use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::enough;
+use testkit::hard;
+use testkit::rational::{self, Point};
+use testkit::tally::tally;
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -340,8 +341,8 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
         }
         Ok(())
     });
-    assert!(score.visible > 5000 && score.hidden > 2000 && score.deeper > 300, "{score:?}");
-    assert!(score.shown_points > 2000 && score.hidden_points > 600, "{score:?}");
+    enough!(score.visible > 5000, score.hidden > 2000, score.deeper > 300; "{score:?}");
+    enough!(score.shown_points > 2000, score.hidden_points > 600; "{score:?}");
 }
 
 pub(crate) fn triangles(random: &mut SplitMix64, count: usize, edge: f64) -> Vec<Vec<DVec3>> {
@@ -384,5 +385,5 @@ fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
     for_each_crowd(5, |tree, camera, lines, points, dice| {
         check(tree, camera, lines, points, (dice, 20), &mut score).unwrap();
     });
-    assert!(score.visible > 2000 && score.hidden > 1000 && score.deeper > 300, "{score:?}");
+    enough!(score.visible > 2000, score.hidden > 1000, score.deeper > 300; "{score:?}");
 }

@@ -1,12 +1,14 @@
 //! Lines for a pen, against what graphs and exhaustive searches say.
 
-use super::support::dice::Dice;
 use binspace::BspTree;
 use binspace::drawing::{Polyline, VisibilityMap, polylines};
 use binspace::glam::DVec3;
 use binspace::internals::cuboid;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::enough;
 
 type Segment = [[f64; 2]; 2];
 
@@ -77,7 +79,7 @@ fn lines_are_as_few_as_can_be_and_travel_is_short() {
     let mut dice = Dice(20);
     let (mut lines_found, mut several, mut compared) = (0, 0, 0);
     let [mut before, mut after] = [0.0; 2];
-    for round in 0..300 {
+    for round in 0..times(300) {
         let side = [3, 6, 40][round % 3];
         let count = 1 + dice.roll() % [8, 60, 200][round / 3 % 3];
         let mut end = || [0, 1].map(|_| (dice.roll() % side) as f64 / 7.0);
@@ -93,7 +95,7 @@ fn lines_are_as_few_as_can_be_and_travel_is_short() {
         before += travel(segments.iter().map(|segment| &segment[..]));
         after += travel(lines.iter().map(|line| &line.points[..]));
     }
-    assert!(lines_found > 2_000 && several > 150 && compared > 10_000, "{lines_found} {several}");
+    enough!(lines_found > 2_000, several > 150, compared > 10_000; "{lines_found} {several}");
     assert!(after < 0.2 * before, "{after} of {before}");
 }
 

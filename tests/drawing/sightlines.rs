@@ -1,11 +1,11 @@
 //! What hides a point, in rationals: faces, with their edges, between it and the eye.
 
-use super::support::model::Face;
-use super::support::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
+use testkit::model::Face;
+use testkit::rational::{self, Point, Rational};
 
 /// Where rays come from, on the lattice of a scene.
 pub(crate) enum Origin {

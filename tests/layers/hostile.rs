@@ -1,9 +1,11 @@
 //! Input that is wrong, degenerate or extreme.
 
-use super::support::dice::Dice;
 use super::{Given, Rect, VIEWPORT, camera, wild};
 use binspace::glam::{DMat4, DVec4, Mat4, dvec3};
 use binspace::layers::{Layer, Layers};
+use testkit::dice::Dice;
+use testkit::effort::{seeds, times};
+use testkit::enough;
 
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
 
@@ -169,7 +171,7 @@ fn what_is_too_far_or_too_small_has_no_piece_and_what_is_a_little_less_so_has() 
 fn the_scale_of_a_matrix_does_not_matter() {
     let mut dice = Dice(31);
     let mut compared = 0;
-    for _ in 0..40 {
+    for _ in 0..times(40) {
         let Given { rect, matrix } = wild(&mut dice);
         let mut pages = [1.0, 2f64.powi(600), 2f64.powi(-600), 2f64.powi(-900)].map(|scale| {
             let mut page = Layers::new(VIEWPORT);
@@ -181,7 +183,7 @@ fn the_scale_of_a_matrix_does_not_matter() {
         assert!(pages[1..].iter().all(|other| *other == first));
         compared += first.len();
     }
-    assert!(compared > 60, "{compared}");
+    enough!(compared > 60; "{compared}");
 }
 
 /// Numbers of every size: no panic, only finite numbers, every vertex on the screen.
@@ -190,7 +192,7 @@ fn extreme_numbers_do_no_harm() {
     let mut dice = Dice(32);
     let (mut seen, mut errors) = (0, 0);
     let mut page = Layers::new(VIEWPORT);
-    for round in 0..3000 {
+    for round in seeds(3000) {
         let largest = if round % 2 == 0 { 300 } else { 8 };
         let mut any = || {
             let sizes =
@@ -223,5 +225,5 @@ fn extreme_numbers_do_no_harm() {
             }
         }
     }
-    assert!(seen > 8000 && errors > 100, "{seen} {errors}");
+    enough!(seen > 8000, errors > 100; "{seen} {errors}");
 }

@@ -1,9 +1,9 @@
 //! What is true of a layer, in exact rationals.
 
 use super::Rect;
-use crate::support::rational::{Rational, exact, sign};
 use binspace::glam::{DMat4, DVec2};
 use num_traits::{Signed, ToPrimitive, Zero};
+use testkit::rational::{Rational, exact, sign};
 
 pub(crate) type Point2 = [Rational; 2];
 

@@ -1,13 +1,15 @@
 //! The order of pages, judged at points of the screen by the exact depths of the layers given.
 
 use super::oracle::{Point2, Truth, covers, number};
-use super::pages::{Page, SCREEN};
-use super::support::dice::Dice;
-use super::support::rational::{Rational, exact};
 use super::{Given, page_of, wild};
 use binspace::glam::DVec2;
 use binspace::layers::Layers;
 use num_traits::Signed;
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::enough;
+use testkit::pages::{Page, SCREEN};
+use testkit::rational::{Rational, exact};
 
 /// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by
 /// less in pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.
@@ -101,7 +103,7 @@ fn pages_are_painted_by_depth() {
             judge(&layers, &drawn, 45, &mut dice, &mut tally);
         }
         let Tally { compared, coplanar, hits } = tally;
-        assert!(compared > 50 && hits > 50, "{page:?} {tally:?}");
+        enough!(compared > 50, hits > 50; "{page:?} {tally:?}");
         assert!(coplanar > 10 || page != Page::Stack, "{coplanar}");
     }
 }
@@ -109,11 +111,11 @@ fn pages_are_painted_by_depth() {
 #[test]
 fn layers_that_reach_behind_the_eye_are_painted_by_depth() {
     let (mut dice, mut tally) = (Dice(22), Tally::default());
-    for _ in 0..20 {
+    for _ in 0..times(20) {
         let layers: Vec<Given> = (0..20).map(|_| wild(&mut dice)).collect();
         judge(&layers, &page_of(&layers), 30, &mut dice, &mut tally);
     }
-    assert!(tally.compared > 200 && tally.hits > 200, "{tally:?}");
+    enough!(tally.compared > 200, tally.hits > 200; "{tally:?}");
 }
 
 #[test]

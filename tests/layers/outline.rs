@@ -1,12 +1,14 @@
 //! What is seen of one layer, and where in it.
 
 use super::oracle::{Point2, area, number};
-use super::support::dice::Dice;
-use super::support::rational::exact;
 use super::{Given, VIEWPORT, page_of, pages, wild};
 use binspace::glam::DVec3;
 use binspace::layers::LayerVertex;
 use num_traits::{Signed, Zero};
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::enough;
+use testkit::rational::exact;
 
 /// Twenty steps of `f64`, times what the terms of a coordinate add up to.
 const STEPS: f64 = 20.0 * f64::EPSILON;
@@ -28,7 +30,7 @@ fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
 fn what_is_seen_is_what_the_exact_clip_leaves() {
     let mut dice = Dice(11);
     let (mut seen, mut unseen, mut clipped) = (0, 0, 0);
-    for _ in 0..600 {
+    for _ in 0..times(600) {
         let given = wild(&mut dice);
         let truth = given.truth();
         let expected = truth.clipped([0.0, 0.0, -REACH], [VIEWPORT[1][0], VIEWPORT[1][1], REACH]);
@@ -64,14 +66,14 @@ fn what_is_seen_is_what_the_exact_clip_leaves() {
         clipped += usize::from(vertices.len() > 4);
         seen += 1;
     }
-    assert!(seen > 300 && unseen > 50 && clipped > 60, "{seen} {unseen} {clipped}");
+    enough!(seen > 300, unseen > 50, clipped > 60; "{seen} {unseen} {clipped}");
 }
 
 #[test]
 fn edges_of_the_rectangle_are_told_from_clips() {
     let mut dice = Dice(12);
     let (mut own, mut clips) = (0, 0);
-    for _ in 0..400 {
+    for _ in 0..times(400) {
         let given = wild(&mut dice);
         let [[u0, v0], [u1, v1]] = given.rect;
         let page = page_of(&[given]);
@@ -93,7 +95,7 @@ fn edges_of_the_rectangle_are_told_from_clips() {
             }
         }
     }
-    assert!(own > 500 && clips > 200, "{own} {clips}");
+    enough!(own > 500, clips > 200; "{own} {clips}");
 }
 
 /// At random points of random pieces, what a graphics card makes of the vertices is where the exact
@@ -147,7 +149,7 @@ fn places_in_a_layer_are_right_after_the_division() {
             misled += usize::from((naive - drawn).abs().max_element() > 1.0);
         }
     }
-    assert!(compared > 1000 && cut > 800 && misled > 300, "{compared} {cut} {misled}");
+    enough!(compared > 1000, cut > 800, misled > 300; "{compared} {cut} {misled}");
 }
 
 /// How much u and v change for a change of one pixel, about.

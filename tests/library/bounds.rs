@@ -2,10 +2,11 @@
 //! would decide wrongly. The kernel decides them rightly, so the bound is large enough there; they
 //! exist, so the bound is hardly larger than necessary.
 
-use crate::support::dice::Dice;
 use binspace::internals::{Exact, ExactVertex, Faces, Kernel, Piece, PlaneId, Side, Vertex};
 use num_bigint::BigInt;
 use num_traits::{Signed, ToPrimitive, Zero};
+use testkit::dice::Dice;
+use testkit::enough;
 
 /// The largest coordinate of a scene whose lattice step is 1.
 const EDGE: i64 = (1 << 51) - 1;
@@ -239,7 +240,7 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
             }
         }
     }
-    assert!(crossed >= 10, "{crossed}");
+    enough!(crossed >= 10; "{crossed}");
     assert!((0.3..0.5).contains(&worst), "{worst}");
 }
 

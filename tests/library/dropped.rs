@@ -1,10 +1,6 @@
 //! Which polygons preparation drops, keeps whole and counts as duplicates, checked by brute force
 //! in big integers, on polygons with little or no area.
 
-use crate::support::dice::Dice;
-use crate::support::hard;
-use crate::support::shapes::{self, Corners};
-use crate::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Lattice};
 use num_bigint::BigInt;
@@ -12,6 +8,10 @@ use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
+use testkit::dice::Dice;
+use testkit::hard;
+use testkit::shapes::{self, Corners};
+use testkit::tally::tally;
 
 type Vector = [BigInt; 3];
 

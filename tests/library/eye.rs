@@ -1,16 +1,17 @@
 //! The side of a plane on which an eye lies, against exact rationals; and the lattice that eyes and
 //! corners are put on.
 
-use crate::support::hard;
-use crate::support::model;
-use crate::support::rational::{self, Plane, Point, Rational};
-use crate::support::views::{power_of_two, rounded_eye};
 use binspace::Viewpoint;
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
 use num_traits::Signed;
 use proptest::prelude::*;
 use std::cmp::Ordering;
+use testkit::effort::cases;
+use testkit::hard;
+use testkit::model;
+use testkit::rational::{self, Plane, Point, Rational};
+use testkit::views::{power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {
     Exact.eye_side(faces, plane, &Eye::new(viewpoint, faces.lattice()))
@@ -48,7 +49,7 @@ fn eye_offsets() -> impl Strategy<Value = (prop::sample::Index, [f64; 3], f64)> 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(cases(1500, file!()))]
 
     #[test]
     fn eyes_are_on_the_side_that_rationals_say(

@@ -1,16 +1,17 @@
 //! Facts about the faces of any scene: convex, planar, where the input is, and whole if they can be.
 
-use crate::support::checks::{area, assert_convex_and_planar};
-use crate::support::hard::{self, HardScene};
-use crate::support::model::Face;
-use crate::support::rational::{self, Rational};
-use crate::support::shapes;
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestCaseError;
+use testkit::checks::{area, assert_convex_and_planar};
+use testkit::effort::cases;
+use testkit::hard::{self, HardScene};
+use testkit::model::Face;
+use testkit::rational::{self, Rational};
+use testkit::shapes;
 
 /// Corners moved onto a plane moved by little, the others not at all.
 fn assert_corners_are_the_input_s(
@@ -75,7 +76,7 @@ fn decide_all(faces: &Faces) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(cases(1000, file!()))]
 
     #[test]
     fn faces_of_hard_scenes_are_convex_planar_and_where_the_input_is(

@@ -1,13 +1,13 @@
 //! Which side of a fragment faces a viewpoint, against exact rationals.
 
-use crate::support::dice::Dice;
-use crate::support::model;
-use crate::support::views::View;
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
 use binspace::verify::verify_fronts;
 use binspace::{BspTree, BuildOptions, Viewpoint, scene, view};
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::model;
+use testkit::views::View;
 
 /// Viewpoints of every kind: anywhere, on corners, in the planes of faces and along them.
 fn viewpoints(tree: &BspTree, dice: &mut Dice) -> Vec<View> {

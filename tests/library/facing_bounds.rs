@@ -2,15 +2,17 @@
 //! the plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
 
 use std::cmp::Ordering;
+use testkit::effort::seeds;
+use testkit::enough;
 
-use crate::support::dice::Dice;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Viewpoint};
+use testkit::dice::Dice;
 
 #[test]
 fn bounds_of_normals_hold_the_exact_normals() {
     let (mut undecided, mut decided) = (0, 0);
-    for seed in 0..2000 {
+    for seed in seeds(2000) {
         let mut dice = Dice(seed);
         let mut vector =
             |n: u32| DVec3::new(dice.around_zero(n), dice.around_zero(n), dice.around_zero(n));
@@ -46,5 +48,5 @@ fn bounds_of_normals_hold_the_exact_normals() {
         let eye = Viewpoint::eye(at + normal * 1e4);
         decided += usize::from(bounds.facing(root, eye) == Some(Ordering::Greater));
     }
-    assert!(undecided > 50_000 && decided > 1500, "{undecided} undecided, {decided} decided");
+    enough!(undecided > 50_000, decided > 1500; "{undecided} undecided, {decided} decided");
 }

@@ -1,7 +1,8 @@
 //! Inputs that a fuzz target once failed on, and a few to start from, replayed.
 
-use crate::support::targets;
 use std::path::Path;
+use testkit::enough;
+use testkit::targets;
 
 /// Runs a target on every file of its folder; the file's name says what it is about.
 fn replay(target: &str, run: fn(&[u8])) {
@@ -14,7 +15,7 @@ fn replay(target: &str, run: fn(&[u8])) {
         assert!(outcome.is_ok(), "fails on {}", path.display());
         count += 1;
     }
-    assert!(count > 0, "nothing in {}", folder.display());
+    enough!(count > 0; "nothing in {}", folder.display());
 }
 
 #[test]
@@ -52,13 +53,11 @@ fn query_regressions_pass() {
     replay("query", targets::query::run);
 }
 
-#[cfg(feature = "drawing")]
 #[test]
 fn drawing_regressions_pass() {
     replay("drawing", targets::drawing::run);
 }
 
-#[cfg(feature = "obj")]
 #[test]
 fn obj_regressions_pass() {
     replay("obj", targets::obj::run);

@@ -3,6 +3,7 @@
 
 use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::{BspTree, BuildOptions};
+use testkit::enough;
 
 /// A turned cube, each side a grid of squares that face one way, in no order.
 fn cube(side: usize, inwards: bool) -> Vec<[DVec3; 4]> {
@@ -48,5 +49,5 @@ fn convex_bodies_are_taken_apart_in_input_order_within_their_depth() {
             single += tree.nodes().filter(|node| node.on().len() == 1).count();
         }
     }
-    assert!(shared > 50 && single > 10, "{shared} {single}");
+    enough!(shared > 50, single > 10; "{shared} {single}");
 }

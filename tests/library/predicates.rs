@@ -1,14 +1,16 @@
 //! The exact kernel against exact rationals, on scenes that are hard to decide.
 
-use crate::support::hard::{self, HardScene};
-use crate::support::model::{self, Face};
-use crate::support::rational::{self, Point, Rational};
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, Vertex, split};
 use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{TestCaseError, TestRunner};
+use testkit::effort::{cases, times};
+use testkit::enough;
+use testkit::hard::{self, HardScene};
+use testkit::model::{self, Face};
+use testkit::rational::{self, Point, Rational};
 
 type ExactVertex = <Exact as Kernel>::Vertex;
 type Outcome<T> = Result<T, TestCaseError>;
@@ -198,7 +200,7 @@ fn follow(scene: &HardScene, plan: &Plan, tally: &mut Tally) -> Outcome<()> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(cases(1500, file!()))]
 
     #[test]
     fn pieces_are_those_of_exact_rationals(scene in hard::scene(), plan in plan()) {
@@ -212,7 +214,7 @@ fn hard_scenes_reach_the_integers() {
     let mut runner = TestRunner::deterministic();
     let mut tally = Tally::default();
     let samples = (hard::scene(), plan());
-    for _ in 0..1000 {
+    for _ in 0..times(1000) {
         let (scene, plan) = samples.new_tree(&mut runner).expect("no rejection").current();
         follow(&scene, &plan, &mut tally).expect("as in rationals");
     }
@@ -224,5 +226,5 @@ fn hard_scenes_reach_the_integers() {
     assert!(share(tally.moved, tally.pieces) > 0.05, "{tally:?}");
     assert!(share(tally.tolerated, tally.pieces) > 0.01, "{tally:?}");
     assert!(share(tally.ambiguous, tally.pieces) < 0.01, "{tally:?}");
-    assert!(tally.inside > 500, "{tally:?}");
+    enough!(tally.inside > 500; "{tally:?}");
 }

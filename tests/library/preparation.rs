@@ -1,15 +1,16 @@
 //! From polygons of any kind to convex planar faces, by example: what becomes triangles, what is
 //! dropped, what is an error.
 
-use crate::support::checks::{area, assert_convex_and_planar, face_area};
-use crate::support::hard;
-use crate::support::rational;
-use crate::support::shapes::{self, Corners};
 use binspace::Preparation;
 use binspace::glam::{DMat3, DVec3};
-use binspace::internals::{DEFAULT_TOLERANCE, Faces, LATTICE_LIMIT};
+use binspace::internals::{DEFAULT_TOLERANCE, Faces};
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
+use testkit::checks::{area, assert_convex_and_planar, face_area};
+use testkit::effort::cases;
+use testkit::hard;
+use testkit::rational;
+use testkit::shapes::{self, Corners};
 
 fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
     Faces::new(polygons, None).expect("finite")
@@ -261,18 +262,6 @@ fn a_polygon_that_ends_where_it_begins_is_the_same_without_its_last_corner() {
     assert_eq!(faces.corners(0), faces.corners(1));
 }
 
-#[test]
-fn a_tolerance_beyond_the_largest_counts_as_that() {
-    let square = flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
-    let largest = LATTICE_LIMIT / 128.0;
-    for (tolerance, expected) in [(1e300, largest), (f64::INFINITY, largest), (1.0, largest)] {
-        let (faces, _) = Faces::new([&square], Some(tolerance)).expect("a length");
-        assert_eq!(faces.tolerance(), expected);
-    }
-    let (faces, _) = Faces::new([&square], Some(1.0 / 128.0)).expect("a length");
-    assert_eq!(faces.lattice().length_to_world(faces.tolerance()), 1.0 / 128.0);
-}
-
 /// Corners in the middle of a straight side are those of triangles, or are left out; either way the
 /// side is still the polygon's.
 #[test]
@@ -374,6 +363,8 @@ fn corners_folded_onto_one_another_are_not_taken_for_convex() {
 }
 
 proptest! {
+    #![proptest_config(cases(256, file!()))]
+
     #[test]
     fn triangles_cover_shapes_anywhere_but_for_rounding(
         shape in prop::sample::select(vec![l_shape(), star(), spiral()]),

@@ -71,7 +71,6 @@ assert_shared!(
     Verification,
 );
 
-#[cfg(feature = "obj")]
 assert_shared!(binspace::scene::ObjError, binspace::scene::ObjReport);
 
 #[test]

@@ -1,7 +1,9 @@
 //! Which orders the coplanar tolerance leaves open, and which not: the statements of `docs/guide/exact.md`.
 
 use binspace::glam::{DVec2, DVec3, dvec3};
+use binspace::internals::{Faces, LATTICE_LIMIT};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use testkit::enough;
 
 /// A rectangle at a height.
 fn layer(low: DVec2, high: DVec2, z: f64) -> [DVec3; 4] {
@@ -27,7 +29,7 @@ fn shown(tree: &BspTree, eye: DVec3, target: DVec3) -> usize {
             painted.push(fragment.polygon());
         }
     }
-    assert!(painted.len() > 1, "nothing to confuse: {painted:?}");
+    enough!(painted.len() > 1; "nothing to confuse: {painted:?}");
     *painted.last().unwrap()
 }
 
@@ -94,4 +96,32 @@ fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
     // Not so with a tolerance that is given as a length.
     assert_eq!(look(&[upper, lower, stray], Some(1e-9)), 0);
     assert_eq!(look(&[upper, lower, stray], Some(0.0)), 0);
+}
+
+/// Layers count as coplanar, and so come in input order from below, up to the tolerance that counts.
+#[test]
+fn a_tolerance_beyond_a_share_of_the_extent_counts_as_that() {
+    let wide = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let layer = |z: f64| wide.map(|[x, y]| [x, y, z]);
+    let is_coplanar = |gap: f64, tolerance: f64| {
+        let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+        let tree = options.build([layer(0.0), layer(gap)]).unwrap();
+        tree.root().unwrap().on().len() == 2
+    };
+    for tolerance in [0.5, 1.0, 1e300, f64::INFINITY] {
+        assert!(is_coplanar(1.0 / 257.0, tolerance), "{tolerance}");
+        assert!(!is_coplanar(1.0 / 127.0, tolerance), "{tolerance}");
+    }
+    assert!(!is_coplanar(1.0 / 257.0, 1e-9) && !is_coplanar(1.0 / 257.0, 0.0));
+    // On the grid, a 128th of half its side.
+    let on_grid = |tolerance: f64| Faces::new([layer(0.0)], Some(tolerance)).unwrap().0;
+    for tolerance in [1.0, 1e300, f64::INFINITY] {
+        assert_eq!(on_grid(tolerance).tolerance(), LATTICE_LIMIT / 128.0);
+    }
+    let largest = on_grid(1.0 / 128.0);
+    assert_eq!(largest.lattice().length_to_world(largest.tolerance()), 1.0 / 128.0);
+    for bad in [-1.0, -5e-324, f64::NEG_INFINITY, f64::NAN] {
+        let error = BuildOptions::DEFAULT.with_tolerance(bad).build([layer(0.0)]).unwrap_err();
+        assert!(error.to_string().contains("tolerance"), "{error}");
+    }
 }

@@ -1,9 +1,11 @@
 //! Many polygons that meet in one place: they have one point there.
 
-use crate::support::dice::Dice;
 use binspace::glam::{DVec3, dvec3};
 use binspace::{BuildOptions, Heuristic};
 use std::f64::consts::{SQRT_2, TAU};
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::enough;
 
 /// Integers of up to `bits` bits, most of them with all.
 fn whole(dice: &mut Dice, bits: i32) -> DVec3 {
@@ -17,7 +19,7 @@ fn whole(dice: &mut Dice, bits: i32) -> DVec3 {
 fn a_junction_at_the_centre_of_the_scene_is_one_point() {
     let mut dice = Dice(31);
     let mut cut = 0;
-    for _ in 0..60 {
+    for _ in 0..times(60) {
         let along = whole(&mut dice, 48);
         let mut polygons: Vec<Vec<DVec3>> = (0..3)
             .map(|_| {
@@ -49,7 +51,7 @@ fn a_junction_at_the_centre_of_the_scene_is_one_point() {
         points.dedup();
         assert_eq!(points.len(), 1, "{polygons:?}");
     }
-    assert!(cut > 40, "{cut}");
+    enough!(cut > 40; "{cut}");
 }
 
 /// All pages have the spine as an edge, and one plane cuts them all: 100 000 names of one point.

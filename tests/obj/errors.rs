@@ -1,6 +1,6 @@
 //! What is refused, and what the error says.
 
-use crate::{CORNERS, read, with_corners};
+use crate::obj::{CORNERS, read, with_corners};
 use binspace::internals::MAX_CORNERS;
 use binspace::scene::Scene;
 

@@ -1,6 +1,6 @@
 //! Materials and the libraries they come from.
 
-use crate::{read_with, with_corners};
+use crate::obj::{read_with, with_corners};
 use binspace::scene::{Material, Scene};
 use std::path::Path;
 

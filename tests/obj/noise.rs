@@ -1,8 +1,9 @@
 //! Bytes, words and damaged files: anything is read or refused, and nothing panics.
 
-use crate::{read, with_corners};
+use crate::obj::{read, with_corners};
 use binspace::scene::{ObjError, ObjReport, Scene};
 use proptest::prelude::*;
+use testkit::effort::cases;
 
 /// What a scene read from anything must satisfy.
 fn check(result: Result<(Scene, ObjReport), ObjError>) {
@@ -73,6 +74,8 @@ fn soup() -> impl Strategy<Value = String> {
 }
 
 proptest! {
+    #![proptest_config(cases(256, file!()))]
+
     #[test]
     fn any_bytes_are_read_or_refused(text: Vec<u8>, library: Vec<u8>) {
         check(Scene::from_obj("test.obj", &text, |_| Some(library.clone())));

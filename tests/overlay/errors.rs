@@ -1,6 +1,7 @@
 //! What an overlay refuses, and what is left of it then.
 
 use std::ops::ControlFlow;
+use testkit::enough;
 
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shapes};
@@ -164,7 +165,7 @@ fn a_replacement_says_how_far_it_is_and_can_be_cancelled() {
     assert_eq!((last.done, last.total), (overlay.faces().len() - tree.faces().len(), last.done));
     assert_eq!(last.total, 400 + 800 + 1200);
     let placed = heard.iter().filter(|p| p.total == last.total && p.done > 0 && p.done < p.total);
-    assert!(placed.count() > 0, "{heard:?}");
+    enough!(placed.count() > 0; "{heard:?}");
     for stop in [0, heard.len() / 2, heard.len() - 2] {
         let mut calls = 0;
         let cancelled = overlay.replace_with_progress(&tree, shapes.clone(), |_| {
@@ -202,14 +203,14 @@ fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
         })
         .expect("on the grid");
     whole.back_to_front_into(&tree, eye, &mut expected).expect("its own tree");
-    assert!(calls > 4, "{calls}");
+    enough!(calls > 4; "{calls}");
     let mut overlay = Overlay::new(&tree);
     let mut panics = 0;
     for at in (0..calls).filter(|at| *at < 6 || at % (calls / 6 + 1) == 0) {
         let mut left = at;
         let replace = || {
             overlay.replace_with_progress(&tree, shapes(), |_| {
-                assert!(left > 0, "the caller's fault");
+                enough!(left > 0; "the caller's fault");
                 left -= 1;
                 ControlFlow::Continue(())
             })
@@ -222,7 +223,7 @@ fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
         overlay.back_to_front_into(&tree, eye, &mut order).expect("its own tree");
         assert_eq!(order, expected, "call {at}");
     }
-    assert!(panics > 4, "{panics}");
+    enough!(panics > 4; "{panics}");
     let bad = (0..9).map(|k| {
         assert!(k < 7, "the caller's fault");
         triangle(DVec3::splat(f64::from(k)))

@@ -9,8 +9,8 @@ use binspace::overlay::{Overlay, Shape};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
 use binspace::view::Camera;
 
-use crate::support::model::Face;
-use crate::support::rational::{self, Point};
+use testkit::model::Face;
+use testkit::rational::{self, Point};
 
 type Verdict = Result<(), String>;
 

@@ -1,12 +1,13 @@
 //! A mark on a curve is painted over the curve: over both segments that meet there.
 
 use std::collections::HashSet;
+use testkit::effort::seeds;
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shape, Shapes};
 use binspace::{BspTree, BuildOptions, Viewpoint};
 
-use crate::support::dice::Dice;
+use testkit::dice::Dice;
 
 /// Half the side of the grid.
 const ROOM: f64 = 64.0;
@@ -94,7 +95,7 @@ fn compare(curves: &[Curve], dice: &mut Dice) -> usize {
 
 fn check(is_closed: bool, most: usize) {
     let mut compared = 0;
-    for seed in 0..12 {
+    for seed in seeds(12) {
         let mut dice = Dice(seed);
         let curves: Vec<Curve> = (0..20).map(|_| Curve::new(&mut dice, is_closed, most)).collect();
         compared += compare(&curves, &mut dice);

@@ -8,11 +8,11 @@ use binspace::{BspTree, Viewpoint};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 
-use crate::sight::{
+use crate::overlay::sight::{
     GRID, between, crossing, hit, may_cross, may_hit, ratio, share_in_line, to_f64,
 };
-use crate::support::rational::{self, Plane, Point, Rational};
-use crate::tiling::Given;
+use crate::overlay::tiling::Given;
+use testkit::rational::{self, Plane, Point, Rational};
 
 type Verdict = Result<(), String>;
 

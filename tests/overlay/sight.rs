@@ -3,8 +3,8 @@
 use binspace::glam::DVec3;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use crate::support::model::Face;
-use crate::support::rational::{self, Plane, Point, Rational};
+use testkit::model::Face;
+use testkit::rational::{self, Plane, Point, Rational};
 
 /// Half the grid's side, in its steps.
 pub(crate) const GRID: f64 = (1u64 << 51) as f64;

@@ -4,10 +4,10 @@ use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shape};
 
-use crate::oracle::Counts;
-use crate::sight::{between, to_f64};
-use crate::support::model::Face;
-use crate::support::rational::{self, Point};
+use crate::overlay::oracle::Counts;
+use crate::overlay::sight::{between, to_f64};
+use testkit::model::Face;
+use testkit::rational::{self, Point};
 
 /// What an overlay was given, on its grid.
 pub(crate) struct Given {

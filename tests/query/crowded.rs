@@ -1,7 +1,7 @@
 //! Thousands of polygons at one place. Were the time quadratic in their number, these would take minutes.
 
-use super::support::dice::Dice;
 use binspace::{BspTree, BuildOptions, Heuristic, Ray};
+use testkit::dice::Dice;
 
 fn polygons(tree: &BspTree, ray: Ray) -> Vec<usize> {
     tree.hits(ray).map(|hit| hit.polygon()).collect()

@@ -1,14 +1,16 @@
 //! Scenes of hundreds and thousands of faces.
 
-use super::support::dice::Dice;
-use super::support::hits::{Oracle, Score};
-use super::support::quick_hits::QuickOracle;
-use super::support::shapes;
-use super::support::shots::Shots;
 use binspace::glam::{DMat3, DVec3};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use rayon::prelude::*;
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::enough;
+use testkit::hits::{Oracle, Score};
+use testkit::quick_hits::QuickOracle;
+use testkit::shapes;
+use testkit::shots::Shots;
 
 type Polygons = Vec<Vec<DVec3>>;
 
@@ -114,8 +116,8 @@ fn rays_through_large_scenes_hit_what_rationals_say() {
     };
     let scores: Vec<(&str, Score)> = scenes().par_iter().map(shoot).collect();
     let all = scores.iter().map(|(_, score)| *score).fold(Score::default(), Score::add);
-    assert!(all.rays > 4000 && all.hits > 15_000, "{scores:#?}");
-    assert!(all.in_plane > 1500 && all.ties > 6000 && all.at_ends > 1500, "{scores:#?}");
+    enough!(all.rays > 4000, all.hits > 15_000; "{scores:#?}");
+    enough!(all.in_plane > 1500, all.ties > 6000, all.at_ends > 1500; "{scores:#?}");
     assert!(all.blocked.min(all.clear) > 600, "{scores:#?}");
 }
 
@@ -134,8 +136,8 @@ fn thousands_of_rays_through_large_scenes_hit_what_integers_say() {
         score
     };
     let all = scenes().par_iter().map(shoot).reduce(Score::default, Score::add);
-    assert!(all.rays > 15_000 && all.hits > 60_000, "{all:?}");
-    assert!(all.in_plane > 6000 && all.ties > 20_000 && all.at_ends > 6000, "{all:?}");
+    enough!(all.rays > 15_000, all.hits > 60_000; "{all:?}");
+    enough!(all.in_plane > 6000, all.ties > 20_000, all.at_ends > 6000; "{all:?}");
     assert!(all.blocked.min(all.clear) > 2500, "{all:?}");
 }
 
@@ -154,7 +156,7 @@ fn hits_are_the_same_in_every_tree() {
         .map(|&heuristic| BuildOptions::DEFAULT.with_heuristic(heuristic).build(&scene).unwrap())
         .collect();
     let (shots, mut dice, mut hits) = (Shots::new(trees[0].faces()), Dice(9), 0);
-    for _ in 0..2000 {
+    for _ in 0..times(2000) {
         let ray = shots.ray(&mut dice);
         let of = |tree: &BspTree| -> Vec<(usize, f64, [f64; 3])> {
             let hits = tree.hits(ray);
@@ -164,5 +166,5 @@ fn hits_are_the_same_in_every_tree() {
         hits += first.len();
         assert!(trees.iter().all(|tree| of(tree) == first), "{ray:?}");
     }
-    assert!(hits > 2000, "{hits}");
+    enough!(hits > 2000; "{hits}");
 }

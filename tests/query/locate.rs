@@ -1,14 +1,15 @@
 //! Where points are, by planes in rationals.
 
-use super::support::dice::Dice;
-use super::support::hits::Oracle;
-use super::support::shots::Shots;
-use super::support::{model, rational};
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, Child, Heuristic, Ray};
 use num_traits::Zero;
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::enough;
+use testkit::hits::Oracle;
+use testkit::shots::Shots;
+use testkit::{model, rational};
 
 #[test]
 fn points_are_where_rationals_say() {
@@ -53,8 +54,8 @@ fn points_are_where_rationals_say() {
         }
     }
     assert!(points == 15 * 120 && on_planes > 600 && in_leaves > 20, "{on_planes} {in_leaves}");
-    assert!(inside > 20, "{inside}");
-    assert!(coplanar > 2000 && twigs > 100, "{coplanar} {twigs}");
+    enough!(inside > 20; "{inside}");
+    enough!(coplanar > 2000, twigs > 100; "{coplanar} {twigs}");
 }
 
 /// On how many planes a point is, and whether it was asked if what contains it is in its leaf.

@@ -1,17 +1,18 @@
 //! Which fragments meet a region, by clipping every one of them in rationals.
 
-use super::support::dice::Dice;
-use super::support::hard;
-use super::support::hits::Oracle;
-use super::support::rational::{self, Plane, Point};
-use super::support::shots::Shots;
-use super::support::tally::tally;
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Viewpoint};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::enough;
+use testkit::hard;
+use testkit::hits::Oracle;
+use testkit::rational::{self, Plane, Point};
+use testkit::shots::Shots;
+use testkit::tally::tally;
 
 /// What was compared: of all pairs of a fragment and a region.
 #[derive(Clone, Copy, Debug, Default)]
@@ -203,8 +204,8 @@ fn fragments_in_regions_are_those_of_rationals() {
         }
         Ok(())
     });
-    assert!(score.pairs > 5000 && score.met > 1500, "{score:?}");
-    assert!(score.touching > 300 && score.passed > 100, "{score:?}");
+    enough!(score.pairs > 5000, score.met > 1500; "{score:?}");
+    enough!(score.touching > 300, score.passed > 100; "{score:?}");
 }
 
 /// Larger scenes, where blocks of fragments are passed over or taken at once, and far-off ones.
@@ -222,13 +223,13 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
         let tree = BspTree::build(moved).unwrap();
         let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
         let (bounds, mut dice) = (tree.bounds().unwrap(), Dice(5));
-        assert!(tree.len() > 256, "blocks of blocks: {}", tree.len());
+        enough!(tree.len() > 256; "blocks of blocks: {}", tree.len());
         for _ in 0..24 {
             let region = region(&tree, &shots, &mut dice);
             check(&oracle, &bounds, &region, &mut score).unwrap();
         }
     }
-    assert!(score.pairs > 20_000 && score.met > 4000 && score.kept_in_vain > 10, "{score:?}");
+    enough!(score.pairs > 20_000, score.met > 4000, score.kept_in_vain > 10; "{score:?}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Each check of a file of a tree: a file that is wrong in that alone is refused, and says so.
 
-use crate::support::saved::{bytes, seal};
 use binspace::{BspTree, BuildOptions};
+use testkit::saved::{bytes, seal};
 
 /// Where the parts of the file are; `BspTree::write` describes the layout.
 const TOLERANCE: usize = 72;

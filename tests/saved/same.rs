@@ -1,14 +1,16 @@
 //! What is read is what was written, bit for bit.
 
-use crate::support::dice::Dice;
-use crate::support::rays::Rays;
-use crate::support::saved::{bytes, use_all};
-use crate::support::snapshot::{Snapshot, order};
-use crate::support::{hard, views};
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use proptest::prelude::*;
+use testkit::dice::Dice;
+use testkit::effort::cases;
+use testkit::enough;
+use testkit::rays::Rays;
+use testkit::saved::{bytes, use_all};
+use testkit::snapshot::{Snapshot, order};
+use testkit::{hard, views};
 
 fn again(tree: &BspTree) -> BspTree {
     let file = bytes(tree);
@@ -41,7 +43,7 @@ const EYES: [Viewpoint; 3] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(cases(600, file!()))]
 
     #[test]
     fn trees_of_hard_scenes_come_back(
@@ -85,7 +87,7 @@ fn trees_of_large_scenes_come_back() {
         );
         fragments += tree.len();
     }
-    assert!(fragments > 15_000, "{fragments}");
+    enough!(fragments > 15_000; "{fragments}");
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! What is read, and which fault is found, on any number of threads.
 
-use crate::support::saved::{bytes, seal};
 use binspace::BspTree;
 use binspace::scene;
+use testkit::enough;
+use testkit::saved::{bytes, seal};
 
 /// Where the faces begin; each is 12 bytes.
 const FACES: usize = 88;
@@ -23,7 +24,7 @@ fn the_same_is_read_by_any_number_of_threads() {
     let len = |at: usize| u64::from_le_bytes(file[at..at + 8].try_into().expect("eight")) as usize;
     let faces = len(FACES - 8);
     // Faces of several parts, and nodes beside them.
-    assert!(faces > 20_000, "{faces}");
+    enough!(faces > 20_000; "{faces}");
     let corners = FACES + 12 * faces;
     // Triangles, with neither numbers nor moved corners, and none dropped.
     let nodes = corners + 72 * faces + 3 * 8 + 7 * 8 + 8 + 8;

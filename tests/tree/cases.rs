@@ -1,9 +1,9 @@
 //! Cases from the tests of other libraries, re-expressed.
 
-use crate::support::judge::judge;
-use crate::support::snapshot::polygons;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use testkit::judge::judge;
+use testkit::snapshot::polygons;
 
 type Square = Vec<DVec3>;
 

@@ -1,12 +1,14 @@
 //! Polygons added to a finished tree.
 
 use std::ops::ControlFlow;
+use testkit::effort::seeds;
+use testkit::enough;
 
-use crate::support::dice::Dice;
-use crate::support::snapshot::Snapshot;
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
+use testkit::dice::Dice;
+use testkit::snapshot::Snapshot;
 
 type Corners = Vec<DVec3>;
 
@@ -85,7 +87,7 @@ fn what_cannot_be_added_leaves_the_tree_as_it_was() {
 fn duplicates_of_old_and_new_polygons_are_counted() {
     let mut dice = Dice(3);
     let (mut counted, mut triangulated) = (0, 0);
-    for round in 0..60 {
+    for round in seeds(60) {
         let point = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(3)));
         let mut all: Vec<Corners> = Vec::new();
         for _ in 0..30 {
@@ -141,5 +143,5 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
         counted += expected.preparation().duplicates;
         triangulated += expected.preparation().triangulated;
     }
-    assert!(counted > 200 && triangulated > 300, "{counted} {triangulated}");
+    enough!(counted > 200, triangulated > 300; "{counted} {triangulated}");
 }

@@ -4,13 +4,14 @@ use binspace::glam::DVec3;
 use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Polygon, Viewpoint};
 use proptest::prelude::*;
+use testkit::enough;
 
-use crate::support::dice::Dice;
-use crate::support::hard;
-use crate::support::rays::Rays;
-use crate::support::tally::tally;
-use crate::support::{orders, views};
-use crate::{fail, heuristic, options, shoot};
+use crate::tree::{fail, heuristic, options, shoot};
+use testkit::dice::Dice;
+use testkit::hard;
+use testkit::rays::Rays;
+use testkit::tally::tally;
+use testkit::{orders, views};
 
 fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {
     let vertices: Vec<_> = fragment.vertices().map(|v| v.to_array().map(f64::to_bits)).collect();
@@ -66,7 +67,7 @@ fn a_frame_has_the_tree_that_is_built_alone() {
             }
             Ok(())
         });
-    assert!(frames > 200 && cut > 60, "{frames} frames, {cut} of them with cuts");
+    enough!(frames > 200, cut > 60; "{frames} frames, {cut} of them with cuts");
 }
 
 #[test]
@@ -130,7 +131,7 @@ fn crossing_cards_of_every_small_number_keep_their_budgets()
             assert!(build(less).is_err_and(|error| error.is_over_budget()));
         }
         if count > 25 {
-            assert!(pieces > 300, "{pieces} pieces of {count}");
+            enough!(pieces > 300; "{pieces} pieces of {count}");
         }
     }
     Ok(())

@@ -1,9 +1,9 @@
 //! Input with little or nothing in it, and viewpoints that are nowhere: stated results, no panics.
 
-use crate::support::orders;
-use crate::support::snapshot::polygons;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Heuristic, Polygon, Viewpoint};
+use testkit::orders;
+use testkit::snapshot::polygons;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 

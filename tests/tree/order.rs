@@ -1,12 +1,6 @@
 //! Orders against the tree's planes, of which exact rationals say on which side the eye is.
 
-use crate::support::dice::Dice;
-use crate::support::hard;
-use crate::support::judge::{Verdict, ensure};
-use crate::support::rational::Plane;
-use crate::support::views::View;
-use crate::support::{model, orders};
-use crate::{build, fail};
+use crate::tree::{build, fail};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::scene;
@@ -14,6 +8,13 @@ use binspace::{BspTree, BuildOptions, Heuristic, Node};
 use proptest::prelude::*;
 use std::cmp::Ordering;
 use std::ops::Range;
+use testkit::dice::Dice;
+use testkit::effort::cases;
+use testkit::hard;
+use testkit::judge::{Verdict, ensure};
+use testkit::rational::Plane;
+use testkit::views::View;
+use testkit::{model, orders};
 
 /// A tree with its planes in rationals.
 struct Sides<'t> {
@@ -177,11 +178,11 @@ fn every_plane_has_something_on_it_or_on_both_sides() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases(64, file!()))]
 
     #[test]
     fn awkward_eyes_are_on_the_sides_that_rationals_say(
-        scene in hard::scene(), by in crate::heuristic(), seed in any::<u64>(),
+        scene in hard::scene(), by in crate::tree::heuristic(), seed in any::<u64>(),
     ) {
         let tree = build(&scene, by)?;
         let views = awkward_views(tree.faces(), 2, &mut Dice(seed));

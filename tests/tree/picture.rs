@@ -7,12 +7,13 @@ use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use testkit::enough;
 
-use crate::support::dice::Dice;
-use crate::support::hard::{self, HardScene, Tolerance};
-use crate::support::rays::Rays;
-use crate::support::tally::tally;
-use crate::support::views::some_view;
+use testkit::dice::Dice;
+use testkit::hard::{self, HardScene, Tolerance};
+use testkit::rays::Rays;
+use testkit::tally::tally;
+use testkit::views::some_view;
 
 const SIZE: [u32; 2] = [40, 30];
 
@@ -152,7 +153,7 @@ fn shuffled_polygons_give_the_same_picture() {
         }
         Ok(())
     });
-    assert!(same > 10_000, "{same} pixels show the same polygon");
+    enough!(same > 10_000; "{same} pixels show the same polygon");
 }
 
 /// Whether two polygons may be equally far in a pixel: they have a point, to rounding, in common.

@@ -1,13 +1,13 @@
 //! What must give the same tree, bit for bit.
 
-use crate::support::hard;
-use crate::support::snapshot::{Snapshot, order};
 use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 use proptest::prelude::*;
+use testkit::effort::cases;
+use testkit::hard;
+use testkit::snapshot::{Snapshot, order};
 
-#[cfg(feature = "parallel")]
 #[test]
 fn any_number_of_threads_builds_the_same_tree() {
     let scenes: [Scene; 3] = [scene::sphere(8000), scene::city(8000, 3), scene::teapot(12)];
@@ -29,7 +29,6 @@ fn any_number_of_threads_builds_the_same_tree() {
     }
 }
 
-#[cfg(feature = "parallel")]
 #[test]
 fn a_tree_that_is_built_twice_at_once_is_the_same() {
     let scene = scene::city(8000, 1);
@@ -39,7 +38,7 @@ fn a_tree_that_is_built_twice_at_once_is_the_same() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
+    #![proptest_config(cases(128, file!()))]
 
     #[test]
     fn building_again_gives_the_same_tree(

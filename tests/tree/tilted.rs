@@ -8,7 +8,7 @@ use binspace::scene::{self, Scene, ScenePolygon};
 use binspace::{BspTree, BuildOptions, Viewpoint};
 
 use super::scale::{mosaic, with_a_small_stack};
-use crate::support::orders;
+use testkit::orders;
 
 /// The same turned away from all axes, where every free plane cuts.
 fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {

@@ -1,13 +1,15 @@
 //! Boxes against exact vertices.
 
-use crate::support::dice::Dice;
-use crate::support::model::Face;
-use crate::support::rational::{self, Point, Rational};
-use crate::trees;
+use crate::walk::trees;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Culling, Ray, Viewpoint, scene};
 use num_traits::ToPrimitive;
 use std::panic::{RefUnwindSafe, catch_unwind};
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::enough;
+use testkit::model::Face;
+use testkit::rational::{self, Point, Rational};
 
 /// The exact vertices of each fragment, in the world.
 fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {
@@ -67,7 +69,7 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
             check(bounds.of(node), node.fragments(), "node");
         }
     }
-    assert!(cut > 1000 && exact > 1000, "{cut} {exact}");
+    enough!(cut > 1000, exact > 1000; "{cut} {exact}");
 }
 
 /// Corners that the tolerance moves are stored as the nearest points of the grid: the exact ones may be
@@ -77,7 +79,7 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
 fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
     let mut dice = Dice(8);
     let [mut moved, mut cut, mut beyond] = [0; 3];
-    for _ in 0..60 {
+    for _ in 0..times(60) {
         let mut share = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
         // Planar but for a rounding that counts, and through each other.
         let quad = |_| {

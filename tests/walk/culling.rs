@@ -1,11 +1,6 @@
 //! What culled orders leave out, against brute force in rationals and against exact pictures.
 
-use crate::support::dice::Dice;
-use crate::support::model;
-use crate::support::rational::{self, Plane, Rational};
-use crate::support::shapes;
-use crate::support::views::View;
-use crate::{rooms, trees, viewpoints};
+use crate::walk::{trees, viewpoints};
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
 use binspace::paint::paint_order;
@@ -18,6 +13,13 @@ use binspace::{
 use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::effort::cases;
+use testkit::enough;
+use testkit::model;
+use testkit::rational::{self, Plane, Rational};
+use testkit::shapes;
+use testkit::views::View;
 
 fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
     let mut order = Vec::new();
@@ -163,7 +165,7 @@ fn sides_are_those_that_rationals_say() {
             }
         }
     }
-    assert!(fronts > 5000 && backs > 5000 && whole > 500, "{fronts} {backs} {whole}");
+    enough!(fronts > 5000, backs > 5000, whole > 500; "{fronts} {backs} {whole}");
 }
 
 /// A convex body: points on a sphere's lattice of circles, moved, turned and stretched.
@@ -188,7 +190,7 @@ fn body() -> impl Strategy<Value = Vec<Vec<DVec3>>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(cases(48, file!()))]
 
     /// Of a convex body, the fronts alone make the picture, in any order.
     #[test]
@@ -254,7 +256,7 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
 /// with many others, are left out too.
 #[test]
 fn indices_of_what_is_in_view_are_those_of_the_list() {
-    let level: Vec<_> = rooms::rooms(12).into_iter().map(|(_, quad)| quad).collect();
+    let level = testkit::interior::rooms(12);
     let tree = BspTree::build(&level).unwrap();
     let (bounds, mesh) = (tree.bounds().unwrap(), tree.mesh().unwrap());
     let eye = DVec3::new(20.0, 20.0, 1.7);
@@ -384,7 +386,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
             }
         }
     }
-    assert!(kept > 960 && inexact > 300, "{inexact} of {kept}");
+    enough!(kept > 960, inexact > 300; "{inexact} of {kept}");
 }
 
 /// Of many coplanar polygons, whose boxes are looked at by the block, those in the region alone.
@@ -415,5 +417,5 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
             compared += expected.len();
         }
     }
-    assert!(compared > 4000, "{compared}");
+    enough!(compared > 4000; "{compared}");
 }

@@ -1,10 +1,11 @@
 //! Nodes and their planes.
 
-use crate::support::rational::{self, Plane};
-use crate::{scenes, trees};
+use crate::walk::{scenes, trees};
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Child, Heuristic, Node};
 use num_traits::{Signed, ToPrimitive};
+use testkit::enough;
+use testkit::rational::{self, Plane};
 
 /// All nodes below a node, depth first, by its children.
 fn below(root: Node<'_>) -> Vec<Node<'_>> {
@@ -51,7 +52,7 @@ fn the_children_lead_to_all_nodes_and_the_ranges_to_all_fragments() {
         assert!(met.iter().all(|&count| count == 1), "{met:?}");
         assert_eq!(tree.root().is_none(), tree.is_empty());
     }
-    assert!(deep > 20, "{deep}");
+    enough!(deep > 20; "{deep}");
 }
 
 /// Planes against the polygons as given, in rationals: no lattice, no library.
@@ -83,7 +84,7 @@ fn planes_are_those_of_the_polygons_that_they_name() {
                 // Of a polygon that is bent, those of one of its triangles.
                 let is_on = |p: &&DVec3| (normal.dot(**p) - offset).abs() <= slack;
                 let on = scene[polygon].iter().filter(is_on).count();
-                assert!(on >= 3, "{node:?} of {polygon}");
+                enough!(on >= 3; "{node:?} of {polygon}");
                 if let [a, b, c] = scene[polygon][..] {
                     let exact = Plane::through([a, b, c].map(rational::point).each_ref());
                     let largest = exact.normal.iter().map(Signed::abs).max().unwrap();
@@ -99,7 +100,7 @@ fn planes_are_those_of_the_polygons_that_they_name() {
             }
         }
     }
-    assert!(named > 300 && free > 100, "{named} {free}");
+    enough!(named > 300, free > 100; "{named} {free}");
 }
 
 /// Fragments have their own planes, whichever way they were cut, in rationals of the grid.
@@ -153,7 +154,7 @@ fn fragments_tell_the_planes_of_their_faces() {
             }
         }
     }
-    assert!(fragments > 3000 && on_nodes > 1000, "{fragments} {on_nodes}");
+    enough!(fragments > 3000, on_nodes > 1000; "{fragments} {on_nodes}");
 }
 
 #[test]
@@ -196,7 +197,7 @@ fn nodes_come_backwards_from_the_back() {
         first.extend(last.into_iter().rev());
         assert_eq!(first, forwards);
     }
-    assert!(mixed > 500, "{mixed}");
+    enough!(mixed > 500; "{mixed}");
 }
 
 #[test]

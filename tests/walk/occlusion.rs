@@ -1,6 +1,6 @@
 //! Coverage masks against exact pictures.
 
-use crate::{rooms, trees};
+use crate::walk::trees;
 use binspace::glam::DVec3;
 use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
@@ -74,7 +74,7 @@ fn paint_fragments(tree: &BspTree, order: &[u32], rays: &Rays) -> Vec<u32> {
 
 #[test]
 fn walls_save_most_visits_in_a_level() {
-    let level: Vec<_> = rooms::rooms(16).into_iter().map(|(_, quad)| quad).collect();
+    let level = testkit::interior::rooms(16);
     let tree = BspTree::build(&level).unwrap();
     let parts = tree.len() + tree.stats().nodes;
     let eye = DVec3::new(60.0, 62.0, 1.7);

@@ -1,9 +1,10 @@
 //! Walks against whole orders.
 
-use crate::support::dice::Dice;
-use crate::{trees, viewpoints};
+use crate::walk::{trees, viewpoints};
 use binspace::{BspTree, Flow, Node, Part, Viewpoint};
 use std::ops::ControlFlow;
+use testkit::dice::Dice;
+use testkit::enough;
 
 /// The fragments and nodes that a walk comes to.
 fn walked(
@@ -80,5 +81,5 @@ fn a_walk_is_the_whole_order_without_the_subtrees_that_it_skips() {
             }
         }
     }
-    assert!(skipped > 10_000 && kept > 10_000 && broken > 500, "{skipped} {kept} {broken}");
+    enough!(skipped > 10_000, kept > 10_000, broken > 500; "{skipped} {kept} {broken}");
 }

@@ -1,14 +1,15 @@
 //! Back faces for eyes so far away, and so nearly in the polygons' planes, that rounded normals show the
 //! wrong side.
 
-use crate::support::dice::Dice;
-use crate::support::model;
-use crate::support::rational::Plane;
-use crate::support::views::View;
 use binspace::glam::DVec3;
 use binspace::internals::PlaneId;
 use binspace::{BspTree, Culling, Sides};
 use std::cmp::Ordering;
+use testkit::dice::Dice;
+use testkit::effort::times;
+use testkit::model;
+use testkit::rational::Plane;
+use testkit::views::View;
 
 /// Parallel squares, one behind the other and beside each other.
 fn tiles(normal: DVec3) -> Vec<[DVec3; 4]> {
@@ -25,7 +26,7 @@ fn tiles(normal: DVec3) -> Vec<[DVec3; 4]> {
 fn fronts_are_exact_where_normals_of_f32_are_not() {
     let mut dice = Dice(41);
     let (mut edge_on, mut misleading) = (0, 0);
-    for _ in 0..60 {
+    for _ in 0..times(60) {
         let normal = DVec3::from_array([0; 3].map(|_| dice.share() - 0.5)).normalize();
         let tree = BspTree::build(tiles(normal)).unwrap();
         let (bounds, faces) = (tree.bounds().unwrap(), tree.faces());

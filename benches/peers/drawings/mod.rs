@@ -10,22 +10,17 @@
 pub(crate) mod gl2ps;
 mod translucent;
 
-#[path = "../../../tests/support/fill.rs"]
-mod fill;
-#[path = "../../../tests/support/fragment_pixels.rs"]
-mod fragment_pixels;
-
 use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::scene::Scene;
 use binspace::view::Camera;
-use fill::Score;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::fs;
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, best, check, time, triangles_in_cubes};
+use testkit::fill::{self, Score};
 
 const SIZE: [u32; 2] = [1600, 1200];
 /// Work is repeated for so long, for the mean of its times.

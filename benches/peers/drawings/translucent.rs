@@ -1,7 +1,6 @@
 //! Drawings in which nothing is hidden: pieces a polygon.
 
 use super::fill::{Picture, Pixel};
-use super::fragment_pixels::for_each_pixel;
 use super::{Goal, cpu_time, maybe_against};
 use binspace::BspTree;
 use binspace::drawing::Drawing;
@@ -11,6 +10,7 @@ use binspace::view::Camera;
 use std::collections::HashSet;
 use std::time::Duration;
 use support::{Table, time};
+use testkit::fragment_pixels::for_each_pixel;
 
 /// The figures of a scene.
 pub(super) fn row(tree: &BspTree, camera: &Camera, goal: &Goal, building: Duration) -> Vec<String> {

@@ -11,10 +11,10 @@ use binspace::view::Camera;
 
 use crate::draw::{View, WHITE, views};
 use crate::draw_translucent::write_scene;
-use crate::fragment_pixels::for_each_pixel;
 use crate::png_picture::Picture;
 use crate::run::Folder;
 use crate::svg_picture::Svg;
+use testkit::fragment_pixels::for_each_pixel;
 
 /// Samples each way in a pixel of the exact picture.
 const SAMPLES: usize = 16;

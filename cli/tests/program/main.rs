@@ -2,7 +2,6 @@
 
 mod bad_input;
 mod cells;
-mod chromium;
 mod cull;
 mod draw;
 mod draw_ink;
@@ -12,17 +11,13 @@ mod draw_png;
 mod draw_refused;
 mod draw_seams;
 mod draw_translucent;
-#[path = "../../../tests/support/fragment_pixels.rs"]
-mod fragment_pixels;
 mod help;
+mod in_browser;
 mod lecture;
 mod notes;
 mod order;
 mod output;
 mod page;
-mod page_orders;
-mod page_pictures;
-mod page_speed;
 mod pipes;
 mod png_picture;
 mod real_scenes;

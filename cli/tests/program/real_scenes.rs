@@ -2,21 +2,20 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::run::Folder;
+use testkit::real_scenes;
 
-/// The OBJ files of a folder of scenes, and of its folder `torture`; none without the folder.
+/// The OBJ files of the folder of real scenes, or of a folder in it.
 fn files(subfolder: &str) -> Vec<PathBuf> {
-    let Some(folder) = std::env::var_os("BINSPACE_SCENES") else {
-        let mut err = std::io::stderr().lock();
-        let reason = "skipped: BINSPACE_SCENES does not name the folder with the scenes";
-        let _ = std::io::Write::write_fmt(&mut err, format_args!("{reason}\n"));
-        return Vec::new();
-    };
-    let entries = fs::read_dir(PathBuf::from(folder).join(subfolder)).unwrap();
+    let entries = fs::read_dir(real_scenes::folder().join(subfolder)).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
-    paths.filter(|path| path.extension().is_some_and(|ext| ext == "obj")).collect()
+    let files: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|ext| ext == "obj")).collect();
+    assert!(files.len() > 5, "{files:?}");
+    files
 }
 
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn small_real_scenes_are_painted_right() {
     let folder = Folder::new("real_scenes");
     for path in files("") {
@@ -29,6 +28,7 @@ fn small_real_scenes_are_painted_right() {
 }
 
 #[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn files_that_test_parsers_are_read_or_refused() {
     let folder = Folder::new("torture");
     for path in files("torture") {

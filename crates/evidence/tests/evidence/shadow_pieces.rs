@@ -1,0 +1,300 @@
+//! Lit and shadowed pieces of polygons, against sight lines in rational numbers.
+
+use binspace::glam::{DVec3, dvec3};
+use binspace::internals::{Eye, Faces, SplitMix64};
+use binspace::scene::{self, Scene};
+use binspace::{BspTree, BuildOptions, Viewpoint};
+use binspace_evidence::shadows::{Piece, Zone, courtyard, lamp, pieces};
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::Zero;
+use testkit::enough;
+
+type Point = [BigInt; 3];
+
+fn whole(point: [f64; 3]) -> Point {
+    point.map(|c| {
+        assert_eq!(c, c.trunc());
+        BigInt::from(c as i128)
+    })
+}
+
+fn minus(p: &Point, q: &Point) -> Point {
+    std::array::from_fn(|i| &p[i] - &q[i])
+}
+
+fn dot(p: &Point, q: &Point) -> BigInt {
+    &p[0] * &q[0] + &p[1] * &q[1] + &p[2] * &q[2]
+}
+
+fn cross(p: &Point, q: &Point) -> Point {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &p[i] * &q[j] - &p[j] * &q[i])
+}
+
+/// A plane by a normal and a point on it.
+struct Through(Point, BigInt);
+
+impl Through {
+    fn new(a: &Point, b: &Point, c: &Point) -> Self {
+        let normal = cross(&minus(b, a), &minus(c, a));
+        let offset = dot(&normal, a);
+        Self(normal, offset)
+    }
+
+    /// The side of a point given by multiples of its coordinates, and the factor.
+    fn side(&self, [x, y, z, w]: &[BigInt; 4]) -> Sign {
+        let Self([a, b, c], offset) = self;
+        (a * x + b * y + c * z - offset * w).sign()
+    }
+}
+
+/// A face, as seen from a point of the lamp: its plane, the lamp's side of it, and the planes through
+/// the lamp and its edges.
+struct Screen {
+    plane: Through,
+    lamp: Sign,
+    rims: Vec<Through>,
+}
+
+/// What may hide a point of the lamp.
+struct Judge(Vec<Screen>);
+
+impl Judge {
+    fn new(faces: &Faces, lamp: DVec3) -> Self {
+        let at = Eye::new(Viewpoint::Eye(lamp), faces.lattice()).homogeneous();
+        let lamp = whole(at.0);
+        let screen = |face: u32| {
+            let corners: Vec<Point> = faces.corners(face).iter().map(|&p| whole(p)).collect();
+            let plane = Through::new(&corners[0], &corners[1], &corners[2]);
+            let next = corners.iter().cycle().skip(1);
+            let rims = corners.iter().zip(next).map(|(a, b)| Through::new(&lamp, a, b)).collect();
+            let [x, y, z] = lamp.clone();
+            let side = plane.side(&[x, y, z, BigInt::from(1)]);
+            Screen { plane, lamp: side, rims }
+        };
+        Self((0..faces.len() as u32).map(screen).collect())
+    }
+
+    fn is_edge_on(&self, face: u32) -> bool {
+        self.0[face as usize].lamp == Sign::NoSign
+    }
+
+    /// Whether a face has a point between this one and the lamp.
+    fn hides(&self, point: &[BigInt; 4]) -> bool {
+        self.0.iter().any(|Screen { plane, lamp, rims }| {
+            if *lamp == Sign::NoSign || plane.side(point) != -*lamp {
+                return false;
+            }
+            let sides: Vec<Sign> = rims.iter().map(|rim| rim.side(point)).collect();
+            !(sides.contains(&Sign::Plus) && sides.contains(&Sign::Minus))
+        })
+    }
+}
+
+/// A random point within a piece: a mean of its corners, all with weights above 0.
+fn within(corners: &[[BigInt; 4]], random: &mut SplitMix64) -> [BigInt; 4] {
+    let most = corners.iter().map(|corner| &corner[3]).max().unwrap();
+    let mut sum: [BigInt; 4] = Default::default();
+    for corner in corners {
+        let weight = most / &corner[3] * BigInt::from(1 + random.next() % 1000);
+        sum.iter_mut().zip(corner).for_each(|(sum, c)| *sum += &weight * c);
+    }
+    sum
+}
+
+/// How many sight lines were compared, how many of these were hidden, and how many are wrong.
+fn compare(scene: &Scene, lamp: &[DVec3], pieces: &[Piece], count: usize) -> [usize; 3] {
+    let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+    let judges: Vec<Judge> = lamp.iter().map(|&at| Judge::new(&faces, at)).collect();
+    let corners: Vec<Vec<_>> = pieces.iter().map(|piece| piece.exact_corners().collect()).collect();
+    let mut random = SplitMix64::new(11);
+    let [mut compared, mut hidden, mut wrong] = [0; 3];
+    while compared < count {
+        let number = (random.next() % pieces.len() as u64) as usize;
+        let (piece, point) = (&pieces[number], within(&corners[number], &mut random));
+        for (judge, sees) in judges.iter().zip(&piece.sees) {
+            // What is in the plane of the lamp sees nothing of it.
+            if judge.is_edge_on(piece.face) {
+                assert!(!sees);
+                continue;
+            }
+            let hides = judge.hides(&point);
+            wrong += usize::from(hides == *sees);
+            hidden += usize::from(hides);
+            compared += 1;
+        }
+    }
+    [compared, hidden, wrong]
+}
+
+fn tree(scene: &Scene) -> BspTree {
+    BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap()
+}
+
+fn cut(scene: &Scene, lamp: &[DVec3]) -> Vec<Piece> {
+    let tree = tree(scene);
+    pieces(&tree, &tree.bounds().unwrap(), lamp).pieces
+}
+
+fn check(scene: &Scene, lamp: &[DVec3], count: usize) {
+    let pieces = cut(scene, lamp);
+    let [compared, hidden, wrong] = compare(scene, lamp, &pieces, count);
+    assert!(hidden > compared / 5 && hidden < compared / 5 * 4, "{hidden} of {compared}");
+    assert_eq!(wrong, 0, "of {compared}, within {} pieces", pieces.len());
+}
+
+fn triangles() -> (Scene, Vec<DVec3>) {
+    let at = |x: f64, y: f64| dvec3(0.31 + x, 0.27 + y, 4.0);
+    let lamp = [at(-0.2, -0.2), at(0.2, -0.2), at(0.2, 0.2), at(-0.2, 0.2)];
+    (scene::random_triangles(14, 5), lamp.to_vec())
+}
+
+/// A wall in the plane of two corners of the lamp: it hides the other two from what is beside it on the
+/// floor, and a plate hides those two. So nothing is seen of the corners, but of the lamp between them.
+fn edge_on() -> Scene {
+    let mut scene = Scene::new("edge on", DVec3::Z);
+    let level = |x: [f64; 2], y: [f64; 2], z: f64| {
+        [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z))
+    };
+    scene.push(level([0.0, 4096.0], [0.0, 4096.0], 0.0), 0);
+    scene.push(level([1650.0, 1720.0], [1700.0, 2700.0], 2500.0), 0);
+    let wall = [(1000.0, 0.0), (3500.0, 0.0), (3500.0, 1500.0), (1000.0, 1500.0)];
+    scene.push(wall.map(|(y, z)| dvec3(1733.0, y, z)), 0);
+    scene
+}
+
+#[test]
+fn every_point_within_a_piece_sees_what_the_piece_says() {
+    check(&courtyard(), &lamp(2), 90_000);
+    check(&courtyard(), &lamp(2)[..1], 5000);
+    check(&edge_on(), &lamp(2), 5000);
+    let (scene, lamp) = triangles();
+    check(&scene, &lamp, 5000);
+}
+
+#[test]
+#[ignore = "takes half a minute; with fewer above"]
+fn a_million_points_see_what_their_pieces_say() {
+    check(&courtyard(), &lamp(2), 800_000);
+    let (scene, lamp) = triangles();
+    check(&scene, &lamp, 200_000);
+}
+
+#[test]
+fn pieces_with_another_zone_are_noticed() {
+    let mut pieces = cut(&courtyard(), &lamp(2));
+    pieces.iter_mut().flat_map(|piece| &mut piece.sees).for_each(|sees| *sees = !*sees);
+    let [compared, _, wrong] = compare(&courtyard(), &lamp(2), &pieces, 1000);
+    assert_eq!(wrong, compared);
+}
+
+/// Twice the area of a projection along an axis.
+fn area(corners: &[[BigInt; 4]], axis: usize) -> BigRational {
+    let at = |k: usize, i: usize| {
+        let corner = &corners[k % corners.len()];
+        BigRational::new(corner[(axis + i) % 3].clone(), corner[3].clone())
+    };
+    let turn = |k| at(k, 1) * at(k + 1, 2) - at(k + 1, 1) * at(k, 2);
+    (0..corners.len()).map(turn).fold(BigRational::zero(), |sum, turn| sum + turn)
+}
+
+#[test]
+fn the_pieces_of_a_face_have_its_area() {
+    let (random, over_it) = triangles();
+    for (scene, lamp) in [(courtyard(), lamp(2)), (random, over_it)] {
+        let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+        let pieces = cut(&scene, &lamp);
+        assert!(pieces.len() > 3 * faces.len(), "{}", pieces.len());
+        for face in 0..faces.len() as u32 {
+            for axis in 0..3 {
+                let one = BigInt::from(1);
+                let corners = faces.corners(face).iter().map(|&p| whole(p));
+                let corners: Vec<_> = corners.map(|[x, y, z]| [x, y, z, one.clone()]).collect();
+                let own = pieces.iter().filter(|piece| piece.face == face);
+                let areas = own.map(|piece| area(&piece.exact_corners().collect::<Vec<_>>(), axis));
+                let areas: Vec<BigRational> = areas.collect();
+                // All run as the face does, so none is subtracted.
+                let whole = area(&corners, axis);
+                assert!(areas.iter().all(|part| part.numer().sign() == whole.numer().sign()));
+                assert_eq!(areas.into_iter().sum::<BigRational>(), whole, "face {face}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_certain_umbra_is_hidden_from_all_between() {
+    let [certain, _] = umbra(&courtyard());
+    enough!(certain > 5; "{certain}");
+    let [_, by_several] = umbra(&edge_on());
+    assert!(by_several > 0);
+}
+
+/// How many pieces are in the umbra for certain, and how many see no corner of the lamp but are not.
+fn umbra(scene: &Scene) -> [usize; 2] {
+    let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+    let pieces = cut(scene, &lamp(2));
+    let judges: Vec<Judge> = lamp(9).iter().map(|&at| Judge::new(&faces, at)).collect();
+    let mut random = SplitMix64::new(2);
+    let [mut certain, mut by_several, mut zones] = [0; 3];
+    for piece in &pieces {
+        zones |= 1 << piece.zone() as u32;
+        by_several += usize::from(piece.zone() == Zone::Umbra && !piece.is_umbra);
+        if piece.is_umbra {
+            assert_eq!(piece.zone(), Zone::Umbra);
+            let corners: Vec<_> = piece.exact_corners().collect();
+            for _ in 0..8 {
+                let point = within(&corners, &mut random);
+                assert!(judges.iter().all(|judge| judge.hides(&point)), "{}", scene.name());
+            }
+            certain += 1;
+        }
+    }
+    assert_eq!(zones, 0b111);
+    [certain, by_several]
+}
+
+/// A square over a floor, the lamp twice as high over its middle: the shadow is twice as wide.
+#[test]
+fn a_shadow_by_hand() {
+    let square = |half: f64, z: f64| {
+        [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| dvec3(x, y, z))
+    };
+    let mut scene = Scene::new("square", DVec3::Z);
+    scene.push(square(16.0, 0.0), 0);
+    scene.push(square(2.0, 8.0), 0);
+    let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+    let pieces = cut(&scene, &[dvec3(0.0, 0.0, 16.0)]);
+    let dark: Vec<&Piece> = pieces.iter().filter(|piece| piece.zone() == Zone::Umbra).collect();
+    assert_eq!((dark.len(), dark[0].face, dark[0].is_umbra), (1, 0, true));
+    let corners: Vec<DVec3> = dark[0].corners(&faces).collect();
+    assert_eq!(corners.len(), 4);
+    assert!(corners.iter().all(|p| p.x.abs() == 4.0 && p.y.abs() == 4.0 && p.z == 0.0));
+}
+
+/// A lamp that stands on a floor: the floor sees two of its corners edge-on, and lies in the umbra behind a
+/// wall all the same.
+#[test]
+fn behind_a_wall_is_umbra_of_a_lamp_that_is_partly_seen_edge_on() {
+    let mut scene = Scene::new("standing", DVec3::Z);
+    let floor = [[-16.0, -16.0], [16.0, -16.0], [16.0, 16.0], [-16.0, 16.0]];
+    scene.push(floor.map(|[x, y]| dvec3(x, y, 0.0)), 0);
+    let wall = [[-16.0, -1.0], [16.0, -1.0], [16.0, 8.0], [-16.0, 8.0]];
+    scene.push(wall.map(|[y, z]| dvec3(4.0, y, z)), 0);
+    let lamp = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
+    let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
+    let pieces = cut(&scene, &lamp.map(|[y, z]| dvec3(-8.0, y, z)));
+    let floor = pieces.iter().filter(|piece| piece.face == 0);
+    let (dark, others): (Vec<&Piece>, Vec<&Piece>) = floor.partition(|piece| piece.is_umbra);
+    assert!(!dark.is_empty());
+    for (pieces, is_behind) in [(dark, true), (others, false)] {
+        for piece in pieces {
+            assert!(piece.corners(&faces).all(|p| (p.x >= 4.0) == is_behind || p.x == 4.0));
+        }
+    }
+}
+
+#[test]
+fn without_a_lamp_all_faces_are_whole() {
+    assert_eq!(cut(&courtyard(), &[]).len(), courtyard().len());
+}

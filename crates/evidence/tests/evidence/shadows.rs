@@ -1,0 +1,145 @@
+//! Sight lines between points of surfaces and a lamp, against whole numbers of 128 bits.
+
+use binspace::BuildOptions;
+use binspace::glam::{DVec3, dvec3};
+use binspace::internals::SplitMix64;
+use binspace::scene::Scene;
+use binspace::{BspTree, Ray};
+use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
+use testkit::effort::times;
+
+type Point = [i128; 3];
+
+fn whole(p: DVec3) -> Point {
+    assert_eq!(p, p.round());
+    p.to_array().map(|c| c as i128)
+}
+
+fn minus(p: Point, q: Point) -> Point {
+    std::array::from_fn(|i| p[i] - q[i])
+}
+
+fn dot(p: Point, q: Point) -> i128 {
+    (0..3).map(|i| p[i] * q[i]).sum()
+}
+
+fn cross(p: Point, q: Point) -> Point {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| p[i] * q[j] - p[j] * q[i])
+}
+
+/// Whether a convex polygon has a point between two that are not both in its plane.
+fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
+    let normal = cross(minus(polygon[1], polygon[0]), minus(polygon[2], polygon[0]));
+    let [at_a, at_b] = [a, b].map(|p| dot(normal, minus(p, polygon[0])));
+    assert!(at_a != 0 || at_b != 0, "no sight line is in a plane");
+    if at_a.signum() * at_b.signum() >= 0 {
+        return false;
+    }
+    // Where they meet is met / by.
+    let (by, sign) = (at_a - at_b, (at_a - at_b).signum());
+    let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
+    (0..polygon.len()).all(|k| {
+        let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
+        let arm = minus(met, p.map(|c| c * by));
+        sign * dot(normal, cross(minus(q, p), arm)) >= 0
+    })
+}
+
+fn setting() -> (Scene, BspTree, Vec<Vec<Point>>) {
+    let scene = courtyard();
+    let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap();
+    let polygons = (0..scene.len()).map(|k| scene.polygon(k).iter().map(|&p| whole(p)).collect());
+    let polygons = polygons.collect();
+    (scene, tree, polygons)
+}
+
+/// A point of a surface in whole numbers; often on a rim or in line with one.
+fn point(scene: &Scene, random: &mut SplitMix64) -> DVec3 {
+    // The floor is the first polygon, and half of the points are on it.
+    let polygon = match random.next() % 2 {
+        0 => 0,
+        _ => (random.next() % scene.len() as u64) as usize,
+    };
+    let [a, b, _, d] = std::array::from_fn(|k| scene.polygon(polygon)[k]);
+    let [u, v] = [0, 1].map(|_| match random.next() % 8 {
+        0 => (random.next() % 2) as f64,
+        _ => (random.next() % 4097) as f64 / 4096.0,
+    });
+    (a + u * (b - a) + v * (d - a)).round()
+}
+
+#[test]
+fn sight_lines_are_those_of_whole_numbers() {
+    compare_sight_lines(100_000);
+}
+
+#[test]
+#[ignore = "takes seconds; with fewer above"]
+fn a_million_sight_lines_are_those_of_whole_numbers() {
+    compare_sight_lines(1_000_000);
+}
+
+fn compare_sight_lines(count: usize) {
+    let (scene, tree, polygons) = setting();
+    let bounds = tree.bounds().unwrap();
+    let (mut random, lamp) = (SplitMix64::new(9), lamp(9));
+    let (mut blocked, mut wrong) = (0, 0);
+    for k in 0..count {
+        let (point, at) = (point(&scene, &mut random), lamp[k % lamp.len()]);
+        let found = bounds.is_blocked(&tree, Ray::between(point, at));
+        let truth = polygons.iter().any(|polygon| blocks(polygon, whole(point), whole(at)));
+        wrong += usize::from(found != truth);
+        blocked += usize::from(truth);
+    }
+    assert_eq!(wrong, 0);
+    assert!(blocked > count / 5 && blocked < count / 5 * 4, "{blocked}");
+}
+
+#[test]
+fn a_shadow_that_breaks_the_rule_is_noticed() {
+    let wall = [[0, 0, 0], [4, 0, 0], [4, 0, 3], [0, 0, 3]];
+    assert!(blocks(&wall, [1, -2, 1], [1, 2, 1]));
+    assert!(blocks(&wall, [4, -2, 1], [4, 2, 1]), "along a rim");
+    assert!(!blocks(&wall, [5, -2, 1], [5, 2, 1]));
+    assert!(!blocks(&wall, [1, 0, 1], [1, 2, 1]), "its own");
+}
+
+#[test]
+fn zones_are_those_of_many_more_points_but_for_a_rim() {
+    let (scene, tree, polygons) = setting();
+    let bounds = tree.bounds().unwrap();
+    let mut random = SplitMix64::new(4);
+    let (corners, some, many) = (lamp(2), lamp(5), lamp(25));
+    let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
+    for _ in 0..times(1500) {
+        let point = point(&scene, &mut random);
+        let hidden = |at: &DVec3| polygons.iter().any(|p| blocks(p, whole(point), whole(*at)));
+        let truth = match many.iter().filter(|at| hidden(at)).count() {
+            0 => Zone::Lit,
+            n if n == many.len() => Zone::Umbra,
+            _ => Zone::Penumbra,
+        };
+        counts[truth as usize] += 1;
+        if is_umbra(&tree, &bounds, point, &corners) {
+            assert_eq!(truth, Zone::Umbra, "{point}");
+            certain += 1;
+        }
+        for (rim, lamp) in rim.iter_mut().zip([&corners, &some]) {
+            let found = zone(&tree, &bounds, point, lamp);
+            // Fewer points of the lamp see less of it, never anything else.
+            assert!(found == truth || truth == Zone::Penumbra, "{point}");
+            *rim += usize::from(found != truth);
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+    assert!(certain > 100 && certain <= counts[2], "{certain} of {counts:?}");
+    assert!(rim[1] <= rim[0] && rim[0] < 30, "{rim:?}");
+    assert_eq!(point_lamp(&tree), [Zone::Lit, Zone::Umbra]);
+}
+
+/// Beside the table, and under it.
+fn point_lamp(tree: &BspTree) -> [Zone; 2] {
+    let bounds = tree.bounds().unwrap();
+    let lamp = [dvec3(2751.0, 1951.0, 2999.0)];
+    [[3900.0, 500.0], [2750.0, 1950.0]].map(|[x, y]| zone(tree, &bounds, dvec3(x, y, 0.0), &lamp))
+}

@@ -1,0 +1,206 @@
+//! Fills outlines at the centres of pixels, in floats: what is too near to tell is left out.
+
+use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::paint::paint_tree;
+use binspace::raster::Rays;
+use binspace::view::Camera;
+use binspace::{BspTree, Hit, Viewpoint};
+
+/// What covers the centre of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pixel {
+    Nothing,
+    Polygon(usize),
+    /// An outline passes too near.
+    Unsure,
+}
+
+/// A picture that outlines are filled in, one after another.
+pub struct Picture {
+    size: [usize; 2],
+    pub pixels: Vec<Pixel>,
+    /// How many outlines cover each pixel.
+    pub layers: Vec<u32>,
+}
+
+/// Centres nearer to an outline than this, in pixels, are not compared: where parts were joined, outlines
+/// are off by up to 2⁻¹⁵.
+const NEAR: f64 = 4e-5;
+
+impl Picture {
+    pub fn new(size: [u32; 2]) -> Self {
+        let size = size.map(|side| side as usize);
+        let pixels = vec![Pixel::Nothing; size[0] * size[1]];
+        Self { size, layers: vec![0; pixels.len()], pixels }
+    }
+
+    /// Fills what outlines wind around, whichever way.
+    pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
+        let [width, height] = self.size;
+        let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
+        for outline in outlines {
+            for (i, &a) in outline.iter().enumerate() {
+                let b = outline[(i + 1) % outline.len()];
+                self.mark_near(a, b);
+                let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };
+                let rows = low[1].ceil().max(0.0) as usize..height;
+                for y in rows.take_while(|&y| (y as f64) < high[1]) {
+                    let share = (y as f64 - low[1]) / (high[1] - low[1]);
+                    crossings.push((y, low[0] + (high[0] - low[0]) * share, step));
+                }
+            }
+        }
+        crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for row in crossings.chunk_by(|a, b| a.0 == b.0) {
+            let mut winding = 0;
+            for pair in row.windows(2) {
+                winding += pair[0].2;
+                if winding == 0 {
+                    continue;
+                }
+                let [from, to] = [pair[0].1, pair[1].1].map(|x| x.ceil().max(0.0) as usize);
+                for x in from..to.min(width) {
+                    let pixel = &mut self.pixels[pair[0].0 * width + x];
+                    self.layers[pair[0].0 * width + x] += 1;
+                    if *pixel != Pixel::Unsure {
+                        *pixel = Pixel::Polygon(polygon);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Marks the pixels whose centres an edge passes too near.
+    fn mark_near(&mut self, a: [f64; 2], b: [f64; 2]) {
+        let [width, height] = self.size.map(|side| side as f64);
+        for axis in 0..2 {
+            // Along each row, and each column.
+            let (low, high) = if a[axis] < b[axis] { (a, b) } else { (b, a) };
+            let limit = if axis == 0 { width } else { height };
+            let first = (low[axis] - NEAR).ceil().max(0.0);
+            let last = (high[axis] + NEAR).floor().min(limit - 1.0);
+            let mut at = first;
+            while at <= last {
+                let length = high[axis] - low[axis];
+                let share =
+                    if length > 0.0 { ((at - low[axis]) / length).clamp(0.0, 1.0) } else { 0.0 };
+                let across = low[1 - axis] + (high[1 - axis] - low[1 - axis]) * share;
+                let nearest = across.round();
+                if (across - nearest).abs() < NEAR {
+                    let [x, y] = if axis == 0 { [at, nearest] } else { [nearest, at] };
+                    if x >= 0.0 && y >= 0.0 && x < width && y < height {
+                        self.pixels[y as usize * self.size[0] + x as usize] = Pixel::Unsure;
+                    }
+                }
+                at += 1.0;
+            }
+        }
+    }
+
+    pub fn of(drawing: &Drawing) -> Self {
+        let mut picture = Self::new(drawing.size());
+        drawing.paths().for_each(|path| picture.fill(path.polygon(), path.outlines()));
+        picture
+    }
+}
+
+/// What was compared.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Score {
+    pub pictures: usize,
+    pub pixels: usize,
+    pub unsure: usize,
+    pub paths: usize,
+    pub clipped: usize,
+    pub rays: usize,
+}
+
+/// Compares map and drawing of a view with what the tree's order paints, pixel by pixel, by integers
+/// of another hand; and with rays.
+pub fn check(tree: &BspTree, camera: &Camera, rays: Rays, score: &mut Score) -> Result<(), String> {
+    let truth = paint_tree(tree, camera.viewpoint(), &rays);
+    let map = VisibilityMap::of(tree, rays).expect("memory");
+    let drawing = map.drawing().expect("memory");
+    let shown: Vec<usize> = map.polygons().map(|shown| shown.polygon).collect();
+    let mut drawn: Vec<usize> = drawing.paths().map(|path| path.polygon()).collect();
+    drawn.sort_unstable();
+    if drawn != shown {
+        return Err(format!("shown {shown:?}, drawn {drawn:?}"));
+    }
+    if let Some(path) = drawing.paths().find(|path| path.outlines().next().is_none()) {
+        return Err(format!("nothing is drawn of {}", path.polygon()));
+    }
+    let mut by_cells = Picture::new(map.size());
+    for cell in map.cells() {
+        let corners: Vec<[f64; 2]> = cell.corners().collect();
+        by_cells.fill(cell.polygon(), std::iter::once(&corners[..]));
+    }
+    // Of needles thinner than that, outlines have nothing.
+    let is_unsure: Vec<bool> = by_cells.pixels.iter().map(|p| *p == Pixel::Unsure).collect();
+    for (what, picture) in [("drawing", Picture::of(&drawing)), ("map", by_cells)] {
+        for (i, (&found, &face)) in picture.pixels.iter().zip(truth.faces()).enumerate() {
+            let expected = match face {
+                u32::MAX => Pixel::Nothing,
+                face => Pixel::Polygon(tree.faces().polygon(face)),
+            };
+            if found == Pixel::Unsure || is_unsure[i] {
+                score.unsure += 1;
+                continue;
+            }
+            score.pixels += 1;
+            let [x, y] = [i % picture.size[0], i / picture.size[0]];
+            if found != expected {
+                return Err(format!("{what}: {found:?} at ({x}, {y}), not {expected:?}"));
+            }
+            if what == "map" && picture.layers[i] > 1 {
+                return Err(format!("cells overlap at ({x}, {y})"));
+            }
+        }
+    }
+    score.pictures += 1;
+    score.paths += drawn.len();
+    score.clipped += drawing.paths().filter(|path| path.is_clipped()).count();
+    Ok(())
+}
+
+/// Every polygon of a map is what a ray through its point meets first.
+pub fn check_rays(
+    tree: &BspTree,
+    camera: &Camera,
+    rays: Rays,
+    score: &mut Score,
+) -> Result<(), String> {
+    let map = VisibilityMap::of(tree, rays).expect("memory");
+    for shown in map.polygons().filter(|shown| shown.area > 0.1) {
+        score.rays += 1;
+        // Nothing is seen edge-on; and of polygons of one plane the order decides.
+        let mut hits = tree
+            .hits(ray(camera, shown.point))
+            .filter(|hit| hit.facing().is_ne() && hit.parameter() > 0.0);
+        let first = hits.next();
+        let is_first = |hit: &Hit<'_>| first.is_some_and(|first| first.compare(hit).is_eq());
+        let mut nearest = first.into_iter().chain(hits.take_while(is_first));
+        if !nearest.any(|hit| hit.polygon() == shown.polygon) {
+            return Err(format!("{shown:?}, but a ray hits {first:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// The ray through a point of the picture.
+pub fn ray(camera: &Camera, [x, y]: [f64; 2]) -> binspace::Ray {
+    let [width, height] = camera.size().map(f64::from);
+    let across = camera.right() * ((x + 0.5 - 0.5 * width) * camera.pixel_size());
+    let down = camera.up() * ((y + 0.5 - 0.5 * height) * -camera.pixel_size());
+    match camera.viewpoint() {
+        Viewpoint::Eye(eye) => binspace::Ray::new(eye, camera.forward() + across + down),
+        Viewpoint::Direction(direction) => {
+            let binspace::view::Projection::Parallel { centre, .. } = *camera.projection() else {
+                unreachable!("a direction of view is parallel")
+            };
+            let reach = 1e4 * camera.pixel_size() * height.max(width);
+            let start = centre + across + down - camera.forward() * reach;
+            binspace::Ray::new(start, direction)
+        }
+    }
+}

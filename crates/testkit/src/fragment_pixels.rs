@@ -1,0 +1,25 @@
+//! The pixels of a fragment.
+
+use binspace::internals::Line;
+use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::{BspTree, Fragment};
+
+/// Calls a function with the number of each pixel whose centre a fragment covers: by integers.
+pub fn for_each_pixel(
+    tree: &BspTree,
+    fragment: &Fragment<'_>,
+    rays: &Rays,
+    mut see: impl FnMut(usize),
+) {
+    let width = rays.size()[0] as usize;
+    let lines: Vec<Line> = fragment.lines().collect();
+    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
+    let outline = match fragment.is_whole() {
+        true => Outline::Whole,
+        false => Outline::Lines { lines: &lines, vertices: &vertices },
+    };
+    let piece = Piece { face: fragment.face(), outline };
+    for_each_run(rays, tree.faces(), piece, |y, columns| {
+        columns.for_each(|x| see(y as usize * width + x as usize));
+    });
+}

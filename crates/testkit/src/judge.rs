@@ -1,0 +1,262 @@
+//! Checks a tree's fragments in exact rationals.
+//!
+//! A fragment's vertices are computed from the lines that bound it, not from the library's own
+//! definition of them, and every decision is made again.
+
+use super::homogeneous::{self, Homogeneous};
+use super::model::{self, Face};
+use super::rational::{self, Point, Rational};
+use binspace::glam::DVec3;
+use binspace::internals::{Lattice, Line, Side, Symbol};
+use binspace::{BspTree, Fragment};
+use num_traits::{One, Zero};
+
+/// What is wrong, in words.
+pub type Verdict = Result<(), String>;
+
+/// What a library vertex may be off by, in lattice units, as its documentation says: three
+/// roundings of a coordinate a little beyond 2⁵¹.
+const POSITION_ERROR: f64 = 0.77;
+
+/// A fragment in rationals.
+struct Piece {
+    points: Vec<Point>,
+    flat: Vec<Homogeneous>,
+    lines: Vec<Line>,
+}
+
+/// A tree with its faces and fragments in rationals.
+pub struct Judge<'t> {
+    tree: &'t BspTree,
+    faces: Vec<Face>,
+    pieces: Vec<Piece>,
+}
+
+/// Fails with a message unless a condition holds.
+pub fn ensure(condition: bool, message: impl FnOnce() -> String) -> Verdict {
+    if condition { Ok(()) } else { Err(message()) }
+}
+
+/// Every check of this file; `corners` are the corners of each polygon as given to the library.
+pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
+    tree.validate().map_err(|invalid| invalid.to_string())?;
+    let judge = Judge::new(tree);
+    judge.outlines()?;
+    judge.coverage()?;
+    judge.sides()?;
+    judge.weights(polygons)
+}
+
+/// Every check of this file that holds for a tree of a cell: all but that faces are there as a whole.
+pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
+    tree.validate().map_err(|invalid| invalid.to_string())?;
+    let judge = Judge::new(tree);
+    judge.outlines()?;
+    judge.sides()?;
+    judge.weights(polygons)
+}
+
+/// What is there of a face: its area, as a residue, and the runs along each of its edges, from 0 to 1.
+#[derive(Clone, Debug, Default)]
+pub struct Cover {
+    area: u128,
+    runs: Vec<Vec<[Rational; 2]>>,
+}
+
+impl Cover {
+    /// Adds what is elsewhere of the same face.
+    pub fn add(&mut self, other: &Self) {
+        self.area = homogeneous::add(self.area, other.area);
+        self.runs.resize(other.runs.len().max(self.runs.len()), Vec::new());
+        self.runs.iter_mut().zip(&other.runs).for_each(|(own, other)| own.extend_from_slice(other));
+    }
+}
+
+impl<'t> Judge<'t> {
+    pub fn new(tree: &'t BspTree) -> Self {
+        let faces: Vec<Face> =
+            (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
+        let piece = |fragment: Fragment<'_>| {
+            let lines: Vec<Line> = fragment.lines().collect();
+            let corners = tree.faces().corners(fragment.face()).len() as u32;
+            let symbol = |i: usize| {
+                let before = lines[(i + lines.len() - 1) % lines.len()];
+                meeting(before, lines[i], corners)
+            };
+            let face = &faces[fragment.face() as usize];
+            let resolve = |i| face.resolve(tree.faces(), symbol(i));
+            let points: Vec<Point> = (0..lines.len()).map(resolve).collect();
+            let flat = points.iter().map(Homogeneous::new).collect();
+            Piece { points, flat, lines }
+        };
+        let pieces = tree.fragments().map(piece).collect();
+        Self { tree, faces, pieces }
+    }
+
+    fn with_pieces(&self) -> impl Iterator<Item = (Fragment<'t>, &Face, &Piece)> {
+        let face = |fragment: &Fragment<'_>| &self.faces[fragment.face() as usize];
+        self.tree.fragments().zip(&self.pieces).map(move |(f, piece)| (f, face(&f), piece))
+    }
+
+    /// Every fragment is a convex piece with area, and its rounded vertices are where the exact
+    /// ones are.
+    fn outlines(&self) -> Verdict {
+        for (fragment, face, piece) in self.with_pieces() {
+            let n = piece.points.len();
+            ensure(n >= 3 && n == fragment.vertex_count(), || {
+                format!("{n} vertices: {fragment:?}")
+            })?;
+            for (exact, rounded) in piece.points.iter().zip(fragment.lattice_vertices()) {
+                let off = rational::distance_to_rounded(exact, rounded);
+                ensure(off <= POSITION_ERROR, || format!("off by {off}: {fragment:?}"))?;
+            }
+            let axis = model::main_axis(&face.plane);
+            let facing = rational::sign(&face.plane.normal[axis]);
+            let mut turns = 0;
+            for i in 0..n {
+                let corner = [0, 1, 2].map(|k| &piece.flat[(i + k) % n]);
+                let turn = homogeneous::turn(corner, axis);
+                let straight_on = turn.is_eq() && corner[0] != corner[1];
+                ensure(turn == facing || straight_on, || {
+                    format!("turns the wrong way at {}: {fragment:?}", (i + 1) % n)
+                })?;
+                turns += usize::from(turn.is_ne());
+            }
+            ensure(turns >= 3, || format!("without area: {fragment:?}"))?;
+        }
+        Ok(())
+    }
+
+    /// The fragments of a face have its area, exactly, and tile each of its edges from end to end.
+    fn coverage(&self) -> Verdict {
+        let mut covers = self.covers();
+        covers.iter_mut().enumerate().try_for_each(|(face, cover)| self.is_covered(face, cover))
+    }
+
+    /// What is there of each face.
+    pub fn covers(&self) -> Vec<Cover> {
+        let empty = |face: &Face| Cover { area: 0, runs: vec![Vec::new(); face.corners.len()] };
+        let mut covers: Vec<Cover> = self.faces.iter().map(empty).collect();
+        for (fragment, face, piece) in self.with_pieces() {
+            let cover = &mut covers[fragment.face() as usize];
+            let axis = model::main_axis(&face.plane);
+            cover.area = homogeneous::add(cover.area, homogeneous::area(&piece.flat, axis));
+            for (i, line) in piece.lines.iter().enumerate() {
+                let Some(edge) = line.as_edge() else { continue };
+                let ends = [i, (i + 1) % piece.points.len()].map(|k| &piece.points[k]);
+                cover.runs[edge as usize].push(ends.map(|end| along(face, edge as usize, end)));
+            }
+        }
+        covers
+    }
+
+    /// Whether a face is covered once by what is there of it.
+    pub fn is_covered(&self, id: usize, cover: &mut Cover) -> Verdict {
+        let face = &self.faces[id];
+        let axis = model::main_axis(&face.plane);
+        let corners: Vec<_> = face.corners.iter().map(Homogeneous::new).collect();
+        let area = homogeneous::area(&corners, axis);
+        ensure(cover.area == area, || format!("the pieces of face {id} miss its area"))?;
+        for (edge, runs) in cover.runs.iter_mut().enumerate() {
+            runs.sort();
+            let end = runs.iter().try_fold(Rational::zero(), |end, [from, to]| {
+                (*from == end && to > from).then(|| to.clone())
+            });
+            ensure(end.is_some_and(|end| end.is_one()), || {
+                format!("edge {edge} of face {id} is not tiled: {runs:?}")
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Every fragment lies where the rules of the exact kernel put it, of every plane above it.
+    fn sides(&self) -> Verdict {
+        let faces = self.tree.faces();
+        for node in self.tree.nodes() {
+            let by = model::plane(faces, node.plane());
+            let groups = [
+                (node.on(), Side::Coplanar),
+                (node.in_front(), Side::Front),
+                (node.behind(), Side::Back),
+            ];
+            for (range, expected) in groups {
+                for id in range {
+                    let piece = &self.pieces[id as usize];
+                    let face = self.tree.fragment(id).face();
+                    let side = |p: &Homogeneous| Rational::from_integer(p.side(&by));
+                    let values: Vec<Rational> = piece.flat.iter().map(side).collect();
+                    let exact = &self.faces[face as usize];
+                    let allowed = exact.classify((faces, face), (node.plane(), &by), &values);
+                    ensure(allowed.contains(&expected), || {
+                        format!("fragment {id} is {allowed:?} at {node:?}")
+                    })?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Weights sum to 1 and give the vertices back from the polygon's own corners; edges said to
+    /// be the polygon's lie on them.
+    fn weights(&self, polygons: &[Vec<DVec3>]) -> Verdict {
+        let faces = self.tree.faces();
+        let lattice = faces.lattice();
+        // Moved onto a plane by the tolerance, along an axis no steeper than 1 in √3.
+        let moved = 2.0 * lattice.length_to_world(faces.tolerance());
+        let step = lattice.length_to_world(1.0);
+        for (fragment, _, _) in self.with_pieces() {
+            let corners = &polygons[fragment.polygon()];
+            let size = corners.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
+            // Next to 0 the least step of `f64` is more than all of these.
+            let least = f64::from_bits(1);
+            let allowed = 8.0 * (moved + step + size * f64::EPSILON + least);
+            for (vertex, weights) in fragment.vertices().zip(fragment.weights()) {
+                let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+                ensure((total - 1.0).abs() < 1e-12, || format!("weights sum to {total}"))?;
+                let largest = weights.iter().fold(1.0, |m: f64, (_, w)| m.max(w.abs()));
+                let mean: DVec3 =
+                    weights.iter().map(|&(k, weight)| corners[k as usize] * weight).sum();
+                let off = (mean - vertex).abs().max_element();
+                ensure(off <= allowed * largest, || {
+                    format!("weights {weights:?} are {off:e} off {vertex} in {fragment:?}")
+                })?;
+            }
+            let vertices: Vec<_> = fragment.vertices().collect();
+            for (i, edge) in fragment.edges().enumerate() {
+                let Some(edge) = edge else { continue };
+                let [a, b] = ends_of_edge(lattice, corners, edge as usize);
+                for vertex in [vertices[i], vertices[(i + 1) % vertices.len()]] {
+                    let arm = (b - a) / (b - a).length().max(f64::MIN_POSITIVE);
+                    let offset = vertex - a;
+                    let off = (offset - arm * offset.dot(arm)).length();
+                    ensure(off <= allowed, || format!("{vertex} is {off:e} off edge {edge}"))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An edge of a polygon, from its corner to the next one that is elsewhere on the lattice.
+fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
+    let a = corners[edge];
+    let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len());
+    [a, *next.find(|&&next| lattice.snap(next) != lattice.snap(a)).unwrap_or(&a)]
+}
+
+/// How far along an edge of a face a point on it is: 0 to 1.
+fn along(face: &Face, edge: usize, point: &Point) -> Rational {
+    let [a, b] = [edge, (edge + 1) % face.corners.len()].map(|k| &face.corners[k]);
+    let axis = (0..3).find(|&axis| a[axis] != b[axis]).expect("an edge of some length");
+    (&point[axis] - &a[axis]) / (&b[axis] - &a[axis])
+}
+
+/// The vertex where two lines that follow one another around a piece meet.
+pub fn meeting(before: Line, after: Line, corners: u32) -> Symbol {
+    match (before.as_edge(), before.as_cut(), after.as_cut()) {
+        (_, _, Some(plane)) => Symbol::crossing(before, plane),
+        (_, Some(plane), None) => Symbol::crossing(after, plane),
+        (Some(edge), _, None) => Symbol::corner((edge + 1) % corners),
+        (None, None, None) => unreachable!("a line is an edge or a cut"),
+    }
+}

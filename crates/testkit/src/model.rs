@@ -1,0 +1,166 @@
+//! The library's faces and pieces in exact rationals, by formulas of its own: planes by their
+//! coefficients, vertices as crossings of segments and by Cramer's rule, pieces by
+//! Sutherland–Hodgman.
+
+use super::rational::{self, Plane, Point, Rational};
+use binspace::internals::{Faces, Line, PlaneId, PlaneKind, Side, Symbol, SymbolKind};
+use num_traits::{Signed, ToPrimitive};
+use std::cmp::Ordering;
+
+/// A vertex of a piece, and what bounds the piece from it to the next.
+#[derive(Clone, Debug)]
+pub struct Vertex {
+    pub point: Point,
+    pub line: Line,
+}
+
+/// A face in rationals.
+#[derive(Clone, Debug)]
+pub struct Face {
+    pub plane: Plane,
+    pub corners: Vec<Point>,
+    /// Whether the tolerance moved a corner onto the plane.
+    pub moved: bool,
+}
+
+impl Face {
+    pub fn new(faces: &Faces, face: u32) -> Self {
+        let plane = plane(faces, PlaneId::face(face));
+        let mut corners: Vec<Point> = faces.corners(face).iter().map(|&c| lattice(c)).collect();
+        let moved = corners.iter().any(|corner| rational::sign(&plane.at(corner)).is_ne());
+        let axis = main_axis(&plane);
+        for corner in &mut corners {
+            // Where the line through the corner along the axis meets the plane.
+            let step = plane.at(corner) / &plane.normal[axis];
+            corner[axis] -= step;
+        }
+        Self { plane, corners, moved }
+    }
+
+    /// The whole face as a piece.
+    pub fn outline(&self) -> Vec<Vertex> {
+        let lines = (0..).map(Line::edge);
+        self.corners.iter().zip(lines).map(|(c, line)| Vertex { point: c.clone(), line }).collect()
+    }
+
+    /// The point that a symbol stands for.
+    pub fn resolve(&self, faces: &Faces, symbol: Symbol) -> Point {
+        match symbol.kind() {
+            SymbolKind::Corner(k) => self.corners[k as usize].clone(),
+            SymbolKind::OnEdge(k, by) => {
+                let k = k as usize;
+                let ends = [&self.corners[k], &self.corners[(k + 1) % self.corners.len()]];
+                let by = plane(faces, by);
+                let values = ends.map(|end| by.at(end));
+                rational::crossing(ends, [&values[0], &values[1]])
+            }
+            SymbolKind::Inside(g, h) => {
+                Plane::meeting(&self.plane, &plane(faces, g), &plane(faces, h))
+            }
+        }
+    }
+
+    /// Every answer that the rules of the exact kernel allow: one, but where a corner is as far
+    /// from the plane as the tolerance, to within the rounding of the tolerance.
+    pub fn classify(
+        &self,
+        (faces, face): (&Faces, u32),
+        (id, by): (PlaneId, &Plane),
+        vertices: &[Rational],
+    ) -> Vec<Side> {
+        if id == PlaneId::face(face) {
+            return vec![Side::Coplanar];
+        }
+        let values: Vec<Rational> = self.corners.iter().map(|corner| by.at(corner)).collect();
+        let [low, high] = band(faces.tolerance(), by);
+        let beyond = |limit: &Rational, sign: i32| {
+            let sign = Rational::from_integer(sign.into());
+            values.iter().any(|value| &(value * &sign) > limit)
+        };
+        let either = |sign| {
+            let (far, near) = (beyond(&high, sign), beyond(&low, sign));
+            if far == near { vec![far] } else { vec![far, near] }
+        };
+        let mut allowed = Vec::new();
+        for in_front in either(1) {
+            for &behind in &either(-1) {
+                let side = match (in_front, behind) {
+                    (false, false) => Side::Coplanar,
+                    (true, false) => Side::Front,
+                    (false, true) => Side::Back,
+                    (true, true) => by_vertices(vertices),
+                };
+                allowed.push(side);
+            }
+        }
+        allowed
+    }
+}
+
+fn by_vertices(values: &[Rational]) -> Side {
+    let has = |side| values.iter().any(|value| rational::sign(value) == side);
+    match (has(Ordering::Greater), has(Ordering::Less)) {
+        (true, true) => Side::Spanning,
+        (true, false) => Side::Front,
+        (false, true) => Side::Back,
+        (false, false) => Side::Coplanar,
+    }
+}
+
+/// The tolerance in the unit of a plane's value: rounded down to an integer, and not.
+pub fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
+    let square = rational::scalar(&plane.normal, &plane.normal);
+    let length = square.to_f64().expect("in range").sqrt() * tolerance;
+    let share = 2f64.powi(-49);
+    [(length * (1.0 - share)).floor(), length * (1.0 + share)].map(rational::exact)
+}
+
+/// A partition plane.
+pub fn plane(faces: &Faces, id: PlaneId) -> Plane {
+    match id.kind() {
+        PlaneKind::Face(face) => {
+            let [p, q, r] = faces.reference_triangle(face).map(|c| lattice(faces.corner(c)));
+            Plane::through([&p, &q, &r])
+        }
+        PlaneKind::Axis(axis, corner) => {
+            Plane::perpendicular_to_axis(axis, &lattice(faces.corner(corner)))
+        }
+    }
+}
+
+/// The first of the axes along which a plane's normal is longest.
+pub fn main_axis(plane: &Plane) -> usize {
+    let size = |axis: usize| plane.normal[axis].abs();
+    (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+}
+
+fn lattice(corner: [f64; 3]) -> Point {
+    corner.map(|c| Rational::from_integer(rational::integer(c)))
+}
+
+/// The part of a convex piece in front of a plane, or behind it; `values` are the plane at the
+/// piece's vertices.
+pub fn clip(piece: &[Vertex], values: &[Rational], plane: PlaneId, behind: bool) -> Vec<Vertex> {
+    let inside = if behind { Ordering::Less } else { Ordering::Greater };
+    let cut = Line::cut(plane, behind);
+    let mut part = Vec::new();
+    for (i, vertex) in piece.iter().enumerate() {
+        let j = (i + 1) % piece.len();
+        let (here, next) = (rational::sign(&values[i]), rational::sign(&values[j]));
+        let leaves = next == inside.reverse();
+        let crossing =
+            || rational::crossing([&vertex.point, &piece[j].point], [&values[i], &values[j]]);
+        if here == inside {
+            part.push(vertex.clone());
+            if leaves {
+                part.push(Vertex { point: crossing(), line: cut });
+            }
+        } else if here.is_eq() {
+            let line = if leaves { cut } else { vertex.line };
+            part.push(Vertex { line, ..vertex.clone() });
+        } else if next == inside {
+            part.push(Vertex { point: crossing(), line: vertex.line });
+        }
+    }
+    part
+}

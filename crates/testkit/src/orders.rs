@@ -1,0 +1,54 @@
+//! Checks that all forms of an order are the same.
+
+use super::judge::{Verdict, ensure};
+use binspace::{BspTree, Fragment, Viewpoint};
+use std::ops::ControlFlow;
+
+/// Every fragment once; iterator, visitor and index form alike, both ways; and a visitor that
+/// breaks off sees no more.
+pub fn check(tree: &BspTree, viewpoint: Viewpoint) -> Verdict {
+    let id = |fragment: Fragment<'_>| fragment.index();
+    let mut far_first = vec![7; 3];
+    tree.back_to_front_into(viewpoint, &mut far_first);
+    let mut sorted = far_first.clone();
+    sorted.sort_unstable();
+    ensure(sorted.iter().copied().eq(0..tree.len() as u32), || format!("{far_first:?}"))?;
+
+    let listed: Vec<u32> = tree.back_to_front(viewpoint).map(id).collect();
+    ensure(listed == far_first, || format!("iterator {listed:?}, index form {far_first:?}"))?;
+    let mut visited = Vec::new();
+    let done = tree.visit_back_to_front(viewpoint, |fragment| {
+        visited.push(fragment.index());
+        ControlFlow::<()>::Continue(())
+    });
+    ensure(done.is_continue() && visited == far_first, || format!("visitor {visited:?}"))?;
+
+    let reverse: Vec<u32> = far_first.iter().rev().copied().collect();
+    // Longer than the working space, so that none of it is zero to begin with.
+    let mut near_first = vec![u32::MAX; 4 * tree.len() + 40];
+    tree.front_to_back_into(viewpoint, &mut near_first);
+    ensure(near_first == reverse, || format!("{near_first:?} not {reverse:?}"))?;
+    let listed: Vec<u32> = tree.front_to_back(viewpoint).map(id).collect();
+    ensure(listed == reverse, || format!("iterator {listed:?} not {reverse:?}"))?;
+
+    let stop = tree.len() / 2;
+    let mut seen = Vec::new();
+    let broken = tree.visit_front_to_back(viewpoint, |fragment| {
+        seen.push(fragment.index());
+        if seen.len() > stop {
+            ControlFlow::Break(fragment.index())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    let expected =
+        reverse.get(stop).map_or(ControlFlow::Continue(()), |&id| ControlFlow::Break(id));
+    ensure(broken == expected && seen[..] == reverse[..seen.len()], || {
+        format!("broke off with {broken:?} after {seen:?}")
+    })?;
+    let mut rest = tree.back_to_front(viewpoint);
+    let first = rest.by_ref().take(stop).count();
+    ensure(rest.len() == tree.len() - first && rest.count() == tree.len() - first, || {
+        "an iterator misjudges how much is left".into()
+    })
+}

@@ -1,0 +1,289 @@
+//! Checks that an order paints far before near: rays against fragments, in big integers.
+//!
+//! Which fragments a ray hits, and where, is found from the lines of the source faces alone, for
+//! every fragment, without the tree.
+
+use super::dice::Dice;
+use super::judge::{Verdict, ensure};
+use super::views::View;
+use binspace::BspTree;
+use binspace::glam::DVec3;
+use binspace::internals::{Faces, PlaneId, PlaneKind};
+use num_bigint::{BigInt, Sign};
+use num_traits::{Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::ops::Range;
+
+pub type Vector = [BigInt; 3];
+
+/// Where a ray has more hits than this, only neighbours in the order are compared: if all of them
+/// come out right, so do the others, but for what the tolerance excuses.
+const MANY: usize = 48;
+
+/// A plane in integers, positive in front.
+#[derive(Clone, Debug)]
+struct Plane {
+    normal: Vector,
+    offset: BigInt,
+}
+
+impl Plane {
+    fn new(normal: Vector, point: &Vector) -> Self {
+        let offset = scalar(&normal, point);
+        Self { normal, offset }
+    }
+
+    fn named(faces: &Faces, id: PlaneId) -> Self {
+        match id.kind() {
+            PlaneKind::Face(face) => {
+                let [p, q, r] = faces.reference_triangle(face).map(|c| vector(faces.corner(c)));
+                Self::new(product(&minus(&q, &p), &minus(&r, &p)), &p)
+            }
+            PlaneKind::Axis(axis, corner) => {
+                let mut normal = [0, 0, 0].map(BigInt::from);
+                normal[axis] = 1.into();
+                Self::new(normal, &vector(faces.corner(corner)))
+            }
+        }
+    }
+
+    fn length(&self) -> f64 {
+        let float = |c: &BigInt| c.to_f64().unwrap_or(f64::INFINITY);
+        DVec3::from_array([0, 1, 2].map(|i| float(&self.normal[i]))).length()
+    }
+}
+
+/// A plane at a ray: its value at the origin, and how that changes along the ray.
+pub struct AtRay {
+    start: BigInt,
+    slope: BigInt,
+}
+
+/// A ray from a point, or, with `endless`, the whole line.
+pub struct Ray {
+    origin: Vector,
+    direction: Vector,
+    endless: bool,
+}
+
+impl Ray {
+    /// The line of sight through a point in lattice units, unless the eye is there.
+    pub fn through(target: DVec3, view: &View) -> Option<Self> {
+        let (origin, direction) = view.ray_to(target);
+        let is_ray = !direction.iter().all(Zero::is_zero);
+        is_ray.then(|| Self { origin, direction, endless: view.is_parallel() })
+    }
+
+    /// Where it meets a hit, rounded, and where it begins, if it has a beginning.
+    pub fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
+        let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().unwrap_or(0.0)));
+        let at = |i: usize| {
+            let sum = &self.origin[i] * &hit.face.slope - &self.direction[i] * &hit.face.start;
+            (sum / &hit.face.slope).to_f64().unwrap_or(f64::INFINITY)
+        };
+        (DVec3::new(at(0), at(1), at(2)), (!self.endless).then(|| float(&self.origin)))
+    }
+
+    fn plane(&self, plane: &Plane) -> AtRay {
+        let start = scalar(&plane.normal, &self.origin) - &plane.offset;
+        AtRay { start, slope: scalar(&plane.normal, &self.direction) }
+    }
+}
+
+/// Where a ray goes through a fragment: at −start/slope of its face's plane, slope above 0.
+pub struct Hit {
+    pub fragment: u32,
+    face: AtRay,
+}
+
+impl Hit {
+    pub fn depth_order(&self, other: &Self) -> Ordering {
+        (-&self.face.start * &other.face.slope).cmp(&(-&other.face.start * &self.face.slope))
+    }
+
+    /// A plane at the hit, times the (positive) slope.
+    fn value(&self, plane: &AtRay) -> BigInt {
+        &plane.start * &self.face.slope - &plane.slope * &self.face.start
+    }
+}
+
+/// The numbers of the plane of a fragment's face, and of those that bound it, with the sign inside.
+type Outline = (usize, Vec<(usize, Sign)>);
+
+/// A tree's fragments as bounded by planes.
+pub struct Rays<'t> {
+    tree: &'t BspTree,
+    planes: Vec<Plane>,
+    fragments: Vec<Outline>,
+    /// How many pairs of hits have been compared.
+    pub pairs: usize,
+    /// How many of them only the tolerance excuses.
+    pub contested: usize,
+}
+
+impl<'t> Rays<'t> {
+    pub fn new(tree: &'t BspTree) -> Self {
+        let faces = tree.faces();
+        let mut planes = Vec::new();
+        let mut named: HashMap<PlaneId, usize> = HashMap::new();
+        let mut edges: HashMap<(u32, u32), (usize, Sign)> = HashMap::new();
+        let mut fragments = Vec::new();
+        for fragment in tree.fragments() {
+            let face = fragment.face();
+            let mut name = |planes: &mut Vec<Plane>, id| {
+                *named.entry(id).or_insert_with(|| {
+                    planes.push(Plane::named(faces, id));
+                    planes.len() - 1
+                })
+            };
+            let own = name(&mut planes, PlaneId::face(face));
+            let bounds = fragment.lines().map(|line| match (line.as_edge(), line.as_cut()) {
+                (_, Some(plane)) => {
+                    let sign = if line.is_behind() { Sign::Minus } else { Sign::Plus };
+                    (name(&mut planes, plane), sign)
+                }
+                (edge, None) => {
+                    let edge = edge.expect("an edge or a cut");
+                    *edges.entry((face, edge)).or_insert_with(|| {
+                        let (plane, sign) = upright(faces, face, edge as usize, &planes[own]);
+                        planes.push(plane);
+                        (planes.len() - 1, sign)
+                    })
+                }
+            });
+            fragments.push((own, bounds.collect()));
+        }
+        Self { tree, planes, fragments, pairs: 0, contested: 0 }
+    }
+
+    /// Shoots rays from a viewpoint at points of fragments, and holds what they hit against the
+    /// order.
+    pub fn check(&mut self, view: &View, rays: usize, dice: &mut Dice) -> Verdict {
+        let mut order = Vec::new();
+        self.tree.back_to_front_into(view.viewpoint, &mut order);
+        let mut place = vec![usize::MAX; order.len()];
+        order.iter().enumerate().for_each(|(at, &id)| place[id as usize] = at);
+        for _ in 0..rays {
+            let target = self.some_point(dice);
+            let Some(ray) = Ray::through(target, view) else { continue };
+            let mut hits = self.hits(&ray);
+            let reach = if hits.len() > MANY { 1 } else { hits.len() };
+            hits.sort_by_key(|hit| place[hit.fragment as usize]);
+            for (i, a) in hits.iter().enumerate() {
+                for b in hits[i + 1..].iter().take(reach) {
+                    self.compare(&ray, a, b, &place).map_err(|what| format!("{what}, {view:?}"))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A point inside a fragment, rounded, in lattice units.
+    pub fn some_point(&self, dice: &mut Dice) -> DVec3 {
+        let fragment = self.tree.fragment(dice.below(self.tree.len()) as u32);
+        let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+        for vertex in fragment.lattice_vertices() {
+            let weight = 0.05 + dice.share();
+            sum += DVec3::from(vertex) * weight;
+            total += weight;
+        }
+        sum / total
+    }
+
+    /// What a ray goes through, inside of its outline.
+    pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
+        let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
+        let hit = |(id, (own, bounds)): (usize, &Outline)| {
+            let own = &at[*own];
+            let turn =
+                |value: &BigInt| if own.slope.is_negative() { -value } else { value.clone() };
+            let face = AtRay { start: turn(&own.start), slope: turn(&own.slope) };
+            if face.slope.is_zero() || (!ray.endless && !face.start.is_negative()) {
+                return None;
+            }
+            let hit = Hit { fragment: id as u32, face };
+            bounds.iter().all(|&(p, sign)| hit.value(&at[p]).sign() == sign).then_some(hit)
+        };
+        self.fragments.iter().enumerate().filter_map(hit).collect()
+    }
+
+    /// Holds two hits of a ray against the places of their fragments in an order.
+    pub fn compare(&mut self, ray: &Ray, a: &Hit, b: &Hit, place: &[usize]) -> Verdict {
+        self.pairs += 1;
+        let [p, q] = [a, b].map(|hit| place[hit.fragment as usize]);
+        let depth = a.depth_order(b);
+        if depth.is_ne() && depth == q.cmp(&p) {
+            return Ok(());
+        }
+        let [face, other] = [a, b].map(|hit| self.tree.fragment(hit.fragment).face());
+        let in_input_order = face.cmp(&other) == p.cmp(&q);
+        let wrong = || format!("fragments {} and {} come out wrong", a.fragment, b.fragment);
+        if self.tree.faces().tolerance() == 0.0 {
+            let touch = depth.is_eq() && self.is_same_plane(a, b);
+            return ensure(touch && in_input_order, wrong);
+        }
+        self.contested += 1;
+        self.excuse(ray, [a, b], in_input_order).then_some(()).ok_or_else(wrong)
+    }
+
+    fn is_same_plane(&self, a: &Hit, b: &Hit) -> bool {
+        let [g, h] = [a, b].map(|hit| &self.planes[self.fragments[hit.fragment as usize].0]);
+        product(&g.normal, &h.normal).iter().all(Zero::is_zero)
+    }
+
+    /// Whether the plane that told two fragments apart has the nearer hit within the tolerance, and
+    /// the other hit or the eye as well; if both count as lying on it, they must come in input
+    /// order.
+    fn excuse(&self, ray: &Ray, hits: [&Hit; 2], in_input_order: bool) -> bool {
+        let ids = hits.map(|hit| hit.fragment);
+        let count = |range: &Range<u32>| ids.iter().filter(|id| range.contains(id)).count();
+        let parting = self.tree.nodes().find(|node| {
+            let [on, front, back] = [&node.on(), &node.in_front(), &node.behind()].map(count);
+            on + front + back == 2 && front < 2 && back < 2
+        });
+        let Some(parting) = parting else { return false };
+        let plane = Plane::named(self.tree.faces(), parting.plane());
+        let reach = self.tree.faces().tolerance() * (1.0 + 1e-9) * plane.length();
+        let at = ray.plane(&plane);
+        let float = |value: &BigInt| value.abs().to_f64().unwrap_or(f64::INFINITY);
+        let is_near = |hit: &&Hit| float(&hit.value(&at)) <= reach * float(&hit.face.slope);
+        let near = hits.iter().filter(|hit| is_near(hit)).count();
+        let nearer = hits.into_iter().min_by(|a, b| a.depth_order(b));
+        let eye_is_near = !ray.endless && float(&at.start) <= reach;
+        let excused = near == 2 || nearer.as_ref().is_some_and(is_near) && eye_is_near;
+        excused && (in_input_order || count(&parting.on()) < 2)
+    }
+}
+
+/// The plane through an edge of a face and along the axis in which its plane is least steep, and
+/// its sign inside.
+fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Sign) {
+    let corners = faces.corners(face);
+    let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| vector(corners[k]));
+    let size = |axis: usize| plane.normal[axis].abs();
+    let axis = (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best });
+    let mut along = [0, 0, 0].map(BigInt::from);
+    along[axis] = 1.into();
+    // The axis, the edge and the way inside run like the axes of a right-handed frame.
+    (Plane::new(product(&along, &minus(&b, &a)), &a), plane.normal[axis].sign())
+}
+
+pub fn vector(p: [f64; 3]) -> Vector {
+    p.map(|c| BigInt::from(c as i128))
+}
+
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn scalar(a: &Vector, b: &Vector) -> BigInt {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn product(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}

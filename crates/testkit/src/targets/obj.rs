@@ -1,0 +1,174 @@
+//! OBJ files: some written from what they are to mean, some any bytes.
+
+use arbitrary::{Result, Unstructured};
+use binspace::glam::DVec3;
+use binspace::scene::Scene;
+use std::fmt::Write;
+
+/// What a file that was written here must be read as.
+struct Known {
+    text: String,
+    corners: Vec<DVec3>,
+    faces: Vec<Vec<usize>>,
+    /// The first line that is to be refused.
+    refused: Option<usize>,
+    lines: usize,
+}
+
+/// Half the time a file whose meaning is known, half the time what there is.
+pub fn run(data: &[u8]) {
+    match data.split_first() {
+        Some((kind, rest)) if kind % 2 == 1 => {
+            // Bytes that run out make no file.
+            let _ = read_known(&mut Unstructured::new(rest));
+        }
+        Some((_, rest)) => read_any(rest),
+        None => {}
+    }
+}
+
+/// Any bytes: what is read is finite, and reads the same when it is written out.
+fn read_any(bytes: &[u8]) {
+    // A library that is the file itself: its lines are read as material lines too.
+    let Ok((scene, report)) = Scene::from_obj("any", bytes, |_| Some(bytes.to_vec())) else {
+        return;
+    };
+    assert!(scene.len() == report.faces && !scene.is_empty());
+    assert!(scene.polygons().flatten().all(|corner| corner.is_finite()));
+    let colours = scene.materials().iter();
+    assert!(colours.flat_map(|m| m.color.into_iter().chain([m.opacity])).all(|c| c.is_finite()));
+    let mut text = String::new();
+    let mut next = 0;
+    for polygon in scene.polygons() {
+        for corner in polygon {
+            let _ = writeln!(text, "v {:e} {:e} {:e}", corner.x, corner.y, corner.z);
+        }
+        let numbers: Vec<String> = (1..=polygon.len()).map(|k| (next + k).to_string()).collect();
+        let _ = writeln!(text, "f {}", numbers.join(" "));
+        next += polygon.len();
+    }
+    let again = Scene::from_obj("again", text.as_bytes(), |_| None);
+    let (again, _) = again.unwrap_or_else(|error| panic!("{error}: {text}"));
+    assert!(scene.polygons().eq(again.polygons()), "{text}");
+}
+
+fn read_known(bytes: &mut Unstructured<'_>) -> Result<()> {
+    let mut known =
+        Known { text: String::new(), corners: vec![], faces: vec![], refused: None, lines: 0 };
+    if bytes.ratio(1, 8u8)? {
+        known.text.push('\u{feff}');
+    }
+    for _ in 0..bytes.int_in_range(0..=40u8)? {
+        known.lines += 1;
+        let line = known.lines;
+        let written = match bytes.int_in_range(0..=9u8)? {
+            0..=3 => known.vertex(bytes)?,
+            4..=6 => known.face(bytes)?,
+            _ => known.aside(bytes)?,
+        };
+        if !written && known.refused.is_none() {
+            known.refused = Some(line);
+        }
+        known.end_line(bytes)?;
+    }
+    known.check();
+    Ok(())
+}
+
+/// A small number, or any that is finite.
+fn coordinate(bytes: &mut Unstructured<'_>) -> Result<f64> {
+    if bytes.ratio(1, 4u8)? {
+        return Ok(f64::from(bytes.arbitrary::<i8>()?) / 4.0);
+    }
+    Ok(Some(bytes.arbitrary::<f64>()?).filter(|number| number.is_finite()).unwrap_or(0.1))
+}
+
+impl Known {
+    /// A `v` line; whether it is a good one.
+    fn vertex(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
+        let corner = DVec3::new(coordinate(bytes)?, coordinate(bytes)?, coordinate(bytes)?);
+        let bad = bytes.ratio(1, 40u8)?;
+        self.text.push('v');
+        for (axis, coordinate) in corner.to_array().into_iter().enumerate() {
+            if bad && axis == 1 {
+                let word = ["nan", "inf", "-Infinity", "1e999", "x", "1,5", ""];
+                let _ = write!(self.text, " {}", bytes.choose(&word)?);
+            } else {
+                // The shortest text that reads back as the same number, in one way or another.
+                let _ = match bytes.arbitrary()? {
+                    true => write!(self.text, " {coordinate:e}"),
+                    false => write!(self.text, " {coordinate}"),
+                };
+            }
+        }
+        if !bad {
+            self.text.push_str(bytes.choose(&["", " 1.0", " 0.5 0.5 0.5", "\t", " # a corner"])?);
+        }
+        self.corners.push(corner);
+        Ok(!bad)
+    }
+
+    /// An `f` line; whether it is a good one.
+    fn face(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
+        let mut good = true;
+        let mut face = Vec::new();
+        self.text.push('f');
+        for _ in 0..bytes.int_in_range(0..=6u8)? {
+            let count = self.corners.len();
+            let number = bytes.int_in_range(0..=count + 1)?;
+            // 0 is no number; one too many is, if another corner follows.
+            let index = if number > 0 && number <= count && bytes.arbitrary()? {
+                number as i64 - count as i64 - 1
+            } else {
+                number as i64
+            };
+            good &= number > 0;
+            let _ = write!(self.text, " {index}");
+            self.text.push_str(bytes.choose(&["", "/", "//7", "/1/2", "/-1", " \\\n"])?);
+            if self.text.ends_with('\n') {
+                self.lines += 1;
+            }
+            face.push(number.wrapping_sub(1));
+        }
+        self.faces.push(face);
+        Ok(good)
+    }
+
+    /// A line that is no polygon.
+    fn aside(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
+        // No empty line: behind a lone CR it would be half of a line end.
+        let asides =
+            [" ", "# f 1 2 3", "l 1 2 3", "p 1", "g f 1", "o v", "s 1", "vn 0 0 1", "usemtl x"];
+        self.text.push_str(bytes.choose(&asides)?);
+        Ok(true)
+    }
+
+    fn end_line(&mut self, bytes: &mut Unstructured<'_>) -> Result<()> {
+        self.text.push_str(bytes.choose(&["\n", "\n", "\r\n", " \n", "\r"])?);
+        Ok(())
+    }
+
+    fn check(&self) {
+        let ahead = self.faces.iter().flatten().any(|&k| k >= self.corners.len());
+        match Scene::from_obj("known", self.text.as_bytes(), |_| None) {
+            Ok((scene, _)) => {
+                let good = self.refused.is_none() && !ahead && !self.faces.is_empty();
+                assert!(good, "read, though it is bad: {:?}", self.text);
+                let corner = |&k: &usize| self.corners[k];
+                let faces = self.faces.iter().map(|f| f.iter().map(corner).collect::<Vec<_>>());
+                assert!(
+                    scene.polygons().map(|polygon| polygon.to_vec()).eq(faces),
+                    "{:?}",
+                    self.text
+                );
+            }
+            Err(error) => {
+                let bad = self.refused.is_some() || ahead || self.faces.is_empty();
+                assert!(bad, "{error}: {:?}", self.text);
+                if self.refused.is_some() {
+                    assert_eq!(error.line(), self.refused, "{error}: {:?}", self.text);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Exactly known viewpoints, many of them on a plane or a corner.
+
+use super::dice::Dice;
+use super::rational::{self, Plane, Point, Rational};
+use super::rays::{Rays, Vector, vector};
+use binspace::Viewpoint;
+use binspace::glam::DVec3;
+use binspace::internals::Faces;
+use num_bigint::BigInt;
+use num_traits::Signed;
+use std::cmp::Ordering;
+
+/// A viewpoint, with what the library rounds it to.
+#[derive(Clone, Debug)]
+pub struct View {
+    pub viewpoint: Viewpoint,
+    /// The eye in lattice units; or the direction of view, in integers.
+    lattice: DVec3,
+}
+
+impl View {
+    /// An eye as near to a point of the lattice as can be.
+    pub fn eye(faces: &Faces, point: DVec3) -> Self {
+        let world = faces.lattice().to_world(point.round().to_array());
+        let lattice = DVec3::from(faces.lattice().to_lattice(world)).round();
+        Self { viewpoint: Viewpoint::Eye(world), lattice }
+    }
+
+    /// A direction, rounded to 2⁻⁵² of the largest power of two in its largest component.
+    pub fn direction(direction: DVec3) -> Self {
+        Self { viewpoint: Viewpoint::Direction(direction), lattice: whole_direction(direction) }
+    }
+
+    pub fn is_parallel(&self) -> bool {
+        matches!(self.viewpoint, Viewpoint::Direction(_))
+    }
+
+    /// On which side of a plane it is; on neither if it is on the plane, or looks along it.
+    pub fn side(&self, plane: &Plane) -> Ordering {
+        let (point, towards) = match self.viewpoint {
+            Viewpoint::Eye(_) => (rounded_eye(self.lattice.to_array()), self.lattice),
+            Viewpoint::Direction(_) => (None, -self.lattice),
+        };
+        rational::sign(&match point {
+            Some(point) => plane.at(&point),
+            None => rational::scalar(&plane.normal, &rational::point(whole_direction(towards))),
+        })
+    }
+
+    /// The line of sight through a point: where it begins, and where it goes.
+    pub fn ray_to(&self, target: DVec3) -> (Vector, Vector) {
+        let lattice = vector(self.lattice.to_array());
+        match self.viewpoint {
+            Viewpoint::Eye(_) => {
+                let direction = ((target - self.lattice) * 256.0).round();
+                (lattice, vector(direction.to_array()))
+            }
+            Viewpoint::Direction(_) => (vector(target.round().to_array()), lattice),
+        }
+    }
+}
+
+/// A direction as integers, the largest from 2⁵² to 2⁵³: scaled by a power of two.
+fn whole_direction(direction: DVec3) -> DVec3 {
+    let size = direction.abs().max_element();
+    // Bits without those of the fraction.
+    let power = f64::from_bits(size.to_bits() >> 52 << 52);
+    (direction / power * (1u64 << 52) as f64).round()
+}
+
+/// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond
+/// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a
+/// point.
+pub fn rounded_eye(point: [f64; 3]) -> Option<Point> {
+    if point.iter().any(|c| c.is_infinite()) {
+        return None;
+    }
+    let exact: Point = point.map(rational::exact);
+    let size = exact.iter().map(Signed::abs).max().expect("three");
+    let fits = |&shift: &u32| size <= power_of_two(61 + shift);
+    let unit = power_of_two((0..=360).find(fits)?);
+    Some(exact.map(|c| (c / &unit).round() * &unit))
+}
+
+pub fn power_of_two(exponent: u32) -> Rational {
+    Rational::from_integer(BigInt::from(1) << exponent)
+}
+
+/// A viewpoint around, inside, on a plane or a corner of the scene, or in line with two of its
+/// fragments; there must be some.
+pub fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
+    let corner =
+        |dice: &mut Dice| DVec3::from(faces.corner(dice.below(faces.corner_count()) as u32));
+    let cube = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| 2.0 * dice.share() - 1.0));
+    let extent = (1u64 << 51) as f64;
+    match dice.below(9) {
+        0 => View::eye(faces, cube(dice) * extent * 4.0),
+        1 => View::eye(faces, cube(dice) * extent),
+        2 => View::eye(faces, corner(dice)),
+        3 => {
+            let face = dice.below(faces.len()) as u32;
+            let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
+            let (s, t) = (dice.around_zero(3), dice.around_zero(3));
+            View::eye(faces, p + (q - p) * s + (r - p) * t)
+        }
+        4 | 5 => {
+            let (a, b) = (rays.some_point(dice), rays.some_point(dice));
+            View::eye(faces, a + (a - b) * (0.1 + 3.0 * dice.share()))
+        }
+        6 => {
+            let mut eye = cube(dice) * extent;
+            let axis = dice.below(3);
+            eye[axis] = corner(dice)[axis];
+            View::eye(faces, eye)
+        }
+        7 => {
+            let direction = corner(dice) - corner(dice);
+            View::direction(if direction == DVec3::ZERO { DVec3::X } else { direction })
+        }
+        _ => {
+            let small = DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));
+            View::direction(if small == DVec3::ZERO { DVec3::NEG_Z } else { small })
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! The tests of the library, one program, so that it is linked once. README.md is their map.
+
+mod cells;
+mod drawing;
+mod heuristics;
+mod large;
+mod layers;
+mod library;
+mod mesh;
+mod obj;
+mod overlay;
+mod query;
+mod saved;
+mod tree;
+mod walk;

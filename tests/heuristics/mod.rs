@@ -1,0 +1,315 @@
+//! Each heuristic is held to what its documentation says, at every node, by brute force in exact
+//! rationals: on integer scenes, where it is certain what a plane cuts.
+
+mod divided;
+
+use binspace::glam::DVec3;
+use binspace::internals::{PlaneId, PlaneKind};
+use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
+use divided::{Counts, Divided, nodes, work};
+use testkit::dice::Dice;
+use testkit::effort::seeds;
+use testkit::enough;
+use testkit::shapes::{self, Corners};
+
+/// A scene on a small lattice, of one of several kinds.
+fn scene(dice: &mut Dice, count: usize) -> Vec<Corners> {
+    let wide = 2 + dice.below(8) as u32;
+    let kind = dice.below(3);
+    let point = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(wide)));
+    (0..count)
+        .map(|_| match kind {
+            0 => vec![point(dice), point(dice), point(dice)],
+            1 => {
+                // Small ones apart, so that free planes cut nothing.
+                let at = point(dice) * 4.0;
+                [0; 3].map(|_| at + point(dice) / 4.0).to_vec()
+            }
+            _ => {
+                // Squares perpendicular to an axis.
+                let (at, axis) = (point(dice), dice.below(3));
+                let square = shapes::square(binspace::glam::DMat3::IDENTITY, DVec3::ZERO);
+                let turned = |p: DVec3| {
+                    let mut turned = [p.x, p.y, p.z];
+                    turned.rotate_right(2 - axis);
+                    DVec3::from_array(turned) + at
+                };
+                square.into_iter().map(turned).collect()
+            }
+        })
+        .collect()
+}
+
+fn build(scene: &[Corners], by: Heuristic) -> BspTree {
+    BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0).build(scene).expect("finite")
+}
+
+/// Visits the nodes of trees of many scenes that divide at least two pieces; how many there were.
+fn each(by: Heuristic, scenes: u64, count: usize, mut visit: impl FnMut(&Divided<'_>)) -> usize {
+    let mut found = 0;
+    for seed in 0..scenes {
+        let scene = scene(&mut Dice(seed), 2 + (seed as usize * 5) % count);
+        nodes(&build(&scene, by), |node| {
+            if node.set.len() >= 2 {
+                visit(node);
+                found += 1;
+            }
+        });
+    }
+    found
+}
+
+fn assert_least(by: Heuristic, score: impl Fn(&Counts, bool) -> f64) {
+    let mut choices = 0;
+    let found = each(by, 24, 14, |node| {
+        let [chosen, least] = node.scores(&score);
+        assert!(chosen <= least + 1e-9, "{by}: {chosen}, not {least}, by {:?}", node.plane);
+        let most = node.own_planes().map(|(c, axial)| score(&c, axial)).fold(-1e300, f64::max);
+        choices += usize::from(most > least);
+    });
+    // Where all planes are alike, nothing is chosen.
+    enough!(found > 150, choices > 80; "{by}: {found} nodes, {choices} choices");
+}
+
+#[test]
+fn first_takes_the_plane_of_the_first_polygon() {
+    let mut later = 0;
+    let found = each(Heuristic::First, 24, 14, |node| {
+        let first = node.set.iter().map(|piece| piece.face).min().expect("a piece");
+        assert_eq!(node.plane, PlaneId::face(first));
+        later += usize::from(node.set[0].face != first || first > 0);
+    });
+    enough!(found > 150, later > 100; "{found} {later}");
+}
+
+#[test]
+fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
+    let planes = |seed: u64| {
+        let mut planes = Vec::new();
+        each(Heuristic::Random { seed }, 16, 12, |node| {
+            let PlaneKind::Face(face) = node.plane.kind() else { panic!("{:?}", node.plane) };
+            assert!(node.set.iter().any(|piece| piece.face == face));
+            planes.push(face);
+        });
+        enough!(planes.len() > 100; "{}", planes.len());
+        planes
+    };
+    let some: Vec<Vec<u32>> = (0..6).map(planes).collect();
+    assert_eq!(some[3], planes(3));
+    for (i, a) in some.iter().enumerate() {
+        assert!(some[..i].iter().all(|b| a != b), "seed {i}");
+    }
+    // Of many seeds, each polygon of a set is the choice of some: none is left out.
+    let scene: Vec<Corners> = scene(&mut Dice(4), 5);
+    let mut counts = [0; 5];
+    for seed in seeds(200) {
+        let tree = build(&scene, Heuristic::Random { seed });
+        let plane = tree.root().expect("a node").plane();
+        let PlaneKind::Face(face) = plane.kind() else { panic!("{plane:?}") };
+        counts[face as usize] += 1;
+    }
+    assert!(counts.iter().all(|&count| count >= 20), "{counts:?}");
+}
+
+#[test]
+fn fewest_splits_takes_a_plane_than_which_none_cuts_fewer() {
+    assert_least(Heuristic::FewestSplits, |c, _| c.splits as f64 * 1e3 + c.imbalance());
+}
+
+#[test]
+fn balanced_takes_a_plane_than_which_none_divides_more_evenly() {
+    assert_least(Heuristic::Balanced, |c, _| c.imbalance() * 1e3 + c.splits as f64);
+}
+
+#[test]
+fn weighted_takes_a_plane_of_least_weighted_sum() {
+    for (splits, balance) in [(8.0, 1.0), (1.0, 3.0), (0.0, 1.0), (1.0, 0.0), (2.0, -1.0)] {
+        for axial in [0.0, 0.5, -2.0] {
+            let by = Heuristic::Weighted { splits, balance, axial };
+            let mut choices = 0;
+            let found = each(by, 9, 12, |node| {
+                let reward = axial * node.set.len() as f64;
+                let score = |c: &Counts, is_axial: bool| {
+                    let bonus = if is_axial { reward } else { 0.0 };
+                    splits * c.splits as f64 + balance * c.imbalance() - bonus
+                };
+                let [chosen, least] = node.scores(score);
+                assert!(chosen <= least + 1e-9, "{by}: {chosen}, not {least}");
+                choices += usize::from(node.own_planes().any(|(c, a)| score(&c, a) > least));
+            });
+            enough!(found > 40, choices > 15; "{by}: {found} nodes, {choices} choices");
+        }
+    }
+}
+
+#[test]
+fn sampled_from_all_planes_takes_one_of_least_weighted_sum() {
+    assert_least(Heuristic::Sampled { candidates: 1000 }, |c, _| {
+        8.0 * c.splits as f64 + c.imbalance()
+    });
+}
+
+/// With one candidate there is no choice; with more, some choice is better.
+#[test]
+fn sampled_looks_at_more_planes_the_more_it_is_told_to() {
+    let sum = |candidates: u32| {
+        let mut sum = 0.0;
+        each(Heuristic::Sampled { candidates }, 16, 14, |node| {
+            sum += 8.0 * node.counts.splits as f64;
+        });
+        sum
+    };
+    assert!(sum(1) > 1.2 * sum(32), "{} {}", sum(1), sum(32));
+}
+
+#[test]
+fn free_planes_are_taken_wherever_one_separates_something_and_cost_least() {
+    let (mut free, mut own, mut clean) = (0, 0, 0);
+    each(Heuristic::FreePlanes, 40, 20, |node| {
+        let planes = node.free_planes();
+        let key = |c: &Counts| (c.splits > 0, c.work());
+        match node.plane.kind() {
+            PlaneKind::Face(_) => {
+                let Counts { front, back, splits } = node.counts;
+                let is_flat = front + back + splits == 0;
+                assert!(planes.is_empty() || is_flat, "{} pieces, {planes:?}", node.set.len());
+                own += 1;
+            }
+            PlaneKind::Axis(..) => {
+                assert!(node.counts.separates(node.set.len()), "{:?}", node.counts);
+                let least =
+                    planes.iter().map(key).min_by(|a, b| a.partial_cmp(b).expect("numbers"));
+                let (least, chosen) = (least.expect("the chosen one"), key(&node.counts));
+                // Enough balance is enough: the search stops at a plane that cuts nothing and
+                // leaves a quarter on each side.
+                let n = node.set.len();
+                let enough = chosen.1 <= work(n / 4) + work(n - n / 4) + 1e-9;
+                let fits = chosen.1 <= least.1 + 1e-9 || !chosen.0 && enough;
+                assert!(chosen.0 == least.0 && fits, "{chosen:?}, not {least:?}, of {n}");
+                free += 1;
+                clean += usize::from(!chosen.0);
+            }
+        }
+    });
+    assert!(free > 150 && own > 30 && clean > 50 && clean < free, "{free} {own} {clean}");
+}
+
+/// Below and above the sizes at which `auto` changes its search.
+#[test]
+fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
+    let (mut clean, mut cut) = (0, 0);
+    let (mut clean_of_frames, mut needed) = (0, 0);
+    for count in [40, 63, 64, 65, 210, 255, 256, 257] {
+        for seed in [1, 2, 4] {
+            // Some polygons have no area.
+            let mut scene = scene(&mut Dice(seed), count + count / 4);
+            scene.retain(|polygon| {
+                build(std::slice::from_ref(polygon), Heuristic::First).len() == 1
+            });
+            scene.truncate(count);
+            let tree = build(&scene, Heuristic::Auto);
+            assert_eq!(tree.faces().len(), count);
+            let has_clean = |node: &Divided<'_>| node.free_planes().iter().any(|c| c.splits == 0);
+            nodes(&tree, |node| {
+                let cuts = node.counts.splits > 0;
+                if has_clean(node) {
+                    assert!(!cuts, "{} pieces, seed {seed}", node.set.len());
+                    clean += 1;
+                } else {
+                    cut += usize::from(cuts);
+                }
+            });
+            // In a frame, small sets may be divided by a plane that cuts only what crosses.
+            let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
+            nodes(builder.build(&scene).expect("a tree"), |node| {
+                if has_clean(node) {
+                    let cuts = node.counts.splits > 0;
+                    let is_needed = || node.set.len() <= 32 && node.cuts_what_crosses();
+                    assert!(!cuts || is_needed(), "{} pieces, seed {seed}", node.set.len());
+                    clean_of_frames += 1;
+                    needed += usize::from(cuts);
+                }
+            });
+        }
+    }
+    enough!(clean > 2000, cut > 50; "{clean} {cut}");
+    enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
+}
+
+/// Where every plane cuts, `auto` takes the own plane of least work less the reward for its size; in a
+/// frame also one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces
+/// are compared with every plane.
+#[test]
+fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
+    let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);
+    for (seed, of_frame) in (0..300).flat_map(|seed| [(seed, false), (seed, true)]) {
+        let scene = scene(&mut Dice(seed), 4 + seed as usize % 13);
+        let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
+        let tree = build(&scene, Heuristic::Auto);
+        let tree = if of_frame { builder.build(&scene).expect("a tree") } else { &tree };
+        let mut is_root = true;
+        nodes(tree, |node| {
+            if !std::mem::take(&mut is_root) || node.counts.splits == 0 {
+                return;
+            }
+            let PlaneKind::Face(face) = node.plane.kind() else { panic!("{:?}", node.plane) };
+            if of_frame && node.counts.splits <= 2 && node.cuts_what_crosses() {
+                crossings += 1;
+                return;
+            }
+            let costs: Vec<f64> = node.own_costs().collect();
+            let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+            let chosen = node.set.iter().position(|piece| piece.face == face).expect("a piece");
+            assert!(costs[chosen] <= least + 1e-9, "seed {seed}: {}, not {least}", costs[chosen]);
+            let planes: Vec<(Counts, bool)> = node.own_planes().collect();
+            assert!(planes.iter().all(|(counts, _)| counts.splits > 0), "seed {seed}");
+            cut[usize::from(of_frame)] += 1;
+            rewarded +=
+                usize::from(planes.iter().any(|(counts, _)| counts.work() < node.counts.work()));
+        });
+    }
+    enough!(cut[0] > 50, cut[1] > 25, rewarded > 5; "{cut:?} {rewarded}");
+    enough!(crossings > 25; "{crossings}");
+}
+
+/// Squares of z = x² + y² over a grid of integers: exactly planar, in exactly convex position.
+fn bowl(across: i32) -> Vec<Corners> {
+    let at = |x: i32, y: i32| DVec3::new(x.into(), y.into(), (x * x + y * y).into());
+    let half = across / 2;
+    let cells = (-half..across - half).flat_map(|x| (-half..across - half).map(move |y| (x, y)));
+    cells.map(|(x, y)| vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)]).collect()
+}
+
+#[test]
+fn auto_never_cuts_sets_in_convex_position() {
+    for across in [2, 5, 14, 15, 25, 40] {
+        for shear in [0.0, 1.0, 3.0] {
+            // Sheared, no free plane follows it.
+            let place = |p: DVec3| DVec3::new(p.x + shear * p.z, p.y - shear * p.x, p.z);
+            let scene: Vec<Corners> =
+                bowl(across).into_iter().map(|p| p.into_iter().map(place).collect()).collect();
+            let tree = build(&scene, Heuristic::Auto);
+            assert_eq!(tree.len(), scene.len(), "{across}, {shear}");
+        }
+    }
+}
+
+#[test]
+fn no_heuristic_cuts_sets_in_one_plane_by_their_own_plane() {
+    for count in [3, 30, 300] {
+        let mut dice = Dice(count as u64);
+        let mut point = || {
+            let [x, y] = [dice.around_zero(40), dice.around_zero(40)];
+            DVec3::new(x, y, x + 2.0 * y)
+        };
+        let scene: Vec<Corners> = (0..count).map(|_| vec![point(), point(), point()]).collect();
+        for &by in Heuristic::ALL {
+            let tree = build(&scene, by);
+            assert_eq!(
+                (tree.len(), tree.stats().nodes),
+                (tree.faces().len(), 1),
+                "{count} by {by}"
+            );
+        }
+    }
+}

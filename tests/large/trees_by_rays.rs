@@ -1,0 +1,300 @@
+//! Trees held against rays: far before near, input order where polygons are in one plane, and
+//! every polygon covered once.
+
+use binspace::{BspTree, Viewpoint};
+
+use super::cells::{Border, Cells};
+use super::drawing::{Drawing, Within};
+use super::exact::Plane;
+use super::ray::{Hit, Ray, Targets};
+use super::scene::world;
+use super::view::{self, Place, View};
+use testkit::dice::Dice;
+use testkit::judge::{Verdict, ensure};
+use testkit::orders;
+use testkit::rational;
+
+/// What has been compared.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Score {
+    pub(crate) trees: usize,
+    /// Trees that would have had more fragments than allowed.
+    pub(crate) given_up: usize,
+    pub(crate) faces: usize,
+    pub(crate) fragments: usize,
+    pub(crate) rays: usize,
+    /// Pairs of polygons that a ray meets one behind the other, or in one plane.
+    pub(crate) pairs: usize,
+    /// Of these, in one plane.
+    pub(crate) coplanar: usize,
+    /// Points on the border of a fragment, whose cells were asked in big integers; with a
+    /// tolerance, these hits are left out.
+    pub(crate) borders: usize,
+    /// Pairs met on both borders by a ray that lies in the plane between: either may come first.
+    pub(crate) grazing: usize,
+    /// Pairs that come out the wrong way within the tolerance.
+    pub(crate) excused: usize,
+}
+
+impl Score {
+    pub(crate) fn add(mut self, other: Self) -> Self {
+        self.trees += other.trees;
+        self.given_up += other.given_up;
+        self.faces += other.faces;
+        self.fragments += other.fragments;
+        self.rays += other.rays;
+        self.pairs += other.pairs;
+        self.coplanar += other.coplanar;
+        self.borders += other.borders;
+        self.grazing += other.grazing;
+        self.excused += other.excused;
+        self
+    }
+}
+
+/// A viewpoint, and what the rays from there meet: found once, for all trees of a scene.
+pub(crate) struct Shot {
+    view: View,
+    rays: Vec<(Ray, Vec<Vec<Hit>>)>,
+}
+
+/// Rays from `views` viewpoints, of all kinds in turn.
+pub(crate) fn shots(
+    targets: &Targets<'_>,
+    [views, rays]: [usize; 2],
+    dice: &mut Dice,
+) -> Vec<Shot> {
+    let scene = targets.scene;
+    // With a tolerance, rays that run along edges say nothing.
+    let generic = scene.tolerance > 0.0;
+    let mut views_dice = Dice(dice.roll());
+    let mut shot = |view: View, rays: usize| {
+        let others = (0..rays).filter_map(|_| view.some_ray(scene, generic, dice));
+        let rays = view.first_ray().into_iter().chain(others);
+        let rays = rays.map(|ray| (ray.clone(), targets.hits(&ray))).collect();
+        Shot { view, rays }
+    };
+    let mut shots = Vec::new();
+    for kind in 0..views {
+        let view = view::some_view(scene, kind, &mut views_dice);
+        shots.push(shot(view, rays));
+        shots.push(shot(view::in_line(scene, &mut views_dice), 1));
+    }
+    shots
+}
+
+/// A tree on trial.
+pub(crate) struct Court<'t> {
+    targets: &'t Targets<'t>,
+    tree: &'t BspTree,
+    drawing: Drawing<'t>,
+    cells: Cells,
+    score: Score,
+}
+
+/// A hit with the fragment there: on its border, or not.
+struct Found<'h> {
+    hit: &'h Hit,
+    fragment: u32,
+    border: Border,
+    place: u32,
+}
+
+impl<'t> Court<'t> {
+    pub(crate) fn new(targets: &'t Targets<'t>, tree: &'t BspTree) -> Self {
+        let drawing = Drawing::new(targets, tree);
+        let cells = Cells::new(targets, tree);
+        let score = Score {
+            trees: 1,
+            faces: tree.faces().len(),
+            fragments: tree.len(),
+            ..Score::default()
+        };
+        Self { targets, tree, drawing, cells, score }
+    }
+
+    /// Everything there is to check.
+    pub(crate) fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
+        self.input_has_not_moved()?;
+        self.drawing.check(self.tree)?;
+        for shot in shots {
+            let context = |what| format!("{what}, seen from {:?}", shot.view);
+            self.shoot(shot).map_err(context)?;
+        }
+        Ok(self.score)
+    }
+
+    /// What the judge takes for granted: faces are the polygons, with the very corners.
+    fn input_has_not_moved(&self) -> Verdict {
+        let (scene, faces) = (self.targets.scene, self.tree.faces());
+        ensure(faces.len() == scene.len(), || format!("{} faces", faces.len()))?;
+        for (face, polygon) in scene.polygons.iter().enumerate() {
+            let corners = faces.corners(face as u32);
+            let same = corners.len() == polygon.len()
+                && faces.polygon(face as u32) == face
+                && corners
+                    .iter()
+                    .zip(polygon)
+                    .all(|(&corner, &p)| faces.lattice().to_world(corner) == world(p));
+            ensure(same, || format!("polygon {face} has moved: {polygon:?}"))?;
+        }
+        Ok(())
+    }
+
+    /// Eyes are on the lattice to the last bit.
+    fn eye_has_not_moved(&self, shot: &Shot) -> Verdict {
+        let (Place::Eye(eye, below), Viewpoint::Eye(point)) =
+            (&shot.view.place, shot.view.viewpoint())
+        else {
+            return Ok(());
+        };
+        let lattice = self.tree.faces().lattice();
+        let corner = self.tree.faces().corner(0);
+        let (there, here) = (lattice.to_lattice(point), lattice.to_world(corner));
+        let steps = rational::exact(lattice.length_to_lattice(1.0));
+        let exact = |x: f64| rational::exact(x);
+        for axis in 0..3 {
+            let eye = rational::Rational::new(eye[axis].into(), (*below).into());
+            let moved = exact(there[axis]) - exact(corner[axis]);
+            ensure(moved == (eye - exact(here[axis])) * &steps, || "the eye has moved".into())?;
+        }
+        Ok(())
+    }
+
+    fn shoot(&mut self, shot: &Shot) -> Verdict {
+        self.eye_has_not_moved(shot)?;
+        orders::check(self.tree, shot.view.viewpoint())?;
+        let mut order = Vec::new();
+        self.tree.back_to_front_into(shot.view.viewpoint(), &mut order);
+        let mut places = vec![0; order.len()];
+        order.iter().zip(0..).for_each(|(&id, place)| places[id as usize] = place);
+        for (ray, groups) in &shot.rays {
+            self.ray(ray, groups, &places).map_err(|what| format!("{what}, along {ray:?}"))?;
+        }
+        Ok(())
+    }
+
+    fn ray(&mut self, ray: &Ray, groups: &[Vec<Hit>], places: &[u32]) -> Verdict {
+        self.score.rays += 1;
+        let mut before: Vec<Found<'_>> = Vec::new();
+        let (mut last, mut hits) = (None, 0);
+        for group in groups {
+            let mut found = Vec::new();
+            for hit in group {
+                found.extend(self.find(hit, places)?);
+            }
+            let place = |found: &Found<'_>| found.place;
+            self.score.pairs += hits * group.len();
+            hits += group.len();
+            let is_nearer = last < found.iter().map(place).min() || found.is_empty();
+            if !is_nearer || self.targets.scene.tolerance > 0.0 {
+                for a in &before {
+                    for b in &found {
+                        self.compare(ray, a, b)?;
+                    }
+                }
+            }
+            for (i, a) in found.iter().enumerate() {
+                for b in &found[i + 1..] {
+                    self.compare_at_one_place(ray, a, b)?;
+                }
+            }
+            last = last.max(found.iter().map(place).max());
+            before.extend(found);
+        }
+        Ok(())
+    }
+
+    /// The fragments of a polygon at a hit: one around it, or some that share a border there.
+    fn find<'h>(&mut self, hit: &'h Hit, places: &[u32]) -> Result<Vec<Found<'h>>, String> {
+        let found = |fragment: u32, border| Found {
+            hit,
+            fragment,
+            border,
+            place: places[fragment as usize],
+        };
+        let drawn = self.drawing.fragments_at(hit.polygon, hit.spot.rounded);
+        let surely = drawn.iter().filter(|&&(_, within)| within == Within::Surely).count();
+        ensure(surely <= 1, || format!("polygon {} is covered twice at {hit:?}", hit.polygon))?;
+        if surely == 1 && drawn.len() == 1 {
+            return Ok(vec![found(drawn[0].0, Border::Inside)]);
+        }
+        let hole = || format!("polygon {} has a hole at {hit:?}", hit.polygon);
+        ensure(!drawn.is_empty(), hole)?;
+        self.score.borders += 1;
+        if self.targets.scene.tolerance > 0.0 {
+            // With a tolerance, polygons may reach out of cells.
+            return Ok(vec![]);
+        }
+        let mut all = Vec::new();
+        for &(fragment, within) in &drawn {
+            match self.cells.within(fragment, &hit.spot)? {
+                Some(border) => all.push(found(fragment, border)),
+                None => ensure(within == Within::Perhaps, || {
+                    format!("fragment {fragment} is drawn outside its cell, at {hit:?}")
+                })?,
+            }
+        }
+        let inside = all.iter().filter(|found| found.border == Border::Inside).count();
+        ensure(!all.is_empty(), hole)?;
+        ensure(inside <= 1 && (inside == 0 || all.len() == 1), || {
+            format!("polygon {} is covered twice at {hit:?}", hit.polygon)
+        })?;
+        Ok(all)
+    }
+
+    /// Holds two fragments against their places, the first further away.
+    fn compare(&mut self, ray: &Ray, a: &Found<'_>, b: &Found<'_>) -> Verdict {
+        if a.place < b.place {
+            return Ok(());
+        }
+        let (far, near) = (a.hit.polygon, b.hit.polygon);
+        let wrong =
+            || format!("polygon {far} (fragment {}) hides {near} ({})", a.fragment, b.fragment);
+        let between = self.tree.plane_between(a.fragment, b.fragment).ok_or_else(wrong)?;
+        let between = self.targets.named(self.tree, between);
+        if self.targets.scene.tolerance == 0.0 {
+            let borders = [a, b].map(|found| found.border) == [Border::On; 2];
+            self.score.grazing += 1;
+            return ensure(borders && ray.is_in(&between), wrong);
+        }
+        self.excuse(ray, [a, b], &between)
+    }
+
+    /// Within the tolerance of the plane between, parts may be exchanged: both must be as near to
+    /// it, or the nearer one and the eye; if both count as lying on it, they come in input order.
+    fn excuse(&mut self, ray: &Ray, [a, b]: [&Found<'_>; 2], between: &Plane) -> Verdict {
+        self.score.excused += 1;
+        let tolerance = self.targets.scene.tolerance * (1.0 + 1e-9);
+        let in_input_order = a.hit.polygon.cmp(&b.hit.polygon) == a.place.cmp(&b.place);
+        ensure(in_input_order || !self.cells.share_a_plane(a.fragment, b.fragment), || {
+            format!("fragments {} and {}, on one plane, are out of order", a.fragment, b.fragment)
+        })?;
+        let is_near = |found: &Found<'_>| between.distance(&found.hit.spot).abs() <= tolerance;
+        let eye = ray.start_from(between).is_some_and(|from| from.abs() <= tolerance);
+        ensure(is_near(b) && (is_near(a) || eye), || {
+            let (far, near) = (a.hit.polygon, b.hit.polygon);
+            format!("polygon {far} hides {near}, further off than the tolerance")
+        })
+    }
+
+    /// Two polygons that meet there: in input order, if they are in one plane.
+    fn compare_at_one_place(&mut self, ray: &Ray, a: &Found<'_>, b: &Found<'_>) -> Verdict {
+        let (p, q) = (a.hit.polygon, b.hit.polygon);
+        let planes = [p, q].map(|polygon| &self.targets.planes[polygon]);
+        if p == q || !planes[0].is_same_as(planes[1]) {
+            return Ok(());
+        }
+        self.score.pairs += 1;
+        self.score.coplanar += 1;
+        // Where borders meet, each shows on its own side.
+        let apart = a.border == Border::On && b.border == Border::On;
+        if apart || p.cmp(&q) == a.place.cmp(&b.place) {
+            return Ok(());
+        }
+        let wrong = || format!("polygons {p} and {q}, in one plane, are out of order");
+        ensure(self.targets.scene.tolerance > 0.0, wrong)?;
+        let between = self.tree.plane_between(a.fragment, b.fragment).ok_or_else(wrong)?;
+        self.excuse(ray, [a, b], &self.targets.named(self.tree, between))
+    }
+}

@@ -1,0 +1,28 @@
+//! The library's parts, each against an oracle of its own. One program: it links once.
+
+mod bounds;
+mod cancel;
+mod cuts;
+mod dropped;
+mod duplicates;
+mod eye;
+mod faces;
+mod facing;
+mod facing_bounds;
+mod fuzz_regressions;
+mod iterators;
+mod many_parts;
+mod odd_viewpoints;
+#[cfg(target_os = "linux")]
+mod out_of_memory;
+mod parts;
+mod peeled;
+mod precision;
+mod predicates;
+mod preparation;
+mod scenes;
+mod send_sync;
+mod size_hints;
+mod small_frames;
+mod tolerance;
+mod vertex_errors;

@@ -1,0 +1,181 @@
+//! Where memory runs out, a build, a reading or a mesh is an error and never the end of the program.
+//! Each case runs in a process of its own, with less and less room.
+#![allow(clippy::print_stdout, reason = "a process tells another how much memory it took")]
+
+use binspace::glam::DVec3;
+use binspace::{BspTree, BuildOptions, FrameBuilder, scene};
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use testkit::effort::effort;
+
+type Polygons = Vec<Vec<DVec3>>;
+
+/// Names the case to a process that this test starts.
+const CASE: &str = "BINSPACE_OUT_OF_MEMORY";
+
+const CASES: [&str; 9] =
+    ["heap", "sphere", "layers", "outline", "sampled", "extend", "frame", "read", "mesh"];
+
+fn owned(scene: &scene::Scene) -> Polygons {
+    scene.polygons().map(|polygon| polygon.to_vec()).collect()
+}
+
+fn heap() -> Polygons {
+    owned(&scene::random_triangles(1500, 1))
+}
+
+/// A spiral of many corners, and another outline three times.
+fn outlines() -> Polygons {
+    let at = |k: u32, out: f64, z: f64| {
+        let angle = 0.02 * f64::from(k);
+        DVec3::new((angle + out) * angle.cos(), (angle + out) * angle.sin(), z)
+    };
+    let spiral =
+        (0..9000).map(|k| at(k, 0.0, 0.0)).chain((0..9000).rev().map(|k| at(k, 0.05, 0.0)));
+    let ring: Vec<DVec3> =
+        (0..20_000).map(|k| f64::from(k).sin_cos()).map(|(y, x)| DVec3::new(x, y, 2.0)).collect();
+    vec![spiral.collect(), ring.clone(), ring.clone(), ring]
+}
+
+/// Small blocks of free memory, which no longer list fits into: what little is asked for without a
+/// check is to be had, so that only the lists meet the limit.
+fn keep_small_change() -> Vec<Box<[u8]>> {
+    let (change, kept): (Vec<_>, Vec<_>) = (0..200)
+        .map(|_| (vec![1_u8; 40_000].into_boxed_slice(), vec![1_u8; 64].into_boxed_slice()))
+        .unzip();
+    drop(change);
+    kept
+}
+
+/// A figure of this process, in kB.
+fn status(name: &str) -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let line = status.lines().find(|line| line.starts_with(name)).expect("a figure");
+    line.split_whitespace().nth(1).and_then(|figure| figure.parse().ok()).expect("a number")
+}
+
+/// Runs a case, and tells whether memory ran out.
+fn run(case: &str) -> bool {
+    let polygons = match case {
+        "sphere" => owned(&scene::sphere(20_000)),
+        "layers" => (0..30_000).map(|k| square(f64::from(k % 3), f64::from(k / 3))).collect(),
+        "outline" => outlines(),
+        "heap" | "sampled" | "extend" | "frame" => heap(),
+        "read" | "mesh" => vec![],
+        other => panic!("{other}"),
+    };
+    let options = match case {
+        "sampled" => BuildOptions::DEFAULT.with_heuristic("sampled(16)".parse().expect("a name")),
+        _ => BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0)),
+    };
+    // What the case begins with is made before: the limits that the parent sets are above what it takes.
+    match case {
+        "extend" => {
+            let mut tree = options.build(&polygons[..700]).expect("room");
+            began();
+            tree.extend(&polygons[700..]).is_err_and(|error| error.is_out_of_memory())
+        }
+        "frame" => {
+            began();
+            let mut builder = FrameBuilder::new(options);
+            let failed = builder.build(&polygons).is_err_and(|error| error.is_out_of_memory());
+            assert!(!failed || builder.tree().is_empty() && builder.tree().root().is_none());
+            failed
+        }
+        "read" => {
+            let file = std::fs::read(tree_file()).expect("the parent's file");
+            began();
+            BspTree::read(&file[..]).is_err_and(|error| error.to_string().contains("memory"))
+        }
+        "mesh" => {
+            let file = std::fs::File::open(tree_file()).expect("the parent's file");
+            let tree = BspTree::read(file).expect("room");
+            began();
+            tree.welded_mesh().is_err_and(|error| error.is_out_of_memory())
+        }
+        _ => {
+            began();
+            options.build(&polygons).is_err_and(|error| error.is_out_of_memory())
+        }
+    }
+}
+
+fn square(x: f64, y: f64) -> Vec<DVec3> {
+    [[0.0, 0.0], [0.9, 0.0], [0.9, 0.9], [0.0, 0.9]]
+        .map(|[dx, dy]| DVec3::new(x / 10.0 + dx, y / 4000.0 + dy, 0.0))
+        .to_vec()
+}
+
+fn began() {
+    println!("began at {} kB", status("VmPeak"));
+}
+
+/// Where the parent leaves a tree.
+fn tree_file() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("out_of_memory.tree")
+}
+
+/// This program again, as a case, with some room.
+fn process(case: &str, kilobytes: Option<usize>) -> Output {
+    let program = env::current_exe().expect("this program");
+    let limit = kilobytes.map_or("unlimited".to_owned(), |kilobytes| kilobytes.to_string());
+    Command::new("sh")
+        .args(["-c", &format!("ulimit -v {limit}; exec \"$0\" library::out_of_memory::one_case --exact --ignored --nocapture")])
+        .arg(program)
+        // One arena, and room by need: a limit then meets the lists that grow.
+        .envs([("MALLOC_ARENA_MAX", "1"), ("MALLOC_TOP_PAD_", "0"), ("RAYON_NUM_THREADS", "2")])
+        .env("RUST_TEST_THREADS", "1")
+        .env("MALLOC_MMAP_THRESHOLD_", "65536")
+        .env(CASE, case)
+        .output()
+        .expect("a shell")
+}
+
+/// The number behind some words in what a process has printed.
+fn printed(output: &Output, words: &str) -> Option<usize> {
+    let text = String::from_utf8_lossy(&output.stdout);
+    let (_, rest) = text.split_once(words)?;
+    rest.split_whitespace().next()?.parse().ok()
+}
+
+#[test]
+#[ignore = "a part of the other test, which runs it in processes of its own"]
+fn one_case() {
+    let case = env::var(CASE).expect("the other test names it");
+    // The pool's threads, before there is a limit to meet.
+    rayon::join(|| (), || ());
+    let kept = keep_small_change();
+    let failed = run(&case);
+    println!("\nfailed: {} and peak {} kB", u8::from(failed), status("VmPeak"));
+    drop(kept);
+}
+
+#[test]
+fn memory_that_runs_out_is_an_error() {
+    let steps = (7 * effort()).min(100);
+    let file = std::fs::File::create(tree_file()).expect("a place for files of tests");
+    BspTree::build(heap()).expect("room").write(file).expect("room");
+    for case in CASES {
+        let free = process(case, None);
+        let (Some(from), Some(peak)) = (printed(&free, "began at "), printed(&free, "and peak "))
+        else {
+            panic!("{case}: {free:?}");
+        };
+        assert_eq!(printed(&free, "failed: "), Some(0), "{case}");
+        assert!(peak > from + 500, "{case}: it takes no memory, {from} to {peak} kB");
+        let mut failed = 0;
+        for step in 1..steps {
+            let limit = from + (peak - from) * step / steps;
+            let output = process(case, Some(limit));
+            assert!(
+                output.status.success(),
+                "{case} with {limit} of {from} to {peak} kB: {}\n{}",
+                output.status,
+                String::from_utf8_lossy(&output.stderr)
+            );
+            failed += printed(&output, "failed: ").expect("an outcome");
+        }
+        assert!(failed >= steps / 2, "{case}: memory ran out {failed} times of {steps}");
+    }
+}

@@ -1,0 +1,140 @@
+//! The errors of the vertices that a tree returns, in the scene's own coordinates, against exact
+//! rationals: in scenes far from the origin, tiny, and huge.
+
+use binspace::glam::DVec3;
+use binspace::internals::{Faces, Line, PlaneId, PlaneKind, SymbolKind};
+use binspace::{BspTree, BuildOptions, Heuristic};
+use num_traits::{Signed, ToPrimitive};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use std::collections::HashMap;
+use testkit::enough;
+use testkit::hard::{self, HardScene};
+use testkit::judge::meeting;
+use testkit::model::Face;
+use testkit::rational::{self, Rational};
+use testkit::tally::tally;
+
+/// World coordinates as (lattice + origin) · step, found from the corners of the scene if they tell.
+struct World {
+    step: Rational,
+    origin: [Rational; 3],
+}
+
+impl World {
+    fn of(faces: &Faces, scene: &HardScene) -> Self {
+        let step = rational::step(faces.lattice());
+        let (half, zero) = (rational::exact(0.5), rational::exact(0.0));
+        let origin = std::array::from_fn(|axis| {
+            let corners = || scene.polygons.iter().flatten();
+            let place = |corner: &DVec3| rational::exact(corner[axis]) / &step;
+            // Halfway between two grid points, a corner may be rounded to either.
+            let is_halfway = |corner: &&DVec3| (place(corner).fract().abs() - &half) == zero;
+            match corners().find(|corner| !is_halfway(corner)) {
+                Some(corner) => {
+                    place(corner).round() - rational::exact(faces.lattice().snap(*corner)[axis])
+                }
+                // Of a scene of nothing else, no corner tells.
+                None => rational::exact(faces.lattice().to_world([0.0; 3])[axis]) / &step,
+            }
+        });
+        Self { step, origin }
+    }
+}
+
+/// The step from a number to the next.
+fn ulp(value: f64) -> f64 {
+    value.abs().next_up() - value.abs()
+}
+
+#[derive(Default)]
+struct Errors {
+    vertices: usize,
+    far: usize,
+    /// The largest error in lattice steps, where the coordinates' own steps are smaller, and in the
+    /// coordinate's own steps where they are larger.
+    steps: f64,
+    ulps: f64,
+    /// The largest error in steps of the coordinate, wherever it is.
+    relative: f64,
+}
+
+impl Errors {
+    fn add(&mut self, tree: &BspTree, scene: &HardScene) -> Result<(), TestCaseError> {
+        let faces = tree.faces();
+        let world = World::of(faces, scene);
+        let step = faces.lattice().length_to_world(1.0);
+        let mut places: HashMap<String, [u64; 3]> = HashMap::new();
+        for fragment in tree.fragments() {
+            let exact = Face::new(faces, fragment.face());
+            let lines: Vec<Line> = fragment.lines().collect();
+            let corners = faces.corners(fragment.face()).len() as u32;
+            for (i, vertex) in fragment.vertices().enumerate() {
+                let symbol = meeting(lines[(i + lines.len() - 1) % lines.len()], lines[i], corners);
+                let point = exact.resolve(faces, symbol);
+                // The same, bit for bit, for the pieces on both sides of a cut.
+                let bits = vertex.to_array().map(f64::to_bits);
+                let name = format!("{} {symbol:?}", fragment.face());
+                prop_assert_eq!(*places.entry(name).or_insert(bits), bits, "{:?}", symbol);
+                for axis in 0..3 {
+                    let place = (&point[axis] + &world.origin[axis]) * &world.step;
+                    let off = (rational::exact(vertex[axis]) - &place).abs();
+                    let off = off.to_f64().expect("in range");
+                    let own = ulp(vertex[axis]);
+                    // As `docs/guide/exact.md` says.
+                    prop_assert!(off <= 0.77 * step + own, "{off:e}: {own:e} and {step:e}");
+                    let worst = if own < step { &mut self.steps } else { &mut self.ulps };
+                    *worst = worst.max(off / own.max(step));
+                    self.relative = self.relative.max(off / own);
+                    self.far += usize::from(own > step);
+                    self.vertices += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn vertices_in_the_world_are_as_near_their_exact_places_as_stated() {
+    let by = prop::sample::select(Heuristic::ALL);
+    let errors = tally(file!(), 200, (hard::scene(), by), |errors: &mut Errors, (scene, by)| {
+        let options = BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0);
+        errors.add(&options.build(&scene.polygons).expect("finite"), &scene)
+    });
+    let Errors { vertices, far, steps, ulps, relative } = errors;
+    enough!(vertices > 10_000, far > 500; "{vertices} coordinates, {far} far out");
+    // Nothing is claimed that is far from what happens.
+    assert!(steps > 0.2 && ulps > 0.4, "{steps} steps, {ulps} of the coordinates' own");
+    // Near zero a coordinate's own steps are smaller than any error.
+    assert!(relative > 100.0, "{relative}");
+}
+
+/// However the other coordinates are rounded.
+#[test]
+fn vertices_on_an_axis_aligned_plane_have_its_coordinate_exactly() {
+    // By the plane alone that cuts an edge, as the first of two planes, and as the second.
+    let mut compared = [0; 3];
+    for seed in 1..5 {
+        let scene = binspace::scene::random_triangles(300, seed);
+        let options = BuildOptions::DEFAULT;
+        let tree = options.with_heuristic(Heuristic::FreePlanes).build(scene.polygons());
+        let tree = tree.unwrap();
+        for fragment in tree.fragments() {
+            for (symbol, position) in fragment.symbols().zip(fragment.lattice_vertices()) {
+                let planes = match symbol.kind() {
+                    SymbolKind::Corner(_) => [None; 3],
+                    SymbolKind::OnEdge(_, plane) => [Some(plane), None, None],
+                    SymbolKind::Inside(g, h) => [None, Some(g), Some(h)],
+                };
+                for (plane, compared) in planes.into_iter().zip(&mut compared) {
+                    if let Some(PlaneKind::Axis(axis, corner)) = plane.map(PlaneId::kind) {
+                        assert_eq!(position[axis], tree.faces().corner(corner)[axis], "{symbol:?}");
+                        *compared += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared.iter().all(|&compared| compared > 1000), "{compared:?}");
+}

@@ -1,0 +1,124 @@
+//! Wrong size hints, and polygons without end.
+
+use std::cell::Cell;
+use std::iter;
+
+use super::{counted, most_bytes};
+use binspace::glam::DVec3;
+use binspace::internals::{Faces, MAX_CORNERS};
+use binspace::{BspTree, BuildOptions, Error, Polygon};
+
+const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// Corners that come round again, up to a number.
+struct Round<'a> {
+    len: usize,
+    read: &'a Cell<usize>,
+    /// How many the iterator says that there are, instead.
+    claim: Option<usize>,
+}
+
+impl Polygon for Round<'_> {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+        let polygons = (0..self.len).map(move |k| {
+            self.read.set(self.read.get() + 1);
+            square[k % 4]
+        });
+        let claim = self.claim.unwrap_or(self.len);
+        Claim { polygons, claim }
+    }
+}
+
+/// An iterator that claims more than it has.
+struct Claim<I> {
+    polygons: I,
+    claim: usize,
+}
+
+impl<I: Iterator> Iterator for Claim<I> {
+    type Item = I::Item;
+
+    fn next(&mut self) -> Option<I::Item> {
+        self.polygons.next()
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.claim, Some(self.claim))
+    }
+}
+
+/// A result, and the most memory that was in use at once until then.
+fn peak<T>(run: impl FnOnce() -> T) -> (T, usize) {
+    (run(), most_bytes())
+}
+
+fn unlimited() -> BuildOptions {
+    BuildOptions::DEFAULT.with_max_fragments(usize::MAX)
+}
+
+fn endless_with_hint(claim: usize) -> impl Iterator<Item = [[f64; 3]; 3]> {
+    Claim { polygons: iter::repeat(TRIANGLE), claim }
+}
+
+#[test]
+fn hints_and_polygons_without_end_take_little_memory() {
+    counted(read_too_much);
+}
+
+/// In the order of the memory that is allowed.
+fn read_too_much() {
+    // A claim beyond every limit is an error once a million polygons have come.
+    let claims: [fn() -> Option<Error>; 5] = [
+        || unlimited().build(endless_with_hint(1 << 40)).err(),
+        || unlimited().build(iter::repeat(TRIANGLE)).err(),
+        || BspTree::build(iter::repeat(TRIANGLE)).err(),
+        || Faces::new(iter::repeat(TRIANGLE), None).err(),
+        || Faces::new(endless_with_hint(1 << 60), None).err(),
+    ];
+    for claim in claims {
+        let (error, bytes) = peak(claim);
+        let error = error.expect("a limit");
+        assert!(error.to_string().starts_with("there are more than "), "{error}");
+        assert!(bytes < 100 << 20, "{bytes} bytes");
+    }
+
+    // Claims within the limits are not believed: no memory is asked for what may not come.
+    for claim in [1 << 25, 1 << 28] {
+        let polygons = Claim { polygons: iter::repeat_n(TRIANGLE, 3), claim };
+        let (tree, bytes) = peak(|| unlimited().build(polygons));
+        assert_eq!(tree.expect("three triangles").len(), 3);
+        assert!(bytes < 100 << 20, "{bytes} bytes for {claim} polygons");
+    }
+
+    // Polygons without end are read up to the limit.
+    let read = Cell::new(0);
+    let polygons = iter::from_fn(|| {
+        read.set(read.get() + 1);
+        Some(TRIANGLE)
+    });
+    let error = BuildOptions::DEFAULT.with_max_fragments(1000).build(polygons).err();
+    assert!(error.expect("a limit").is_over_budget());
+    assert_eq!(read.get(), 1001);
+
+    // So are the corners of one polygon.
+    let few = [0, 3, 64].map(|claim| (20_000_000, Some(claim)));
+    let right = [MAX_CORNERS + 1, 20_000_000, usize::MAX].map(|len| (len, None));
+    for (len, claim) in few.into_iter().chain(right) {
+        let read = Cell::new(0);
+        let polygons =
+            [(3, None), (len, claim)].map(|(len, claim)| Round { len, read: &read, claim });
+        let (error, bytes) = peak(|| BspTree::build(polygons).err());
+        let error = error.expect("a limit");
+        assert_eq!(error.polygon(), Some(1));
+        assert!(error.to_string().contains("corners"), "{error}");
+        assert_eq!(read.get(), 3 + MAX_CORNERS + 1);
+        assert!(bytes < 300 << 20, "{bytes} bytes");
+    }
+
+    // The limit is no invitation: half a million corners take some hundred bytes each.
+    let (read, len) = (Cell::new(0), 1 << 19);
+    let (faces, bytes) = peak(|| Faces::new([Round { len, read: &read, claim: None }], None));
+    assert_eq!(faces.expect("a square").0.len(), 2);
+    assert!(bytes < len * 512, "{bytes} bytes");
+}

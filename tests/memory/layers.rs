@@ -1,0 +1,41 @@
+//! A frame whose layers did not change allocates nothing, nor does reading it.
+
+use super::{allocations, counted, least_allocations};
+use binspace::layers::{Layer, Layers};
+use testkit::enough;
+use testkit::pages::{Page, SCREEN};
+
+/// Reads all of a page, so that nothing of it is left out.
+fn read(page: &Layers) -> usize {
+    let pieces = page.back_to_front().map(|piece| {
+        let own = piece.edges().flatten().count();
+        own + piece.vertices().filter(|vertex| vertex.w > 0.0).count()
+    });
+    pieces.sum()
+}
+
+#[test]
+fn an_unchanged_frame_allocates_nothing() {
+    counted(look_at_unchanged_frames);
+}
+
+fn look_at_unchanged_frames() {
+    for kind in Page::ALL {
+        let layers: Vec<Layer> = kind
+            .layers(30, 1)
+            .iter()
+            .map(|layer| Layer::new([layer.half.map(|side| -side), layer.half], layer.matrix))
+            .collect();
+        let mut page = Layers::new([[0.0; 2], SCREEN]);
+        // What is counted is counted: the first frame has to make room.
+        assert!(allocations(|| assert!(page.update(&layers).unwrap())) > 10, "{kind:?}");
+        let mut corners = 0;
+        let unchanged = least_allocations(|| {
+            assert!(!page.update(&layers).unwrap());
+            corners = read(&page);
+            assert!(page.hit([960.0, 540.0]).is_some() || kind != Page::Crossing);
+        });
+        assert_eq!(unchanged, 0, "{kind:?}");
+        enough!(corners > 100; "{corners}");
+    }
+}

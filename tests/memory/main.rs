@@ -1,0 +1,38 @@
+//! How often and how much memory is asked for, of the whole process: a program of its own, as its
+//! allocator counts what all threads allocate.
+
+mod input_limits;
+mod layers;
+mod loading;
+mod orders_and_frames;
+
+use dhat::{HeapStats, Profiler};
+use std::sync::{Mutex, PoisonError};
+
+#[global_allocator]
+static COUNTING: dhat::Alloc = dhat::Alloc;
+
+/// Counts while something runs, and nothing else of this program does.
+fn counted(work: impl FnOnce()) {
+    static ALONE: Mutex<()> = Mutex::new(());
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _profiler = Profiler::builder().testing().build();
+    work();
+}
+
+/// How often memory was asked for while something ran.
+fn allocations(work: impl FnOnce()) -> u64 {
+    let before = HeapStats::get().total_blocks;
+    work();
+    HeapStats::get().total_blocks - before
+}
+
+/// The least of several times: the program that runs the tests may allocate beside one of them.
+fn least_allocations(mut work: impl FnMut()) -> u64 {
+    (0..5).map(|_| allocations(&mut work)).min().expect("several")
+}
+
+/// The most memory that was in use at once.
+fn most_bytes() -> usize {
+    HeapStats::get().max_bytes
+}

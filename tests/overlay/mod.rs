@@ -1,0 +1,134 @@
+//! Overlays: one order of a tree and of polygons that move, held against an exact depth buffer that
+//! knows neither, and against exact areas.
+
+mod coplanar;
+mod cost;
+mod crowd;
+mod errors;
+mod judge;
+mod lines;
+mod marks;
+mod oracle;
+mod sight;
+mod tiling;
+mod walks;
+
+use binspace::glam::DVec3;
+use binspace::overlay::Overlay;
+use binspace::view::{Camera, views};
+use binspace::{BspTree, BuildOptions, Heuristic};
+use judge::Judged;
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::hard::{self, HardScene, Tolerance};
+use testkit::tally::tally;
+
+type Corners = Vec<DVec3>;
+
+/// A scene in two parts: each polygon is in the tree or moves.
+#[derive(Debug)]
+struct Divided {
+    tree: BspTree,
+    moving: Vec<Corners>,
+    all: Vec<Corners>,
+}
+
+/// Divides a scene by the bits of a number. The bounds hold all.
+fn divide(scene: &HardScene, bits: u64, by: Heuristic) -> Result<Divided, TestCaseError> {
+    let is_moving = |i: usize| bits >> (i % 64) & 1 == 1;
+    let part = |moving: bool| -> Vec<Corners> {
+        let polygons = scene.polygons.iter().enumerate();
+        polygons.filter(|&(i, _)| is_moving(i) == moving).map(|(_, p)| p.clone()).collect()
+    };
+    let (still, moving) = (part(false), part(true));
+    let [low, high] = bounds(&scene.polygons);
+    let mut options = BuildOptions::DEFAULT.with_heuristic(by).with_bounds(low, high);
+    options.tolerance = scene.tolerance().into();
+    let tree = options.build(&still).map_err(|error| TestCaseError::reject(error.to_string()))?;
+    let all = still.iter().chain(&moving).cloned().collect();
+    Ok(Divided { tree, moving, all })
+}
+
+fn bounds(polygons: &[Corners]) -> [DVec3; 2] {
+    let corners = || polygons.iter().flatten().copied();
+    [corners().reduce(DVec3::min), corners().reduce(DVec3::max)].map(Option::unwrap_or_default)
+}
+
+#[test]
+fn the_painter_shows_what_the_depth_buffer_sees() {
+    let by = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), any::<u64>(), by, any::<u64>());
+    let judged: Judged = tally(file!(), 256, cases, |judged: &mut Judged, case| {
+        let (scene, bits, by, seed) = case;
+        let scene = scene.with_tolerance(Tolerance::Share(0.0));
+        let Divided { tree, moving, all } = divide(&scene, bits, by)?;
+        let mut overlay = Overlay::new(&tree);
+        // Something else before, so that what is left of it would show.
+        overlay.replace(&tree, &all).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        overlay.replace(&tree, &moving).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        for camera in views(bounds(&all), DVec3::Z, 4, [40, 30], seed).unwrap_or_default() {
+            judged.look(&tree, &overlay, &camera).map_err(TestCaseError::fail)?;
+        }
+        Ok(())
+    });
+    judged.assert_floor(700, 100_000, 10_000);
+}
+
+/// Cameras with their eyes in planes of faces of both parts, next to them, and on corners.
+fn awkward_cameras(overlay: &Overlay, dice: &mut Dice) -> Vec<Camera> {
+    let faces = overlay.faces();
+    if faces.is_empty() {
+        return vec![];
+    }
+    let mut random_face = || dice.below(faces.len()) as u32;
+    let [face, target] = [random_face(), random_face()];
+    let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
+    let inside = p + (q - p) * dice.around_zero(3) + (r - p) * dice.around_zero(3);
+    let missed = inside + DVec3::AXES[dice.below(3)] * dice.around_zero(1);
+    let target = faces.corners(target).iter().map(|&c| DVec3::from(c)).sum::<DVec3>()
+        / faces.corners(target).len() as f64;
+    let [p, inside, missed, target] =
+        [p, inside, missed, target].map(|point| faces.lattice().to_world(point.to_array()));
+    let up = DVec3::new(0.1, 0.2, 1.0);
+    let eyes = [p, inside, missed].into_iter();
+    eyes.filter_map(|eye| Camera::perspective(eye, target, up, 1.2, [40, 30]).ok()).collect()
+}
+
+#[test]
+fn the_painter_is_right_from_eyes_in_planes_and_corners() {
+    let by = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), any::<u64>(), by, any::<u64>());
+    let judged: Judged = tally(file!(), 256, cases, |judged: &mut Judged, case| {
+        let (scene, bits, by, seed) = case;
+        let Divided { tree, moving, .. } =
+            divide(&scene.with_tolerance(Tolerance::Share(0.0)), bits, by)?;
+        let mut overlay = Overlay::new(&tree);
+        overlay.replace(&tree, &moving).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        for camera in awkward_cameras(&overlay, &mut Dice(seed)) {
+            judged.look(&tree, &overlay, &camera).map_err(TestCaseError::fail)?;
+        }
+        Ok(())
+    });
+    judged.assert_floor(500, 50_000, 10_000);
+}
+
+#[test]
+fn pieces_tile_their_polygons() {
+    let by = prop::sample::select(Heuristic::ALL);
+    let cases = (hard::scene(), any::<u64>(), by);
+    let counts = tally(file!(), 256, cases, |counts: &mut [usize; 2], (scene, bits, by)| {
+        let Divided { tree, moving, all } = divide(&scene, bits, by)?;
+        let [mut overlay, mut fresh] = [Overlay::new(&tree), Overlay::new(&tree)];
+        let refused = |error: binspace::Error| TestCaseError::fail(error.to_string());
+        overlay.replace(&tree, &all).map_err(refused)?;
+        overlay.replace(&tree, &moving).map_err(refused)?;
+        fresh.replace(&tree, &moving).map_err(refused)?;
+        judge::same(&tree, [&overlay, &fresh]).map_err(TestCaseError::fail)?;
+        counts[0] += judge::areas(&tree, &overlay).map_err(TestCaseError::fail)?;
+        counts[1] += overlay.len();
+        Ok(())
+    });
+    let [faces, pieces] = counts;
+    assert!(faces > 500 && pieces > faces * 5 / 4, "{faces} faces in {pieces} pieces");
+}

@@ -1,0 +1,11 @@
+//! What rays hit, what blocks a line of sight, and where points are, against exact rationals: every ray
+//! against every polygon.
+
+mod cases;
+mod crowded;
+mod hard;
+mod large;
+mod locate;
+mod names;
+mod real_scenes;
+mod region;

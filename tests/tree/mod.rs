@@ -1,0 +1,86 @@
+//! Trees of hard scenes against oracles of their own: exact rationals for what the fragments are,
+//! rays in big integers for the order.
+
+mod cases;
+mod extend;
+mod faults;
+mod frames;
+mod input;
+mod order;
+mod picture;
+mod progress;
+mod same;
+mod scale;
+mod tilted;
+
+use binspace::{BspTree, BuildOptions, Heuristic};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use testkit::dice::Dice;
+use testkit::enough;
+use testkit::hard::{self, HardScene};
+use testkit::rays::Rays;
+use testkit::tally::tally;
+use testkit::{judge, orders, views};
+
+fn options(scene: &HardScene, heuristic: Heuristic) -> BuildOptions {
+    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    scene.tolerance().map_or(options, |tolerance| options.with_tolerance(tolerance))
+}
+
+fn build(scene: &HardScene, heuristic: Heuristic) -> Result<BspTree, TestCaseError> {
+    options(scene, heuristic)
+        .build(&scene.polygons)
+        .map_err(|error| TestCaseError::fail(error.to_string()))
+}
+
+fn fail(what: String) -> TestCaseError {
+    TestCaseError::fail(what)
+}
+
+fn heuristic() -> impl Strategy<Value = Heuristic> {
+    prop_oneof![
+        4 => prop::sample::select(Heuristic::ALL),
+        1 => any::<u64>().prop_map(|seed| Heuristic::Random { seed }),
+        1 => (0.0..32.0f64, -1.0..4.0f64, -1.0..8.0f64)
+            .prop_map(|(splits, balance, axial)| Heuristic::Weighted { splits, balance, axial }),
+        1 => (1..5u32).prop_map(|candidates| Heuristic::Sampled { candidates }),
+    ]
+}
+
+/// Shoots rays from several viewpoints.
+fn shoot(tree: &BspTree, seed: u64) -> Result<[usize; 2], TestCaseError> {
+    let mut dice = Dice(seed);
+    let mut rays = Rays::new(tree);
+    for _ in 0..if tree.is_empty() { 0 } else { 6 } {
+        let view = views::some_view(tree.faces(), &rays, &mut dice);
+        orders::check(tree, view.viewpoint).map_err(fail)?;
+        rays.check(&view, 8, &mut dice).map_err(fail)?;
+    }
+    Ok([rays.pairs, rays.contested])
+}
+
+#[test]
+fn fragments_are_exact_pieces_on_their_sides() {
+    let scenes = (hard::scene(), heuristic());
+    let [trees, cut] = tally(file!(), 256, scenes, |[trees, cut]: &mut [usize; 2], (scene, by)| {
+        let tree = build(&scene, by)?;
+        *trees += usize::from(!tree.is_empty());
+        *cut += usize::from(tree.len() > tree.faces().len());
+        judge::judge(&tree, &scene.polygons).map_err(fail)
+    });
+    enough!(trees > 200, cut > 60; "{trees} trees, {cut} of them with cuts");
+}
+
+#[test]
+fn nearer_fragments_are_painted_later() {
+    let scenes = (hard::scene(), heuristic(), any::<u64>());
+    let counts = tally(file!(), 256, scenes, |counts: &mut [usize; 2], (scene, by, seed)| {
+        let [pairs, contested] = shoot(&build(&scene, by)?, seed)?;
+        counts[0] += pairs;
+        counts[1] += contested;
+        Ok(())
+    });
+    let [pairs, contested] = counts;
+    assert!(pairs > 10_000 && contested * 5 < pairs, "{pairs} pairs, {contested} contested");
+}
