@@ -34,10 +34,10 @@
 //! // Both are whole, and the hidden one comes first.
 //! assert!(drawing.paths().map(|path| path.polygon()).eq([0, 1]));
 //! for path in drawing.paths() {
-//!     for outline in path.outlines() {
-//!         let corners: Vec<String> = outline.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
-//!         println!(r#"<polygon points="{}"/>"#, corners.join(" "));
-//!     }
+//!     // The outlines of one path are filled together: some are holes.
+//!     let outline = |o: &[[f64; 2]]| o.iter().map(|[x, y]| format!("{x:.2},{y:.2} ")).collect();
+//!     let outlines: Vec<String> = path.outlines().map(outline).collect();
+//!     println!(r#"<path d="M{}Z"/>"#, outlines.join("ZM"));
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
