@@ -2,9 +2,11 @@
 
 mod borders;
 mod cover;
+mod forged;
 mod order;
 mod partition;
 mod polygons;
+mod samples;
 mod saved;
 #[path = "../support/mod.rs"]
 mod support;

@@ -9,3 +9,4 @@ mod refused;
 mod same;
 mod scenes;
 mod threads;
+mod values;
