@@ -16,6 +16,8 @@ mod draw_translucent;
 mod fragment_pixels;
 mod help;
 mod lecture;
+#[cfg(unix)]
+mod not_regular;
 mod notes;
 mod order;
 mod output;
