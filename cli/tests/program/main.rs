@@ -30,6 +30,7 @@ mod png_picture;
 mod real_scenes;
 mod render;
 mod report;
+mod report_names;
 mod run;
 mod samples;
 mod saved;
