@@ -11,6 +11,7 @@ mod facing;
 mod facing_bounds;
 mod fuzz_regressions;
 mod many_parts;
+mod other_trees;
 mod parts;
 mod peeled;
 mod precision;
