@@ -12,6 +12,7 @@ mod facing_bounds;
 mod fuzz_regressions;
 mod many_parts;
 mod other_trees;
+mod panicking_callback;
 mod parts;
 mod peeled;
 mod precision;
