@@ -1,5 +1,6 @@
 //! The library's parts, each against an oracle of its own. One program: it links once.
 
+mod bent_counts;
 mod bounds;
 mod cancel;
 mod cuts;
