@@ -127,6 +127,8 @@ pub mod internals {
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]
     pub use crate::scene::cuboid::cuboid;
+    #[cfg(feature = "obj")]
+    pub use crate::scene::obj::file::open_regular;
     #[cfg(feature = "scene")]
     pub use crate::scene::turn::unit_circle;
     pub use crate::tree::apart::parts_of_tree;

@@ -52,7 +52,12 @@ pub struct CoverageMask<'t> {
 impl<'t> CoverageMask<'t> {
     /// A mask of which nothing is covered, for the picture of some rays through a tree's faces, with
     /// cells of `cell` pixels each way; 0 counts as 1.
+    ///
+    /// # Panics
+    ///
+    /// If the rays were made for another grid.
     pub fn new(tree: &'t BspTree, rays: &Rays, cell: u32) -> Self {
+        rays.expect(tree.faces());
         let mask = Mask::new(rays.size(), cell.max(1));
         Self { tree, rays: rays.clone(), mask, buffers: Buffers::default() }
     }
@@ -77,8 +82,15 @@ impl<'t> CoverageMask<'t> {
     /// It takes the time to find the fragment's pixels, O(edges) a row of pixels, and that of the cells
     /// in the rows that it reaches, in the mask's whole width, whether they are covered already or not: ask
     /// [`hides`](Self::hides) first where a box is at hand.
+    ///
+    /// # Panics
+    ///
+    /// If the fragment is of a tree with another grid.
     pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
-        self.mask.cover(&self.rays, self.tree.faces(), self.buffers.piece(fragment))
+        // Its own faces, not those of the mask's tree: it may be a piece of an overlay.
+        let faces = fragment.faces;
+        self.rays.expect(faces);
+        self.mask.cover(&self.rays, faces, self.buffers.piece(fragment))
     }
 
     /// Whether all of the picture is covered.

@@ -3,6 +3,7 @@
 use std::io::{self, Read, Write};
 use std::path::Path;
 
+use binspace::internals::open_regular;
 use binspace::scene::Scene;
 use binspace::{BspTree, LoadError};
 
@@ -35,7 +36,7 @@ pub(crate) fn is_saved(path: &Path) -> bool {
 pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     let name = path.display().to_string();
     let _progress = Progress::spinner(format!("reading {name}"));
-    let file = std::fs::File::open(path)
+    let file = open_regular(path)
         .map_err(|error| Failure::about(&name, format!("cannot be read: {error}")))?;
     read(&name, io::BufReader::new(file))
 }

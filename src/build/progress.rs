@@ -51,6 +51,7 @@ pub(crate) fn one_at_a_time(
         if watch.is_cancelled() {
             return ControlFlow::Break(());
         }
+        let _stop = StopOnPanic(watch);
         let flow = progress(watch.progress());
         if flow.is_break() {
             watch.cancelled.store(true, Ordering::Relaxed);
@@ -60,6 +61,17 @@ pub(crate) fn one_at_a_time(
 }
 
 type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
+
+/// Cancels all if the callback panics, before another thread can call it.
+struct StopOnPanic<'w>(&'w Watch<'w>);
+
+impl Drop for StopOnPanic<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.cancelled.store(true, Ordering::Relaxed);
+        }
+    }
+}
 
 /// Shared by the jobs of a build: counts their work, calls the callback, and tells them to stop.
 #[derive(Default)]
@@ -143,6 +155,8 @@ impl fmt::Debug for Watch<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
     use super::{ControlFlow, Mutex, Progress, Watch, one_at_a_time};
     use crate::{BuildOptions, Heuristic};
 
@@ -157,6 +171,15 @@ mod tests {
         assert!(watch.work(1).is_ok() && watch.expect(5).is_err());
         assert!(watch.work(1).is_err() && watch.expect(5).is_err() && watch.end().is_err());
         assert_eq!(*calls.lock().unwrap(), 1);
+    }
+
+    #[test]
+    fn a_panic_of_the_callback_cancels_all_other_work() {
+        let callback = one_at_a_time(|_| panic!("the caller's fault"));
+        let watch = Watch::new(&callback);
+        assert!(watch.work(1).is_ok());
+        assert!(catch_unwind(AssertUnwindSafe(|| watch.expect(5))).is_err());
+        assert!(watch.work(1).is_err_and(|error| error.is_cancelled()) && watch.end().is_err());
     }
 
     #[test]

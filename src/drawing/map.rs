@@ -73,11 +73,13 @@ pub struct MapCell<'m> {
 
 impl<'t> VisibilityMap<'t> {
     /// What rays meet first of a tree's polygons: of both sides, or of fronts alone, as the rays say. They
-    /// have to be made for [`tree.faces()`](BspTree::faces); those of another scene give a wrong map.
+    /// have to be made for [`tree.faces()`](BspTree::faces), or for those of a tree with the same
+    /// [grid](BspTree::grid).
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// If the rays were made for another grid, if the tree is of one cell of a partition, or if there is not
+    /// enough memory.
     pub fn of(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
         Self::new(tree, rays, |_| 1.0, Reporter::default())
     }

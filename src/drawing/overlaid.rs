@@ -75,7 +75,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If the overlay was made for another tree, as far as its size tells; if it has polygons, the first of
+    /// If the overlay was made for another tree; if it has polygons, the first of
     /// which is [`Error::polygon`]; if there is not enough memory; or if it was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;

@@ -68,6 +68,9 @@ impl<'t> Stock<'t> {
             return Err(Kind::OfCell.error());
         }
         let faces = tree.faces();
+        if !rays.are_for(faces) {
+            return Err(Kind::OtherRays.error());
+        }
         let frame = Frame { rays, faces };
         let mut order = Vec::new();
         reserve(&mut order, tree.len())?;

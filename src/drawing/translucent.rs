@@ -42,7 +42,7 @@ impl Drawing {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory.
+    /// As for [`VisibilityMap::of`](super::VisibilityMap::of).
     pub fn translucent(tree: &BspTree, rays: Rays) -> Result<Self, Error> {
         Self::with_all(tree, rays, None, &Reporter::default())
     }

@@ -24,10 +24,9 @@ pub(crate) enum Kind {
     #[cfg(feature = "drawing")]
     OfCell,
     OverlaidTree,
-    OtherTree {
-        fragments: usize,
-        expected: usize,
-    },
+    MeshOfOtherTree,
+    #[cfg(feature = "drawing")]
+    OtherRays,
     Places {
         needed: usize,
         given: usize,
@@ -105,10 +104,13 @@ impl fmt::Display for Kind {
             Kind::OverlaidTree => f.write_str(
                 "the tree is not the one that the overlay was made for: make an overlay for it",
             ),
-            Kind::OtherTree { fragments, expected } => write!(
-                f,
-                "the tree has {fragments} fragments, but the mesh was made of a tree of \
-                 {expected}: make the mesh of this tree"
+            Kind::MeshOfOtherTree => {
+                f.write_str("the mesh was made of another tree: make the mesh of this tree")
+            }
+            #[cfg(feature = "drawing")]
+            Kind::OtherRays => f.write_str(
+                "the rays were made for a scene with another grid: make them for this tree's faces by \
+                 `Rays::new`",
             ),
             Kind::Places { needed, given } => write!(
                 f,

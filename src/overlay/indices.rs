@@ -24,8 +24,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for, as far as its size, grid and tolerance
-    /// tell, or if memory runs out.
+    /// If the tree is neither the one that the overlay was made for nor a clone of it, or if memory runs
+    /// out.
     pub fn back_to_front_into(
         &self,
         tree: &BspTree,
@@ -45,8 +45,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for, as far as its size, grid and tolerance
-    /// tell, or if memory runs out.
+    /// If the tree is neither the one that the overlay was made for nor a clone of it, or if memory runs
+    /// out.
     pub fn front_to_back_into(
         &self,
         tree: &BspTree,

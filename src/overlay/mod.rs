@@ -171,24 +171,22 @@ pub struct Overlay {
     segments: Vec<u32>,
 }
 
-/// What tells whether a tree is the one that an overlay was made for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The tree that an overlay was made for.
+#[derive(Clone, Copy, Debug)]
 struct Base {
+    generation: u64,
     polygons: usize,
     faces: usize,
-    corners: usize,
     fragments: usize,
-    nodes: usize,
 }
 
 impl Base {
     fn of(tree: &BspTree) -> Self {
         Self {
+            generation: tree.generation,
             polygons: tree.preparation.polygons,
             faces: tree.faces.len(),
-            corners: tree.faces.corner_count(),
             fragments: tree.len(),
-            nodes: tree.nodes.len(),
         }
     }
 }
@@ -250,11 +248,9 @@ impl Overlay {
         &self.faces
     }
 
-    /// An error if the tree is not the one that the overlay was made for, as far as its size tells.
+    /// An error if the tree is neither the one that the overlay was made for nor a clone of it.
     fn expect(&self, tree: &BspTree) -> Result<(), Error> {
-        let is_same = self.base == Base::of(tree)
-            && self.faces.lattice() == tree.faces.lattice()
-            && self.faces.tolerance() == tree.faces.tolerance();
+        let is_same = self.base.generation == tree.generation;
         if is_same { Ok(()) } else { Err(Kind::OverlaidTree.error()) }
     }
 }

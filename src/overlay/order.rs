@@ -126,7 +126,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for, as far as its size, grid and tolerance tell.
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
     pub fn back_to_front<'a>(
         &'a self,
         tree: &'a BspTree,
@@ -140,7 +140,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is not the one that the overlay was made for, as far as its size, grid and tolerance tell.
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
     pub fn front_to_back<'a>(
         &'a self,
         tree: &'a BspTree,

@@ -15,10 +15,9 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is not
-    /// the one that the overlay was made for, as far as its size, grid and tolerance tell. The overlay is
-    /// empty then. The error names the polygon
-    /// where one is to blame, counted from 0.
+    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither
+    /// the one that the overlay was made for nor a clone of it. The overlay is empty then. The error names
+    /// the polygon where one is to blame, counted from 0.
     pub fn replace<P: Polygon>(
         &mut self,
         tree: &BspTree,

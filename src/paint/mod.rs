@@ -12,6 +12,10 @@ pub(crate) use pieces::Buffers;
 /// rays.
 ///
 /// Fragments are bounded by the exact lines that cut them, not by their rounded vertices.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
@@ -20,6 +24,10 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
 
 /// Paints the fragments of a list, the first at the bottom, as of an order that leaves out what is not in view.
 /// Numbers that name no fragment are skipped.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn paint_order(tree: &BspTree, order: &[u32], rays: &Rays) -> Image {
     paint_list(tree, order, Order::BackToFront, rays, None)
 }
@@ -51,6 +59,10 @@ pub(crate) fn paint_list(
 ///
 /// The picture is RGB, 8 bits each, row by row from the top left. If everything is opaque, it is
 /// the same as [`raster::picture`](crate::raster::picture) of what [`paint_tree`] paints.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn paint_tree_in_colour(
     tree: &BspTree,
     viewpoint: Viewpoint,
@@ -69,6 +81,10 @@ pub fn paint_tree_in_colour(
 /// Calls `paint` with each pixel that each fragment covers, back to front: the pixel's number, row by row
 /// from the top left, and the colour and the opacity there. [`blend`] makes of them the
 /// picture of [`paint_tree_in_colour`], of one tree or of those of several cells one after the other.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn for_each_painted(
     tree: &BspTree,
     viewpoint: Viewpoint,
@@ -76,6 +92,7 @@ pub fn for_each_painted(
     look: impl Fn(usize) -> ([u8; 3], f32),
     mut paint: impl FnMut(usize, [u8; 3], f32),
 ) {
+    rays.expect(tree.faces());
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     let mut buffers = Buffers::default();

@@ -69,8 +69,7 @@ impl Bounds {
     ///
     /// # Panics
     ///
-    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
-    /// Those of another tree with the same numbers give wrong answers.
+    /// If the bounds are those of another tree.
     pub fn is_blocked(&self, tree: &BspTree, ray: Ray) -> bool {
         self.expect(tree);
         is_blocked(tree, Some(self), ray)

@@ -195,8 +195,7 @@ impl Bounds {
     ///
     /// # Panics
     ///
-    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
-    /// Those of another tree with the same numbers give wrong answers.
+    /// If the bounds are those of another tree.
     pub fn hits<'t>(&'t self, tree: &'t BspTree, ray: Ray) -> Hits<'t> {
         self.expect(tree);
         Hits::new(tree, Some(self), ray)

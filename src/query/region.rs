@@ -179,8 +179,7 @@ impl Bounds {
     ///
     /// # Panics
     ///
-    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
-    /// Those of another tree with the same numbers give wrong answers.
+    /// If the bounds are those of another tree.
     pub fn fragments_in<'t>(&'t self, tree: &'t BspTree, region: &Frustum) -> FragmentsIn<'t> {
         self.expect(tree);
         FragmentsIn::new(tree, self, region)

@@ -62,7 +62,12 @@ const MOVED_CORNERS: f64 = 4.0;
 /// then they are painted in input order. With τ = 0 only ties are contested.
 ///
 /// This rule knows the polygons, not the partition planes; [`verify`](crate::verify::verify()) knows both.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
+    rays.expect(faces);
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
     let mut pair = LastPair::new(rays, faces);

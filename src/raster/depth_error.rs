@@ -23,6 +23,10 @@ pub struct DepthError {
 /// The difference in depth between the painted face and the nearest, over the pixels with the
 /// verdict [wrong order](Verdict::WrongOrder). Pixels whose ray does not meet the painted face at
 /// all are left out.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn depth_error(
     rays: &Rays,
     faces: &Faces,
@@ -30,6 +34,7 @@ pub fn depth_error(
     truth: &Image,
     comparison: &Comparison,
 ) -> DepthError {
+    rays.expect(faces);
     let width = rays.size()[0] as usize;
     let mut result = DepthError::default();
     let mut pairs = LastPair::new(rays, faces);

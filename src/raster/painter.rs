@@ -28,7 +28,12 @@ pub struct Painter<'a> {
 
 impl<'a> Painter<'a> {
     /// A painter with an empty picture.
+    ///
+    /// # Panics
+    ///
+    /// If the rays were made for another grid.
     pub fn new(rays: &'a Rays, faces: &'a Faces, order: Order) -> Self {
+        rays.expect(faces);
         Self { rays, faces, order, image: Image::new(rays.size()) }
     }
 
@@ -64,12 +69,17 @@ impl<'a> Painter<'a> {
 
 /// Calls `run` with the row and the columns of all pixels that a piece covers, row by row from the
 /// top: the pixels that a [`Painter`] would draw.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn for_each_run(
     rays: &Rays,
     faces: &Faces,
     piece: Piece<'_>,
     mut run: impl FnMut(u32, Range<u32>),
 ) {
+    rays.expect(faces);
     if let Some(coverage) = Coverage::new(rays, faces, piece.face, piece.outline) {
         coverage.for_each_run(&mut run);
     }

@@ -32,6 +32,10 @@ pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
 
 /// The picture in colours: each polygon in the colour that `colour` returns for its number, darker
 /// the more obliquely it is seen; `background` where there is no polygon.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn picture(
     rays: &Rays,
     faces: &Faces,
@@ -39,6 +43,7 @@ pub fn picture(
     colour: impl Fn(usize) -> [u8; 3],
     background: [u8; 3],
 ) -> Vec<u8> {
+    rays.expect(faces);
     let width = rays.size()[0] as usize;
     let pixels = image.faces().iter().enumerate().map(|(i, &face)| {
         if face == NONE {

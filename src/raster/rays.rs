@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::exact::{Eye, Faces};
+use crate::exact::{Eye, Faces, Lattice};
 use crate::view::{Camera, CameraError, CameraProblem, Projection};
 use crate::viewpoint::Viewpoint;
 
@@ -20,8 +20,13 @@ use crate::viewpoint::Viewpoint;
 /// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel
 /// unless it is more than a million extents away, and every decision after that is exact. The eye
 /// and the direction are those of [`Eye`], for which trees are ordered too.
+///
+/// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
+/// as those of the cells of a partition, may share them; functions that take rays and faces of different
+/// grids refuse them: by an error if they return a `Result`, by a panic if not.
 #[derive(Clone, Debug)]
 pub struct Rays {
+    lattice: Lattice,
     pub(super) size: [u32; 2],
     /// The height of the picture of which these are some rows, and how many rows are above them.
     pub(super) whole_height: u32,
@@ -97,8 +102,8 @@ impl Rays {
             return Err(CameraProblem::Samples { samples }.into());
         };
         let size = [width, height];
-        let lattice = faces.lattice();
-        let eye = Eye::new(camera.viewpoint(), lattice);
+        let lattice = *faces.lattice();
+        let eye = Eye::new(camera.viewpoint(), &lattice);
         let (forward, pixel) = (camera.forward(), camera.pixel_size() / f64::from(samples));
         match (camera.projection(), eye.shift()) {
             (Projection::Perspective { .. }, Some(shift)) if shift <= FURTHEST => {
@@ -109,7 +114,7 @@ impl Rays {
                 let pencil = Pencil::From { eye: eye.integer(), shift };
                 let depth_unit = lattice.length_to_world(scale);
                 let (middle, step) = (forward * scale, pixel * scale);
-                Self::build(camera, size, pencil, middle, step, depth_unit)
+                Self::build(camera, lattice, size, pencil, middle, step, depth_unit)
             }
             (Projection::Parallel { centre, .. }, None) => {
                 let direction = eye.integer().map(|c| -c);
@@ -119,7 +124,7 @@ impl Rays {
                 let step = lattice.length_to_lattice(pixel);
                 let depth_unit = lattice.length_to_world(float(direction).length());
                 let pencil = Pencil::Along { direction };
-                Self::build(camera, size, pencil, middle, step, depth_unit)
+                Self::build(camera, lattice, size, pencil, middle, step, depth_unit)
             }
             _ => Err(CameraProblem::TooFar.into()),
         }
@@ -128,6 +133,7 @@ impl Rays {
     /// Rays with pixels of size `step`; `middle` is the parameter of the middle one.
     fn build(
         camera: &Camera,
+        lattice: Lattice,
         size: [u32; 2],
         pencil: Pencil,
         middle: DVec3,
@@ -158,6 +164,7 @@ impl Rays {
         };
         let to_picture = inverse([right, down, third].map(float));
         Ok(Self {
+            lattice,
             size,
             whole_height: size[1],
             above: 0,
@@ -171,6 +178,19 @@ impl Rays {
             to_picture,
             depth_unit,
         })
+    }
+
+    /// Whether they were made for the grid of some faces.
+    pub(crate) fn are_for(&self, faces: &Faces) -> bool {
+        self.lattice == *faces.lattice()
+    }
+
+    /// Panics unless they were made for the grid of some faces.
+    pub(crate) fn expect(&self, faces: &Faces) {
+        assert!(
+            self.are_for(faces),
+            "the rays were made for a scene with another grid: make them for these faces by Rays::new"
+        );
     }
 
     /// The same rays, of some rows of the picture only: row 0 of the result is the first of them.

@@ -83,6 +83,10 @@ impl Nearness {
 
 /// The nearest face in each pixel. Of faces at exactly the same distance, the later polygon's wins,
 /// as if it had been painted over the earlier one.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
 pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
     zbuffer_and(rays, faces, |_, _, _| {})
 }
@@ -100,6 +104,7 @@ fn zbuffer_and(
     faces: &Faces,
     mut also: impl FnMut(u32, u32, Range<u32>),
 ) -> DepthImage {
+    rays.expect(faces);
     let mut image = Image::new(rays.size());
     let mut nearness = vec![f64::NEG_INFINITY; image.faces.len()];
     let mut errors = vec![0.0f64; image.faces.len()];

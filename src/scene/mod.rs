@@ -20,7 +20,7 @@ mod layers;
 mod material;
 mod newell;
 #[cfg(feature = "obj")]
-mod obj;
+pub(crate) mod obj;
 mod random;
 #[cfg(feature = "save")]
 mod saved;

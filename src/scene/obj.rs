@@ -3,6 +3,7 @@
 mod attributes;
 mod decimals;
 mod error;
+pub(crate) mod file;
 mod lines;
 mod material;
 mod report;
@@ -54,6 +55,9 @@ impl Scene {
     /// (Symbolic links are followed: they were put there by whoever owns the folder, not by the
     /// file.) Only regular files are read.
     ///
+    /// The file itself may be a device, or a pipe without a name as behind `/dev/stdin`. A named pipe is
+    /// refused, since reading one that nobody writes to would wait without an end.
+    ///
     /// # Errors
     ///
     /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has
@@ -63,7 +67,7 @@ impl Scene {
         let path = path.as_ref();
         let name = path.display().to_string();
         let bytes =
-            std::fs::read(path).map_err(|error| Kind::Read(error).at(None, None).in_file(&name))?;
+            file::read(path).map_err(|error| Kind::Read(error).at(None, None).in_file(&name))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::from_obj(&name, &bytes, |library| {
             let library = folder.join(library);

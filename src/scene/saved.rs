@@ -10,7 +10,7 @@ use crate::save::{Kind, LoadError, Reader, Writer, u32_at, u64_at};
 const KIND: Kind = Kind { name: *b"scen", version: 1 };
 
 /// More polygons, corners or materials than a tree can have.
-const MOST: usize = 1 << 32;
+const MOST: usize = u32::MAX as usize;
 /// The most bytes of a name.
 const LONGEST: usize = 1 << 16;
 
@@ -110,7 +110,9 @@ impl Scene {
         scene.corners = file.items("corners", corners as usize, |bytes: &[u8; 24]| {
             DVec3::from_array(f64s(bytes))
         })?;
-        scene.lines = file.list("lines", MOST, |bytes: &[u8; 8]| u64_at(bytes, 0) as usize)?;
+        scene.lines = file.list("lines", MOST, |bytes: &[u8; 8]| {
+            usize::try_from(u64_at(bytes, 0)).unwrap_or(usize::MAX)
+        })?;
         let is_there = |bytes: &[u8]| bytes[..4] != [0; 4];
         scene.attributes = Attributes {
             uvs: file.list("texture coordinates", MOST, |bytes: &[u8; 20]| {

@@ -24,14 +24,17 @@ use normals::{Arms, Normals};
 ///
 /// A tree has none of its own: make them once if you need them, and keep them beside the tree. They
 /// take about 90 bytes a fragment. Once the tree is built anew or [extended](BspTree::extend) they are
-/// stale: make them anew too.
+/// stale: make them again too. Bounds of another tree than the one that they are used with are refused by
+/// a panic; a [clone](Clone) of a tree is the same tree.
 ///
 /// Boxes are `[low, high]` in the polygons' unit, rounded outwards: each contains the exact vertices
 /// of its fragments, and those that [`Fragment::vertices`] gives. They are stored in `f32`, from the
 /// scene's middle, so one is larger than needed by at most 2⁻²³ of the scene's extent, and three steps of
 /// `f64`, on each side.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Bounds {
+    /// That of their tree.
+    generation: u64,
     lattice: Lattice,
     fragments: u32,
     /// Of each node's subtree.
@@ -107,7 +110,8 @@ impl BspTree {
             levels.push(next);
         }
         let (lattice, fragments) = (*self.faces.lattice(), self.len() as u32);
-        Ok(Bounds { lattice, fragments, nodes, normals, levels, planes })
+        let generation = self.generation;
+        Ok(Bounds { generation, lattice, fragments, nodes, normals, levels, planes })
     }
 
     fn fragment_bounds(&self) -> Result<Vec<Block>, Error> {
@@ -155,16 +159,22 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
     })
 }
 
+/// Bounds of two trees are equal if their boxes are.
+impl PartialEq for Bounds {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { generation: _, lattice, fragments, nodes, normals, levels, planes } = self;
+        (lattice, fragments, nodes) == (&other.lattice, &other.fragments, &other.nodes)
+            && (normals, levels, planes) == (&other.normals, &other.levels, &other.planes)
+    }
+}
+
 impl Bounds {
-    /// Panics if these are not the bounds of a tree, as far as its size tells: a stale box would leave out
-    /// what is to be seen or hit.
+    /// Panics if these are the bounds of another tree: a stale box would leave out what is to be seen or
+    /// hit.
     pub(crate) fn expect(&self, tree: &BspTree) {
-        let found = [self.nodes.len(), self.fragments as usize];
-        let wanted = [tree.nodes.len(), tree.records.len()];
         assert!(
-            found == wanted,
-            "bounds of {found:?} nodes and fragments, but the tree has {wanted:?}: make them anew by \
-             BspTree::bounds"
+            self.generation == tree.generation,
+            "the bounds are not those of the tree: make them again by BspTree::bounds"
         );
     }
 
@@ -172,8 +182,9 @@ impl Bounds {
     ///
     /// # Panics
     ///
-    /// If the node is of another tree, and has a number that this one has not.
+    /// If the node is of another tree.
     pub fn of(&self, node: Node<'_>) -> [DVec3; 2] {
+        self.expect(node.tree);
         self.in_world(&self.nodes[node.index()])
     }
 
@@ -205,8 +216,9 @@ impl Bounds {
     ///
     /// # Panics
     ///
-    /// If the node is of another tree, and has a number that this one has not.
+    /// If the node is of another tree.
     pub fn facing(&self, node: Node<'_>, viewpoint: Viewpoint) -> Option<Ordering> {
+        self.expect(node.tree);
         let lattice = node.tree.faces.lattice();
         self.seen(node.index(), &Arms::new(&Eye::new(viewpoint, lattice)))
     }

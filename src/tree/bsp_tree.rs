@@ -1,6 +1,7 @@
 //! The tree.
 
 use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::node_record::{NodeRecord, Sizes, finish, make_room};
 use super::order::planes::Planes;
@@ -245,6 +246,14 @@ pub struct BspTree {
     pub(super) positions: Vec<[f64; 3]>,
     /// How many times the builder cut a piece in two.
     pub(super) cuts: usize,
+    /// Which tree it is, so that what was made from another one is refused. Clones have the same.
+    pub(crate) generation: u64,
+}
+
+/// A number that no tree of this process has had.
+pub(super) fn next_generation() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 impl BspTree {
@@ -260,6 +269,7 @@ impl BspTree {
             vertices: vec![],
             positions: vec![],
             cuts: 0,
+            generation: next_generation(),
         }
     }
 

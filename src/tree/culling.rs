@@ -95,8 +95,7 @@ impl BspTree {
     ///
     /// # Panics
     ///
-    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
-    /// Those of another tree with the same numbers give wrong answers.
+    /// If the bounds are those of another tree.
     pub fn culled_back_to_front_into(
         &self,
         viewpoint: Viewpoint,
@@ -112,8 +111,7 @@ impl BspTree {
     ///
     /// # Panics
     ///
-    /// If the bounds are not those of the tree, as far as the numbers of its nodes and fragments tell.
-    /// Those of another tree with the same numbers give wrong answers.
+    /// If the bounds are those of another tree.
     pub fn culled_front_to_back_into(
         &self,
         viewpoint: Viewpoint,

@@ -13,7 +13,7 @@ use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, PlaneId, Symbol, Ver
 /// A convex piece of a polygon, or the whole polygon.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<'t> {
-    pub(super) faces: &'t Faces,
+    pub(crate) faces: &'t Faces,
     index: u32,
     pub(super) face: u32,
     stored: &'t [ExactStored],

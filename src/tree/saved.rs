@@ -7,6 +7,7 @@ use std::io::{self, Read, Write};
 
 use super::BspTree;
 use super::apart::raw_nodes;
+use super::bsp_tree::next_generation;
 use super::node_record::MOST_FRAGMENTS;
 use super::order::planes::Planes;
 use super::order::schedule::Schedule;
@@ -164,7 +165,19 @@ impl BspTree {
         let mut planes = Planes::default();
         planes.fill(&faces, &nodes).map_err(|_| LoadError::out_of_memory())?;
         let Parts { records, vertices, positions, .. } = parts;
-        Ok(Self { faces, preparation, nodes, planes, schedule, records, vertices, positions, cuts })
+        let generation = next_generation();
+        Ok(Self {
+            faces,
+            preparation,
+            nodes,
+            planes,
+            schedule,
+            records,
+            vertices,
+            positions,
+            cuts,
+            generation,
+        })
     }
 
     fn write_preparation(&self, file: &mut Writer<impl Write>) -> io::Result<()> {

@@ -2,7 +2,9 @@
 
 mod borders;
 mod cover;
+mod forged;
 mod order;
 mod partition;
 mod polygons;
+mod samples;
 mod saved;

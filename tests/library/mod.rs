@@ -1,5 +1,6 @@
 //! The library's parts, each against an oracle of its own. One program: it links once.
 
+mod bent_counts;
 mod bounds;
 mod cancel;
 mod cuts;
@@ -13,8 +14,10 @@ mod fuzz_regressions;
 mod iterators;
 mod many_parts;
 mod odd_viewpoints;
+mod other_trees;
 #[cfg(target_os = "linux")]
 mod out_of_memory;
+mod panicking_callback;
 mod parts;
 mod peeled;
 mod precision;

@@ -3,8 +3,11 @@
 mod attributes;
 mod errors;
 mod faces;
+mod far_numbers;
 mod materials;
 mod noise;
+#[cfg(unix)]
+mod not_regular;
 mod precision;
 mod real_scenes;
 mod stream;

@@ -1,6 +1,7 @@
 //! Overlays: one order of a tree and of polygons that move, held against an exact depth buffer that
 //! knows neither, and against exact areas.
 
+mod cleared;
 mod coplanar;
 mod cost;
 mod crowd;

@@ -6,3 +6,4 @@ mod refused;
 mod same;
 mod scenes;
 mod threads;
+mod values;

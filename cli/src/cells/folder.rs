@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
+use binspace::internals::open_regular;
 use binspace::partition::Partition;
 use binspace::scene::Scene;
 use binspace::{BspTree, LoadError};
@@ -207,7 +208,7 @@ impl Folder {
 }
 
 fn open(path: &Path) -> Result<BufReader<File>, Failure> {
-    let file = File::open(path)
+    let file = open_regular(path)
         .map_err(|error| Failure::about(path.display(), format!("cannot be read: {error}")))?;
     Ok(BufReader::new(file))
 }

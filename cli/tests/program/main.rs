@@ -14,6 +14,8 @@ mod draw_translucent;
 mod help;
 mod in_browser;
 mod lecture;
+#[cfg(unix)]
+mod not_regular;
 mod notes;
 mod order;
 mod output;
@@ -23,6 +25,7 @@ mod png_picture;
 mod real_scenes;
 mod render;
 mod report;
+mod report_names;
 mod run;
 mod samples;
 mod saved;

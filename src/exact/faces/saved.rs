@@ -89,8 +89,13 @@ impl Faces {
         if !(0.0..=MAX_TOLERANCE).contains(&self.tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
-        if !Self::is_cell(&self.corners[..self.corners_of_cell()]) {
+        if !Self::is_cell(self.cell()) {
             return Err(LoadError::of("cell", "is outside the grid"));
+        }
+        if let [low, high] = self.cell()
+            && (0..3).any(|axis| low[axis] > high[axis])
+        {
+            return Err(LoadError::of("cell", "ends before it begins"));
         }
         let ranges = (0..self.faces.len()).step_by(FACES_A_THREAD);
         let ranges =

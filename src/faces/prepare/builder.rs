@@ -85,7 +85,7 @@ impl FaceBuilder {
                 Outcome::Triangulated { crosses_itself, off } => {
                     report.triangulated += 1;
                     report.crossing += usize::from(crosses_itself);
-                    if off > 0.0 && off <= ground.rounding {
+                    if ground.may_be_rounding(off, input.precision_of(polygon)) {
                         report.bent += 1;
                         report.bent_by = report.bent_by.max(off);
                     }

@@ -37,6 +37,8 @@ pub(super) struct Collected {
     ends: Vec<u32>,
     /// The largest of the polygons' [`precision`](Polygon::precision): how far corners may be off.
     pub(super) precision: f64,
+    /// That of each polygon.
+    precisions: Vec<f64>,
 }
 
 impl Collected {
@@ -53,6 +55,11 @@ impl Collected {
     pub(super) fn polygon(&self, polygon: usize) -> &[DVec3] {
         let start = polygon.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.points[start as usize..self.ends[polygon] as usize]
+    }
+
+    /// The [`precision`](Polygon::precision) of a polygon.
+    pub(super) fn precision_of(&self, polygon: usize) -> f64 {
+        self.precisions[polygon]
     }
 
     /// The corners of the bounding box of the polygons and the corners of a box, if one is given;
@@ -89,8 +96,10 @@ impl Collected {
         self.points.clear();
         self.ends.clear();
         self.precision = 0.0;
+        self.precisions.clear();
         reserve(&mut self.points, 3 * expected.min(TRUSTED))?;
         reserve(&mut self.ends, expected.min(TRUSTED))?;
+        reserve(&mut self.precisions, expected.min(TRUSTED))?;
         let mut index = 0;
         while let Some(polygon) = polygons.next() {
             if index == limit {
@@ -151,7 +160,9 @@ impl Collected {
     fn end<P: Polygon>(&mut self, polygon: &P) -> Result<(), Error> {
         self.check_count()?;
         // Of NaN and the other, `max` returns the other.
-        self.precision = self.precision.max(polygon.precision());
+        let precision = polygon.precision().max(0.0);
+        push(&mut self.precisions, precision)?;
+        self.precision = self.precision.max(precision);
         push(&mut self.ends, self.points.len() as u32)
     }
 

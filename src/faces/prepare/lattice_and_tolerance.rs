@@ -69,16 +69,13 @@ pub(super) struct Ground {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
-    /// The largest distance, in lattice units, that is taken for a rounding where a polygon is
-    /// triangulated for it.
-    pub(super) rounding: f64,
 }
 
 impl Ground {
     /// That of faces that are prepared.
     pub(super) fn of(faces: &Faces) -> Self {
         let Faces { lattice, tolerance, .. } = *faces;
-        Self { lattice, tolerance, rounding: LARGEST_ROUNDING * LATTICE_LIMIT }
+        Self { lattice, tolerance }
     }
 
     /// For corners in a box, of this precision.
@@ -100,8 +97,15 @@ impl Ground {
             Tolerance::Length(length) => lattice.length_to_lattice(length),
             Tolerance::Relative(share) => share * extent,
         };
-        let coarse = lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
-        Self { lattice, tolerance: tolerance.min(MAX_TOLERANCE), rounding: rounding.max(coarse) }
+        Self { lattice, tolerance: tolerance.min(MAX_TOLERANCE) }
+    }
+
+    /// Whether a corner of a polygon is so little off the plane of the others, in lattice units, that a
+    /// rounding of the polygon's corners can be the reason. No other polygon has a say in it, nor the
+    /// extent: so it is the same however the polygons of a scene are divided.
+    pub(super) fn may_be_rounding(&self, off: f64, precision: f64) -> bool {
+        let coarse = self.lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
+        off > 0.0 && off <= coarse.max(LARGEST_ROUNDING * 2.0 * LATTICE_LIMIT)
     }
 }
 

@@ -33,9 +33,10 @@ pub struct Preparation {
     /// How far such a corner is off at most, a length.
     pub flattened_by: f64,
     /// Of the triangulated polygons, those that are convex, with a corner off the plane of the
-    /// others by more than the tolerance, but by no more than 10⁻⁵ of the extent or twice the
-    /// largest [`precision`](crate::Polygon::precision) (or 1/256 of the extent, if that is
-    /// less): bent by a rounding, as it seems. With a tolerance of `bent_by` they would be whole.
+    /// others by more than the tolerance, but by no more than 10⁻⁵ of the width of the grid (which is
+    /// one to two extents) or the polygon's own [`precision`](crate::Polygon::precision) (or 1/256 of the
+    /// width, if that is less): bent by a rounding, as it seems. With a tolerance of `bent_by` they would
+    /// be whole.
     pub bent: usize,
     /// How far such a corner is off at most, a length.
     pub bent_by: f64,

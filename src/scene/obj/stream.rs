@@ -1,6 +1,5 @@
 //! OBJ files read polygon by polygon.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -8,6 +7,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 
 use super::error::{Kind, ObjError};
+use super::file;
 use super::lines::Scan;
 use super::text::LinesOf;
 use super::{ObjReport, add_materials, material};
@@ -21,7 +21,7 @@ const CHUNK: usize = 1 << 18;
 ///
 /// Polygons, materials, precision and errors are those of [`Scene::read_obj`]. Texture coordinates,
 /// normals and colours of corners are passed over. (A line that is not UTF-8 is taken for Latin-1 by
-/// itself; there, the whole file is.)
+/// itself; there, the whole file is.) As it is read twice, it must be a regular file.
 ///
 /// ```no_run
 /// use std::ops::ControlFlow;
@@ -58,19 +58,29 @@ impl ObjStream {
         let path = path.as_ref();
         let name = path.display().to_string();
         let (mut vertices, mut used) = (Vec::new(), Vec::new());
+        // Vertices that were named before they came: whether they come at all is known only at the end.
+        let mut ahead = Vec::new();
         let scan = scan(path, |statement, _| {
             match statement {
-                Statement::Vertex(vertex) => vertices.push(vertex),
-                Statement::Face(indices) => indices.for_each(|index| {
-                    if used.len() <= index / 64 {
-                        used.resize(index / 64 + 1, 0);
+                Statement::Vertex(vertex) => {
+                    if vertices.len() % 64 == 0 {
+                        used.push(0_u64);
                     }
-                    used[index / 64] |= 1 << (index % 64);
+                    vertices.push(vertex);
+                }
+                Statement::Face(indices) => indices.for_each(|index| {
+                    if index < vertices.len() {
+                        used[index / 64] |= 1 << (index % 64);
+                    } else {
+                        ahead.push(index);
+                    }
                 }),
             }
             ControlFlow::Continue(())
         });
+        // All vertices that are named are there now.
         let mut scan = scan.and_then(Scan::finish).map_err(|error| error.in_file(&name))?;
+        ahead.into_iter().for_each(|index| used[index / 64] |= 1 << (index % 64));
         vertices.shrink_to_fit();
         let folder = path.parent().unwrap_or(Path::new(""));
         let library = |library: &Path| {
@@ -161,7 +171,7 @@ fn scan(
     path: &Path,
     mut visit: impl FnMut(Statement<Indices<'_>>, u32) -> ControlFlow<()>,
 ) -> Result<Scan, ObjError> {
-    let file = File::open(path).map_err(|error| Kind::Read(error).at(None, None))?;
+    let file = file::open_regular(path).map_err(|error| Kind::Read(error).at(None, None))?;
     let mut lines = LinesOf::new(BufReader::with_capacity(CHUNK, file));
     let mut scan = Scan::bare();
     while let Some((number, line)) = lines.next()? {

@@ -47,7 +47,7 @@ pub(super) fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangl
         let triangles = steps.sum::<u32>().saturating_sub(2);
         lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Limit::Indices.error())?;
     }
-    let mut triangles = Triangles::with_lengths(lengths.into_iter())?;
+    let mut triangles = Triangles::with_lengths(tree.generation, lengths.into_iter())?;
     let mut assembler = Assembler::new(&survey, &points)?;
     for (at, &fragment) in survey.fragments.iter().enumerate() {
         assembler.outline(at, weld)?;

@@ -13,8 +13,10 @@ use crate::viewpoint::Viewpoint;
 /// [`Mesh::triangles`](crate::mesh::Mesh::triangles) has those of all fragments,
 /// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) those of some polygons, such as the translucent
 /// ones.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Triangles {
+    /// That of their tree.
+    generation: u64,
     /// Where each fragment's indices begin, and the end of the last.
     starts: Vec<u32>,
     /// [`CHUNK`] more than there are.
@@ -23,9 +25,21 @@ pub struct Triangles {
     each: Option<u32>,
 }
 
+/// Triangles of two trees are equal if they have the same indices.
+impl PartialEq for Triangles {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.starts, &self.indices) == (&other.starts, &other.indices)
+    }
+}
+
+impl Eq for Triangles {}
+
 impl Triangles {
     /// Room for so many indices of each fragment.
-    pub(super) fn with_lengths(lengths: impl Iterator<Item = u32>) -> Result<Self, Error> {
+    pub(super) fn with_lengths(
+        generation: u64,
+        lengths: impl Iterator<Item = u32>,
+    ) -> Result<Self, Error> {
         let (mut starts, mut indices) = (Vec::new(), Vec::new());
         reserve(&mut starts, lengths.size_hint().0 + 1)?;
         let mut sum = 0_u32;
@@ -39,7 +53,7 @@ impl Triangles {
         let mut lengths = starts.windows(2).map(|ends| ends[1] - ends[0]);
         let first = lengths.next().unwrap_or(0);
         let each = lengths.all(|length| length == first).then_some(first / 3);
-        Ok(Self { starts, indices, each })
+        Ok(Self { generation, starts, indices, each })
     }
 
     /// The indices of a fragment, to be filled in.
@@ -52,7 +66,8 @@ impl Triangles {
     pub(super) fn of_fragments(&self, keep: impl Fn(u32) -> bool) -> Result<Self, Error> {
         let fragments = 0..self.starts.len() as u32 - 1;
         let kept = |fragment| if keep(fragment) { self.range(fragment) } else { 0..0 };
-        let mut some = Self::with_lengths(fragments.clone().map(|f| kept(f).len() as u32))?;
+        let lengths = fragments.clone().map(|fragment| kept(fragment).len() as u32);
+        let mut some = Self::with_lengths(self.generation, lengths)?;
         for fragment in fragments {
             some.of_mut(fragment).copy_from_slice(&self.indices[kept(fragment)]);
         }
@@ -81,9 +96,8 @@ impl Triangles {
     /// Writes the indices back to front, and returns how many: always the length of
     /// [`indices`](Self::indices).
     ///
-    /// `tree` must be the one that the mesh was made of, or a clone: another with as many fragments
-    /// is not noticed, and gives an order that means nothing. Inside a fragment the triangles keep
-    /// their order.
+    /// `tree` must be the one that the mesh was made of, or a clone of it. Inside a fragment the triangles
+    /// keep their order.
     ///
     /// `indices` may be mapped memory of a device: each place is written once, from the first on,
     /// and none is read. Places beyond are left as they are. `order` is working space, in which the
@@ -94,8 +108,7 @@ impl Triangles {
     ///
     /// # Errors
     ///
-    /// If `indices` is too short, or the tree is not the one that the mesh was made of and has
-    /// another number of fragments. Then nothing is written.
+    /// If `indices` is too short, or the mesh was made of another tree. Then nothing is written.
     pub fn write_back_to_front(
         &self,
         tree: &BspTree,
@@ -103,11 +116,10 @@ impl Triangles {
         order: &mut Vec<u32>,
         indices: &mut [u32],
     ) -> Result<usize, Error> {
-        let (count, fragments) = (self.indices().len(), self.starts.len() - 1);
-        if tree.len() != fragments {
-            return Err(Kind::OtherTree { fragments: tree.len(), expected: fragments }.error());
+        if tree.generation != self.generation {
+            return Err(Kind::MeshOfOtherTree.error());
         }
-        let given = indices.len();
+        let (count, given) = (self.indices().len(), indices.len());
         let places =
             indices.get_mut(..count).ok_or(Kind::Places { needed: count, given }.error())?;
         tree.back_to_front_into(viewpoint, order);

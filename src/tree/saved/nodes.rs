@@ -73,9 +73,7 @@ fn check(bits: &[[u32; 2]], records: &[Record], known: Known) -> Result<(), Load
         let leaves = [front, back].into_iter().filter(|&side| side == RawChild::Leaf(1)).count();
         next += own as usize + leaves;
     }
-    // A tree of one fragment has no node.
-    let fragments = if bits.is_empty() { records.len().min(1) } else { next };
-    if to_come > 0 || fragments != records.len() {
+    if to_come > 0 || next != records.len() {
         return Err(LoadError::of("nodes", "are not those of its fragments"));
     }
     Ok(())

@@ -7,7 +7,7 @@ use super::drawings::Drawings;
 use super::figures::{Section, Subject};
 use super::growth::Growth;
 use super::sentences::sentence;
-use super::tables::{Table, details, grouped, share, steps};
+use super::tables::{Table, details, escaped, grouped, share, steps};
 use super::{Report, machine, summary};
 use crate::units::{bytes, time};
 
@@ -54,7 +54,7 @@ fn head(report: &Report<'_>) -> String {
         state += "\n**Not complete: some results are missing.**\n";
     }
     for name in &report.failed {
-        state += &format!("\n**{name} could not be measured.**\n");
+        state += &format!("\n**{} could not be measured.**\n", escaped(name));
     }
     format!(
         "# binspace report\n{state}\n\
@@ -125,7 +125,8 @@ fn scenes(sections: &[Section]) -> String {
         if let Subject::Scene(name) = &section.subject {
             let faces = section.rows.first().map_or(0, |row| row.faces);
             text += &format!(
-                "\n## {name}\n\n{} faces. {}\n\n{}",
+                "\n## {}\n\n{} faces. {}\n\n{}",
+                escaped(name),
                 grouped(faces),
                 sentence(section),
                 details(section, &section.methods()).markdown()

@@ -27,8 +27,9 @@ impl Table {
     }
 
     /// Names to the left, figures to the right.
-    fn aligned(&self, titles: Vec<String>) -> tabled::Table {
-        let mut builder = Builder::from_iter(self.rows.iter().cloned());
+    fn aligned(&self, titles: Vec<String>, cell: impl Fn(&String) -> String) -> tabled::Table {
+        let rows = self.rows.iter().map(|row| row.iter().map(&cell).collect::<Vec<_>>());
+        let mut builder = Builder::from_iter(rows);
         builder.insert_record(0, titles);
         let mut table = builder.build();
         table.with(Alignment::right()).modify(Columns::first(), Alignment::left());
@@ -37,7 +38,7 @@ impl Table {
 
     /// As Markdown.
     pub(super) fn markdown(&self) -> String {
-        let mut table = self.aligned(self.columns.clone());
+        let mut table = self.aligned(self.columns.clone(), |cell| escaped(cell));
         // In the rule above the first row.
         let colon = LineChar::horizontal(':', Offset::End(0));
         table.with(Style::markdown()).modify(Rows::new(1..2).intersect(Columns::new(1..)), colon);
@@ -48,7 +49,7 @@ impl Table {
     pub(super) fn plain(&self) -> String {
         // A stroke stays with the word before it.
         let title = |title: &String| title.replace(" / ", "/ ").replace(' ', "\n");
-        let mut table = self.aligned(self.columns.iter().map(title).collect());
+        let mut table = self.aligned(self.columns.iter().map(title).collect(), String::clone);
         table
             .with(Style::empty())
             .with(AlignmentStrategy::PerLine)
@@ -57,6 +58,18 @@ impl Table {
             .modify(Rows::first(), Alignment::bottom());
         table.to_string().lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// A text in one line of Markdown, with nothing in it that means anything there.
+pub(super) fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for c in text.chars() {
+        if r"\`*_[]<>&|~#$".contains(c) {
+            escaped.push('\\');
+        }
+        escaped.push(if c.is_control() { ' ' } else { c });
+    }
+    escaped
 }
 
 /// Wrong pixels, step by step: a line a method, a column a step.

@@ -1,0 +1,75 @@
+//! Which polygons count as bent does not depend on what they are given with: at once, one after the other,
+//! or in cells.
+
+use binspace::glam::DVec3;
+use binspace::partition::Extent;
+use binspace::{BuildOptions, Polygon, Preparation};
+
+/// A quad of which a corner is off the plane of the others, with a precision of its own.
+#[derive(Clone, Copy)]
+struct Quad {
+    corners: [DVec3; 4],
+    precision: f64,
+}
+
+impl Polygon for Quad {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.corners.into_iter()
+    }
+
+    fn precision(&self) -> f64 {
+        self.precision
+    }
+}
+
+fn quad(at: f64, off: f64, precision: f64) -> Quad {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, off], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    Quad { corners: corners.map(|corner| DVec3::from(corner) + DVec3::X * at), precision }
+}
+
+/// Quads in a scene of some extent, bent from much less to much more than 10⁻⁵ of it.
+fn quads(extent: f64) -> Vec<Quad> {
+    let mut quads = Vec::new();
+    for k in 0..60 {
+        let off = extent * 1e-6 * 1.1f64.powi(k);
+        let at = (extent - 1.0) * f64::from(k) / 59.0;
+        quads.push(quad(at, off, 0.0));
+        // Some are written coarsely, so that bends are what their numbers are good for.
+        quads.push(quad(at, 8.0 * off, extent * 1e-4));
+    }
+    quads
+}
+
+fn bent(found: &Preparation) -> (usize, f64, usize) {
+    (found.bent, found.bent_by, found.triangulated)
+}
+
+#[test]
+fn bent_polygons_are_counted_alike_at_once_one_by_one_and_in_cells() {
+    // Just above and below powers of two, and between.
+    for extent in [4.0, 4.1, 5.5, 7.9, 8.0, 8.1, 100.0] {
+        let quads = quads(extent);
+        let (low, high) = (DVec3::ZERO, DVec3::new(extent, 1.0, 1.0));
+        let options = BuildOptions::DEFAULT.with_tolerance(0.0).with_bounds(low, high);
+        let expected = *options.build(&quads).expect("within budget").preparation();
+        assert!(expected.bent > 40 && expected.bent < quads.len() - 20, "{expected:?}");
+        let mut tree = options.build(&quads[..1]).expect("within budget");
+        for some in quads[1..].chunks(7) {
+            options.extend(&mut tree, some).expect("on the grid");
+        }
+        assert_eq!(bent(tree.preparation()), bent(&expected), "{extent}, one by one");
+        let mut extents = Extent::default();
+        quads.iter().for_each(|quad| extents.include(quad));
+        let samples = quads.iter().flat_map(|quad| quad.corners);
+        let partition = options.partition(&extents, samples, 3).expect("cells");
+        assert_eq!(bent(&partition.preparation(&quads).expect("memory")), bent(&expected));
+        for cell in 0..3 {
+            let tree = options.build_cell(&partition, cell, &quads).expect("within budget");
+            assert_eq!(bent(tree.preparation()), bent(&expected), "{extent}, cell {cell}");
+        }
+        // One alone in a scene of the same extent.
+        let alone =
+            quads.iter().map(|quad| *options.build([quad]).expect("within budget").preparation());
+        assert_eq!(alone.map(|found| found.bent).sum::<usize>(), expected.bent);
+    }
+}

@@ -1,0 +1,59 @@
+//! Faces that name vertices far beyond those of the file: an error, before any memory is asked for.
+
+use std::fs;
+use std::path::PathBuf;
+
+use binspace::scene::{ObjStream, Scene};
+
+fn file(test: &str, text: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("s.obj"), text).unwrap();
+    folder.join("s.obj")
+}
+
+#[test]
+fn a_vertex_number_beyond_the_file_asks_for_no_memory() {
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    // A bit for each vertex would be a gigabyte, a petabyte, more than any machine has.
+    for number in ["8000000000", "9000000000000000", "9000000000000000000", "9223372036854775807"] {
+        for text in [
+            format!("{corners}f 1 2 {number}\n"),
+            format!("f 1 {number} 2\n{corners}"),
+            format!("{corners}f 1 2 3\nf 1 2 {number}\nv 3 3 3\n"),
+        ] {
+            let path = file("far_numbers", &text);
+            let before = peak();
+            let streamed = ObjStream::open(&path).map(|_| ()).unwrap_err();
+            assert!(peak() < before + 100_000, "{number}: {} kB", peak() - before);
+            let whole = Scene::read_obj(&path).map(|_| ()).unwrap_err();
+            assert_eq!(streamed.to_string(), whole.to_string());
+            assert!(streamed.to_string().contains(number), "{streamed}");
+        }
+    }
+}
+
+/// The most memory that this process has had, in kB; 0 where that is not known.
+fn peak() -> usize {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmHWM"));
+    line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
+}
+
+/// Vertices may come behind the faces that name them, and each is a corner once.
+#[test]
+fn vertices_that_come_later_are_corners() {
+    let mut text = String::new();
+    for k in 0..200 {
+        text += &format!("f {} {} {}\n", 3 * k + 1, 3 * k + 2, 3 * k + 3);
+    }
+    for k in 0..601 {
+        text += &format!("v {k} {} 0\n", k % 7);
+    }
+    text += "f 600 1 2\nf -1 -2 -3\n";
+    let stream = ObjStream::open(file("later_vertices", &text)).unwrap();
+    assert_eq!(stream.corners().count(), 601);
+    let text = text.replace("f -1 -2 -3\n", "");
+    let stream = ObjStream::open(file("later_vertices_but_one", &text)).unwrap();
+    assert!(stream.corners().map(|corner| corner.x).eq((0..600).map(f64::from)));
+}
