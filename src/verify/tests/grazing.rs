@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::random::SplitMix64;
 use crate::raster::{Comparison, Image, Rays, compare, zbuffer};
 use crate::tree::BspTree;
 use crate::verify::judge;
@@ -90,4 +91,54 @@ fn what_reaches_across_the_plane_within_the_tolerance_is_excused() {
             assert_eq!(comparison.contested, contested);
         }
     }
+}
+
+/// Rectangles whose corners are off the planes of a coarse grid by up to twice the tolerance.
+fn rough(random: &mut SplitMix64, tolerance: f64) -> Vec<[DVec3; 4]> {
+    let mut whole = |limit: u64| (random.next() % limit) as f64 - (limit / 2) as f64;
+    let mut polygons = Vec::new();
+    for k in 0..10 {
+        let (at, from) = (whole(3), [whole(4), whole(4)]);
+        let to = from.map(|c| c + 1.0 + whole(3).abs());
+        let place = |u: f64, v: f64| DVec3::from_array([[at, u, v], [v, at, u], [u, v, at]][k % 3]);
+        let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
+        polygons.push(corners.map(|(u, v)| place([from[0], to[0]][u], [from[1], to[1]][v])));
+    }
+    for corner in polygons.iter_mut().flatten() {
+        *corner += random.point(-2.0, 2.0) * tolerance;
+    }
+    polygons
+}
+
+/// Whatever the tolerance exchanges, seen along the planes from within the scene, is excused.
+#[test]
+fn the_orders_of_trees_are_never_wrong() {
+    let mut random = SplitMix64::new(3);
+    let (mut covered, mut contested) = (0, 0);
+    for round in 0..60 {
+        let tolerance = [1e-2, 1e-3, 1e-5][round % 3];
+        let polygons = rough(&mut random, tolerance);
+        let heuristic = Heuristic::ALL[round % Heuristic::ALL.len()];
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic).with_tolerance(tolerance);
+        let tree = options.build(&polygons).unwrap();
+        for view in 0..6 {
+            let mut off = || random.point(-3.0, 3.0) * tolerance;
+            let (eye, mut target) = (off(), off());
+            target[view % 3] += if view < 3 { 2.0 } else { -2.0 };
+            let up = [DVec3::Y, DVec3::Z, DVec3::X][view % 3];
+            let size = [24, 24];
+            for camera in [
+                Camera::perspective(eye, target, up, [1.0, 5.0 * tolerance][view % 2], size),
+                Camera::parallel(target - eye, up, target, [4.0, 9.0 * tolerance][view % 2], size),
+            ] {
+                let camera = camera.unwrap();
+                for comparison in judged(&tree, &camera, false) {
+                    assert_eq!(comparison.wrong(), 0, "round {round}, {heuristic}, {camera:?}");
+                    (covered, contested) =
+                        (covered + comparison.covered, contested + comparison.contested);
+                }
+            }
+        }
+    }
+    assert!(covered > 300_000 && contested > 1000, "{covered} pixels, {contested} contested");
 }
