@@ -1,5 +1,7 @@
 //! Growing lists with little spare room, and with an error where there is no memory.
 
+use std::collections::HashMap;
+
 use crate::Error;
 
 /// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles, which would leave
@@ -57,6 +59,22 @@ pub(crate) fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
     collect(std::iter::repeat_n(value, len))
 }
 
+/// A table with more room than this for each of its entries is given back rather than emptied.
+/// Smaller: sets of about one size ask for memory again and again; larger: more time for empty room.
+const ROOM: usize = 8;
+/// A table with no more room than this is kept.
+const SMALL: usize = 64;
+
+/// Empties a table in time proportional to its entries. (`HashMap::clear` takes time for all the room
+/// that the table has, which the largest set of entries leaves behind for every set after it.)
+pub(crate) fn empty<K, V>(table: &mut HashMap<K, V>) {
+    if table.capacity() > SMALL.max(ROOM * table.len()) {
+        *table = HashMap::new();
+    } else {
+        table.clear();
+    }
+}
+
 #[cold]
 fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
     let spare = (list.len() / 8).max(64);
@@ -65,7 +83,7 @@ fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::reserve;
+    use super::{HashMap, ROOM, SMALL, empty, reserve};
 
     #[test]
     fn memory_that_is_not_there_is_an_error() {
@@ -76,5 +94,24 @@ mod tests {
         reserve(&mut list, 1000).expect("8 kB");
         assert!((1003..2000).contains(&list.capacity()));
         assert_eq!(list, [0; 3]);
+    }
+
+    /// Sets of every size, and one that is far larger than all others.
+    #[test]
+    fn a_table_is_emptied_in_time_proportional_to_its_entries() {
+        let mut table = HashMap::new();
+        for len in [3, 100_000, 0, 5, 1000, 1000, 40, 900, 100_000, 1, 1] {
+            table.extend((0..len).map(|k| (k, ())));
+            let room = table.capacity();
+            empty(&mut table);
+            assert!(table.is_empty());
+            let visited = if table.capacity() == room { room } else { len };
+            assert!(visited <= SMALL.max(ROOM * len), "{visited} places for {len} entries");
+        }
+        // Room that is used is kept.
+        table.extend((0..1000).map(|k| (k, ())));
+        let room = table.capacity();
+        empty(&mut table);
+        assert_eq!(table.capacity(), room);
     }
 }

@@ -2,20 +2,45 @@
 //! built by `build/threads.rs`.)
 
 /// Maps a function over items; the results are in the order of the items.
+///
+/// # Errors
+///
+/// That of the first item that has one, whichever fails first. Items behind one that failed are not
+/// begun any more.
 #[cfg(feature = "parallel")]
-pub(crate) fn map<T: Send, U: Send>(items: Vec<T>, function: impl Fn(T) -> U + Sync) -> Vec<U> {
+pub(crate) fn map<T: Send, U: Send, E: Send>(
+    items: Vec<T>,
+    function: impl Fn(T) -> Result<U, E> + Sync,
+) -> Result<Vec<U>, E> {
     use rayon::prelude::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     // A single item needs no other thread, and waking one takes time.
     if items.len() < 2 || !are_running() {
         return items.into_iter().map(function).collect();
     }
-    items.into_par_iter().map(&function).collect()
+    // All items before this one are done, whatever they give: so the first error is among the results.
+    let failed = AtomicUsize::new(usize::MAX);
+    let result = |(number, item)| {
+        if failed.load(Ordering::Relaxed) < number {
+            return None;
+        }
+        let result = function(item);
+        if result.is_err() {
+            failed.fetch_min(number, Ordering::Relaxed);
+        }
+        Some(result)
+    };
+    let results: Vec<_> = items.into_par_iter().enumerate().map(result).collect();
+    results.into_iter().flatten().collect()
 }
 
 /// As above, one after the other.
 #[cfg(not(feature = "parallel"))]
-pub(crate) fn map<T, U>(items: Vec<T>, function: impl Fn(T) -> U) -> Vec<U> {
+pub(crate) fn map<T, U, E>(
+    items: Vec<T>,
+    function: impl Fn(T) -> Result<U, E>,
+) -> Result<Vec<U>, E> {
     items.into_iter().map(function).collect()
 }
 
@@ -62,4 +87,45 @@ fn start() -> bool {
     // An error without a cause means that they run already.
     let started = rayon::ThreadPoolBuilder::new().build_global();
     started.map_or_else(|error| std::error::Error::source(&error).is_none(), |()| true)
+}
+
+#[cfg(all(test, feature = "parallel"))]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::map;
+
+    fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
+    }
+
+    #[test]
+    fn nothing_behind_an_error_is_begun() {
+        let calls = AtomicUsize::new(0);
+        let function = |item: u32| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            if item == 10 { Err(item) } else { Ok(item) }
+        };
+        // A single thread goes from the first to the last.
+        let found = with_threads(1, || map((0..1000).collect(), function));
+        assert_eq!((found, calls.into_inner()), (Err(10), 11));
+    }
+
+    #[test]
+    fn the_error_is_that_of_the_first_item_that_has_one() {
+        for first in [0, 1, 17, 500, 998, 999] {
+            // Those further on fail sooner.
+            let function = |item: u32| {
+                let turns = if item == first { 20_000 } else { 0 };
+                (0..turns).for_each(|turn| _ = std::hint::black_box(turn));
+                if item < first { Ok(item) } else { Err(item) }
+            };
+            for threads in [1, 2, 8] {
+                let found = with_threads(threads, || map((0..1000).collect(), function));
+                assert_eq!(found, Err(first), "{threads} threads");
+            }
+        }
+        let found = with_threads(4, || map((0..1000).collect(), |item: u32| Ok::<_, ()>(2 * item)));
+        assert!(found.unwrap().into_iter().eq((0..2000).step_by(2)));
+    }
 }

@@ -27,6 +27,7 @@ pub(super) fn build<'a, K: Kernel>(
 ) -> Result<Output<K::Stored>, Error> {
     let mut builder = Builder::new(shared, job, memory);
     while let Some(pending) = builder.pending.pop() {
+        shared.rules.watch.work(0)?;
         if let Some(job) = pending.job {
             builder.output.continue_in(job)?;
             continue;

@@ -99,14 +99,11 @@ impl<'a> Watch<'a> {
     /// Counts pieces that are about to be examined; an error if the build was cancelled.
     #[inline]
     pub(crate) fn work(&self, pieces: usize) -> Result<(), Error> {
-        if self.callback.is_none() {
-            return Ok(());
-        }
         if self.is_cancelled() {
             return Err(Error::cancelled());
         }
-        if pieces == 0 {
-            // All threads share the counter.
+        if self.callback.is_none() || pieces == 0 {
+            // All threads share the counter, so it is left alone where it can be.
             return Ok(());
         }
         let before = self.work.fetch_add(pieces, Ordering::Relaxed);
@@ -135,6 +132,12 @@ impl<'a> Watch<'a> {
             Some(ControlFlow::Break(())) => Err(Error::cancelled()),
             _ => Ok(()),
         }
+    }
+
+    /// Lets all further work fail, as after a cancellation.
+    #[cfg(feature = "parallel")]
+    pub(super) fn stop(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
     }
 
     fn is_cancelled(&self) -> bool {

@@ -1,5 +1,8 @@
 //! Subtrees built in parallel.
 
+#[cfg(all(test, feature = "parallel"))]
+mod tests;
+
 use std::collections::VecDeque;
 #[cfg(feature = "parallel")]
 use std::sync::{Mutex, PoisonError};
@@ -23,7 +26,8 @@ const ALONE: usize = 2048;
 #[cfg(feature = "parallel")]
 type Outputs<S> = Mutex<Vec<Option<Result<Output<S>, Error>>>>;
 
-/// Builds a job on a thread of the pool, and spawns the jobs that it hands over.
+/// Builds a job on a thread of the pool, and spawns the jobs that it hands over. Once it fails, the
+/// others stop.
 #[cfg(feature = "parallel")]
 fn build_and_spawn<'s, K: Kernel>(
     scope: &rayon::Scope<'s>,
@@ -42,6 +46,9 @@ fn build_and_spawn<'s, K: Kernel>(
         });
         Ok(number)
     });
+    if output.is_err() {
+        shared.stop();
+    }
     outputs.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(output);
 }
 
@@ -64,11 +71,17 @@ pub(super) fn run<K: Kernel>(
     let outputs = outputs.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut finished = Vec::new();
     memory::reserve(&mut finished, outputs.len())?;
+    let mut cancelled = None;
     // The scope has waited for every job, so none is missing.
     for output in outputs.into_iter().flatten() {
-        finished.push(output?);
+        match output {
+            Ok(output) => finished.push(output),
+            // What another job's error has stopped says nothing of that error.
+            Err(error) if error.is_cancelled() => cancelled = Some(error),
+            Err(error) => return Err(error),
+        }
     }
-    assemble(finished)
+    cancelled.map_or_else(|| assemble(finished), Err)
 }
 
 #[cfg(not(feature = "parallel"))]

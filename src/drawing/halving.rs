@@ -53,8 +53,7 @@ fn shared<P: Send, F: Send>(
     let parts = vec![(first, shares.start..middle), (second, middle..shares.end)];
     let found = |(part, shares)| shared(part, shares, new, halves, leaf, watch);
     let mut all = Vec::new();
-    for part in parallel_map::map(parts, found) {
-        let mut part = part?;
+    for mut part in parallel_map::map(parts, found)? {
         reserve(&mut all, part.len())?;
         all.append(&mut part);
     }

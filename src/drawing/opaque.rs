@@ -72,9 +72,9 @@ impl VisibilityMap<'_> {
             Ok(part)
         };
         let mut drawing = Drawing::empty(size);
-        for part in parallel_map::map(shares, part) {
+        for part in parallel_map::map(shares, part)? {
             watch.work(SHARE)?;
-            drawing.append(part?)?;
+            drawing.append(part)?;
         }
         Ok(drawing)
     }

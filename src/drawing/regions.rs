@@ -44,8 +44,8 @@ impl VisibilityMap<'_> {
         let (mut done, count) = (0, self.leaves.len());
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
             let divided = |leaf| Divided::new(leaf, &self.stock, &self.rims.lines, watch);
-            for divided in parallel_map::map(leaves.iter().collect(), divided) {
-                stacks.add(&divided?, |item| self.stock.polygon(item), watch)?;
+            for divided in parallel_map::map(leaves.iter().collect(), divided)? {
+                stacks.add(&divided, |item| self.stock.polygon(item), watch)?;
                 finish_item(watch, done, count);
                 done += 1;
             }
@@ -145,11 +145,10 @@ impl Stacks {
             finish_item(watch, i, count);
             Ok((at, outlines))
         };
-        let joined = parallel_map::map(order.into_iter().enumerate().collect(), region);
+        let joined = parallel_map::map(order.into_iter().enumerate().collect(), region)?;
         let mut regions = Vec::new();
         reserve(&mut regions, count)?;
-        for region in joined {
-            let (at, outlines) = region?;
+        for (at, outlines) in joined {
             regions.push(Region { polygons: std::mem::take(&mut all[at].0), outlines });
         }
         Ok(regions)

@@ -203,8 +203,7 @@ fn shared<T: Send>(
         Ok(part)
     };
     let mut all = Vec::new();
-    for part in parallel_map::map(numbers.chunks(SHARE).collect(), part) {
-        let mut part: Vec<T> = part?;
+    for mut part in parallel_map::map(numbers.chunks(SHARE).collect(), part)? {
         reserve(&mut all, part.len())?;
         all.append(&mut part);
     }

@@ -160,8 +160,7 @@ fn crossings_of(
         Ok(found)
     };
     let mut all = Vec::new();
-    for found in parallel_map::map(shares, share) {
-        let mut found: Vec<Crossing> = found?;
+    for mut found in parallel_map::map(shares, share)? {
         reserve(&mut all, found.len())?;
         all.append(&mut found);
     }

@@ -43,16 +43,8 @@ impl Eye {
 
     /// The eye at a point in lattice units.
     pub(crate) fn at(point: [f64; 3]) -> Self {
-        let size = largest(point);
-        let mut shift = 0;
-        let mut unit = 1.0;
-        while size * unit > NEAR {
-            shift += 1;
-            unit *= 0.5;
-            if shift > LARGEST_SHIFT {
-                return Self::towards(point);
-            }
-        }
+        let Some(shift) = shift_of(largest(point)) else { return Self::towards(point) };
+        let unit = 2f64.powi(-(shift as i32));
         let integer = point.map(|c| (c * unit).round() as i64);
         Self { integer, shift: Some(shift), float: integer.map(|c| c as f64 / unit) }
     }
@@ -139,6 +131,18 @@ impl Plane {
     }
 }
 
+/// The least power of two to divide a size by, so that it is [`NEAR`] at most; `None` if that is larger
+/// than [`LARGEST_SHIFT`].
+fn shift_of(size: f64) -> Option<u32> {
+    if size <= NEAR {
+        return Some(0);
+    }
+    let exponent = exponent_of(size / NEAR);
+    // A power of two itself reaches the limit, and nothing above it does.
+    let shift = exponent as u32 + u32::from(scaled(NEAR, exponent) < size);
+    (shift <= LARGEST_SHIFT).then_some(shift)
+}
+
 fn largest(v: [f64; 3]) -> f64 {
     v.into_iter().fold(0.0, |max, c| max.max(c.abs()))
 }
@@ -149,7 +153,8 @@ fn number(c: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Eye;
+    use super::{Eye, LARGEST_SHIFT, NEAR, largest, shift_of};
+    use crate::random::SplitMix64;
 
     #[test]
     fn directions_are_rounded_to_the_nearest() {
@@ -176,5 +181,35 @@ mod tests {
                 assert!((0..3).all(|i| found[i].signum() == i64::from(short[i]).signum()));
             }
         }
+    }
+
+    /// At and beside every power of two, and at random.
+    #[test]
+    fn a_far_eye_is_halved_until_it_is_near() {
+        let halved = |mut size: f64| {
+            (0..=LARGEST_SHIFT).find(|_| {
+                let is_near = size <= NEAR;
+                size /= 2.0;
+                is_near
+            })
+        };
+        let powers = (-1074..1024).map(|exponent| super::scaled(1.0, exponent));
+        let beside = powers.flat_map(|size| [size.next_down(), size, size.next_up()]);
+        let mut random = SplitMix64::new(1);
+        let others =
+            (0..2000).map(|_| super::scaled(random.range(1.0, 2.0), (random.next() % 900) as i32));
+        let mut shifts = [0; 3];
+        for size in beside.chain(others).chain([0.0, f64::MAX, f64::INFINITY]) {
+            let shift = shift_of(size);
+            assert_eq!(shift, halved(size), "{size:e}");
+            shifts[shift.map_or(2, |shift| usize::from(shift > 0))] += 1;
+            let eye = Eye::at([size, -0.5 * size, 1.0]);
+            assert_eq!(eye.shift(), shift, "{size:e}");
+            if shift.is_some() {
+                let largest = largest(eye.integer().map(|c| c as f64));
+                assert!(largest <= NEAR && (shift == Some(0) || largest >= 0.5 * NEAR), "{size:e}");
+            }
+        }
+        assert!(shifts.iter().all(|&count| count > 1000), "{shifts:?}");
     }
 }

@@ -128,9 +128,8 @@ impl Preparer {
                 let (mut part, mut outlines) = (FaceBuilder::new(ground), Outlines::default());
                 let report = part.add_all(ground, input, range, &mut outlines, listener)?;
                 Ok::<_, Error>((part.faces, report, outlines))
-            });
-            for part in parts {
-                let (faces, part_report, part_outlines) = part?;
+            })?;
+            for (faces, part_report, part_outlines) in parts {
                 builder.faces.append(faces)?;
                 report.add(&part_report);
                 outlines.append(part_outlines)?;

@@ -1,5 +1,7 @@
 //! Compares a painted picture with a depth buffer's, pixel by pixel.
 
+use std::cmp::Ordering;
+
 use super::exact::{Plane, PlanePair};
 use super::image::{Image, NONE};
 use super::rays::{Given, Rays};
@@ -57,17 +59,34 @@ const MOVED_CORNERS: f64 = 4.0;
 ///
 /// Polygons are compared, not faces: two faces of one polygon are the same. A pixel is *contested*
 /// if, along its ray, the painted face and the true one are at exactly the same distance, or the
-/// ray meets one of them within 2 τ of the plane of the other, where τ is the tolerance. For two
+/// ray meets *each* of them within 2 τ of the plane of the other, where τ is the tolerance. For two
 /// polygons that are each within τ of a partition plane may both count as part of that plane, and
 /// then they are painted in input order. With τ = 0 only ties are contested.
 ///
-/// This rule knows the polygons, not the partition planes; [`verify`](crate::verify::verify()) knows both.
+/// So a view along one of the two planes excuses nothing by itself: the other polygon, which the
+/// ray meets at an angle, has to be as near. This rule knows the polygons, not the partition planes;
+/// [`verify`](crate::verify::verify()) knows both.
 ///
 /// # Panics
 ///
 /// If the rays were made for another grid.
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     rays.expect(faces);
+    let tolerance = faces.tolerance();
+    let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
+    compare_by(rays, faces, [painted, truth], allowed, |_, _| false)
+}
+
+/// As [`compare`], with a rule of its own: contested are two faces that are each met within a
+/// length, in lattice units, of the plane of the other; and what `is_open` says so of, given the
+/// nearest face, the painted one and the pixel.
+pub(crate) fn compare_by(
+    rays: &Rays,
+    faces: &Faces,
+    [painted, truth]: [&Image; 2],
+    allowed: f64,
+    mut is_open: impl FnMut([u32; 2], [u32; 2]) -> bool,
+) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
     let mut pair = LastPair::new(rays, faces);
@@ -77,8 +96,9 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
         (_, NONE) => Verdict::Spill,
         _ if faces.polygon(shown) == faces.polygon(nearest) => Verdict::Right,
         _ => {
-            let pixel = rays.pixel((i % width) as u32, (i / width) as u32);
-            if is_contested(rays, faces, pair.of([shown, nearest]), pixel) {
+            let [x, y] = [(i % width) as u32, (i / width) as u32];
+            let apart = distances(rays, pair.of([shown, nearest]), rays.pixel(x, y));
+            if apart.iter().all(|&apart| apart <= allowed) || is_open([nearest, shown], [x, y]) {
                 Verdict::Contested
             } else {
                 Verdict::WrongOrder
@@ -115,16 +135,6 @@ impl<'a> LastPair<'a> {
     }
 }
 
-/// Whether the tolerance allows either of two faces in front on the ray of a pixel.
-fn is_contested(rays: &Rays, faces: &Faces, pair: &PlanePair, pixel: Given) -> bool {
-    let tolerance = faces.tolerance();
-    let allowed = if tolerance > 0.0 { 2.0 * tolerance + MOVED_CORNERS } else { 0.0 };
-    // Symmetric in the two planes: it suffices that the ray meets either face near the other's
-    // plane.
-    let [p, q] = distances(rays, pair, pixel);
-    p.min(q) <= allowed
-}
-
 /// The distances from each of two planes of the point where the ray of a pixel meets the other, in
 /// lattice units, rounded.
 fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
@@ -137,20 +147,23 @@ fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
 }
 
 /// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the
-/// partition plane between their pieces. It does if the ray meets the nearer face within the
-/// tolerance of that plane, and either meets the other face, or begins, within it as well.
+/// partition plane between their pieces: the nearer face and the other one, each with the side of
+/// the plane to which its piece belongs (`Greater` is the front, `Equal` the plane itself). It does if
+/// the ray meets the nearer face within the tolerance of that plane, and either meets the other face,
+/// or begins, within it as well; and if one of the two pieces reaches across the plane there.
 ///
 /// A tolerance can cause no other wrong pixels. Suppose the eye is in front of the plane, and a
 /// piece that the order puts in front is hidden by one that it puts behind. Along the ray, the
 /// height above the plane is linear. It is positive at the eye, at most τ where the ray meets the
 /// hiding piece, and at least −τ further on, at the hidden piece. If the height falls along the
 /// ray, both pieces are met within τ of the plane; if it rises, it is at most τ from the eye to the
-/// hiding piece.
+/// hiding piece. If neither piece reached across, the height would fall to 0 or less at the hiding
+/// piece, and not be below 0 further on. (Only along a ray within the plane can it be 0 at both.)
 pub(crate) fn is_open(
     rays: &Rays,
     faces: &Faces,
     plane: PlaneId,
-    [nearest, other]: [u32; 2],
+    pieces: [(u32, Ordering); 2],
     [x, y]: [u32; 2],
 ) -> bool {
     let tolerance = faces.tolerance();
@@ -160,13 +173,19 @@ pub(crate) fn is_open(
     let allowed = tolerance + MOVED_CORNERS;
     let plane = Plane::new(faces, plane);
     let pixel = rays.pixel(x, y);
-    let meets = |face| {
-        let pair = PlanePair::new(rays, [plane, Plane::of(faces, face)]);
-        distances(rays, &pair, pixel)[0] <= allowed
-    };
+    let pair = |face| PlanePair::new(rays, [plane, Plane::of(faces, face)]);
+    let meets = |face| distances(rays, &pair(face), pixel)[0] <= allowed;
     let begins = || {
         let height = plane.kappa(rays).to_f64().abs() / plane.normal().length();
         rays.is_perspective() && height <= allowed
     };
-    meets(nearest) && (meets(other) || begins())
+    let is_within = || plane.kappa(rays).sign().is_eq() && plane.phi(pixel).sign().is_eq();
+    let reaches_across = |(face, side)| {
+        let found = pair(face).side_of_first(pixel);
+        found.is_ne() && found != side
+    };
+    let [nearest, other] = pieces.map(|(face, _)| face);
+    meets(nearest)
+        && (meets(other) || begins())
+        && (pieces.into_iter().any(reaches_across) || is_within())
 }

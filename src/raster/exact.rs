@@ -5,6 +5,8 @@
 //! 106 bits and an offset 158; φ and κ (see [`sheet`](super::sheet)) stay below 2²⁰⁷, and a
 //! determinant of both below 2³⁵⁰.
 
+use std::cmp::Ordering;
+
 use super::digits::{self, Long, Short, dot};
 use super::rays::{Given, Pencil, Rays};
 use crate::exact::{Faces, PlaneId, PlaneKind};
@@ -104,6 +106,13 @@ impl PlanePair {
         let phis = self.planes.each_ref().map(|plane| plane.phi(given));
         let [above, below] = [0, 1].map(|i| [&self.kappas[i], &phis[i]]);
         PlanePairAt { phis, determinant: digits::determinant([above, below]) }
+    }
+
+    /// On which side of the first plane a ray meets the second, ahead of the eye: the sign of
+    /// sgn κ_h · (κ_h φ_f − κ_f φ_h).
+    pub(super) fn side_of_first(&self, given: Given) -> Ordering {
+        let across = self.at(given).determinant.sign();
+        if self.kappas[1].sign().is_lt() { across } else { across.reverse() }
     }
 
     /// What lengths along rays are divided by: φ for a perspective, κ for parallel rays. Rounded.

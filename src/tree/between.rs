@@ -1,5 +1,6 @@
 //! The plane between two fragments.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::BspTree;
@@ -15,6 +16,12 @@ impl BspTree {
     /// If there are no such fragments.
     #[doc(hidden)]
     pub fn plane_between(&self, a: u32, b: u32) -> Option<PlaneId> {
+        self.parting(a, b).map(|(plane, _)| plane)
+    }
+
+    /// The same, with the side of the plane to which each of the two belongs: `Greater` is the front,
+    /// `Equal` the plane itself.
+    pub(crate) fn parting(&self, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
         let high = a.max(b);
         assert!((high as usize) < self.records.len(), "no fragment {high}");
         let (mut index, mut fragments) = (0, 0..self.records.len() as u32);
@@ -27,7 +34,11 @@ impl BspTree {
             } else if has_both(&back) {
                 (node.back_node(index), back)
             } else {
-                return Some(node.plane);
+                let side = |fragment: u32| {
+                    let is_in_front = front.contains(&fragment);
+                    is_in_front.cmp(&back.contains(&fragment))
+                };
+                return Some((node.plane, [a, b].map(side)));
             };
             // Without a node both are in one leaf.
             (index, fragments) = (child?, side);
@@ -43,16 +54,22 @@ mod tests {
 
     /// The plane between any two fragments by the ranges of all nodes, in a table: a pair that
     /// is not on one side of a plane is parted there, and nowhere else.
-    fn table(tree: &BspTree) -> Vec<Vec<Option<PlaneId>>> {
+    fn table(tree: &BspTree) -> Vec<Vec<Option<(PlaneId, [Ordering; 2])>>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {
             let plane = node.plane();
-            let (on, front, back) = (node.on(), node.in_front(), node.behind());
+            let on = (node.on(), Ordering::Equal);
+            let front = (node.in_front(), Ordering::Greater);
+            let back = (node.behind(), Ordering::Less);
             for (one, other) in [(&on, &on), (&on, &front), (&on, &back), (&front, &back)] {
-                for a in one.clone() {
-                    for b in other.clone() {
-                        let known = [(a, b), (b, a)]
-                            .map(|(a, b)| table[a as usize][b as usize].replace(plane));
+                for a in one.0.clone() {
+                    for b in other.0.clone() {
+                        let known = [(a, one.1, b, other.1), (b, other.1, a, one.1)].map(
+                            |(a, of_a, b, of_b)| {
+                                let entry = &mut table[a as usize][b as usize];
+                                entry.replace((plane, [of_a, of_b]))
+                            },
+                        );
                         assert!(one == other || known == [None; 2], "{a} and {b} are parted twice");
                     }
                 }
@@ -86,7 +103,9 @@ mod tests {
             for a in 0..tree.len() as u32 {
                 for b in 0..tree.len() as u32 {
                     let expected = table[a as usize][b as usize];
-                    assert_eq!(tree.plane_between(a, b), expected, "{a} and {b}, {case}");
+                    assert_eq!(tree.parting(a, b), expected, "{a} and {b}, {case}");
+                    let plane = expected.map(|(plane, _)| plane);
+                    assert_eq!(tree.plane_between(a, b), plane, "{a} and {b}, {case}");
                     pairs += usize::from(a != b);
                     in_one_leaf += usize::from(expected.is_none());
                 }

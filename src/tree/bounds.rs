@@ -123,10 +123,8 @@ impl BspTree {
             let boxes =
                 |first: usize| (first..end).map(|number| self.fragment(number as u32).bounds());
             collect((start..end).step_by(BLOCK).map(|first| Block::new(boxes(first))))
-        });
-        for part in parts {
-            blocks.extend(part?);
-        }
+        })?;
+        parts.into_iter().for_each(|part| blocks.extend(part));
         Ok(blocks)
     }
 }

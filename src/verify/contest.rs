@@ -1,43 +1,43 @@
 //! Which wrong pixels the tolerance excuses, given the planes of a tree.
 
 use crate::paint::Buffers;
-use crate::raster::{Comparison, Image, Rays, Verdict, covers, is_open};
+use crate::raster::{Comparison, Image, Rays, compare_by, covers, is_open};
 use crate::tree::BspTree;
 
-/// Counts wrong pixels as contested if the tolerance, at the plane between the two fragments,
-/// leaves open which of them is painted last.
-pub(super) fn contest(
+/// Compares a painted picture of a tree with a true one. Contested are ties, and pixels in which the
+/// tolerance, at the plane between the two fragments, leaves open which of them is painted last.
+pub(super) fn compare_by_planes(
     tree: &BspTree,
     rays: &Rays,
-    [painted, truth]: [&Image; 2],
-    comparison: &mut Comparison,
-) {
-    let mut by_face: Vec<(u32, u32)> = tree.fragments().map(|f| (f.face(), f.index())).collect();
-    by_face.sort_unstable();
+    painted: &Image,
+    truth: &Image,
+) -> Comparison {
+    let faces = tree.faces();
+    if faces.tolerance() == 0.0 {
+        return compare_by(rays, faces, [painted, truth], 0.0, |_, _| false);
+    }
+    let mut sorted = None;
     let mut buffers = Buffers::default();
     // The fragment of a face that covers a pixel.
     let mut fragment_at = |face: u32, pixel| {
+        let by_face: &Vec<(u32, u32)> = sorted.get_or_insert_with(|| {
+            let mut by_face: Vec<_> = tree.fragments().map(|f| (f.face(), f.index())).collect();
+            by_face.sort_unstable();
+            by_face
+        });
         let first = by_face.partition_point(|&(other, _)| other < face);
         let of_face = by_face[first..].iter().take_while(|&&(other, _)| other == face);
         let mut fragments = of_face.map(|&(_, fragment)| fragment);
         fragments.find(|&fragment| {
             let piece = buffers.piece(&tree.fragment(fragment));
-            covers(rays, tree.faces(), piece, pixel)
+            covers(rays, faces, piece, pixel)
         })
     };
-    let width = rays.size()[0] as usize;
-    for (i, verdict) in comparison.verdicts.iter_mut().enumerate() {
-        if *verdict != Verdict::WrongOrder {
-            continue;
-        }
-        let pixel = [(i % width) as u32, (i / width) as u32];
-        let met = [truth.faces()[i], painted.faces()[i]];
+    compare_by(rays, faces, [painted, truth], 0.0, |met, pixel| {
         let [nearest, other] = met.map(|face| fragment_at(face, pixel));
-        let plane = nearest.zip(other).and_then(|(a, b)| tree.plane_between(a, b));
-        if plane.is_some_and(|plane| is_open(rays, tree.faces(), plane, met, pixel)) {
-            *verdict = Verdict::Contested;
-            comparison.wrong_order -= 1;
-            comparison.contested += 1;
-        }
-    }
+        let parting = nearest.zip(other).and_then(|(a, b)| tree.parting(a, b));
+        parting.is_some_and(|(plane, [near, far])| {
+            is_open(rays, faces, plane, [(met[0], near), (met[1], far)], pixel)
+        })
+    })
 }

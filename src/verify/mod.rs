@@ -6,11 +6,11 @@ mod orders;
 mod tests;
 
 use crate::paint::paint_list;
-use crate::raster::{Comparison, DepthImage, Image, Layers, Order, Rays, compare, zbuffer_layers};
+use crate::raster::{Comparison, DepthImage, Image, Layers, Order, Rays, zbuffer_layers};
 use crate::tree::BspTree;
 use crate::view::{Camera, CameraError};
 
-use contest::contest;
+use contest::compare_by_planes;
 use orders::Orders;
 
 pub use orders::{OrderFault, check_orders};
@@ -51,10 +51,14 @@ impl Verification {
 /// iterators and by visitors.
 ///
 /// Everything [is right](Verification::is_right), whatever the scene and the camera. Pixels that
-/// differ only as far as the tolerance allows count as contested: by the rule of [`compare`], which
-/// knows the polygons, or because the ray meets both within the tolerance of the tree's plane
-/// between them, or meets the nearer one there and begins there. With a tolerance of 0 only ties are
-/// contested.
+/// differ only as far as the tolerance allows count as contested: one of the two fragments reaches
+/// across the tree's plane between them, and the ray meets both within the tolerance of that plane, or
+/// meets the nearer one there and begins there. With a tolerance of 0 only ties are contested, which
+/// are fragments at exactly the same distance.
+///
+/// This is less than [`compare`](crate::raster::compare) excuses of layers up to twice the tolerance
+/// apart, as that knows the polygons alone: where a plane of the tree parts them exactly, their order
+/// is not open.
 ///
 /// ```
 /// use binspace::verify::verify;
@@ -95,13 +99,7 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let mut layers = Layers::new(&rays);
     let painted = paint_list(tree, far_first, Order::BackToFront, &rays, Some(&mut layers));
     let (truth, all) = zbuffer_layers(&rays, faces);
-    let against_truth = |image: &Image| {
-        let mut comparison = compare(&rays, faces, image, truth.image());
-        if faces.tolerance() > 0.0 && comparison.wrong_order > 0 {
-            contest(tree, &rays, [image, truth.image()], &mut comparison);
-        }
-        comparison
-    };
+    let against_truth = |image: &Image| compare_by_planes(tree, &rays, image, truth.image());
     let comparison = against_truth(&painted);
     // If one order is the reverse of the other, showing only the first fragment of each pixel makes
     // the same picture as painting over: it need not be painted again.

@@ -43,6 +43,12 @@ impl<'a, K> Shared<'a, K> {
         Ok(Self { kernel, faces, options, rules, budget, keeps_positions: false })
     }
 
+    /// Stops all jobs of the build.
+    #[cfg(feature = "parallel")]
+    pub(in crate::build) fn stop(&self) {
+        self.rules.watch.stop();
+    }
+
     /// The same, with positions in the output.
     pub(in crate::build) fn with_positions(self) -> Self {
         Self { keeps_positions: true, ..self }

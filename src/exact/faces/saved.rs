@@ -101,7 +101,7 @@ impl Faces {
         let ranges =
             ranges.map(|start| start..self.faces.len().min(start + FACES_A_THREAD)).collect();
         let check = |mut range: Range<usize>| range.try_for_each(|face| self.check_face(face));
-        parallel_map::map(ranges, check).into_iter().collect::<Result<(), LoadError>>()?;
+        parallel_map::map(ranges, check)?;
         self.check_numbers()?;
         self.check_moved()
     }

@@ -154,26 +154,37 @@ fn named(faces: &Faces, plane_id: PlaneId) -> (Vector, Vector) {
     }
 }
 
-/// Whether the ray of a pixel meets the plane of a face within some lattice units of another plane;
-/// or, without a face, starts there.
-pub(crate) fn is_near(
+/// How high above a plane the ray of a pixel meets the plane of a face, or, without a face, starts;
+/// `None` if it does not.
+pub(crate) fn height(
     rays: &Rays,
     faces: &Faces,
     (face, [x, y]): (Option<u32>, [u32; 2]),
     plane: PlaneId,
-    reach: f64,
-) -> bool {
+) -> Option<Height> {
     let ray = ray_of(rays, x, y, false);
-    let at = match face {
+    let Point(point, divisor) = match face {
         Some(face) => hit(rays, faces, face, &ray).map(|(point, _)| point),
         None => rays.is_perspective().then_some(ray.0),
-    };
-    let Some(Point(point, divisor)) = at else { return false };
+    }?;
     let (n, p) = named(faces, plane);
     let value = dot(&n, &minus(&point, &times(&p, &divisor)));
-    let distance_squared = BigRational::new(&value * &value, dot(&n, &n) * &divisor * &divisor);
-    let reach = BigRational::from_float(reach).unwrap();
-    distance_squared <= &reach * &reach
+    let squared = BigRational::new(&value * &value, dot(&n, &n) * &divisor * &divisor);
+    Some(Height { sign: value.cmp(&BigInt::zero()), squared })
+}
+
+/// A height above a plane: its sign, and its square in lattice units.
+pub(crate) struct Height {
+    pub(crate) sign: Ordering,
+    squared: BigRational,
+}
+
+impl Height {
+    /// Whether it is some length at most.
+    pub(crate) fn is_within(&self, reach: f64) -> bool {
+        let reach = BigRational::from_float(reach).unwrap();
+        self.squared <= &reach * &reach
+    }
 }
 
 /// The nearest face on the ray of a pixel, the later of two at the same distance.

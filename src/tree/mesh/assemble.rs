@@ -10,7 +10,7 @@ use super::survey::{FragmentEdge, Node, Survey, ends};
 use super::triangles::Triangles;
 use crate::error::{Error, Limit};
 use crate::exact::{Symbol, SymbolKind};
-use crate::memory::reserve;
+use crate::memory::{empty, reserve};
 use crate::tree::BspTree;
 
 /// What a mesh consists of.
@@ -97,7 +97,7 @@ impl<'s, 't> Assembler<'s, 't> {
         let face = survey.tree.records[survey.fragments[at] as usize].face;
         if survey.tree.faces.polygon(face) != self.polygon {
             self.polygon = survey.tree.faces.polygon(face);
-            self.known.clear();
+            empty(&mut self.known);
         }
         self.outline.clear();
         let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
@@ -241,7 +241,8 @@ fn edge_numbers(survey: &Survey<'_>, face: u32, k: u32) -> [u32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{FragmentEdge, last_carrier};
+    use super::{Assembler, FragmentEdge, Points, Survey, last_carrier};
+    use crate::{BuildOptions, Heuristic};
 
     #[test]
     fn an_edge_without_length_is_not_the_one_before_the_first() {
@@ -249,5 +250,29 @@ mod tests {
         assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 3]]), Some(9));
         assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 2]]), Some(8));
         assert_eq!(last_carrier(&edges, &[[0, 0], [5, 5], [2, 2]]), None);
+    }
+
+    /// A square under walls whose planes cut it into strips.
+    #[test]
+    fn a_polygon_cut_very_often_costs_the_polygons_after_it_nothing() {
+        const WALLS: u32 = 500;
+        let (side, wide) = (f64::from(WALLS), [-0.5, 1.5]);
+        let square = [(0, 0), (1, 0), (1, 1), (0, 1)];
+        let square = square.map(|(i, j)| [[-0.5, side][i], wide[j], -1.0]);
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let walls = (0..WALLS).map(|k| corners.map(|(y, z)| [f64::from(k), y, z]));
+        let balanced = BuildOptions::DEFAULT.with_heuristic(Heuristic::Balanced);
+        let tree = balanced.build(std::iter::once(square).chain(walls)).unwrap();
+        let survey = Survey::new(&tree).unwrap();
+        let points = Points::new(&survey).unwrap();
+        let mut assembler = Assembler::new(&survey, &points).unwrap();
+        // The largest room for the square's vertices, for those of the first wall after it, and of the rest.
+        let mut most = [0; 3];
+        for at in 0..survey.fragments.len() {
+            assembler.outline(at, true).unwrap();
+            let most = &mut most[assembler.polygon.min(2)];
+            *most = assembler.known.capacity().max(*most);
+        }
+        assert!(most[0] > 1000 && most[2] < 100, "{most:?} vertices");
     }
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::lines::{Carrier, Lines};
 use crate::error::{Error, Limit};
 use crate::exact::{Faces, PlaneId, Symbol, SymbolKind};
-use crate::memory::reserve;
+use crate::memory::{empty, reserve};
 use crate::tree::BspTree;
 
 /// A vertex as one face names it: a corner, or where planes cut the face. The first nodes are the
@@ -137,8 +137,8 @@ impl Names {
         }
         let corners = faces.corner_range(face);
         (self.face, self.first_corner) = (face, corners.start as u32);
-        self.symbols.clear();
-        self.planes.clear();
+        empty(&mut self.symbols);
+        empty(&mut self.planes);
         self.edges.clear();
         reserve(&mut self.edges, corners.len())?;
         self.edges.resize(corners.len(), None);
@@ -166,4 +166,27 @@ fn by_face(tree: &BspTree) -> Result<Vec<u32>, Error> {
         fragments[*end as usize] = number as u32;
     }
     Ok(fragments)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BspTree, Names, PlaneId, Symbol};
+    use crate::exact::Line;
+
+    #[test]
+    fn a_face_cut_very_often_costs_the_faces_after_it_nothing() {
+        let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+        let tree = BspTree::build([0.0, 1.0, 2.0].map(square)).unwrap();
+        let mut names = Names::default();
+        names.enter(&tree.faces, 0).unwrap();
+        for k in 0..100_000 {
+            let plane = PlaneId::face(k);
+            names.symbols.insert(Symbol::crossing(Line::edge(0), plane), k);
+            names.planes.insert(plane, k);
+        }
+        // The first face after it still pays for the entries.
+        (1..3).for_each(|face| names.enter(&tree.faces, face).unwrap());
+        let room = names.symbols.capacity() + names.planes.capacity();
+        assert!(room < 1000, "room for {room} names is emptied for each face");
+    }
 }

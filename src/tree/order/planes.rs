@@ -59,10 +59,8 @@ impl Planes {
         }
         let parts = parallel_map::map(nodes.chunks(GROUPS_A_THREAD * GROUP).collect(), |nodes| {
             collect(nodes.chunks(GROUP).map(group))
-        });
-        for part in parts {
-            self.0.extend(part?);
-        }
+        })?;
+        parts.into_iter().for_each(|part| self.0.extend(part));
         Ok(())
     }
 

@@ -41,14 +41,12 @@ pub(super) fn check(
             }
         }
         Ok(places)
-    });
+    })?;
     if keep {
         let room = positions.try_reserve_exact(vertices.len());
         room.map_err(|_| LoadError::out_of_memory())?;
     }
-    for places in checked {
-        positions.extend(places?);
-    }
+    checked.into_iter().for_each(|places| positions.extend(places));
     Ok(())
 }
 

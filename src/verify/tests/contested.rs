@@ -1,12 +1,14 @@
 //! What the planes of a tree excuse, against exact rays and the ranges of its nodes.
 
+use std::cmp::Ordering;
+
 use crate::exact::{Line, PlaneId};
 use crate::paint::paint_list;
 use crate::random::SplitMix64;
-use crate::raster::tests::oracle::{is_near, meets, meets_piece};
-use crate::raster::{Order, Rays, Verdict, compare, zbuffer};
+use crate::raster::tests::oracle::{Height, height, meets, meets_piece};
+use crate::raster::{Order, Rays, Verdict, compare_by, zbuffer};
 use crate::tree::BspTree;
-use crate::verify::contest;
+use crate::verify::contest::compare_by_planes;
 use crate::view::Camera;
 use crate::{BuildOptions, Heuristic};
 use glam::DVec3;
@@ -14,21 +16,28 @@ use glam::DVec3;
 /// What may be added to the tolerance for corners that are kept rounded, in lattice units.
 const ROUNDED_CORNERS: f64 = 4.0;
 
-/// The plane that parts two fragments, by the ranges of all nodes.
-fn parting(tree: &BspTree, a: u32, b: u32) -> Option<PlaneId> {
-    let mut parting = tree.nodes().filter(|node| {
-        let side =
-            |f: u32| [node.on(), node.in_front(), node.behind()].map(|range| range.contains(&f));
-        let (a, b) = (side(a), side(b));
-        a.contains(&true) && b.contains(&true) && (a != b || a[0])
+/// The plane that parts two fragments, by the ranges of all nodes, and the sides that they are on.
+fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
+    let mut parting = tree.nodes().filter_map(|node| {
+        let side = |f: u32| {
+            let sides = [
+                (node.behind(), Ordering::Less),
+                (node.on(), Ordering::Equal),
+                (node.in_front(), Ordering::Greater),
+            ];
+            sides.into_iter().find(|(range, _)| range.contains(&f)).map(|(_, side)| side)
+        };
+        let (a, b) = (side(a)?, side(b)?);
+        (a != b || a.is_eq()).then(|| (node.plane(), [a, b]))
     });
     let first = parting.next();
     assert!(parting.next().is_none(), "{a} and {b} are parted twice");
-    first.map(|node| node.plane())
+    first
 }
 
 /// The rule of the tolerance, exactly: of two fragments that a ray meets, the nearer is met within
-/// the tolerance of the plane that parts them, and the other, or the eye, is as well.
+/// the tolerance of the plane that parts them, and the other, or the eye, is as well; and one of the two
+/// is met beyond that plane.
 fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2]) -> bool {
     let faces = tree.faces();
     let [near_face, far_face] = [near, far].map(|id| tree.fragment(id).face());
@@ -36,9 +45,15 @@ fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2
     let depth = |face| meets(rays, faces, face, x, y).expect("a face that is met");
     assert!(depth(near_face) < depth(far_face), "{near} does not hide {far} in {pixel:?}");
     let reach = faces.tolerance() + ROUNDED_CORNERS;
-    parting(tree, near, far).is_some_and(|plane| {
-        let is_near = |face| is_near(rays, faces, (face, pixel), plane, reach);
-        is_near(Some(near_face)) && (is_near(Some(far_face)) || is_near(None))
+    parting(tree, near, far).is_some_and(|(plane, sides)| {
+        let height = |face| height(rays, faces, (face, pixel), plane);
+        let heights = [near_face, far_face].map(|face| height(Some(face)).unwrap());
+        let is_beyond = |(height, side): (&Height, Ordering)| height.sign == side.reverse();
+        let is_off = |(height, side): (&Height, Ordering)| side.is_eq() && height.sign.is_ne();
+        let pieces = || heights.iter().zip(sides);
+        let [near, far] = heights.each_ref().map(|height| height.is_within(reach));
+        let begins = height(None).is_some_and(|height| height.is_within(reach));
+        near && (far || begins) && (pieces().any(is_beyond) || pieces().any(is_off))
     })
 }
 
@@ -60,10 +75,9 @@ fn check(tree: &BspTree, camera: &Camera, order: &[u32], counts: &mut [usize; 2]
     let rays = Rays::new(camera, faces).unwrap();
     let painted = paint_list(tree, order, Order::BackToFront, &rays, None);
     let truth = zbuffer(&rays, faces).into_image();
-    let by_polygons = compare(&rays, faces, &painted, &truth);
-    let mut by_planes = by_polygons.clone();
-    contest(tree, &rays, [&painted, &truth], &mut by_planes);
-    let verdicts = by_polygons.verdicts.iter().zip(&by_planes.verdicts).enumerate();
+    let strict = compare_by(&rays, faces, [&painted, &truth], 0.0, |_, _| false);
+    let by_planes = compare_by_planes(tree, &rays, &painted, &truth);
+    let verdicts = strict.verdicts.iter().zip(&by_planes.verdicts).enumerate();
     let mut excused = 0;
     for (i, (before, after)) in verdicts {
         if *before != Verdict::WrongOrder {
@@ -79,8 +93,8 @@ fn check(tree: &BspTree, camera: &Camera, order: &[u32], counts: &mut [usize; 2]
         excused += usize::from(is_excused);
         counts[usize::from(!is_excused)] += 1;
     }
-    assert_eq!(by_planes.contested, by_polygons.contested + excused);
-    assert_eq!(by_planes.wrong_order, by_polygons.wrong_order - excused);
+    assert_eq!(by_planes.contested, strict.contested + excused);
+    assert_eq!(by_planes.wrong_order, strict.wrong_order - excused);
 }
 
 /// A floor aside, and around it walls and slopes that reach across its plane by less than the

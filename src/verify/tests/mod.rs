@@ -1,6 +1,7 @@
 //! Judgements of right trees and of wrong orders.
 
 mod contested;
+mod grazing;
 mod mix;
 mod orders;
 
