@@ -3,7 +3,7 @@
 use binspace::partition::{Extent, Partition};
 use binspace::{BuildOptions, glam::DVec3};
 
-use crate::support::saved::seal;
+use testkit::saved::seal;
 
 const LIMIT: i64 = 1 << 51;
 /// How many planes the partition has.

@@ -1,6 +1,6 @@
 //! Numbers of a file that no tree has: each is refused, and the message says which it is.
 
-use crate::support::saved::{bytes, seal};
+use testkit::saved::{bytes, seal};
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions};
 
