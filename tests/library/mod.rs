@@ -12,6 +12,7 @@ mod facing_bounds;
 mod fuzz_regressions;
 mod iterators;
 mod many_parts;
+mod modules;
 mod odd_viewpoints;
 #[cfg(target_os = "linux")]
 mod out_of_memory;
