@@ -53,7 +53,7 @@ fn one_cell_is_the_tree_of_all() {
 
 #[test]
 fn the_order_of_samples_and_the_number_of_threads_do_not_count() {
-    let polygons = triangles(&mut Dice(6), 3000, 1000);
+    let polygons = triangles(&mut Dice(6), 1500, 1000);
     let all = extent(&polygons);
     let mut samples: Vec<DVec3> = polygons.iter().flatten().copied().collect();
     let options = BuildOptions::DEFAULT;

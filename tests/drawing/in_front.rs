@@ -10,6 +10,7 @@ use binspace::scene::Builtin;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use testkit::dice::Dice;
+use testkit::effort::times;
 use testkit::enough;
 use testkit::rational::{self, Point};
 
@@ -63,11 +64,11 @@ fn squares_before_one_another_are_counted() {
 #[test]
 fn edges_have_as_many_layers_as_rays_meet() {
     let (mut random, mut dice) = (SplitMix64::new(8), Dice(8));
-    let mut scenes: Vec<Vec<Vec<DVec3>>> = [(40, 0.8), (200, 0.3), (400, 0.1)]
+    let mut scenes: Vec<Vec<Vec<DVec3>>> = [(40, 0.8), (120, 0.3), (200, 0.1)]
         .map(|(count, edge)| triangles(&mut random, count, edge))
         .to_vec();
     for builtin in [Builtin::City, Builtin::Sphere] {
-        let scene = builtin.build(Some(200), 2);
+        let scene = builtin.build(Some(100), 2);
         scenes.push((0..scene.len()).map(|i| scene.polygon(i).to_vec()).collect());
     }
     let (mut judged, mut most, mut on_walls) = ([0; 4], 0, 0);
@@ -108,7 +109,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
             }
         }
     }
-    assert!(judged.iter().all(|&count| count > 500) && most > 5, "{judged:?} {most}");
+    assert!(judged.iter().all(|&count| count > 120) && most > 5, "{judged:?} {most}");
     assert!(on_walls * 4 < judged[1], "{on_walls} {judged:?}");
 }
 
@@ -172,7 +173,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
     let lattice = *tree.faces().lattice();
     let (mut judged, mut told, mut along) = ([0; 3], 0, 0);
     for far in [30.0, 6.0] {
-        for _ in 0..3 {
+        for _ in 0..times(1) {
             let eye = random.point(-1.0, 1.0).normalize() * far;
             let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [320, 240]).unwrap();
@@ -213,6 +214,6 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
             }
         }
     }
-    assert!(judged.iter().all(|&count| count > 300), "{judged:?}");
-    enough!(told > 500, along > 500; "{told} {along}");
+    assert!(judged.iter().all(|&count| count > 80), "{judged:?}");
+    enough!(told > 150, along > 150; "{told} {along}");
 }

@@ -181,7 +181,7 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
 /// A map keeps the callback that it was made with; and after it was cancelled, it answers all the same.
 #[test]
 fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
-    let (view, listener) = (view(700), Listener::default());
+    let (view, listener) = (view(500), Listener::default());
     let View { tree, rays, overlay } = &view;
     listener.cancel_at(usize::MAX);
     let hear = |progress| listener.hear(progress);

@@ -52,7 +52,7 @@ fn drawings_of_whole_scenes_are_what_rays_meet() {
 fn many_small_triangles() {
     let mut random = SplitMix64::new(1);
     let mut score = Score::default();
-    for (count, edge) in [(3000, 0.03), (3000, 0.3), (400, 1.0)] {
+    for (count, edge) in [(3000, 0.03), (1000, 0.3), (200, 1.0)] {
         let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
         for _ in 0..count {
             let centre = random.point(0.0, 1.0);

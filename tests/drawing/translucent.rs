@@ -34,7 +34,7 @@ fn layers_of_whole_scenes_are_those_of_the_tree() {
 /// Scenes of random triangles that cross: small ones, large ones, and few that are larger still.
 pub(crate) fn crossing_triangles() -> impl Iterator<Item = Scene> {
     let mut random = SplitMix64::new(1);
-    [(300, 0.1), (300, 0.5), (60, 1.0)].into_iter().map(move |(count, edge)| {
+    [(300, 0.1), (150, 0.5), (50, 1.0)].into_iter().map(move |(count, edge)| {
         let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
         for _ in 0..count {
             let centre = random.point(0.0, 1.0);
@@ -49,5 +49,5 @@ pub(crate) fn crossing_triangles() -> impl Iterator<Item = Scene> {
 fn layers_of_crossing_triangles() {
     let mut score = Layers::default();
     crossing_triangles().for_each(|scene| check_scene(&scene, &mut score));
-    assert!(score.layers > 300_000 && score.paths > 5 * score.polygons, "{score:?}");
+    assert!(score.layers > 200_000 && score.paths > 3 * score.polygons, "{score:?}");
 }

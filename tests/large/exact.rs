@@ -1,8 +1,11 @@
 //! Planes and signs in big integers.
 
-use num_bigint::{BigInt, Sign};
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_bigint::BigInt;
+use num_traits::{ToPrimitive, Zero};
 use std::cmp::Ordering;
+use testkit::vector::main_axis;
+
+pub(crate) use testkit::vector::{product, scalar, sign};
 
 use super::scene::{Point, minus};
 
@@ -21,25 +24,6 @@ pub(crate) fn wide(p: Point) -> Vector {
 
 pub(crate) fn float(value: &BigInt) -> f64 {
     value.to_f64().expect("a number in range")
-}
-
-pub(crate) fn scalar(a: &Big, b: &Big) -> BigInt {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-pub(crate) fn product(a: &Big, b: &Big) -> Big {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        &a[j] * &b[k] - &a[k] * &b[j]
-    })
-}
-
-pub(crate) fn sign(value: &BigInt) -> Ordering {
-    match value.sign() {
-        Sign::Minus => Ordering::Less,
-        Sign::NoSign => Ordering::Equal,
-        Sign::Plus => Ordering::Greater,
-    }
 }
 
 /// Rounding in `f64` is believed beyond this share of the sum of magnitudes: a hundred times what
@@ -109,8 +93,7 @@ impl Plane {
 
     /// The first of the axes along which the normal is longest.
     pub(crate) fn main_axis(&self) -> usize {
-        let size = |axis: usize| self.normal[axis].abs();
-        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+        main_axis(&self.normal)
     }
 
     pub(crate) fn length(&self) -> f64 {

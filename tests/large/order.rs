@@ -1,6 +1,7 @@
 //! Orders of trees past every threshold of the builder.
 
 use binspace::Heuristic;
+use testkit::effort::{effort, times};
 use testkit::enough;
 
 use super::all_scenes::{self, KINDS};
@@ -13,16 +14,16 @@ fn total(scores: &[(String, Score)]) -> Score {
 
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
-    let trial = Trial { heuristics: Heuristic::ALL, views: 20, rays: 12, most: 100 };
+    let trial = Trial { heuristics: Heuristic::ALL, views: times(10), rays: 8, most: 100 };
     let scores = trial.hold_all(KINDS, 1, |kind, dice| all_scenes::scene(kind, dice, 500));
     for (name, score) in &scores {
-        enough!(score.trees >= 6, score.pairs > 100; "{name}: {score:?}");
+        enough!(score.trees >= 6, score.pairs > 40; "{name}: {score:?}");
     }
     let all = total(&scores);
     assert!(all.trees + all.given_up == KINDS * Heuristic::ALL.len(), "{all:?}");
     assert!(all.given_up <= 20, "{all:?}");
-    enough!(all.rays > 45_000, all.pairs > 2_000_000; "{all:?}");
-    enough!(all.coplanar > 30_000, all.borders > 50_000; "{all:?}");
+    enough!(all.rays > 15_000, all.pairs > 600_000; "{all:?}");
+    enough!(all.coplanar > 9_000, all.borders > 15_000; "{all:?}");
     assert!(all.grazing < all.pairs / 20 && all.excused == 0, "{all:?}");
 }
 
@@ -30,23 +31,29 @@ fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
 fn large_scenes_of_every_kind_are_in_order() {
     let heuristics = [Heuristic::Auto, Heuristic::FreePlanes, Heuristic::Random { seed: 7 }];
     let trial = Trial { heuristics: &heuristics, views: 10, rays: 12, most: 20 };
-    let scores = trial.hold_all(KINDS, 2, |kind, dice| {
-        let n = if kind % 5 == 0 { 5000 } else { 1500 };
+    // Every third kind and fewer polygons, unless there is time for all.
+    let step = 3 / effort().min(3);
+    let scores = trial.hold_all(KINDS.div_ceil(step), 2, |number, dice| {
+        let kind = number * step;
+        if step > 1 && kind > 0 {
+            return all_scenes::scene(kind, dice, 800);
+        }
+        let n = if kind.is_multiple_of(5) { 5000 } else { 1500 };
         all_scenes::scene(kind, dice, n)
     });
     for (name, score) in &scores {
         enough!(score.trees >= 1, score.pairs > 20; "{name}: {score:?}");
     }
     let all = total(&scores);
-    enough!(all.rays > 5000, all.pairs > 300_000; "{all:?}");
+    enough!(all.rays > 1600, all.pairs > 40_000; "{all:?}");
 }
 
 #[test]
 fn noisy_scenes_are_in_order_but_for_the_tolerance() {
-    let trial = Trial { heuristics: Heuristic::ALL, views: 20, rays: 30, most: 30 };
+    let trial = Trial { heuristics: Heuristic::ALL, views: times(10), rays: 20, most: 30 };
     let scores = trial.hold_all(6, 3, |kind, dice| all_scenes::noisy(kind, dice, 600));
     let all = total(&scores);
-    enough!(all.trees >= 40, all.pairs > 100_000; "{all:?}");
+    enough!(all.trees >= 40, all.pairs > 30_000; "{all:?}");
     assert!(all.borders < all.pairs / 100, "{all:?}");
     assert!(all.excused > 0 && all.excused < all.pairs / 5, "{all:?}");
 }

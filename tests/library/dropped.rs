@@ -12,27 +12,9 @@ use testkit::dice::Dice;
 use testkit::hard;
 use testkit::shapes::{self, Corners};
 use testkit::tally::tally;
+use testkit::vector::{difference, is_zero, product, scalar};
 
 type Vector = [BigInt; 3];
-
-fn minus(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn product(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        &a[j] * &b[k] - &a[k] * &b[j]
-    })
-}
-
-fn scalar(a: &Vector, b: &Vector) -> BigInt {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn is_zero(a: &Vector) -> bool {
-    a.iter().all(Zero::is_zero)
-}
 
 /// The corners on the lattice, those left out that are where the one before is.
 fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
@@ -47,7 +29,7 @@ fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
 
 /// Two arms from the first corner that are not on one line, if there are any.
 fn plane(corners: &[Vector]) -> Option<Vector> {
-    let arms: Vec<Vector> = corners.iter().map(|corner| minus(corner, &corners[0])).collect();
+    let arms: Vec<Vector> = corners.iter().map(|corner| difference(corner, &corners[0])).collect();
     let pairs = arms.iter().flat_map(|a| arms.iter().map(move |b| product(a, b)));
     pairs.into_iter().find(|normal| !is_zero(normal))
 }
@@ -59,11 +41,11 @@ fn is_run_through_both_ways(corners: &[Vector]) -> bool {
     for (i, a) in corners.iter().enumerate() {
         let b = &corners[(i + 1) % corners.len()];
         // Parted where other corners lie on it.
-        let arm = minus(b, a);
+        let arm = difference(b, a);
         let mut along: Vec<(BigInt, &Vector)> = corners
             .iter()
-            .filter(|corner| is_zero(&product(&arm, &minus(corner, a))))
-            .map(|corner| (scalar(&arm, &minus(corner, a)), corner))
+            .filter(|corner| is_zero(&product(&arm, &difference(corner, a))))
+            .map(|corner| (scalar(&arm, &difference(corner, a)), corner))
             .filter(|(at, _)| !at.is_negative() && *at <= scalar(&arm, &arm))
             .collect();
         along.sort();
@@ -89,7 +71,7 @@ fn area(corners: &[Vector]) -> Vector {
 /// Whether the corners are in one plane, on the rim of what they span, and in order around their
 /// middle, once.
 fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
-    let flat = |corner: &Vector| scalar(normal, &minus(corner, &corners[0])).is_zero();
+    let flat = |corner: &Vector| scalar(normal, &difference(corner, &corners[0])).is_zero();
     if !corners.iter().all(flat) {
         return false;
     }
@@ -117,9 +99,9 @@ fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     };
     let passes = (0..n).filter(|&i| !is_ahead(&arms[i]) && is_ahead(&arms[(i + 1) % n])).count();
     let on_rim = (0..n).all(|i| {
-        let edge = minus(&corners[(i + 1) % n], &corners[i]);
+        let edge = difference(&corners[(i + 1) % n], &corners[i]);
         corners.iter().all(|c| {
-            let t = turn(&edge, &minus(c, &corners[i]));
+            let t = turn(&edge, &difference(c, &corners[i]));
             t.is_zero() || t.sign() == sign.sign()
         })
     });
@@ -162,7 +144,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
         };
         let area = area(corners);
         let square = |v: &Vector| scalar(v, v);
-        let size = corners.iter().map(|c| square(&minus(c, &corners[0]))).max().expect("corners");
+        let size =
+            corners.iter().map(|c| square(&difference(c, &corners[0]))).max().expect("corners");
         kinds.thin += usize::from(square(&area) << 80 < &size * &size && !is_zero(&area));
         if is_zero(&area) {
             // Run through there and back, it has none; else its parts face both ways and cancel,

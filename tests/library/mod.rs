@@ -13,6 +13,7 @@ mod facing_bounds;
 mod fuzz_regressions;
 mod iterators;
 mod many_parts;
+mod modules;
 mod odd_viewpoints;
 mod other_trees;
 #[cfg(target_os = "linux")]

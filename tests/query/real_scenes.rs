@@ -44,7 +44,7 @@ fn shoot(
             }
             score
         })
-        .reduce(Score::default, Score::add)
+        .reduce(Score::default, Score::plus)
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn rays_at_real_scenes_hit_what_integers_say() {
         let check = |ray, score: &mut Score| oracle.check(ray, score);
         let score = shoot((name, &tree), rays / SCENES.len(), check);
         eprintln!("{name}: {score:?}, {:.1} s", begin.elapsed().as_secs_f64());
-        all = all.add(score);
+        all = all.plus(score);
     }
     eprintln!("all: {all:?}");
     assert!(all.rays >= rays && all.hits > rays && all.ties > rays / 4, "{all:?}");

@@ -178,7 +178,7 @@ fn every_plane_has_something_on_it_or_on_both_sides() {
 }
 
 proptest! {
-    #![proptest_config(cases(64, file!()))]
+    #![proptest_config(cases(40, file!()))]
 
     #[test]
     fn awkward_eyes_are_on_the_sides_that_rationals_say(

@@ -4,6 +4,7 @@ use binspace::glam::DVec3;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
+use testkit::vector::{difference, product, scalar};
 
 type Point = [BigRational; 3];
 
@@ -34,32 +35,32 @@ fn is_near(triangle: &[DVec3; 3], from: DVec3, direction: DVec3) -> bool {
 }
 
 fn meets([a, b, c]: &[Point; 3], [from, direction]: &[Point; 2]) -> Option<BigRational> {
-    let arms = [a, b, c].map(|corner| minus(corner, from));
-    let normal = cross(&minus(b, a), &minus(c, a));
-    let slope = dot(&normal, direction);
+    let arms = [a, b, c].map(|corner| difference(corner, from));
+    let normal = product(&difference(b, a), &difference(c, a));
+    let slope = scalar(&normal, direction);
     if slope.is_zero() {
         return in_plane(&arms, &normal, direction);
     }
     let mut sides =
-        [0, 1, 2].map(|k| dot(direction, &cross(&arms[k], &arms[(k + 1) % 3])).cmp(&zero()));
+        [0, 1, 2].map(|k| scalar(direction, &product(&arms[k], &arms[(k + 1) % 3])).cmp(&zero()));
     sides.sort();
     if sides[0].is_lt() && sides[2].is_gt() {
         return None;
     }
-    let t = dot(&normal, &arms[0]) / slope;
+    let t = scalar(&normal, &arms[0]) / slope;
     (!t.is_negative()).then_some(t)
 }
 
 /// Where a ray that is parallel to a triangle enters it.
 fn in_plane(arms: &[Point; 3], normal: &Point, direction: &Point) -> Option<BigRational> {
-    if !dot(normal, &arms[0]).is_zero() {
+    if !scalar(normal, &arms[0]).is_zero() {
         return None;
     }
     // Which side of the ray each corner is on, seen along the normal.
-    let across = cross(normal, direction);
-    let sides = [0, 1, 2].map(|k| dot(&across, &arms[k]));
-    let length = dot(direction, direction);
-    let along = [0, 1, 2].map(|k| dot(direction, &arms[k]) / &length);
+    let across = product(normal, direction);
+    let sides = [0, 1, 2].map(|k| scalar(&across, &arms[k]));
+    let length = scalar(direction, direction);
+    let along = [0, 1, 2].map(|k| scalar(direction, &arms[k]) / &length);
     let mut met = Vec::new();
     for k in 0..3 {
         let j = (k + 1) % 3;
@@ -80,19 +81,4 @@ fn zero() -> BigRational {
 
 fn point(p: DVec3) -> Point {
     p.to_array().map(|c| BigRational::from_float(c).expect("finite"))
-}
-
-fn minus(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn dot(a: &Point, b: &Point) -> BigRational {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn cross(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        &a[j] * &b[k] - &a[k] * &b[j]
-    })
 }

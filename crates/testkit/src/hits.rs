@@ -69,7 +69,7 @@ pub struct Score {
 }
 
 impl Score {
-    pub fn add(self, other: Self) -> Self {
+    pub fn plus(self, other: Self) -> Self {
         Self {
             rays: self.rays + other.rays,
             hits: self.hits + other.hits,

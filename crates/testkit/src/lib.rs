@@ -29,4 +29,5 @@ pub mod shots;
 pub mod snapshot;
 pub mod tally;
 pub mod targets;
+pub mod vector;
 pub mod views;

@@ -3,8 +3,9 @@
 //! Sutherland–Hodgman.
 
 use super::rational::{self, Plane, Point, Rational};
+use super::vector;
 use binspace::internals::{Faces, Line, PlaneId, PlaneKind, Side, Symbol, SymbolKind};
-use num_traits::{Signed, ToPrimitive};
+use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
 /// A vertex of a piece, and what bounds the piece from it to the next.
@@ -55,7 +56,7 @@ impl Face {
                 rational::crossing(ends, [&values[0], &values[1]])
             }
             SymbolKind::Inside(g, h) => {
-                Plane::meeting(&self.plane, &plane(faces, g), &plane(faces, h))
+                rational::meeting(&self.plane, &plane(faces, g), &plane(faces, h))
             }
         }
     }
@@ -123,15 +124,14 @@ pub fn plane(faces: &Faces, id: PlaneId) -> Plane {
             Plane::through([&p, &q, &r])
         }
         PlaneKind::Axis(axis, corner) => {
-            Plane::perpendicular_to_axis(axis, &lattice(faces.corner(corner)))
+            rational::perpendicular_to_axis(axis, &lattice(faces.corner(corner)))
         }
     }
 }
 
 /// The first of the axes along which a plane's normal is longest.
 pub fn main_axis(plane: &Plane) -> usize {
-    let size = |axis: usize| plane.normal[axis].abs();
-    (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    vector::main_axis(&plane.normal)
 }
 
 fn lattice(corner: [f64; 3]) -> Point {

@@ -3,10 +3,11 @@
 
 use super::hits::{Rough, Score};
 use super::rays::{Vector, vector};
+use super::vector::{Plane, main_axis, scalar, sign};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{Bounds, BspTree, Hit, Ray};
-use num_bigint::{BigInt, Sign};
+use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 
@@ -117,31 +118,13 @@ fn whole(value: f64, unit: i32) -> BigInt {
         << u32::try_from(exponent + zeros as i32 - unit).expect("a multiple")
 }
 
-fn sign(value: &BigInt) -> Ordering {
-    match value.sign() {
-        Sign::Minus => Ordering::Less,
-        Sign::NoSign => Ordering::Equal,
-        Sign::Plus => Ordering::Greater,
-    }
-}
-
-fn scalar(a: &Vector, b: &Vector) -> BigInt {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
 impl Face {
     fn new(faces: &Faces, face: u32) -> Self {
         let [p, q, r] = faces.reference_triangle(face).map(|corner| vector(faces.corner(corner)));
-        let arm = |x: &Vector| -> Vector { std::array::from_fn(|i| &x[i] - &p[i]) };
-        let (u, w) = (arm(&q), arm(&r));
-        let normal: Vector = std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            &u[j] * &w[k] - &u[k] * &w[j]
-        });
-        let steep = |axis: usize| normal[axis].abs();
-        let axis = (1..3).fold(0, |best, axis| if steep(axis) > steep(best) { axis } else { best });
+        let Plane { normal, offset } = Plane::through([&p, &q, &r]);
+        let axis = main_axis(&normal);
         Self {
-            offset: scalar(&normal, &p),
+            offset,
             normal,
             corners: faces.corners(face).iter().map(|&corner| vector(corner)).collect(),
             seen: [(axis + 1) % 3, (axis + 2) % 3],

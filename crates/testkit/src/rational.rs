@@ -1,14 +1,17 @@
 //! Points and planes in exact rationals.
 
+use super::vector;
 use binspace::glam::DVec3;
 use binspace::internals::Lattice;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
-use std::cmp::Ordering;
+
+pub use super::vector::{difference, product, scalar, sign, sum};
 
 pub type Rational = BigRational;
 pub type Point = [Rational; 3];
+pub type Plane = vector::Plane<Rational>;
 
 /// The exact value of a finite `f64`.
 pub fn exact(value: f64) -> Rational {
@@ -37,19 +40,6 @@ pub fn step(lattice: &Lattice) -> Rational {
     exact(lattice.length_to_world(MANY)) / exact(MANY)
 }
 
-pub fn difference(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-pub fn sum(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| &a[i] + &b[i])
-}
-
-/// The vector product.
-pub fn product(a: &Point, b: &Point) -> Point {
-    [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
-}
-
 /// Twice the vector area of a closed outline.
 pub fn area(outline: &[Point]) -> Point {
     let zero = [Rational::zero(), Rational::zero(), Rational::zero()];
@@ -60,59 +50,29 @@ pub fn area(outline: &[Point]) -> Point {
     })
 }
 
-/// How a rational compares with zero.
-pub fn sign(value: &Rational) -> Ordering {
-    value.cmp(&Rational::zero())
-}
-
 /// The largest difference between the coordinates of an exact point and a rounded one.
 pub fn distance_to_rounded(exact_point: &Point, rounded: [f64; 3]) -> f64 {
     let offsets = (0..3).map(|i| (&exact_point[i] - exact(rounded[i])).abs());
     offsets.map(|offset| offset.to_f64().expect("in range")).fold(0.0, f64::max)
 }
 
-/// A plane: positive in front.
-#[derive(Clone, Debug)]
-pub struct Plane {
-    pub normal: Point,
-    pub offset: Rational,
+/// A plane perpendicular to an axis.
+pub fn perpendicular_to_axis(axis: usize, at: &Point) -> Plane {
+    let mut normal = [Rational::zero(), Rational::zero(), Rational::zero()];
+    normal[axis] = Rational::from_integer(1.into());
+    Plane { normal, offset: at[axis].clone() }
 }
 
-impl Plane {
-    /// In front of it, the three points run counter-clockwise.
-    pub fn through([p, q, r]: [&Point; 3]) -> Self {
-        let normal = product(&difference(q, p), &difference(r, p));
-        let offset = scalar(&normal, p);
-        Self { normal, offset }
-    }
-
-    pub fn perpendicular_to_axis(axis: usize, at: &Point) -> Self {
-        let mut normal = [Rational::zero(), Rational::zero(), Rational::zero()];
-        normal[axis] = Rational::from_integer(1.into());
-        Self { normal, offset: at[axis].clone() }
-    }
-
-    /// The distance of a point, times the length of the normal.
-    pub fn at(&self, x: &Point) -> Rational {
-        scalar(&self.normal, x) - &self.offset
-    }
-
-    /// The point in which three planes meet.
-    pub fn meeting(a: &Self, b: &Self, c: &Self) -> Point {
-        let pairs = [(b, c), (c, a), (a, b)].map(|(g, h)| product(&g.normal, &h.normal));
-        let determinant = scalar(&a.normal, &pairs[0]);
-        assert!(!determinant.is_zero(), "three planes that meet in a point");
-        std::array::from_fn(|i| {
-            let numerator =
-                &pairs[0][i] * &a.offset + &pairs[1][i] * &b.offset + &pairs[2][i] * &c.offset;
-            numerator / &determinant
-        })
-    }
-}
-
-/// The scalar product.
-pub fn scalar(a: &Point, b: &Point) -> Rational {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+/// The point in which three planes meet.
+pub fn meeting(a: &Plane, b: &Plane, c: &Plane) -> Point {
+    let pairs = [(b, c), (c, a), (a, b)].map(|(g, h)| product(&g.normal, &h.normal));
+    let determinant = scalar(&a.normal, &pairs[0]);
+    assert!(!determinant.is_zero(), "three planes that meet in a point");
+    std::array::from_fn(|i| {
+        let numerator =
+            &pairs[0][i] * &a.offset + &pairs[1][i] * &b.offset + &pairs[2][i] * &c.offset;
+        numerator / &determinant
+    })
 }
 
 /// The point of a segment in which it crosses a plane, given the plane at both ends.

@@ -5,6 +5,7 @@
 
 use super::dice::Dice;
 use super::judge::{Verdict, ensure};
+use super::vector::{self, difference, product, scalar};
 use super::views::View;
 use binspace::BspTree;
 use binspace::glam::DVec3;
@@ -15,43 +16,31 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Range;
 
-pub type Vector = [BigInt; 3];
+pub type Vector = vector::Vector<BigInt>;
 
 /// Where a ray has more hits than this, only neighbours in the order are compared: if all of them
 /// come out right, so do the others, but for what the tolerance excuses.
 const MANY: usize = 48;
 
-/// A plane in integers, positive in front.
-#[derive(Clone, Debug)]
-struct Plane {
-    normal: Vector,
-    offset: BigInt,
+type Plane = vector::Plane<BigInt>;
+
+fn named_plane(faces: &Faces, id: PlaneId) -> Plane {
+    match id.kind() {
+        PlaneKind::Face(face) => {
+            let [p, q, r] = faces.reference_triangle(face).map(|c| vector(faces.corner(c)));
+            Plane::through([&p, &q, &r])
+        }
+        PlaneKind::Axis(axis, corner) => Plane::new(unit(axis), &vector(faces.corner(corner))),
+    }
 }
 
-impl Plane {
-    fn new(normal: Vector, point: &Vector) -> Self {
-        let offset = scalar(&normal, point);
-        Self { normal, offset }
-    }
+fn unit(axis: usize) -> Vector {
+    std::array::from_fn(|i| BigInt::from(u8::from(i == axis)))
+}
 
-    fn named(faces: &Faces, id: PlaneId) -> Self {
-        match id.kind() {
-            PlaneKind::Face(face) => {
-                let [p, q, r] = faces.reference_triangle(face).map(|c| vector(faces.corner(c)));
-                Self::new(product(&minus(&q, &p), &minus(&r, &p)), &p)
-            }
-            PlaneKind::Axis(axis, corner) => {
-                let mut normal = [0, 0, 0].map(BigInt::from);
-                normal[axis] = 1.into();
-                Self::new(normal, &vector(faces.corner(corner)))
-            }
-        }
-    }
-
-    fn length(&self) -> f64 {
-        let float = |c: &BigInt| c.to_f64().unwrap_or(f64::INFINITY);
-        DVec3::from_array([0, 1, 2].map(|i| float(&self.normal[i]))).length()
-    }
+fn length(plane: &Plane) -> f64 {
+    let float = |c: &BigInt| c.to_f64().unwrap_or(f64::INFINITY);
+    DVec3::from_array(plane.normal.each_ref().map(float)).length()
 }
 
 /// A plane at a ray: its value at the origin, and how that changes along the ray.
@@ -133,7 +122,7 @@ impl<'t> Rays<'t> {
             let face = fragment.face();
             let mut name = |planes: &mut Vec<Plane>, id| {
                 *named.entry(id).or_insert_with(|| {
-                    planes.push(Plane::named(faces, id));
+                    planes.push(named_plane(faces, id));
                     planes.len() - 1
                 })
             };
@@ -243,8 +232,8 @@ impl<'t> Rays<'t> {
             on + front + back == 2 && front < 2 && back < 2
         });
         let Some(parting) = parting else { return false };
-        let plane = Plane::named(self.tree.faces(), parting.plane());
-        let reach = self.tree.faces().tolerance() * (1.0 + 1e-9) * plane.length();
+        let plane = named_plane(self.tree.faces(), parting.plane());
+        let reach = self.tree.faces().tolerance() * (1.0 + 1e-9) * length(&plane);
         let at = ray.plane(&plane);
         let float = |value: &BigInt| value.abs().to_f64().unwrap_or(f64::INFINITY);
         let is_near = |hit: &&Hit| float(&hit.value(&at)) <= reach * float(&hit.face.slope);
@@ -261,29 +250,11 @@ impl<'t> Rays<'t> {
 fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Sign) {
     let corners = faces.corners(face);
     let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| vector(corners[k]));
-    let size = |axis: usize| plane.normal[axis].abs();
-    let axis = (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best });
-    let mut along = [0, 0, 0].map(BigInt::from);
-    along[axis] = 1.into();
+    let axis = vector::main_axis(&plane.normal);
     // The axis, the edge and the way inside run like the axes of a right-handed frame.
-    (Plane::new(product(&along, &minus(&b, &a)), &a), plane.normal[axis].sign())
+    (Plane::new(product(&unit(axis), &difference(&b, &a)), &a), plane.normal[axis].sign())
 }
 
 pub fn vector(p: [f64; 3]) -> Vector {
     p.map(|c| BigInt::from(c as i128))
-}
-
-fn minus(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn scalar(a: &Vector, b: &Vector) -> BigInt {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn product(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        &a[j] * &b[k] - &a[k] * &b[j]
-    })
 }

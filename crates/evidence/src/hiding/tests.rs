@@ -10,6 +10,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use testkit::vector::{difference, product, scalar};
+
 use super::cone::Seen;
 use super::{Hiding, overlaps_in_depth};
 use crate::method::Newell;
@@ -28,21 +30,6 @@ fn camera(scene: &Scene, from: DVec3) -> Camera {
 
 type Vector = [BigRational; 3];
 
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        &a[j] * &b[k] - &a[k] * &b[j]
-    })
-}
-
-fn minus(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn dot(a: &Vector, b: &Vector) -> BigRational {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
 /// How far along a ray a face is met inside of its edges, in rationals: the plane by the cross
 /// product of two edges, each edge by the point's side of it in the plane.
 fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<BigRational> {
@@ -50,16 +37,17 @@ fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<BigRat
         |c: &[f64; 3]| -> Vector { c.map(|c| BigRational::from_integer(BigInt::from(c as i64))) };
     let corners: Vec<Vector> = faces.corners(face).iter().map(exact).collect();
     let triangle = faces.reference_triangle(face).map(|c| exact(&faces.corner(c)));
-    let normal = cross(&minus(&triangle[1], &triangle[0]), &minus(&triangle[2], &triangle[0]));
-    let speed = dot(&normal, along);
+    let normal =
+        product(&difference(&triangle[1], &triangle[0]), &difference(&triangle[2], &triangle[0]));
+    let speed = scalar(&normal, along);
     if speed.is_zero() {
         return None;
     }
-    let t = dot(&normal, &minus(&triangle[0], from)) / speed;
+    let t = scalar(&normal, &difference(&triangle[0], from)) / speed;
     let at: Vector = std::array::from_fn(|i| &from[i] + &along[i] * &t);
     let inside = (0..corners.len()).all(|k| {
         let (a, b) = (&corners[k], &corners[(k + 1) % corners.len()]);
-        dot(&cross(&minus(b, a), &minus(&at, a)), &normal).is_positive()
+        scalar(&product(&difference(b, a), &difference(&at, a)), &normal).is_positive()
     });
     (inside && t.is_positive()).then_some(t)
 }
@@ -95,7 +83,7 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
                 std::array::from_fn(|i| &p[i] + (&middle[i] - &p[i]) * &share)
             };
             let first = points.iter().map(near).chain([middle.clone()]).any(|target| {
-                let along = minus(&target, &from);
+                let along = difference(&target, &from);
                 let [t, u] = [a, b].map(|face| met(faces, face, &from, &along).unwrap());
                 t < u
             });

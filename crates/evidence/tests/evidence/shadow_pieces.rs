@@ -9,6 +9,7 @@ use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::Zero;
 use testkit::enough;
+use testkit::vector::{difference, product, scalar};
 
 type Point = [BigInt; 3];
 
@@ -19,25 +20,13 @@ fn whole(point: [f64; 3]) -> Point {
     })
 }
 
-fn minus(p: &Point, q: &Point) -> Point {
-    std::array::from_fn(|i| &p[i] - &q[i])
-}
-
-fn dot(p: &Point, q: &Point) -> BigInt {
-    &p[0] * &q[0] + &p[1] * &q[1] + &p[2] * &q[2]
-}
-
-fn cross(p: &Point, q: &Point) -> Point {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &p[i] * &q[j] - &p[j] * &q[i])
-}
-
 /// A plane by a normal and a point on it.
 struct Through(Point, BigInt);
 
 impl Through {
     fn new(a: &Point, b: &Point, c: &Point) -> Self {
-        let normal = cross(&minus(b, a), &minus(c, a));
-        let offset = dot(&normal, a);
+        let normal = product(&difference(b, a), &difference(c, a));
+        let offset = scalar(&normal, a);
         Self(normal, offset)
     }
 
