@@ -129,7 +129,7 @@ fn bounds_of_another_tree_are_refused() {
         let asks: [&(dyn Fn() + RefUnwindSafe); 3] = [&cull, &hits, &is_blocked];
         for ask in asks {
             let panic = catch_unwind(ask).expect_err("they are stale");
-            let message = panic.downcast_ref::<String>().expect("a message");
+            let message = panic.downcast_ref::<&str>().expect("a message");
             assert!(message.contains("BspTree::bounds"), "{message}");
             refused += 1;
         }

@@ -213,4 +213,17 @@ mod tests {
         let plain = "         wrong  pieces/\nmethod  pixels  polygon\nbsp          0        1";
         assert_eq!(table.plain(), plain);
     }
+
+    /// A name of a file is one cell, and text, in Markdown; a terminal gets it as it is.
+    #[test]
+    fn cells_are_text() {
+        let mut table = Table::new(&["scene", "polygons"]);
+        table.push(vec!["a|*b*_<i>\n#".into(), "1".into()]);
+        let markdown = "\
+            | scene              | polygons |\n\
+            |--------------------|---------:|\n\
+            | a\\|\\*b\\*\\_\\<i\\> \\# |        1 |\n";
+        assert_eq!(table.markdown(), markdown);
+        assert!(table.plain().contains("a|*b*_<i>"));
+    }
 }
