@@ -10,6 +10,7 @@ mod lines;
 mod marks;
 mod oracle;
 mod sight;
+mod slivers;
 #[path = "../support/mod.rs"]
 mod support;
 mod tiling;

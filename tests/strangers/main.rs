@@ -27,6 +27,7 @@ mod order;
 mod ray;
 mod scene;
 mod sheaves;
+mod slivers;
 #[path = "../support/mod.rs"]
 mod support;
 mod trial;

@@ -27,6 +27,7 @@ pub(crate) mod real_scenes;
 pub(crate) mod saved;
 pub(crate) mod shapes;
 pub(crate) mod shots;
+pub(crate) mod slivers;
 pub(crate) mod snapshot;
 pub(crate) mod tally;
 pub(crate) mod targets;
