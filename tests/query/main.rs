@@ -9,5 +9,7 @@ mod locate;
 mod names;
 mod real;
 mod region;
+mod scaled_planes;
+mod slivers;
 #[path = "../support/mod.rs"]
 mod support;
