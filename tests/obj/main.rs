@@ -4,6 +4,7 @@
 mod attributes;
 mod errors;
 mod faces;
+mod far;
 mod materials;
 mod noise;
 mod precision;
