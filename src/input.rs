@@ -80,7 +80,7 @@ pub trait Polygon {
     fn corners(&self) -> impl Iterator<Item = DVec3>;
 
     /// How far a corner may be off the plane that it was meant to be on, a length. The default
-    /// tolerance is not below this; see [`Tolerance::Default`](crate::Tolerance::Default).
+    /// tolerance follows it, within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
     ///
     /// Of arrays, vectors and slices it is four times [`Point::PRECISION`] of the polygon's largest
     /// coordinate, about the rounding of a point that was turned by a matrix. For a type of your own
@@ -92,7 +92,7 @@ pub trait Polygon {
 
 /// Steps of the largest coordinate by which a computed point may be off its plane.
 /// Smaller: cards that a matrix put into one plane cut each other; larger: thin layers are merged.
-const STEPS: f64 = 4.0;
+pub(crate) const STEPS: f64 = 4.0;
 
 impl<P: Point> Polygon for [P] {
     fn corners(&self) -> impl Iterator<Item = DVec3> {

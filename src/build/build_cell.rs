@@ -37,15 +37,14 @@ impl BuildOptions {
         samples: impl IntoIterator<Item = P>,
         cells: usize,
     ) -> Result<Partition, Error> {
-        let mut extent = *extent;
+        let mut room = Extent::default();
         if let Some([corner, opposite]) = self.bounds {
-            // Bounds are room, and say nothing of how precise polygons are.
             let is_finite = corner.is_finite() && opposite.is_finite();
             let whole = |c: DVec3| if is_finite { c } else { DVec3::NAN };
             let [low, high] = [corner.min(opposite), corner.max(opposite)].map(whole);
-            extent.merge(&Extent { low, high, precision: 0.0 });
+            room = Extent { low, high, ..room };
         }
-        Partition::new(&extent, self.tolerance, samples, cells)
+        Partition::new(extent, &room, self.tolerance, samples, cells)
     }
 
     /// Builds the tree of a cell, of the polygons that [reach](Partition::reached_by) it, or more. Their

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::lattice::{exponent_of, scaled};
+use super::lattice::{exponent_of, scaled, two_sum};
 use super::{Lattice, Plane};
 use crate::viewpoint::Viewpoint;
 
@@ -21,8 +21,9 @@ pub struct Eye {
     float: [f64; 3],
 }
 
-/// The largest magnitude of an eye's integers: eyes this near need no shift.
-const NEAR: f64 = (1u64 << 61) as f64;
+/// The largest magnitude of an eye's integers is two to this power: eyes this near need no shift.
+const NEAR_BITS: i32 = 61;
+const NEAR: f64 = (1u64 << NEAR_BITS) as f64;
 /// The largest shift. For eyes further away the planes' offsets no longer matter: only the
 /// direction does.
 const LARGEST_SHIFT: u32 = 360;
@@ -34,19 +35,26 @@ impl Eye {
     /// A viewpoint on a scene's lattice.
     pub fn new(viewpoint: Viewpoint, lattice: &Lattice) -> Self {
         match viewpoint {
-            Viewpoint::Eye(point) => Self::at(lattice.to_lattice(point).map(number)),
+            Viewpoint::Eye(point) => Self::at(lattice.exactly(point)),
             Viewpoint::Direction(direction) => {
+                let number = |c: f64| if c.is_nan() { 0.0 } else { c };
                 Self::towards(direction.to_array().map(|c| -number(c)))
             }
         }
     }
 
-    /// The eye at a point in lattice units.
-    pub(crate) fn at(point: [f64; 3]) -> Self {
-        let Some(shift) = shift_of(largest(point)) else { return Self::towards(point) };
+    /// The eye at a point in lattice units, each coordinate a number and what its rounding has lost.
+    fn at(point: [[f64; 2]; 3]) -> Self {
+        // Not less than the exact size, and beyond the same powers of two.
+        let size = largest(point.map(|[c, lost]| {
+            let is_outwards = if c > 0.0 { lost > 0.0 } else { lost < 0.0 };
+            if is_outwards { c.abs().next_up() } else { c }
+        }));
+        let Some(shift) = shift_of(size) else { return Self::towards(point.map(|[c, _]| c)) };
         let unit = 2f64.powi(-(shift as i32));
-        let integer = point.map(|c| (c * unit).round() as i64);
-        Self { integer, shift: Some(shift), float: integer.map(|c| c as f64 / unit) }
+        let integer = point.map(|[c, lost]| nearest_integer(c * unit, lost * unit));
+        let float = integer.map(|c| c as f64 / unit);
+        Self { integer, shift: Some(shift), float }
     }
 
     /// An eye infinitely far away in a direction.
@@ -67,18 +75,18 @@ impl Eye {
     }
 
     /// The integer part: lattice units over 2^shift, or a direction.
-    pub(crate) fn integer(&self) -> [i64; 3] {
+    pub fn integer(&self) -> [i64; 3] {
         self.integer
     }
 
     /// The exponent of the power of two to multiply the integer part by; `None` for an eye at
     /// infinity.
-    pub(crate) fn shift(&self) -> Option<u32> {
+    pub fn shift(&self) -> Option<u32> {
         self.shift
     }
 
-    /// The eye in homogeneous coordinates: the point in lattice units and 1, or the direction
-    /// towards it and 0.
+    /// The eye in homogeneous coordinates: the point in lattice units, rounded again to `f64`, and 1, or the
+    /// direction towards it and 0.
     pub fn homogeneous(&self) -> ([f64; 3], f64) {
         (self.float, if self.shift.is_some() { 1.0 } else { 0.0 })
     }
@@ -147,8 +155,17 @@ fn largest(v: [f64; 3]) -> f64 {
     v.into_iter().fold(0.0, |max, c| max.max(c.abs()))
 }
 
-fn number(c: f64) -> f64 {
-    if c.is_nan() { 0.0 } else { c }
+/// The integer nearest to a number and what its rounding has lost, ties away from zero.
+fn nearest_integer(rounded: f64, lost: f64) -> i64 {
+    let whole = rounded.trunc();
+    // Of a number that is not whole, less than the distance to the next number was lost.
+    let (rest, lost) = two_sum(rounded - whole, lost);
+    let nearest = match (rest - rest.trunc()).abs() == 0.5 {
+        true if lost > 0.0 || lost == 0.0 && rounded > 0.0 => rest.ceil(),
+        true => rest.floor(),
+        false => rest.round(),
+    };
+    whole as i64 + nearest as i64
 }
 
 #[cfg(test)]
@@ -203,7 +220,7 @@ mod tests {
             let shift = shift_of(size);
             assert_eq!(shift, halved(size), "{size:e}");
             shifts[shift.map_or(2, |shift| usize::from(shift > 0))] += 1;
-            let eye = Eye::at([size, -0.5 * size, 1.0]);
+            let eye = Eye::at([size, -0.5 * size, 1.0].map(|c| [c, 0.0]));
             assert_eq!(eye.shift(), shift, "{size:e}");
             if shift.is_some() {
                 let largest = largest(eye.integer().map(|c| c as f64));

@@ -16,7 +16,8 @@ pub struct ExactSplitter {
     offset: f64,
     /// A rounded distance has the right sign if it is larger than this.
     pub(super) bound: f64,
-    /// The tolerance times the length of the normal, rounded down to an integer.
+    /// The tolerance times the length of the exact normal, within a share of 10⁻⁹, rounded down to an
+    /// integer.
     pub(super) band: f64,
 }
 
@@ -33,10 +34,11 @@ impl ExactSplitter {
             }
             PlaneKind::Face(face) => {
                 let corners = faces.triangle(face);
-                let RoundedNormal { normal, size } = RoundedNormal::through(corners);
+                let rounded = RoundedNormal::through(corners);
+                let RoundedNormal { normal, size } = rounded;
                 let ([x, y, z], p) = (normal, corners[0]);
                 let offset = x * p[0] + y * p[1] + z * p[2];
-                let band = (faces.tolerance() * (x * x + y * y + z * z).sqrt()).floor();
+                let band = (faces.tolerance() * rounded.certain(corners).length()).floor();
                 ExactSplitter { plane, normal, offset, bound: FACE_ERROR * size, band }
             }
         }
@@ -80,6 +82,20 @@ impl ExactSplitter {
             (_, Ordering::Less) => Ordering::Less,
             _ => Ordering::Equal,
         }
+    }
+
+    /// Whether the tolerance is a length here, within a share of 10⁻⁹: by the exact normal.
+    pub(crate) fn has_length_of(&self, faces: &Faces) -> bool {
+        /// More than the normal is off by, and far more than its length is rounded.
+        const SHARE: f64 = 1e-9;
+        let exact = faces.tolerance() * faces.plane(self.plane).normal_f64().length();
+        self.band <= exact * (1.0 + SHARE) && self.band + 1.0 >= exact * (1.0 - SHARE)
+    }
+
+    /// The same plane with another tolerance, in the unit of [`distance`](Self::distance).
+    #[cfg(all(test, feature = "drawing"))]
+    pub(super) fn with_band(self, band: f64) -> Self {
+        Self { band, ..self }
     }
 
     /// The largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a

@@ -83,6 +83,18 @@ impl Lattice {
         })
     }
 
+    /// Any point in lattice units, exactly: each coordinate as a number and what its rounding has lost. Of one
+    /// that is infinite, or beyond the range of `f64`, nothing is lost; NaN counts as 0.
+    pub(super) fn exactly(&self, point: DVec3) -> [[f64; 2]; 3] {
+        let steps = self.in_steps(point);
+        std::array::from_fn(|axis| match steps[axis] {
+            [whole, _] if whole.is_nan() => [0.0; 2],
+            [whole, _] if whole.is_infinite() => [whole, 0.0],
+            // Where the scene is far out, the origin is 0; elsewhere nothing is lost so far.
+            [whole, lost] => two_sum(whole, lost - self.origin[axis]).into(),
+        })
+    }
+
     /// The world position of a point given in lattice units, rounded to `f64`; may be far out.
     #[inline]
     pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
@@ -128,7 +140,7 @@ impl Lattice {
 }
 
 /// A sum and what its rounding has lost (Knuth 1969).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
     (sum, (a - (sum - of_b)) + (b - of_b))

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::faces::Faces;
-use super::label::PlaneId;
-use super::plane::cross;
+use super::plane::{Plane, cross};
 
 /// A rounded normal is used if its `size` is at most this many times its longest component; of others,
 /// too many bits were cancelled, and integers compute them. Larger: normals are taken that
-/// are off by more than the bounds of those who use them allow; smaller: more are computed in integers.
+/// are off by more than the bounds of those who use them allow, such as the 10⁻⁹ by which the coplanar
+/// tolerance may be off; smaller: more are computed in integers.
 const CANCELLED: f64 = (1u64 << 18) as f64;
 
 /// The vector product (q − p) × (r − p) of three lattice points, in `f64`.
@@ -34,6 +34,18 @@ impl RoundedNormal {
             size += a.abs() + b.abs();
         }
         Self { normal, size }
+    }
+
+    /// The normal, of the same three lattice points: each component is within 2⁻³⁴ of the longest of
+    /// them.
+    #[inline]
+    pub(super) fn certain(&self, corners: [[f64; 3]; 3]) -> DVec3 {
+        let normal = DVec3::from_array(self.normal);
+        if self.size <= CANCELLED * normal.abs().max_element() {
+            normal
+        } else {
+            exact_normal(corners)
+        }
     }
 
     /// The axis along which it is longest; the first of several.
@@ -66,19 +78,13 @@ impl Faces {
     #[inline]
     pub(crate) fn normal(&self, face: u32) -> DVec3 {
         let corners = self.triangle(face);
-        let RoundedNormal { normal, size } = RoundedNormal::through(corners);
-        let normal = DVec3::from_array(normal);
-        if size <= CANCELLED * normal.abs().max_element() {
-            normal
-        } else {
-            self.exact_normal(face)
-        }
+        RoundedNormal::through(corners).certain(corners)
     }
+}
 
-    #[cold]
-    fn exact_normal(&self, face: u32) -> DVec3 {
-        self.plane(PlaneId::face(face)).normal_f64()
-    }
+#[cold]
+fn exact_normal(corners: [[f64; 3]; 3]) -> DVec3 {
+    Plane::through(corners).normal_f64()
 }
 
 #[cfg(test)]

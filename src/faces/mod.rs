@@ -7,4 +7,4 @@ mod triangulate;
 
 pub(crate) use listener::Listener;
 pub use prepare::{DEFAULT_TOLERANCE, Preparation, Tolerance};
-pub(crate) use prepare::{Preparer, empty_faces};
+pub(crate) use prepare::{Precision, Preparer, empty_faces};

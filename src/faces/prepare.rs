@@ -16,8 +16,8 @@ use glam::DVec3;
 use builder::FaceBuilder;
 use collect::Collected;
 use lattice_and_tolerance::Ground;
-pub(crate) use lattice_and_tolerance::empty_faces;
 pub use lattice_and_tolerance::{DEFAULT_TOLERANCE, Tolerance};
+pub(crate) use lattice_and_tolerance::{Precision, empty_faces};
 pub use preparation::Preparation;
 
 use super::duplicates::Outlines;
@@ -88,8 +88,11 @@ impl Preparer {
         tolerance.check()?;
         self.input.read(polygons, limit, listener)?;
         let [min, max] = self.input.bounds(self.room);
+        // Room says nothing of how precise polygons are.
+        let own = if self.room.is_some() { self.input.bounds(None) } else { [min, max] };
+        let precision = Precision::new(self.input.precision, own);
         let lattice = Lattice::new(min, max);
-        let ground = Ground::new(lattice, [min, max], tolerance, self.input.precision);
+        let ground = Ground::new(lattice, [min, max], tolerance, precision);
         self.builder.faces = kept;
         self.builder.faces.lattice = lattice;
         self.builder.faces.tolerance = ground.tolerance;

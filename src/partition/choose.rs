@@ -5,21 +5,27 @@ use super::{CellRange, Extent, Partition, Wall};
 use crate::Error;
 use crate::exact::cell::CellBox;
 use crate::exact::{Faces, LATTICE_LIMIT};
-use crate::faces::{Tolerance, empty_faces};
+use crate::faces::{Precision, Tolerance, empty_faces};
 use crate::input::Point;
 use crate::memory::{push, reserve};
 
 impl Partition {
-    /// Divides a scene into so many cells, with about as many samples in each. O(samples · log cells).
+    /// Divides a scene into so many cells, with about as many samples in each; the grid also holds what is
+    /// in `room`. O(samples · log cells).
     pub(crate) fn new<P: Point>(
         extent: &Extent,
+        room: &Extent,
         tolerance: Tolerance,
         samples: impl IntoIterator<Item = P>,
         cells: usize,
     ) -> Result<Self, Error> {
-        let Extent { low, high, precision } = *extent;
-        let is_nothing = low.cmpgt(high).any();
-        let bounds = if is_nothing { Default::default() } else { [low, high] };
+        let bounds = |&Extent { low, high, .. }: &Extent| {
+            if low.cmpgt(high).any() { Default::default() } else { [low, high] }
+        };
+        let precision = Precision::new(extent.precision, bounds(extent));
+        let mut whole = *extent;
+        whole.merge(room);
+        let bounds = bounds(&whole);
         let Faces { lattice, tolerance, .. } = empty_faces(bounds, tolerance, precision)?;
         let mut points: Vec<[f64; 3]> = Vec::new();
         for sample in samples {

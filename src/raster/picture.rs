@@ -3,7 +3,6 @@
 use super::compare_pictures::{Comparison, Verdict};
 use super::image::{Image, NONE};
 use super::rays::Rays;
-use super::sheet::normal_of;
 use super::zbuffer::DepthImage;
 use crate::exact::Faces;
 use glam::DVec3;
@@ -57,8 +56,7 @@ pub fn picture(
 
 /// The normal of a face, of length 1.
 pub(super) fn flat_normal(faces: &Faces, face: u32) -> DVec3 {
-    let triangle = faces.triangle(face);
-    DVec3::from_array(normal_of(triangle).0).normalize_or_zero()
+    faces.normal(face).normalize()
 }
 
 /// A colour as it is seen on a surface.

@@ -50,7 +50,8 @@ use crate::faces::Preparation;
 ///
 /// In back-to-front order, no fragment hides one that comes later. Front to back is exactly the
 /// reverse. Coplanar polygons come in input order in the former, from whichever side they are seen,
-/// so the later of two decals is painted over the earlier. An eye that lies on a plane may
+/// so the later of two decals is painted over the earlier, [except](#exactness) within the tolerance of
+/// a third polygon that all but lies in their plane. An eye that lies on a plane may
 /// count as on either side of it. [`Viewpoint`](crate::Viewpoint) says what a NaN, an infinite eye
 /// or a zero direction does.
 ///
@@ -166,7 +167,10 @@ use crate::faces::Preparation;
 /// nearer polygon:
 ///
 /// - layers up to 2 τ apart, one on each side of a plane, can be exchanged from any viewpoint;
-/// - seen along a plane, polygons can be exchanged however far apart they are.
+/// - seen along a plane, polygons can be exchanged however far apart they are;
+/// - polygons in exactly one plane can come out of input order where they overlap, if all of the overlap
+///   is within τ of a partition plane that crosses theirs: one of them is then treated as in front of it,
+///   and the other as behind it or on it.
 ///
 /// With a tolerance of 0 the order is exactly right.
 ///
@@ -176,10 +180,10 @@ use crate::faces::Preparation;
 ///
 /// | input | default | take instead |
 /// |---|---|---|
-/// | `f64` | 10⁻⁹ of the extent | 0 if layers, however thin, must never be exchanged |
+/// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin four steps of the largest coordinate, which are more | 0 if layers, however thin, must never be exchanged |
 /// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | 0 if no computation has touched them, as on integers |
-/// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent | a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
-/// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), at least 10⁻⁹ of the extent | |
+/// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent, however far it lies from the origin | a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
+/// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent; more where it is that of arrays of `f32` | |
 /// | thin layers in a scene of large extent | | a length below half the distance of the layers |
 ///
 /// Too small, and polygons that were meant to be coplanar cut each other into slivers, and quads

@@ -19,8 +19,8 @@ impl BspTree {
     ///
     /// - the sizes of subtrees add up, a leaf has at most one fragment, every plane separates
     ///   fragments, and planes and vertices refer to existing geometry;
-    /// - each fragment lies on its side of every plane above it, and fragments on a plane are in
-    ///   input order;
+    /// - each fragment lies on its side of every plane above it, as far as the tolerance allows, which is a
+    ///   length; and fragments on a plane are in input order;
     /// - the fragments of each face cover it exactly once: glued back together along the cuts, from
     ///   the leaves up, they give the face with all of its corners, and the number of cuts is
     ///   [`Stats::splits`](crate::Stats::splits);

@@ -27,6 +27,7 @@ mod planes_through_lines;
 mod ray;
 mod round_bodies;
 mod scene;
+mod slivers;
 mod trees_by_rays;
 mod trial;
 mod view;

@@ -11,7 +11,7 @@ use testkit::effort::cases;
 use testkit::hard;
 use testkit::model;
 use testkit::rational::{self, Plane, Point, Rational};
-use testkit::views::{power_of_two, rounded_eye};
+use testkit::views::{in_lattice, power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {
     Exact.eye_side(faces, plane, &Eye::new(viewpoint, faces.lattice()))
@@ -63,13 +63,14 @@ proptest! {
             let from = *corner.get(&corners);
             let at = from + DVec3::from_array(direction) * extent * distance;
             let lattice = faces.lattice().to_lattice(at);
-            let exact = rounded_eye(lattice);
+            let is_point = lattice.iter().all(|c| c.is_finite());
+            let exact = is_point.then(|| in_lattice(faces.lattice(), at)).and_then(rounded_eye);
             for plane in planes(&faces) {
                 let found = side(&faces, plane, Viewpoint::eye(at));
                 let plane = model::plane(&faces, plane);
                 match &exact {
                     Some(eye) => prop_assert_eq!(found, rational::sign(&plane.at(eye))),
-                    None if lattice.iter().all(|c| c.is_finite()) => {
+                    None if is_point => {
                         let certain = side_of_direction(&plane, &lattice.map(rational::exact));
                         prop_assert!(certain.is_none_or(|side| side == found));
                     }

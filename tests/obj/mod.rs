@@ -3,6 +3,7 @@
 mod attributes;
 mod errors;
 mod faces;
+mod far;
 mod far_numbers;
 mod materials;
 mod noise;

@@ -11,6 +11,7 @@ mod lines;
 mod marks;
 mod oracle;
 mod sight;
+mod slivers;
 mod tiling;
 mod walks;
 

@@ -9,3 +9,5 @@ mod locate;
 mod names;
 mod real_scenes;
 mod region;
+mod scaled_planes;
+mod slivers;

@@ -1,8 +1,8 @@
 //! Numbers of a file that no tree has: each is refused, and the message says which it is.
 
-use testkit::saved::{bytes, seal};
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions};
+use testkit::saved::{bytes, seal};
 
 /// Where the number of faces is; `BspTree::write` describes the layout.
 const FACES: usize = 80;

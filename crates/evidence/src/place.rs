@@ -6,7 +6,7 @@
 
 use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
 use num_bigint::BigInt;
-use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// The points x with normal · x = offset; in front the left side is larger.
 #[derive(Clone, Debug)]
@@ -210,11 +210,8 @@ impl Place {
 
 /// An eye in homogeneous coordinates: the point and 1, or the direction towards it and 0.
 pub(crate) fn eye(eye: &Eye) -> [BigInt; 4] {
-    let ([x, y, z], weight) = eye.homogeneous();
-    // Of a direction, fractions of 52 bits; of a point, whole numbers of any size.
-    let unit = if weight == 0.0 { 2f64.powi(52) } else { 1.0 };
-    let whole = |c: f64| BigInt::from_f64(c * unit).unwrap_or_default();
-    [whole(x), whole(y), whole(z), whole(weight)]
+    let [x, y, z] = eye.integer().map(|c| BigInt::from(c) << eye.shift().unwrap_or(0));
+    [x, y, z, u8::from(eye.shift().is_some()).into()]
 }
 
 /// Rounded kernels make vertices anywhere; further off than 256 scenes is as bad as infinitely far.

@@ -26,6 +26,7 @@ pub mod real_scenes;
 pub mod saved;
 pub mod shapes;
 pub mod shots;
+pub mod slivers;
 pub mod snapshot;
 pub mod tally;
 pub mod targets;

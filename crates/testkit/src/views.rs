@@ -5,7 +5,7 @@ use super::rational::{self, Plane, Point, Rational};
 use super::rays::{Rays, Vector, vector};
 use binspace::Viewpoint;
 use binspace::glam::DVec3;
-use binspace::internals::Faces;
+use binspace::internals::{Faces, Lattice};
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::cmp::Ordering;
@@ -38,7 +38,7 @@ impl View {
     /// On which side of a plane it is; on neither if it is on the plane, or looks along it.
     pub fn side(&self, plane: &Plane) -> Ordering {
         let (point, towards) = match self.viewpoint {
-            Viewpoint::Eye(_) => (rounded_eye(self.lattice.to_array()), self.lattice),
+            Viewpoint::Eye(_) => (rounded_eye(rational::point(self.lattice)), self.lattice),
             Viewpoint::Direction(_) => (None, -self.lattice),
         };
         rational::sign(&match point {
@@ -71,15 +71,18 @@ fn whole_direction(direction: DVec3) -> DVec3 {
 /// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond
 /// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a
 /// point.
-pub fn rounded_eye(point: [f64; 3]) -> Option<Point> {
-    if point.iter().any(|c| c.is_infinite()) {
-        return None;
-    }
-    let exact: Point = point.map(rational::exact);
+pub fn rounded_eye(exact: Point) -> Option<Point> {
     let size = exact.iter().map(Signed::abs).max().expect("three");
     let fits = |&shift: &u32| size <= power_of_two(61 + shift);
     let unit = power_of_two((0..=360).find(fits)?);
     Some(exact.map(|c| (c / &unit).round() * &unit))
+}
+
+/// A point of the world in lattice units.
+pub fn in_lattice(lattice: &Lattice, point: DVec3) -> Point {
+    let step = rational::step(lattice);
+    let origin = rational::point(lattice.to_world([0.0; 3]));
+    rational::difference(&rational::point(point), &origin).map(|c| c / &step)
 }
 
 pub fn power_of_two(exponent: u32) -> Rational {

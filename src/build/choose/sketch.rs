@@ -77,7 +77,9 @@ impl Sketch {
         // vertex and the plane's point, both in the box; the vertex by √3, its products by √3, their
         // two sums by √2 + √3, the offset and its sum with the slack by √3 each. That is 13.5, less
         // than 7 ε. Vertex and point are off by 1.5 lattice units in each coordinate: 3√3.
-        self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + set.faces.tolerance() as f32;
+        // The tolerance is rounded to `f32` and in two sums: 3 u of it, less than 2 ε.
+        let tolerance = set.faces.tolerance() * (1.0 + 2.0 * f64::from(f32::EPSILON));
+        self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + tolerance as f32;
     }
 
     /// Adds pieces of the set, by number.

@@ -52,7 +52,7 @@ impl Lattice {
 
     /// A point in lattice steps from the world's origin, or along an axis along which the scene is far
     /// out, from the scene: each coordinate as a number and what its rounding has lost.
-    fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
+    pub(super) fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
             let (sum, lost) = two_sum(world[axis], -self.far[axis]);

@@ -6,6 +6,7 @@ use glam::DVec3;
 use crate::error::{Error, Kind};
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{Faces, LATTICE_LIMIT, Lattice};
+use crate::input::STEPS;
 
 /// The least default tolerance as a share of the scene's extent, the longest side of its bounding
 /// box; see [`Tolerance::Default`].
@@ -14,13 +15,10 @@ use crate::exact::{Faces, LATTICE_LIMIT, Lattice};
 /// coplanar except for the rounding of a computation in `f64` cut each other into slivers.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 
-/// The largest default tolerance as a share of the extent, unless `f32` is coarser there. Larger:
-/// coordinates rounded so coarsely would merge what they still tell apart; smaller: polygons bent by
-/// such a rounding are triangulated.
+/// The largest default tolerance as a share of the extent, unless it is the [`Precision`] of a type of
+/// numbers. Larger: coordinates written so coarsely would merge what they still tell apart; smaller:
+/// polygons bent by such a rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
-/// Four steps of `f32`, as a share of the largest coordinate: far from the origin that is more than
-/// `LARGEST_ROUNDING` of the extent, and nothing finer than one step is in such numbers.
-const STEPS_OF_F32: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The coplanar tolerance: how far polygons may reach from a plane and yet count as lying on it.
 ///
@@ -33,10 +31,20 @@ const STEPS_OF_F32: f64 = 4.0 * f32::EPSILON as f64;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Tolerance {
-    /// The largest [`precision`](crate::Polygon::precision) of the polygons, but between 10⁻⁹ and
-    /// 10⁻⁵ of the extent, or four steps of `f32` of the largest coordinate where that is more. For `f64`
-    /// near the origin that is 10⁻⁹, for `f32` between 2·10⁻⁷ and 5·10⁻⁷ of the extent, for a scene read
-    /// from an OBJ file four units in the last decimal that its coordinates need, zeros at the end aside.
+    /// The largest [`precision`](crate::Polygon::precision) of the polygons, but between 10⁻⁹ and 10⁻⁵ of
+    /// the extent:
+    ///
+    /// | input | default |
+    /// |---|---|
+    /// | `f64` | 10⁻⁹ of the extent |
+    /// | `f32` | four steps of the largest coordinate: between 2·10⁻⁷ and 5·10⁻⁷ of the extent |
+    /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need, zeros at the end aside; at most 10⁻⁵ of the extent, wherever the scene lies |
+    ///
+    /// Far from the origin `f32` and `f64` have coarser steps: there it is four steps of the largest
+    /// coordinate, however large a share of the extent they are. For `f64` that is more than 10⁻⁹ beyond a
+    /// million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (A polygon of another type is
+    /// taken for `f32` or `f64` if its precision is exactly that; a file is if nearly all of its numbers are
+    /// `f32`, written with more digits than these have.)
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -63,6 +71,27 @@ impl Tolerance {
     }
 }
 
+/// How precise polygons are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Precision {
+    /// How far a corner may be off the plane that it was meant to be on, in the world.
+    length: f64,
+    /// Whether the type of their numbers says so. Nothing finer than a step is in such numbers, so all of
+    /// it counts, whatever share of the extent it is. Others claim to be as coarse, but tell apart what is
+    /// nearer.
+    is_of_numbers: bool,
+}
+
+impl Precision {
+    /// Of polygons with this largest [`precision`](crate::Polygon::precision), in a box.
+    pub(crate) fn new(length: f64, [min, max]: [DVec3; 2]) -> Self {
+        let largest = min.abs().max(max.abs()).max_element();
+        let [single, double] =
+            [f64::from(f32::EPSILON), f64::EPSILON].map(|step| STEPS * step * largest);
+        Self { length, is_of_numbers: length == single || length <= double }
+    }
+}
+
 /// What all polygons of a scene are prepared by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ground {
@@ -83,16 +112,16 @@ impl Ground {
         lattice: Lattice,
         [min, max]: [DVec3; 2],
         tolerance: Tolerance,
-        precision: f64,
+        precision: Precision,
     ) -> Self {
         let size = DVec3::from(lattice.snap(max)) - DVec3::from(lattice.snap(min));
         let extent = size.max_element();
         let rounding = LARGEST_ROUNDING * extent;
+        let length = lattice.length_to_lattice(precision.length);
         let tolerance = match tolerance {
             Tolerance::Default => {
-                let furthest = min.abs().max(max.abs()).max_element();
-                let most = rounding.max(lattice.length_to_lattice(STEPS_OF_F32 * furthest));
-                lattice.length_to_lattice(precision).min(most).max(DEFAULT_TOLERANCE * extent)
+                let most = if precision.is_of_numbers { f64::INFINITY } else { rounding };
+                length.min(most).max(DEFAULT_TOLERANCE * extent)
             }
             Tolerance::Length(length) => lattice.length_to_lattice(length),
             Tolerance::Relative(share) => share * extent,
@@ -109,7 +138,7 @@ impl Ground {
     }
 }
 
-/// No faces, on the grid and with the tolerance of polygons in a box that are as precise as said.
+/// No faces, on the grid and with the tolerance of polygons in a box.
 ///
 /// # Errors
 ///
@@ -117,7 +146,7 @@ impl Ground {
 pub(crate) fn empty_faces(
     bounds: [DVec3; 2],
     tolerance: Tolerance,
-    precision: f64,
+    precision: Precision,
 ) -> Result<Faces, Error> {
     tolerance.check()?;
     if bounds.iter().any(|corner| !corner.is_finite()) {

@@ -6,6 +6,7 @@ mod mesh;
 pub(crate) mod oracle;
 mod parts;
 mod signs;
+mod slivers;
 mod tiling;
 
 use glam::DVec3;

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec4};
 
 use super::boxes::{Block, Flat};
+use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{LATTICE_LIMIT, Lattice};
 
 /// The front of a plane, prepared to be compared with many boxes of one scene.
@@ -32,6 +33,11 @@ const OUTSIDE: f64 = 4.0;
 impl HalfSpace {
     /// A plane with a number that is infinite or NaN has all boxes in front.
     pub(crate) fn new((normal, offset): (DVec3, f64), lattice: &Lattice) -> Self {
+        // By a power of two first, which is exact, so that no digit is lost where numbers are subnormal.
+        let largest = normal.abs().max_element();
+        let up = if largest > 0.0 { -exponent_of(largest) } else { 0 };
+        let normal = DVec3::from_array(normal.to_array().map(|c| scaled(c, up)));
+        let offset = scaled(offset, up);
         let size = normal.abs().max_element().max(f64::MIN_POSITIVE);
         let normal = normal / size;
         // An eighth of all lengths, so that none overflows.

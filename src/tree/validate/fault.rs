@@ -29,6 +29,7 @@ pub(super) enum Fault {
     Plane(PlaneId),
     Outline { fragment: u32 },
     ListedWhole { fragment: u32 },
+    Tolerance,
     Side { fragment: u32, expected: Side, found: Side },
     OwnOrder { fragment: u32 },
     Overlap(Culprit),
@@ -62,6 +63,9 @@ impl fmt::Display for Fault {
             }
             Self::ListedWhole { fragment } => {
                 write!(f, "fragment {fragment} was never cut, but is stored as a cut piece")
+            }
+            Self::Tolerance => {
+                f.write_str("at its plane the tolerance is not the length that it should be")
             }
             Self::Side { fragment, expected, found } => {
                 write!(f, "fragment {fragment} is {found:?}, not {expected:?} as its place says")

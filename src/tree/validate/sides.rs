@@ -17,7 +17,12 @@ impl BspTree {
             if let Some(parent) = path.last_mut() {
                 parent.1 = if visit.is_front { Side::Front } else { Side::Back };
             }
-            path.push((Exact.splitter(&self.faces, plane), Side::Coplanar));
+            let splitter = Exact.splitter(&self.faces, plane);
+            // Otherwise the classification below, which is the builder's, proves nothing.
+            if !splitter.has_length_of(&self.faces) {
+                return Err(fault(Fault::Tolerance));
+            }
+            path.push((splitter, Side::Coplanar));
             for (range, side) in visit.groups() {
                 if let Some(last) = path.last_mut() {
                     last.1 = side;
