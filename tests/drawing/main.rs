@@ -19,6 +19,7 @@ mod pen;
 mod progress;
 mod same;
 mod scenes;
+mod seams;
 mod sightlines;
 mod silhouettes;
 #[path = "../support/mod.rs"]
