@@ -4,6 +4,7 @@
 mod areas;
 mod bent;
 mod between;
+mod borders;
 mod coincidences;
 mod crossings;
 mod extremes;
@@ -20,6 +21,7 @@ mod progress;
 mod same;
 mod scenes;
 mod seams;
+mod sheets;
 mod sightlines;
 mod silhouettes;
 #[path = "../support/mod.rs"]

@@ -3,20 +3,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
 use super::support::dice::Dice;
+use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
 
 type Outline = Vec<[f64; 2]>;
-type Corners = Vec<[f64; 3]>;
-
-fn tree_of(polygons: &[Corners]) -> BspTree {
-    let polygons = polygons.iter().map(|corners| corners.iter().copied().map(DVec3::from));
-    BuildOptions::DEFAULT.with_tolerance(0.0).build(polygons.map(Vec::from_iter)).unwrap()
-}
 
 fn sides(outlines: &[Outline]) -> impl Iterator<Item = [[f64; 2]; 2]> + Clone {
     let sides = |outline: &'_ Outline| {
@@ -126,48 +121,6 @@ fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
     assert_eq!(fault(&tree, &camera, &[1.0; 2]), None);
 }
 
-fn from_above(height: f64, size: [u32; 2]) -> Camera {
-    let centre = DVec3::new(4.0, 4.0, 0.0);
-    Camera::parallel(DVec3::NEG_Z, DVec3::Y, centre, height, size).unwrap()
-}
-
-/// A rectangle over squares of a grid of 8 by 8, level or with a slope of 1 along x.
-#[derive(Clone, Copy, Debug)]
-struct Sheet {
-    low: [i64; 2],
-    high: [i64; 2],
-    slope: i64,
-    height: i64,
-    is_opaque: bool,
-}
-
-impl Sheet {
-    fn new(dice: &mut Dice) -> Self {
-        let mut ends = [[0; 2]; 2];
-        for axis in 0..2 {
-            let size = 1 + dice.below(5);
-            let low = dice.below(9 - size);
-            (ends[0][axis], ends[1][axis]) = (low as i64, (low + size) as i64);
-        }
-        let [low, high] = ends;
-        let slope = [0, 0, 1, -1][dice.below(4)];
-        let height = dice.below(5) as i64 - 4 * slope;
-        Self { low, high, slope, height, is_opaque: dice.below(2) == 0 }
-    }
-
-    fn corners(&self) -> Corners {
-        let Self { low: [x0, y0], high: [x1, y1], .. } = *self;
-        let corner = |[x, y]: [i64; 2]| [x as f64, y as f64, (self.slope * x + self.height) as f64];
-        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(corner).to_vec()
-    }
-
-    /// Four times its height over the middle of half a square, if it is there.
-    fn over(&self, [x, y]: [i64; 2]) -> Option<i64> {
-        let is_in = |axis: usize, at: i64| 2 * self.low[axis] <= at && at < 2 * self.high[axis];
-        (is_in(0, x) && is_in(1, y)).then(|| self.slope * (2 * x + 1) + 4 * self.height)
-    }
-}
-
 /// Halves of squares.
 type Area = BTreeSet<[i64; 2]>;
 
@@ -218,14 +171,11 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
         let mut stacks: BTreeMap<Vec<usize>, Area> = BTreeMap::new();
         let mut shown: BTreeMap<usize, Area> = BTreeMap::new();
         for at in (0..16).flat_map(|x| (0..16).map(move |y| [x, y])) {
-            let over = |(i, sheet): (usize, &Sheet)| sheet.over(at).map(|height| (height, i));
-            let mut stack: Vec<_> = sheets.iter().enumerate().filter_map(over).collect();
-            stack.sort_by(|a, b| b.cmp(a));
-            let mut stack: Vec<usize> = stack.into_iter().map(|(_, i)| i).collect();
+            let stack = stack(&sheets, at);
             let Some(&first) = stack.first() else { continue };
             shown.entry(first).or_default().insert(at);
             let end = stack.iter().position(|&i| sheets[i].is_opaque);
-            stack.truncate(end.map_or(stack.len(), |end| end + 1));
+            let stack = stack[..end.map_or(stack.len(), |end| end + 1)].to_vec();
             stacks.entry(stack).or_default().insert(at);
         }
         let pixels = side / height / 2.0;
