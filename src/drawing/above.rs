@@ -12,6 +12,7 @@ use super::rect::{NOWHERE, Rect, are_apart};
 use super::reporter::each;
 use super::rims::Rims;
 use super::stock::{FEW_CORNERS, Stock};
+use super::tile::Tile;
 use super::visible::{Leaf, Visible};
 use crate::Error;
 use crate::build::progress::Watch;
@@ -93,12 +94,14 @@ impl<'l> LeafReaches<'l> {
         // Nothing opaque shows above a face of which all shows that is in the tile.
         let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
         let mut whole: Vec<u32> = Vec::new();
-        for visible in each(watch, VISITED, cells()) {
-            let visible = visible?;
-            let face = stock.face(visible.item);
-            watch.work(stock.edges_work(face))?;
-            if is_whole(stock, rims, visible)? {
-                push(&mut whole, face)?;
+        for Leaf { tile, cells } in *leaves {
+            for visible in each(watch, VISITED, cells) {
+                let visible = visible?;
+                let face = stock.face(visible.item);
+                watch.work(stock.edges_work(face))?;
+                if is_whole(stock, rims, tile, visible)? {
+                    push(&mut whole, face)?;
+                }
             }
         }
         whole.sort_unstable();
@@ -166,10 +169,16 @@ impl<'l> LeafReaches<'l> {
 }
 
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
-fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, visible: &Visible) -> Result<bool, Error> {
+fn is_whole(
+    stock: &Stock<'_>,
+    rims: &Rims<'_>,
+    tile: &Tile,
+    visible: &Visible,
+) -> Result<bool, Error> {
     let outline = rims.known_outline(stock.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);
-    let mut sides = sides.filter(|half| half.number().is_some());
+    // Edges of others may lie where tiles elsewhere have borders.
+    let mut sides = sides.filter(|half| !tile.has_border(*half));
     // Of most faces, to look at all edges is quicker.
     if outline.len() <= FEW_CORNERS {
         return Ok(sides.all(|side| outline.iter().any(|half| half.line() == side.line())));

@@ -97,7 +97,7 @@ impl Cell {
             if !signs.contains(&Ordering::Greater) {
                 return Ok(None);
             }
-            if signs.iter().any(|sign| sign.is_le()) {
+            if signs.contains(&Ordering::Less) {
                 near.push(half);
             }
         }
@@ -107,11 +107,6 @@ impl Cell {
             watch.work(cell.corners_work())?;
             let signs = cell.signs(lines, half);
             if !signs.contains(&Ordering::Less) {
-                if let Some(side) = side_on_line(&signs) {
-                    // A side that is on a line counts as made by it: the last line that was asked
-                    // for has made it.
-                    part.get_or_insert_with(|| self.clone()).sides[side].half = half;
-                }
                 continue;
             }
             if !signs.contains(&Ordering::Greater) {

@@ -1,13 +1,11 @@
 //! Lines in which polygons go through one another.
 
 use super::cell::Cell;
-use super::cut_lines::CutLines;
 use super::edge_run::{EdgeKind, EdgeRun, SHORTEST};
-use super::frame::is_same_line;
+use super::frame::compare;
 use super::half::Half;
-use super::halving::{CUT, VISITED};
+use super::halving::VISITED;
 use super::inner_edges::{FaceEdge, InnerEdges};
-use super::key::Key;
 use super::map::VisibilityMap;
 use super::near::distance;
 use super::reporter::{each, finish_item, sort_by};
@@ -20,7 +18,8 @@ use crate::memory::push;
 /// A side of a cell on the line of a cut.
 #[derive(Clone, Copy, Debug)]
 struct CutSide {
-    line: u32,
+    /// On which the line is positive.
+    line: Half,
     face: u32,
     /// The edge of its face that lies there, inside the polygon, which goes on across it.
     inner: Option<FaceEdge>,
@@ -34,7 +33,7 @@ struct CutSide {
 /// What two such sides have in common: a part of a crossing that shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CommonSide {
-    line: u32,
+    line: Half,
     /// The lower number first. Of two faces that meet at the line it is the one of the lower number, though the
     /// other shows.
     pub(super) faces: [u32; 2],
@@ -42,7 +41,7 @@ pub(super) struct CommonSide {
 }
 
 /// Whether two faces go through one another in a line: by the line and the faces.
-type Known = Table<(u32, [u32; 2]), bool>;
+type Known = Table<(Half, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
     /// Where polygons go through one another, as far as it shows: runs of [`EdgeKind::Crossing`], all
@@ -110,28 +109,17 @@ impl VisibilityMap<'_> {
     /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes may have
     /// cut along one line, and what is beyond a border of a tile or a third polygon's edge was not cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
-        let lines = &self.rims.lines;
-        let mut cuts = CutLines::default();
-        let is_cut = |line: u32| matches!(lines.key(line), Key::Cut(..));
-        // Before tiles are divided: a side of a part has one of several lines that are the same, which may be
-        // another polygon's edge.
-        for (i, leaf) in self.leaves.iter().enumerate() {
-            for visible in each(watch, CUT, &leaf.cells) {
-                let halves = visible?.cell.sides.iter().map(|side| side.half);
-                for half in halves {
-                    if let Some(line) = half.number().filter(|&line| is_cut(line)) {
-                        cuts.add(lines, half, line)?;
-                    }
-                }
-            }
-            finish_item(watch, i, self.leaves.len());
-        }
-        let edges = self.edges_on(&mut cuts, inner, watch)?;
+        let bends = self.bends(inner, watch)?;
+        let is_wanted = |line: Half| self.rims.lines.is_cut(line) || bends.contains_key(&line);
+        let edges = self.edges_on(is_wanted, inner, watch)?;
         let mut found = Vec::new();
         let add_sides = |item: u32, cell: &Cell| {
             let (face, sides) = (self.stock.face(item), &cell.sides);
             for (i, side) in sides.iter().enumerate() {
-                let Some((line, is_same)) = cuts.of(lines, side.half)? else { continue };
+                let line = side.half.positive();
+                if !is_wanted(line) {
+                    continue;
+                }
                 let inner = match edges.get(&(face, line)) {
                     // A polygon that ends there does not go through another.
                     Some(None) => continue,
@@ -139,7 +127,7 @@ impl VisibilityMap<'_> {
                     None => None,
                 };
                 let end = &sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
-                let is_negative = side.half.is_negative() == is_same;
+                let is_negative = side.half.is_negative();
                 let (places, ends) = self.along(line, [side.start.at, end.start.at]);
                 push(&mut found, CutSide { line, face, inner, is_negative, places, ends })?;
             }
@@ -149,44 +137,53 @@ impl VisibilityMap<'_> {
         Ok(found)
     }
 
-    /// The edges of faces that lie on lines of cuts, to which those inside polygons are added, by face and line: `None`
-    /// for those of outlines.
-    fn edges_on(
-        &self,
-        cuts: &mut CutLines,
-        inner: &InnerEdges,
-        watch: &Watch<'_>,
-    ) -> Result<Table<(u32, u32), Option<FaceEdge>>, Error> {
-        let lines = &self.rims.lines;
-        // Faces of polygons that do not show have no lines.
-        let outlines =
-            (0..self.stock.views.len() as u32).map(|face| (face, self.rims.known_outline(face)));
-        for outline in each(watch, 1, outlines.clone()) {
+    /// The outlines of faces. (Those of polygons that do not show have no lines.)
+    fn outlines(&self) -> impl Iterator<Item = (u32, &[Half])> {
+        let faces = 0..self.stock.views.len() as u32;
+        faces.map(|face| (face, self.rims.known_outline(face)))
+    }
+
+    /// The lines of edges inside polygons.
+    fn bends(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Table<Half, ()>, Error> {
+        let mut bends = Table::default();
+        for outline in each(watch, 1, self.outlines()) {
             let (face, halves) = outline?;
             for (k, half) in (0..).zip(halves) {
-                if let (Some(_), Some(line)) = (inner.across((face, k)), half.number()) {
+                if inner.across((face, k)).is_some() {
                     watch.work(VISITED)?;
-                    cuts.add(lines, *half, line)?;
+                    insert(&mut bends, half.positive(), ())?;
                 }
             }
         }
+        Ok(bends)
+    }
+
+    /// The edges of faces that lie on some lines, by face and line, `None` for those of outlines: a phase.
+    fn edges_on(
+        &self,
+        is_wanted: impl Fn(Half) -> bool,
+        inner: &InnerEdges,
+        watch: &Watch<'_>,
+    ) -> Result<Table<(u32, Half), Option<FaceEdge>>, Error> {
         let mut edges = Table::default();
-        for outline in each(watch, 1, outlines) {
+        for outline in each(watch, 1, self.outlines()) {
             let (face, halves) = outline?;
             for (k, half) in (0..).zip(halves) {
                 watch.work(VISITED)?;
-                if let Some((line, _)) = cuts.of(lines, *half)? {
+                let line = half.positive();
+                if is_wanted(line) {
                     let edge = inner.across((face, k)).map(|_| (face, k));
                     insert(&mut edges, (face, line), edge)?;
                 }
             }
+            finish_item(watch, face as usize, self.stock.views.len());
         }
         Ok(edges)
     }
 
     /// The ends of a side in the order in which they are along a line, and where that is.
-    fn along(&self, line: u32, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
-        let [_, kx, ky] = self.rims.lines.rounded(Half::of(line)).k;
+    fn along(&self, line: Half, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
+        let [_, kx, ky] = self.rims.lines.rounded(line).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
         if place(ends[0]) > place(ends[1]) {
             ends.swap(0, 1);
@@ -208,7 +205,7 @@ impl VisibilityMap<'_> {
         }
         let [one, other] = [a.face.min(b.face), a.face.max(b.face)];
         let is_bent = a.inner.is_some() || b.inner.is_some();
-        if !is_bent && lines.key(a.line) == Key::Cut(one, PlaneId::face(other)) {
+        if !is_bent && lines.is_cut_of(a.line, [one, other]) {
             return Ok(true);
         }
         known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
@@ -222,7 +219,7 @@ impl VisibilityMap<'_> {
             let cut = one.cut(&other);
             // Faces of one plane have no line in common but all of it.
             let is_line = cut.iter().any(|c| c.sign().is_ne());
-            is_line && is_same_line(&cut, &lines.exact(Half::of(a.line)))
+            is_line && compare(&cut, &lines.exact(a.line)).is_eq()
         }))
     }
 

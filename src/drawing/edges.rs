@@ -34,8 +34,9 @@ impl VisibilityMap<'_> {
     /// not planar). Polygons have an edge in common
     /// if both of its corners are the same. Edges inside a polygon, which triangulation made, are none, but
     /// for silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge,
-    /// and from behind on the other. Nor are edges at which all polygons are seen exactly edge-on. Where
-    /// polygons go through one another, [`crossings`](Self::crossings) tells.
+    /// and from behind on the other. Nor are edges at which all polygons are seen exactly edge-on, nor
+    /// those along a border of the picture with all polygons on its other side. Where polygons go through one
+    /// another, [`crossings`](Self::crossings) tells.
     ///
     /// O(n log n) for n edges and cells. (What is hidden, and how to tell for lines: A. Appel, "The notion
     /// of quantitative invisibility and the machine rendering of solids", 1967.)
@@ -153,6 +154,11 @@ impl Views<'_> {
         let fronts = sides.iter().position(|side| side.is_gt());
         let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return Ok(()) };
         let faces = self.map.stock.frame.faces;
+        let mut numbered = sides.iter().enumerate();
+        // Of an edge along a border of the picture, none may be in the picture.
+        if !numbered.any(|(i, side)| shows(side) && edge.is_in_picture(faces, i, *side)) {
+            return Ok(());
+        }
         let (face, k) = edge.faces[owner];
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
         let number = faces.outline_edge(face, k);

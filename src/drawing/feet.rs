@@ -1,26 +1,36 @@
 //! Lines of the picture found by where they are.
 
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
 use super::rounded::Rounded;
-use super::table::{Table, insert};
+use super::table::Table;
 use crate::Error;
 
 /// The point of a line that is next to the middle of the picture, and the cosine of twice the line's angle:
-/// the same for both directions. Of a line that the picture shows, they are off by far less than [`STEP`].
+/// the same for both directions. Of a line that the picture shows, they are off by less than a
+/// [`MARGIN`] of a [`STEP`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
     point: [f64; 2],
     cosine: f64,
 }
 
-/// The numbers of lines, by their feet.
+/// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture that
+/// shows a scene from very far, all are in one place.
 #[derive(Debug, Default)]
-pub(super) struct Feet(Table<[i64; 4], u32>);
+pub(super) struct Feet(Table<Place, SmallVec<[u32; 2]>>);
 
-/// Lines are looked up by their feet in such steps, in pixels and of the cosine, among so many of one place at
-/// most; one that is missed is a line of its own. (Few are so near to one another in most pictures, but all
-/// are in one that shows a scene from very far.)
+type Place = [i64; 3];
+
+/// Places are so large, in pixels and of the cosine. Too small: feet of one line are in several; too large: more
+/// lines are compared in integers.
 const STEP: f64 = 1.0 / (1u64 << 20) as f64;
-const SAME: i64 = 8;
+/// Feet are looked for in neighbouring places if they are nearer to these than this share of a step. (Values of lines
+/// that the picture shows are off by less than 2⁻³¹ pixels, feet by less than four times as much: 2⁻⁹ of a
+/// step.)
+const MARGIN: f64 = 1.0 / 256.0;
 
 impl Foot {
     /// That of a line in a picture of this size.
@@ -36,30 +46,49 @@ impl Foot {
     fn numbers(&self) -> [f64; 3] {
         [self.point[0], self.point[1], self.cosine]
     }
-}
 
-impl Feet {
-    /// The lines whose feet may be the same.
-    pub(super) fn near(&self, foot: &Foot) -> impl Iterator<Item = u32> {
-        let [xs, ys, cosines] = foot.numbers().map(|number| {
-            let [low, high] = [-STEP, STEP].map(|step| step_of(number + step / 256.0));
+    fn place(&self) -> Place {
+        self.numbers().map(step_of)
+    }
+
+    /// The places where a line may be whose foot this is.
+    fn places(&self) -> impl Iterator<Item = Place> {
+        let [xs, ys, cosines] = self.numbers().map(|number| {
+            let [low, high] = [-STEP, STEP].map(|step| step_of(number + step * MARGIN));
             std::iter::once(low).chain((high != low).then_some(high))
         });
         let planes = xs.flat_map(move |x| ys.clone().map(move |y| [x, y]));
-        let places = planes.flat_map(move |[x, y]| cosines.clone().map(move |c| [x, y, c]));
-        places.flat_map(move |[x, y, c]| {
-            (0..SAME).map_while(move |n| self.0.get(&[x, y, c, n]).copied())
-        })
+        planes.flat_map(move |[x, y]| cosines.clone().map(move |c| [x, y, c]))
+    }
+}
+
+impl Feet {
+    /// The line with this foot that a comparison of lines with another one says is the same; or else where to
+    /// [`add`](Self::add) that one.
+    pub(super) fn search(
+        &self,
+        foot: &Foot,
+        compare: impl Fn(u32) -> Ordering,
+    ) -> Result<u32, usize> {
+        let mut free = 0;
+        for place in foot.places() {
+            let Some(lines) = self.0.get(&place) else { continue };
+            match lines.binary_search_by(|&line| compare(line)) {
+                Ok(at) => return Ok(lines[at]),
+                Err(at) if place == foot.place() => free = at,
+                Err(_) => {}
+            }
+        }
+        Err(free)
     }
 
-    /// Adds a line, unless there are too many of its place.
-    pub(super) fn add(&mut self, foot: &Foot, line: u32) -> Result<(), Error> {
-        let [x, y, cosine] = foot.numbers().map(step_of);
-        let mut places = (0..SAME).map(|number| [x, y, cosine, number]);
-        match places.find(|place| !self.0.contains_key(place)) {
-            Some(free) => insert(&mut self.0, free, line),
-            None => Ok(()),
-        }
+    /// Adds a line that was sought without success.
+    pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) -> Result<(), Error> {
+        self.0.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        let lines = self.0.entry(foot.place()).or_default();
+        lines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        lines.insert(at, line);
+        Ok(())
     }
 }
 

@@ -143,11 +143,21 @@ pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
     (term(0) + term(1) + term(2)).sign()
 }
 
-/// Whether two lines are one, in whatever direction.
-pub(super) fn is_same_line(a: &ExactLine, b: &ExactLine) -> bool {
-    [(0, 1), (1, 2), (2, 0)]
-        .iter()
-        .all(|&(i, j)| (a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i])).sign().is_eq())
+/// An order of lines: those that are one, in whatever direction, are equal. Lines are compared by the first of their
+/// coefficients in an order, slopes first, that is not 0, and then by the ratios of the others to it.
+pub(super) fn compare(a: &ExactLine, b: &ExactLine) -> Ordering {
+    let order = [1, 2, 0];
+    let [first, second] = [a, b].map(|line| order.iter().position(|&i| line[i].sign().is_ne()));
+    let (Some(lead), Ordering::Equal) = (first, first.cmp(&second)) else {
+        return first.cmp(&second);
+    };
+    let of = order[lead];
+    let is_flipped = a[of].sign() != b[of].sign();
+    let ratios = order[lead + 1..].iter().map(|&i| {
+        let sign = (a[i].times::<6, 12>(&b[of]) - b[i].times::<6, 12>(&a[of])).sign();
+        if is_flipped { sign.reverse() } else { sign }
+    });
+    ratios.fold(Ordering::Equal, Ordering::then)
 }
 
 /// Whether two numbers for one line have opposite signs.

@@ -31,6 +31,11 @@ impl Half {
         self.0 >> 1
     }
 
+    /// The half of the same line on which it is positive.
+    pub(super) const fn positive(self) -> Self {
+        Self(self.0 & !1)
+    }
+
     /// The number of the line; `None` for a border.
     pub(super) const fn number(self) -> Option<u32> {
         if self.0 & BORDER == 0 { Some((self.0 >> 1) as u32) } else { None }

@@ -7,9 +7,11 @@ mod tests;
 
 pub(super) use adopted::Adopted;
 
+use std::cell::OnceCell;
+
 use super::feet::{Feet, Foot};
-use super::frame::{ExactLine, Frame, is_opposite, is_same_line};
-use super::half::Half;
+use super::frame::{ExactLine, Frame, compare, is_opposite};
+use super::half::{Half, STEPS};
 use super::key::Key;
 use super::rounded::Rounded;
 use super::table::{Table, insert};
@@ -22,6 +24,8 @@ use crate::memory::push;
 pub(super) const NOWHERE: u32 = u32::MAX;
 /// Faces of more corners are not searched for one that a line goes through.
 const FEW: usize = 8;
+/// Borders of tiles are not so far out, in steps.
+const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// All lines that a picture was asked for.
 #[derive(Debug)]
@@ -38,8 +42,10 @@ pub(super) struct Lines<'t> {
     pub(super) twofold: Table<u32, Twofold>,
     /// The half of each key on which it is positive.
     halves: Table<Key, Half>,
-    /// The lines of edges, by where they are.
-    edges: Feet,
+    /// All lines, by where they are.
+    feet: Feet,
+    /// The lines of cuts, by their halves that are positive.
+    cuts: Table<Half, ()>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
     /// The numbers of where corners were moved to.
@@ -60,7 +66,8 @@ impl<'t> Lines<'t> {
             through: vec![],
             twofold: Table::default(),
             halves: Table::default(),
-            edges: Feet::default(),
+            feet: Feet::default(),
+            cuts: Table::default(),
             points: Table::default(),
             moved: Table::default(),
             corners: vec![],
@@ -78,32 +85,68 @@ impl<'t> Lines<'t> {
 
     /// The same of a key that is new.
     fn new_half(&mut self, key: Key, rounded: Rounded, points: [u32; 2]) -> Result<Half, Error> {
-        let half = match key {
-            Key::Edge(_) | Key::Upright(..) => self.half_of_edge(key, rounded, points)?,
-            Key::Cut(..) => Half::of(self.add(key, rounded, points)?),
-        };
+        let half = self.half_of_line(key, rounded, points)?;
+        if matches!(key, Key::Cut(..)) {
+            insert(&mut self.cuts, half.positive(), ())?;
+        }
         insert(&mut self.halves, key, half)?;
         Ok(half)
     }
 
-    /// The half of an edge that has no key yet. Edges on one line, as those of walls side by side, are one
-    /// line of the picture: else it would be found out again and again that they meet everywhere.
-    fn half_of_edge(
+    /// The half of a line that has no key yet. What makes one line of the picture, as edges of walls side by side, cuts
+    /// along them, and borders of tiles, has one half: else sides of cells would not be known to lie on one line, and it
+    /// would be found out again and again that they meet everywhere.
+    fn half_of_line(
         &mut self,
         key: Key,
         rounded: Rounded,
         points: [u32; 2],
     ) -> Result<Half, Error> {
-        let foot = Foot::of(&rounded, self.reach);
-        for line in self.edges.near(&foot) {
-            let [exact, other] = [key, self.key(line)].map(|key| self.exact_of(key));
-            if is_same_line(&exact, &other) {
-                return Ok(Half::of(line).flipped(is_opposite(&exact, &other)));
+        let exact = OnceCell::new();
+        let exact = || exact.get_or_init(|| self.exact_of(key));
+        if let Some(border) = self.near_border(&rounded) {
+            let other = self.exact(border);
+            if compare(exact(), &other).is_eq() {
+                return Ok(border.flipped(is_opposite(exact(), &other)));
             }
         }
-        let line = self.add(key, rounded, points)?;
-        self.edges.add(&foot, line)?;
-        Ok(Half::of(line))
+        let foot = Foot::of(&rounded, self.reach);
+        match self.feet.search(&foot, |line| compare(&self.exact_of(self.key(line)), exact())) {
+            Ok(line) => {
+                let is_opposite = is_opposite(exact(), &self.exact_of(self.key(line)));
+                self.remember(line, points);
+                Ok(Half::of(line).flipped(is_opposite))
+            }
+            Err(at) => {
+                let line = self.add(key, rounded, points)?;
+                self.feet.add(&foot, at, line)?;
+                Ok(Half::of(line))
+            }
+        }
+    }
+
+    /// The border on which a line may lie.
+    fn near_border(&self, line: &Rounded) -> Option<Half> {
+        let [k0, kx, ky] = line.k;
+        let (axis, [along, across]) =
+            if kx.abs() > ky.abs() { (0, [ky, kx]) } else { (1, [kx, ky]) };
+        let steps = -k0 / across * STEPS;
+        let is_near = along.abs() <= self.slope_error(line)
+            && (steps - steps.round()).abs() <= 2.0 * line.error * STEPS
+            && steps.abs() < FURTHEST;
+        is_near.then(|| Half::beyond(axis, steps.round() as i64))
+    }
+
+    /// Points through which a line is known to go, if there is room for them.
+    fn remember(&mut self, line: u32, points: [u32; 2]) {
+        let known = &mut self.through[line as usize];
+        for point in points.into_iter().filter(|&point| point != NOWHERE) {
+            if let Some(free) = known.iter().position(|&known| known == NOWHERE)
+                && !known.contains(&point)
+            {
+                known[free] = point;
+            }
+        }
     }
 
     fn add(&mut self, key: Key, rounded: Rounded, through: [u32; 2]) -> Result<u32, Error> {
@@ -237,8 +280,20 @@ impl<'t> Lines<'t> {
         Ok(number)
     }
 
-    /// What made a line.
-    pub(super) fn key(&self, line: u32) -> Key {
+    /// Whether a cut was made along a half's line.
+    pub(super) fn is_cut(&self, half: Half) -> bool {
+        self.cuts.contains_key(&half.positive())
+    }
+
+    /// Whether the cut of a face by another's plane, the lower number first, is known to have been made along a half's
+    /// line.
+    pub(super) fn is_cut_of(&self, half: Half, [one, other]: [u32; 2]) -> bool {
+        let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
+        cut.is_some_and(|cut| cut.line() == half.line())
+    }
+
+    /// What made a line first.
+    fn key(&self, line: u32) -> Key {
         self.keys[line as usize]
     }
 

@@ -85,7 +85,6 @@
 // | `intervals` | parts of segments, from one place to another |
 // | `inner_edges` | edges inside polygons, which triangulation made |
 // | `certain` | what floats tell of segments |
-// | `cut_lines` | lines along which polygons may go through one another |
 // | `crossings` | lines in which polygons go through one another |
 // | `straddling` | faces with corners on both sides of one another's planes |
 // | `through` | faces that go through one another, shown or not |
@@ -104,7 +103,6 @@ mod between;
 mod cell;
 mod certain;
 mod crossings;
-mod cut_lines;
 mod display_list;
 mod divided;
 mod edge_run;

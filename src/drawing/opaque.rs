@@ -5,7 +5,8 @@ use super::cell::Cell;
 use super::halving::{CUT, VISITED};
 use super::map::VisibilityMap;
 use super::order::{Ordered, order};
-use super::paths::{Drawing, add_edges, add_sides};
+use super::outline::Area;
+use super::paths::{Drawing, add_piece};
 use super::reporter::{each, finish_item};
 use super::stock::Stock;
 use super::translucent::mixed;
@@ -51,22 +52,23 @@ impl VisibilityMap<'_> {
         let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
         let count = shares.len();
         let part = |(i, nodes): (usize, &[u32])| {
-            let (mut part, mut edges) = (Drawing::empty(size), Vec::new());
+            let (mut part, mut area) = (Drawing::empty(size), Area::default());
             for &node in nodes {
                 watch.work(CUT)?;
                 let index = node as usize;
-                edges.clear();
+                area.clear();
                 if is_clipped[index] {
                     for cell in each(watch, VISITED, &cells[index]) {
-                        add_sides(cell?, &mut edges)?;
+                        area.push(&cell?.sides)?;
                     }
                 } else {
                     for face in each(watch, CUT, &shown.faces[index]) {
                         let face = *face?;
-                        add_edges(&rims.lines, rims.known_outline(face), &mut edges, watch)?;
+                        add_piece(&rims.lines, rims.known_outline(face), &mut area, watch)?;
                     }
                 }
-                part.push(shown.polygons[index], is_clipped[index], &edges, watch)?;
+                let polygon = shown.polygons[index];
+                part.push(polygon, is_clipped[index], &area, &rims.lines, watch)?;
             }
             finish_item(watch, i, count);
             Ok(part)

@@ -1,181 +1,265 @@
 //! Outlines of areas that are given in parts.
+//!
+//! Which sides of parts lie on one line, and which corners are one point, is exact: outlines are closed, and have nothing
+//! that goes there and back, however corners are rounded.
 
-use smallvec::SmallVec;
+use std::cmp::Ordering;
 
+use super::cell::{Corner, Side};
+use super::half::Half;
 use super::halving::VISITED;
+use super::lines::Lines;
 use super::reporter::{each, sort_by};
-use super::table::Table;
+use super::rounded::{ROUNDING, Rounded};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{collect, filled, push};
+use crate::memory::{collect, filled, place, push, reserve};
 
-/// A side of a part: its line, and where it begins and ends, with the part on its left.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
-    /// Sides on one line have the same number.
-    pub(super) line: u64,
-    pub(super) from: [f64; 2],
-    pub(super) to: [f64; 2],
+/// Convex parts of an area, by their sides.
+#[derive(Default)]
+pub(super) struct Area {
+    sides: Vec<Side>,
+    /// Where each part ends.
+    ends: Vec<u32>,
 }
 
-impl Edge {
-    /// Whether the next edge is on the same line, and does not turn back.
-    fn goes_on_as(&self, next: &Self) -> bool {
-        let along = |i: usize| (self.to[i] - self.from[i]) * (next.to[i] - next.from[i]);
-        self.line == next.line && along(0) + along(1) > 0.0
-    }
-}
-
-/// Points are rounded to a grid of this step, in pixels, and are one if they fall on one place.
-const GRID: f64 = 1.0 / (1u64 << 16) as f64;
-
-/// To go on from an edge to the next takes as long as a build takes to examine so many pieces.
+/// To go on from a piece to the next takes as long as a build takes to examine so many pieces.
 const FOLLOWED: usize = 16;
+/// No piece.
+const NONE: u32 = u32::MAX;
 
-type Place = [i64; 2];
+/// Sides of parts, by numbers; corners have the numbers of the sides that begin there.
+struct Sides<'a> {
+    lines: &'a Lines<'a>,
+    sides: &'a [Side],
+    /// The side before each and the one after it.
+    before: Vec<u32>,
+    after: Vec<u32>,
+}
 
-/// Which edges begin at a place: mostly one.
-type Begin = Table<Place, SmallVec<[usize; 2]>>;
+/// An end of a side on a line.
+#[derive(Clone, Copy)]
+struct End {
+    corner: u32,
+    /// Where it is, in the direction of the line's positive half.
+    place: f64,
+    radius: f64,
+    /// The other half that meets there.
+    across: Half,
+    is_start: bool,
+    /// Whether that half lies ahead.
+    is_ahead: bool,
+}
 
-/// The closed outlines of the union of convex parts side by side, each around what is on its
-/// left; `None` if some overlap, or if rounding left an outline open, or nothing.
-///
-/// Where two parts share a side, or some of it, that is no outline.
-pub(super) fn outlines(
-    edges: &[Edge],
-    watch: &Watch<'_>,
-) -> Result<Option<Vec<Vec<[f64; 2]>>>, Error> {
-    let Some(edges) = without_common(edges, watch)? else { return Ok(None) };
-    // Which edges begin at a place.
-    let mut begin = Begin::default();
-    for numbered in each(watch, VISITED, edges.iter().enumerate()) {
-        let (i, edge) = numbered?;
-        begin.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        let list = begin.entry(place(edge.from)).or_default();
-        list.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        list.push(i);
+/// A part of an outline on one line, from one corner to another, in the direction of a half.
+#[derive(Clone, Copy)]
+struct Piece {
+    half: Half,
+    from: u32,
+    to: u32,
+}
+
+/// Corners that are one point: each leads to the one that stands for all of them.
+struct Points(Vec<u32>);
+
+impl Area {
+    pub(super) fn is_empty(&self) -> bool {
+        self.ends.is_empty()
     }
-    let mut is_used = filled(edges.len(), false)?;
-    let mut outlines = Vec::new();
-    for first in 0..edges.len() {
-        if is_used[first] {
-            continue;
-        }
-        let mut outline: Vec<[f64; 2]> = Vec::new();
-        let (mut current, mut last): (usize, Option<&Edge>) = (first, None);
-        loop {
-            watch.work(FOLLOWED)?;
-            is_used[current] = true;
-            let edge = &edges[current];
-            // Edges of one line follow one another where others meet it.
-            if !last.is_some_and(|last| last.goes_on_as(edge)) {
-                push(&mut outline, edge.from)?;
-            }
-            last = Some(edge);
-            if is_same(edge.to, edges[first].from) {
-                break;
-            }
-            match next(&begin, &is_used, &edges, current) {
-                Some(next) => current = next,
-                None => return Ok(None),
-            }
-        }
-        if outline.len() > 1 && last.is_some_and(|last| last.goes_on_as(&edges[first])) {
-            outline.remove(0);
-        }
-        if outline.len() > 2 {
-            push(&mut outlines, outline)?;
-        }
+
+    pub(super) fn clear(&mut self) {
+        self.sides.clear();
+        self.ends.clear();
     }
-    // Nothing is left of what is smaller than the grid.
-    Ok(if outlines.is_empty() { None } else { Some(outlines) })
+
+    pub(super) fn push(&mut self, part: &[Side]) -> Result<(), Error> {
+        reserve(&mut self.sides, part.len())?;
+        self.sides.extend_from_slice(part);
+        push(&mut self.ends, place(self.sides.len())?)
+    }
+
+    pub(super) fn part(&self, i: usize) -> &[Side] {
+        let start = if i == 0 { 0 } else { self.ends[i - 1] };
+        &self.sides[start as usize..self.ends[i] as usize]
+    }
+
+    /// The closed outlines of all parts, each around what is on its left: what parts that lie side by side have in
+    /// common in opposite directions is no outline. Where parts overlap, outlines wind around both.
+    pub(super) fn outlines(
+        &self,
+        lines: &Lines<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+        if let [_] = self.ends[..] {
+            let corners = self.sides.iter().map(|side| side.start.at);
+            return Ok(vec![collect(corners)?]);
+        }
+        let sides = Sides::new(lines, self)?;
+        let mut points = Points(collect(0..place(self.sides.len())?)?);
+        let pieces = sides.pieces(&mut points, watch)?;
+        // The first of the pieces that begin at each point, and the one after each.
+        let (mut begin, mut others) =
+            (filled(self.sides.len(), NONE)?, filled(pieces.len(), NONE)?);
+        for numbered in each(watch, VISITED, pieces.iter().enumerate().rev()) {
+            let (i, piece) = numbered?;
+            let point = points.of(piece.from) as usize;
+            others[i] = std::mem::replace(&mut begin[point], i as u32);
+        }
+        let (mut is_used, mut outlines) = (filled(pieces.len(), false)?, Vec::new());
+        for (i, first) in pieces.iter().enumerate() {
+            if is_used[i] {
+                continue;
+            }
+            let (start, mut outline, mut next) = (points.of(first.from), Vec::new(), Some(i));
+            while let Some(i) = next {
+                watch.work(FOLLOWED)?;
+                is_used[i] = true;
+                let piece = &pieces[i];
+                // Pieces of one line follow one another where others meet it.
+                if outline.last().is_none_or(|last: &Piece| last.half != piece.half) {
+                    push(&mut outline, *piece)?;
+                }
+                let point = points.of(piece.to);
+                if point == start {
+                    break;
+                }
+                let some = |piece: u32| (piece != NONE).then_some(piece as usize);
+                let from_here =
+                    std::iter::successors(some(begin[point as usize]), |&i| some(others[i]));
+                let left = from_here.filter(|&i| !is_used[i]);
+                // Of several the one that turns furthest to the left, so that outlines that touch in a point stay apart.
+                let turn = |i: usize| sides.turn(piece.half, pieces[i].half);
+                next = left.max_by(|&a, &b| turn(a).total_cmp(&turn(b)));
+                debug_assert!(next.is_some(), "an outline is open");
+            }
+            let is_one_line = outline.first().map(|p| p.half) == outline.last().map(|p| p.half);
+            let corner = |piece: &Piece| self.sides[piece.from as usize].start.at;
+            let corners = outline[usize::from(is_one_line)..].iter().map(corner);
+            push(&mut outlines, collect(corners)?)?;
+        }
+        Ok(outlines)
+    }
 }
 
-fn place(point: [f64; 2]) -> Place {
-    point.map(|c| (c / GRID).round() as i64)
-}
+impl<'a> Sides<'a> {
+    fn new(lines: &'a Lines<'a>, area: &'a Area) -> Result<Self, Error> {
+        let count = place(area.sides.len())?;
+        let mut before = collect((0..count).map(|side| side.wrapping_sub(1)))?;
+        let mut after = collect((0..count).map(|side| side + 1))?;
+        let mut start = 0;
+        for &end in &area.ends {
+            (before[start as usize], after[end as usize - 1]) = (end - 1, start);
+            start = end;
+        }
+        Ok(Self { lines, sides: &area.sides, before, after })
+    }
 
-fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
-    (0..2).all(|axis| (a[axis] - b[axis]).abs() <= 1.5 * GRID)
-}
+    /// The sides without what two of them have in common, in opposite directions.
+    fn pieces(&self, points: &mut Points, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
+        let half = |side: u32| self.sides[side as usize].half;
+        let mut by_line: Vec<u32> = collect(0..self.sides.len() as u32)?;
+        sort_by(&mut by_line, watch, |&a, &b| half(a).line().cmp(&half(b).line()))?;
+        let (mut pieces, mut ends) = (Vec::new(), Vec::new());
+        for group in by_line.chunk_by(|&a, &b| half(a).line() == half(b).line()) {
+            watch.work(group.len() * VISITED)?;
+            if let [side] = *group {
+                let to = self.after[side as usize];
+                push(&mut pieces, Piece { half: half(side), from: side, to })?;
+                continue;
+            }
+            let line = half(group[0]).positive();
+            let rounded = self.lines.rounded(line);
+            ends.clear();
+            reserve(&mut ends, 2 * group.len())?;
+            ends.extend(group.iter().flat_map(|&side| self.ends(side, &rounded)));
+            sort_by(&mut ends, watch, |a, b| self.compare(&rounded, a, b))?;
+            self.add_pieces(line, &ends, points, &mut pieces)?;
+        }
+        Ok(pieces)
+    }
 
-/// The unused edge that begins where another ends: of several, the one that turns furthest to the left,
-/// so that outlines that touch in a point stay apart.
-fn next(begin: &Begin, is_used: &[bool], edges: &[Edge], current: usize) -> Option<usize> {
-    let edge = &edges[current];
-    let [x, y] = place(edge.to);
-    let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-    let found = around.filter_map(|place| begin.get(&place)).flatten().copied();
-    let way = |edge: &Edge| [edge.to[0] - edge.from[0], edge.to[1] - edge.from[1]];
-    let [ax, ay] = way(edge);
-    let turn = |&i: &usize| {
-        let [bx, by] = way(&edges[i]);
+    /// Both ends of a side.
+    fn ends(&self, side: u32, line: &Rounded) -> [End; 2] {
+        let [before, after] = [&self.before, &self.after].map(|list| list[side as usize]);
+        let half = |side: u32| self.sides[side as usize].half;
+        let end = |corner: u32, across: Half, is_start: bool| {
+            let Corner { at: [x, y], radius } = self.sides[corner as usize].start;
+            let place = x * line.k[2] - y * line.k[1];
+            let is_ahead = is_start != half(side).is_negative();
+            End { corner, place, radius, across, is_start, is_ahead }
+        };
+        [end(side, half(before), true), end(after, half(after), false)]
+    }
+
+    /// In which order two ends of sides lie on their line, in the direction of its positive half: exact.
+    fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
+        // A corner is off by its radius at most, which changes its place by so much, and the place is rounded three
+        // times.
+        let size: f64 = self.lines.reach.iter().sum();
+        let off = line.slope * (a.radius + b.radius + 8.0 * ROUNDING * size);
+        if (a.place - b.place).abs() > off {
+            return a.place.total_cmp(&b.place);
+        }
+        let corner = [self.before[a.corner as usize], a.corner];
+        let halves = corner.map(|side| self.sides[side as usize].half);
+        let side = self.lines.exact_side(b.across, halves);
+        if b.is_ahead { side } else { side.reverse() }
+    }
+
+    /// Adds what is left of the sides on a line, of which these are the ends in order; those at one place are one
+    /// point.
+    fn add_pieces(
+        &self,
+        line: Half,
+        ends: &[End],
+        points: &mut Points,
+        pieces: &mut Vec<Piece>,
+    ) -> Result<(), Error> {
+        let rounded = self.lines.rounded(line);
+        // How many more sides run forwards than backwards, and from where.
+        let (mut count, mut from) = (0i32, 0);
+        for place in ends.chunk_by(|a, b| self.compare(&rounded, a, b).is_eq()) {
+            let point = place[0].corner;
+            place[1..].iter().for_each(|end| points.unite(point, end.corner));
+            let steps = place.iter().map(|end| if end.is_start { 1 } else { -1 });
+            let after = count + steps.sum::<i32>();
+            if after == count {
+                continue;
+            }
+            let is_back = count < 0;
+            let [start, end] = if is_back { [point, from] } else { [from, point] };
+            let piece = Piece { half: line.flipped(is_back), from: start, to: end };
+            reserve(pieces, count.unsigned_abs() as usize)?;
+            pieces.extend((0..count.abs()).map(|_| piece));
+            (count, from) = (after, point);
+        }
+        Ok(())
+    }
+
+    /// By how much an outline turns to the left where it goes from one half to another.
+    fn turn(&self, from: Half, to: Half) -> f64 {
+        let [[ax, ay], [bx, by]] = [from, to].map(|half| {
+            let [_, kx, ky] = self.lines.rounded(half).flipped(half.is_negative()).k;
+            [ky, -kx]
+        });
         (ax * by - ay * bx).atan2(ax * bx + ay * by)
-    };
-    let open = found.filter(|&i| !is_used[i] && is_same(edges[i].from, edge.to));
-    open.max_by(|a, b| turn(a).total_cmp(&turn(b)))
+    }
 }
 
-/// The edges without what two of them have in common, in opposite directions; `None` if some run in the
-/// same direction, as those of parts that overlap do.
-fn without_common(edges: &[Edge], watch: &Watch<'_>) -> Result<Option<Vec<Edge>>, Error> {
-    let mut by_line: Vec<usize> = collect(0..edges.len())?;
-    sort_by(&mut by_line, watch, |&a, &b| edges[a].line.cmp(&edges[b].line))?;
-    let mut left = Vec::new();
-    for group in by_line.chunk_by(|&a, &b| edges[a].line == edges[b].line) {
-        watch.work(group.len() * VISITED)?;
-        if let [one] = group {
-            push(&mut left, edges[*one])?;
-            continue;
+impl Points {
+    fn of(&mut self, corner: u32) -> u32 {
+        let mut at = corner;
+        while self.0[at as usize] != at {
+            let next = self.0[at as usize];
+            self.0[at as usize] = self.0[next as usize];
+            at = next;
         }
-        if !on_one_line(group.iter().map(|&i| &edges[i]), &mut left)? {
-            return Ok(None);
-        }
+        at
     }
-    Ok(Some(left))
-}
 
-/// The same of edges on one line, added to those that are left; whether none overlap.
-fn on_one_line<'e>(
-    edges: impl Iterator<Item = &'e Edge> + Clone,
-    left: &mut Vec<Edge>,
-) -> Result<bool, Error> {
-    // Along the axis on which the line is longer.
-    let span = |axis: usize| edges.clone().map(|e| (e.to[axis] - e.from[axis]).abs()).sum::<f64>();
-    let axis = usize::from(span(1) > span(0));
-    let mut ends: Vec<(i64, i32, [f64; 2])> = Vec::new();
-    let mut common = 0;
-    for &Edge { line, from, to } in edges {
-        common = line;
-        let [a, b] = [from, to].map(|point| (point[axis] / GRID).round() as i64);
-        if a != b {
-            push(&mut ends, (a, 1, from))?;
-            push(&mut ends, (b, -1, to))?;
-        }
+    fn unite(&mut self, a: u32, b: u32) {
+        let [a, b] = [self.of(a), self.of(b)];
+        // Whichever was met first.
+        self.0[a.max(b) as usize] = a.min(b);
     }
-    ends.sort_by_key(|&(at, ..)| at);
-    // At each place, how many more edges run forwards than backwards.
-    let (mut count, mut open) = (0, None);
-    for group in ends.chunk_by(|a, b| a.0 == b.0) {
-        let (before, point) = (count, group[0].2);
-        count += group.iter().map(|&(_, step, _)| step).sum::<i32>();
-        if count.abs() > 1 {
-            return Ok(false);
-        }
-        if let Some(from) = open
-            && before != count
-        {
-            let edge = if before > 0 {
-                Edge { line: common, from, to: point }
-            } else {
-                Edge { line: common, from: point, to: from }
-            };
-            push(left, edge)?;
-            open = None;
-        }
-        if count != 0 && open.is_none() {
-            open = Some(point);
-        }
-    }
-    Ok(true)
 }

@@ -6,9 +6,9 @@ use super::cell::Cell;
 use super::halving::{CUT, VISITED};
 use super::join::Groups;
 use super::order::{Ordered, cycles, order};
-use super::outline::Edge;
+use super::outline::Area;
 use super::pairs::Pair;
-use super::paths::{Drawing, add_edges, add_sides};
+use super::paths::{Drawing, add_piece};
 use super::reporter::{each, finish_item, sort_by, sort_unique};
 use super::rims::Rims;
 use super::stock::Stock;
@@ -148,26 +148,26 @@ impl Parts {
         let mut paths = Vec::new();
         reserve(&mut paths, count + 1)?;
         paths.push(0);
-        let mut edges = Vec::new();
+        let mut area = Area::default();
         for (i, &part) in ordered.order.iter().enumerate() {
             watch.work(CUT)?;
             let items = &self.items[part as usize];
             let shown = cells.as_ref().map(|cells| &cells[part as usize]);
             let is_clipped = ordered.is_clipped[part as usize];
-            edges.clear();
+            area.clear();
             match shown {
                 Some(cells) if cells.is_empty() => {}
                 Some(cells) if is_clipped => {
                     for cell in each(watch, VISITED, cells) {
-                        add_sides(cell?, &mut edges)?;
+                        area.push(&cell?.sides)?;
                     }
                 }
-                _ => counts.add_pieces(stock, rims, items, &mut edges, watch)?,
+                _ => counts.add_pieces(stock, rims, items, &mut area, watch)?,
             }
-            if !edges.is_empty() {
+            if !area.is_empty() {
                 let polygon = stock.polygon(items[0]);
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
-                drawing.push(polygon, is_part, &edges, watch)?;
+                drawing.push(polygon, is_part, &area, &rims.lines, watch)?;
             }
             paths.push(drawing.paths.len() as u32);
             finish_item(watch, i, count);
@@ -206,24 +206,24 @@ impl Counts {
         Ok(Self { of_face, of_polygon })
     }
 
-    /// Adds the edges of items, those of one face after another.
+    /// Adds items to an area, those of one face after another.
     fn add_pieces(
         &self,
         stock: &Stock<'_>,
         rims: &Rims<'_>,
         items: &[u32],
-        edges: &mut Vec<Edge>,
+        area: &mut Area,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         for same in items.chunk_by(|&a, &b| stock.face(a) == stock.face(b)) {
             let face = stock.face(same[0]);
             // The outline of a face is its own where none of its pieces is missing.
             if same.len() as u32 == self.of_face[face as usize] {
-                add_edges(&rims.lines, rims.known_outline(face), edges, watch)?;
+                add_piece(&rims.lines, rims.known_outline(face), area, watch)?;
                 continue;
             }
             for item in each(watch, CUT, same) {
-                add_edges(&rims.lines, rims.known_item(stock, *item?), edges, watch)?;
+                add_piece(&rims.lines, rims.known_item(stock, *item?), area, watch)?;
             }
         }
         Ok(())

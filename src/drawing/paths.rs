@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::cell::Cell;
 use super::half::Half;
 use super::lines::Lines;
-use super::outline::{Edge, outlines};
+use super::outline::Area;
 use super::overlaid::Overlaid;
 use super::tile::Tile;
 use crate::Error;
@@ -44,16 +44,17 @@ impl Drawing {
         Self { size, paths: vec![], outlines: vec![], corners: vec![], overlaid: vec![] }
     }
 
-    /// Adds a path that fills what edges go around.
+    /// Adds a path that fills an area.
     pub(super) fn push(
         &mut self,
         polygon: usize,
         is_clipped: bool,
-        edges: &[Edge],
+        area: &Area,
+        lines: &Lines<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        for outline in joined(edges, watch)? {
+        for outline in area.outlines(lines, watch)? {
             push(&mut self.outlines, self.corners.len() as u32)?;
             reserve(&mut self.corners, outline.len())?;
             self.corners.extend(outline);
@@ -102,9 +103,9 @@ impl<'d> Path<'d> {
 
     /// Its outlines, to be filled together by the nonzero rule, as far as the polygon is in the picture:
     /// each by its corners, in pixels from the centre of the first one, x to the right and y down,
-    /// clockwise around what is filled, counter-clockwise around holes. There is one at least. Those of a
-    /// folded polygon overlap. Where parts were joined, corners nearer to one another than 2⁻¹⁶ of a pixel
-    /// may be one, so that an outline is off by up to 2⁻¹⁵ there, and of needles that thin there is nothing.
+    /// clockwise around what is filled, counter-clockwise around holes. There is one at least, and each has three
+    /// corners at least. Those of a folded polygon overlap. Outlines are exact, and only their corners are rounded, each
+    /// by less than a millionth of a pixel: those of needles may have one place.
     pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
         let Drawing { outlines, corners, .. } = self.drawing;
         self.record.outlines.clone().map(move |outline| {
@@ -115,52 +116,18 @@ impl<'d> Path<'d> {
     }
 }
 
-/// The outlines of what edges go around. A single part is its outline. Those of a folded polygon lie on one
-/// another, and specks are smaller than outlines can be: there each is one of its own.
-pub(super) fn joined(edges: &[Edge], watch: &Watch<'_>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    let is_one =
-        edges.iter().position(|edge| edge.to == edges[0].from) == edges.len().checked_sub(1);
-    let joined = if is_one { None } else { outlines(edges, watch)? };
-    Ok(joined.unwrap_or_else(|| apart(edges)))
-}
-
-/// The outlines of convex parts, one after another.
-fn apart(edges: &[Edge]) -> Vec<Vec<[f64; 2]>> {
-    let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
-    let mut is_closed = true;
-    for edge in edges {
-        if is_closed {
-            parts.push(vec![]);
-        }
-        let Some(part) = parts.last_mut() else { continue };
-        part.push(edge.from);
-        is_closed = edge.to == part[0];
-    }
-    parts
-}
-
-pub(super) fn add_sides(cell: &Cell, edges: &mut Vec<Edge>) -> Result<(), Error> {
-    let n = cell.sides.len();
-    reserve(edges, n)?;
-    edges.extend((0..n).map(|i| {
-        let side = &cell.sides[i];
-        Edge { line: side.half.line(), from: side.start.at, to: cell.sides[(i + 1) % n].start.at }
-    }));
-    Ok(())
-}
-
-/// Adds the edges of a convex piece, as far as it is in the picture.
-pub(super) fn add_edges(
+/// Adds a convex piece to an area, as far as it is in the picture.
+pub(super) fn add_piece(
     lines: &Lines<'_>,
     halves: &[Half],
-    edges: &mut Vec<Edge>,
+    area: &mut Area,
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
     watch.work(halves.len())?;
     let Tile { low, high } = Tile::picture(lines.frame.rays.size());
     let picture = Cell::rectangle(lines, low, high);
-    if let Some(cell) = picture.within(lines, halves, None, watch)? {
-        add_sides(&cell, edges)?;
+    match picture.within(lines, halves, None, watch)? {
+        Some(cell) => area.push(&cell.sides),
+        None => Ok(()),
     }
-    Ok(())
 }

@@ -2,9 +2,9 @@
 
 use super::divided::Divided;
 use super::halving::VISITED;
+use super::lines::Lines;
 use super::map::VisibilityMap;
-use super::outline::Edge;
-use super::paths::{add_sides, joined};
+use super::outline::Area;
 use super::reporter::{each, finish_item, sort_by};
 use super::table::{Table, insert};
 use crate::Error;
@@ -34,7 +34,7 @@ impl VisibilityMap<'_> {
     ///
     /// If there is not enough memory, or if it was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
-        self.reporter.watch(2, |watch| self.stacks(watch)?.regions(watch))
+        self.reporter.watch(2, |watch| self.stacks(watch)?.regions(&self.rims.lines, watch))
     }
 
     /// What shows of polygons that lie one behind the other: a phase.
@@ -66,8 +66,9 @@ struct Stacks {
     layers: Vec<PolygonLayer>,
     /// Layers by what is before them and their polygons.
     numbers: Table<(u32, usize), u32>,
-    /// The edges of all parts of regions, and whose they are.
-    edges: Vec<(u32, Edge)>,
+    /// The parts of regions, and whose they are.
+    parts: Area,
+    of_parts: Vec<u32>,
 }
 
 impl Stacks {
@@ -96,62 +97,37 @@ impl Stacks {
             };
             own.push(number);
         }
-        let mut sides = Vec::new();
         for part in each(watch, VISITED, &divided.cells) {
             let part = part?;
-            add_sides(&part.cell, &mut sides)?;
-            reserve(&mut self.edges, sides.len())?;
-            let layer = own[part.layer as usize];
-            self.edges.extend(sides.drain(..).map(|edge| (layer, edge)));
+            self.parts.push(&part.cell.sides)?;
+            push(&mut self.of_parts, own[part.layer as usize])?;
         }
         Ok(())
     }
 
     /// The regions, in the order of their polygons: a phase.
-    fn regions(self, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
-        let Self { layers, edges, numbers } = self;
-        drop(numbers);
-        // Where the edges of each region begin, and then where they end.
-        let mut ends: Vec<usize> = collect(layers.iter().map(|_| 0))?;
-        for edge in each(watch, 1, &edges) {
-            ends[edge?.0 as usize] += 1;
+    fn regions(self, lines: &Lines<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
+        let Self { layers, parts, of_parts, .. } = self;
+        let layer = |part: u32| of_parts[part as usize];
+        let mut by_layer: Vec<u32> = collect(0..of_parts.len() as u32)?;
+        sort_by(&mut by_layer, watch, |&a, &b| layer(a).cmp(&layer(b)))?;
+        let mut all: Vec<(Vec<usize>, &[u32])> = Vec::new();
+        for own in by_layer.chunk_by(|&a, &b| layer(a) == layer(b)) {
+            let polygons = stack(&layers, layer(own[0]), watch)?;
+            push(&mut all, (polygons, own))?;
         }
-        let mut sum = 0;
-        for end in &mut ends {
-            sum += std::mem::replace(end, sum);
-        }
-        let none = Edge { line: 0, from: [0.0; 2], to: [0.0; 2] };
-        let mut grouped: Vec<Edge> = collect(edges.iter().map(|_| none))?;
-        for edge in each(watch, 1, edges) {
-            let (layer, edge) = edge?;
-            let end = &mut ends[layer as usize];
-            grouped[*end] = edge;
-            *end += 1;
-        }
-        let mut begin = 0;
-        let mut all: Vec<(Vec<usize>, &[Edge])> = Vec::new();
-        for (layer, &end) in (0..).zip(&ends) {
-            if begin < end {
-                let polygons = stack(&layers, layer, watch)?;
-                push(&mut all, (polygons, &grouped[begin..end]))?;
-            }
-            begin = end;
-        }
-        let mut order: Vec<usize> = collect(0..all.len())?;
-        sort_by(&mut order, watch, |&a, &b| all[a].0.cmp(&all[b].0))?;
+        sort_by(&mut all, watch, |(a, _), (b, _)| a.cmp(b))?;
         let count = all.len();
-        let region = |(i, at): (usize, usize)| {
-            let outlines = joined(all[at].1, watch)?;
+        let region = |(i, (polygons, own)): (usize, (Vec<usize>, &[u32]))| {
+            let mut area = Area::default();
+            for part in each(watch, VISITED, own) {
+                area.push(parts.part(*part? as usize))?;
+            }
+            let outlines = area.outlines(lines, watch)?;
             finish_item(watch, i, count);
-            Ok((at, outlines))
+            Ok(Region { polygons, outlines })
         };
-        let joined = parallel_map::map(order.into_iter().enumerate().collect(), region)?;
-        let mut regions = Vec::new();
-        reserve(&mut regions, count)?;
-        for (at, outlines) in joined {
-            regions.push(Region { polygons: std::mem::take(&mut all[at].0), outlines });
-        }
-        Ok(regions)
+        parallel_map::map(all.into_iter().enumerate().collect(), region)
     }
 }
 

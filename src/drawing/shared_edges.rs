@@ -26,6 +26,8 @@ pub(super) struct SharedEdge {
     pub(super) faces: SmallVec<[FaceEdge; 2]>,
     /// Where the edge of the first of the faces is in the picture; `None` if that does not show it as a line.
     pub(super) course: Option<Course>,
+    /// The side of that edge's line on which the picture lies, if it runs along a border of it; else `Equal`.
+    picture: Ordering,
     /// Where it shows: places along it.
     pub(super) visible: Vec<[f64; 2]>,
 }
@@ -79,10 +81,15 @@ pub(super) fn shared_edges(
             };
             if number == new {
                 let (first, k) = known[0];
-                let course = Sight::new(lines, faces.ends(first, k)).map(|sight| sight.course);
+                let sight = Sight::new(lines, faces.ends(first, k));
+                let (course, picture) = match sight {
+                    Some(Sight { course, picture, .. }) => (Some(course), picture),
+                    None => (None, Ordering::Equal),
+                };
                 // Lists of edges that grow by an eighth are moved too often.
                 all.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-                all.push(SharedEdge { faces: SmallVec::new(), course, visible: vec![] });
+                let faces = SmallVec::new();
+                all.push(SharedEdge { faces, course, picture, visible: vec![] });
             }
             for name in known {
                 all[number as usize].faces.push(name);
@@ -112,6 +119,14 @@ impl SharedEdge {
     pub(super) fn is_turned(&self, faces: &Faces, one: usize, other: usize) -> bool {
         let [a, b] = [one, other].map(|i| faces.given_start(self.faces[i].0, self.faces[i].1));
         a != b
+    }
+
+    /// Whether the face that has this number at the edge, and shows this side, is beside it in the picture. (A face whose
+    /// front is seen is where its edges are negative.)
+    pub(super) fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
+        let is_turned = self.is_turned(faces, 0, number);
+        let inside = if is_turned { side } else { side.reverse() };
+        self.picture.is_eq() || self.picture == inside
     }
 
     /// What it is, by the sides that its faces show.

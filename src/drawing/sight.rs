@@ -21,6 +21,8 @@ pub(super) struct Sight {
     /// The line of the picture that it is on.
     rounded: Rounded,
     pub(super) course: Course,
+    /// On which side of its line the picture lies, if it runs along a border of it; else `Equal`.
+    pub(super) picture: Ordering,
     /// A box around that part.
     around: Rect,
 }
@@ -63,7 +65,12 @@ impl Sight {
         let mut sight = Self::along(lines.rounded_edge(ends), Source::Points(ends))?;
         let [from, to] = match certain {
             Certain::Inside(ends) => ends.map(|end| sight.course.place(end)),
-            _ => sight.in_picture(lines, ends)?,
+            _ => {
+                let Tile { low, high } = Tile::picture(lines.frame.rays.size());
+                let picture = Cell::rectangle(lines, low, high);
+                sight.picture = beside(&sight.signs(lines, &picture));
+                sight.in_cell(lines, &picture, ends)?
+            }
         };
         if (to - from).is_nan() || to - from < SHORTEST {
             return None;
@@ -100,13 +107,13 @@ impl Sight {
         let slope = square.sqrt();
         let (foot, direction) = (-k0 / square, [ky / slope, -kx / slope]);
         let course = Course { foot: [foot * kx, foot * ky], direction, places: [0.0; 2] };
-        (slope > 0.0).then_some(Self { source, rounded, course, around: NOWHERE })
+        let picture = Ordering::Equal;
+        (slope > 0.0).then_some(Self { source, rounded, course, picture, around: NOWHERE })
     }
 
-    /// From where to where it is in the picture, by its ends.
-    fn in_picture(&self, lines: &Lines<'_>, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
-        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
-        let [mut from, mut to] = self.chord(lines, &Cell::rectangle(lines, low, high))?;
+    /// From where to where it is in a cell, by its ends.
+    fn in_cell(&self, lines: &Lines<'_>, cell: &Cell, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
+        let [mut from, mut to] = self.chord(lines, cell)?;
         let images = ends.map(|end| lines.frame.image(end));
         let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
         if is_ahead[0] {
@@ -157,10 +164,10 @@ impl Sight {
     /// exact, where is rounded.
     pub(super) fn chord(&self, lines: &Lines<'_>, cell: &Cell) -> Option<[f64; 2]> {
         let n = cell.sides.len();
-        let signs: SmallVec<[Ordering; 8]> = (0..n).map(|i| self.side(lines, cell, i)).collect();
+        let signs = self.signs(lines, cell);
         let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
         let mut ends: SmallVec<[f64; 2]> = SmallVec::new();
-        if signs.contains(&Ordering::Greater) && signs.contains(&Ordering::Less) {
+        if beside(&signs).is_eq() {
             for i in 0..n {
                 if signs[i].is_eq() {
                     ends.push(self.course.place(cell.sides[i].start.at));
@@ -177,7 +184,11 @@ impl Sight {
         Some([a.min(b), a.max(b)])
     }
 
-    /// On which side of the line a corner of a cell lies.
+    /// On which side of the line each corner of a cell lies.
+    fn signs(&self, lines: &Lines<'_>, cell: &Cell) -> SmallVec<[Ordering; 8]> {
+        (0..cell.sides.len()).map(|i| self.side(lines, cell, i)).collect()
+    }
+
     fn side(&self, lines: &Lines<'_>, cell: &Cell, corner: usize) -> Ordering {
         let Corner { at, radius } = cell.sides[corner].start;
         let value = self.rounded.at(at);
@@ -283,6 +294,12 @@ impl Course {
     pub(super) fn place_on(&self, point: [f64; 2]) -> f64 {
         self.place(point).clamp(self.places[0], self.places[1])
     }
+}
+
+/// On which side of a line a cell is whose corners are on these sides of it; `Equal` if it is on both.
+fn beside(signs: &[Ordering]) -> Ordering {
+    let sides = [Ordering::Greater, Ordering::Less].map(|side| signs.contains(&side));
+    sides[0].cmp(&sides[1])
 }
 
 /// The line in which rays meet the planes of two faces.

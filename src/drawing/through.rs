@@ -201,7 +201,9 @@ fn bent(
 ) -> Result<Option<Sight>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
     let faces = stock.frame.faces;
-    let Some(sight) = Sight::new(&rims.lines, faces.ends(face, k)) else { return Ok(None) };
+    let sight = Sight::new(&rims.lines, faces.ends(face, k));
+    // Along a border of the picture, there is nothing on the other side.
+    let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
     let common = match other_edge {
         Some(k) => Sight::new(&rims.lines, faces.ends(other, k)).map(|along| {
             let [a, b] = along.course.places.map(|at| sight.course.place(along.course.at(at)));

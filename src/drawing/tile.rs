@@ -44,6 +44,14 @@ impl Tile {
         parts
     }
 
+    /// Whether a half's line is one of its borders.
+    pub(super) fn has_border(&self, half: Half) -> bool {
+        half.number().is_none() && {
+            let (axis, steps) = half.border();
+            steps == self.low[axis] || steps == self.high[axis]
+        }
+    }
+
     /// Whether it is too small to be halved.
     pub(super) fn is_tiny(&self) -> bool {
         (0..2).all(|axis| self.high[axis] - self.low[axis] <= TINY)

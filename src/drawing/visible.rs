@@ -95,6 +95,7 @@ pub(super) fn visible<'t>(
                 *half = rims.lines.adopted(&found.rims.lines, *half, &mut adopted)?;
             }
         }
+        rims.lines.adopt_cuts(&found.rims.lines, &adopted)?;
         reserve(&mut leaves, found.leaves.len())?;
         leaves.append(&mut found.leaves);
         finish_item(watch, i, count);

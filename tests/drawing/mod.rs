@@ -4,6 +4,7 @@
 mod areas;
 mod bent;
 mod between;
+mod borders;
 mod coincidences;
 mod crossings;
 mod extremes;
@@ -19,6 +20,8 @@ mod pen;
 mod progress;
 mod same;
 mod scenes;
+mod seams;
+mod sheets;
 mod sightlines;
 mod silhouettes;
 mod translucent;

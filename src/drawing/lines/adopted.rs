@@ -34,6 +34,24 @@ impl Lines<'_> {
         Ok(own.flipped(half.is_negative()))
     }
 
+    /// Takes over which of another list's lines, of those that were taken over and of borders, are lines of cuts.
+    pub(in crate::drawing) fn adopt_cuts(
+        &mut self,
+        other: &Self,
+        Adopted(adopted): &Adopted,
+    ) -> Result<(), Error> {
+        for half in other.cuts.keys() {
+            let own = match half.number() {
+                Some(line) => adopted[line as usize].map(Half::positive),
+                None => Some(*half),
+            };
+            if let Some(own) = own {
+                insert(&mut self.cuts, own, ())?;
+            }
+        }
+        Ok(())
+    }
+
     /// The half on which another list's line is positive.
     fn adopted_line(&mut self, other: &Self, line: u32) -> Result<Half, Error> {
         let mut points = other.through[line as usize];

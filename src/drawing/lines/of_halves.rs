@@ -1,8 +1,7 @@
 //! The lines of halves, in floats and in integers.
 
 use super::Lines;
-use crate::drawing::feet::{Feet, Foot};
-use crate::drawing::frame::{ExactLine, is_opposite, is_same_line};
+use crate::drawing::frame::ExactLine;
 use crate::drawing::half::{Half, STEP_BITS, STEPS};
 use crate::drawing::key::rounded_edge;
 use crate::drawing::rounded::{ROUNDING, Rounded};
@@ -54,20 +53,5 @@ impl Lines<'_> {
                 k.map(Int::from)
             }
         }
-    }
-
-    /// The foot of a half's line.
-    pub(in crate::drawing) fn foot(&self, half: Half) -> Foot {
-        Foot::of(&self.rounded(half), self.reach)
-    }
-
-    /// That of some lines which is the line of a half, if there is one, and whether both are positive on the same
-    /// side.
-    pub(in crate::drawing) fn same_line(&self, lines: &Feet, half: Half) -> Option<(u32, bool)> {
-        let exact = self.exact(half);
-        lines.near(&self.foot(half)).find_map(|line| {
-            let other = self.exact_of(self.key(line));
-            is_same_line(&exact, &other).then(|| (line, !is_opposite(&exact, &other)))
-        })
     }
 }
