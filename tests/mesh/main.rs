@@ -6,6 +6,7 @@ mod junctions;
 mod order;
 #[path = "../support/mod.rs"]
 mod support;
+mod tips;
 
 use binspace::mesh::{Mesh, Triangles};
 use std::collections::HashMap;
