@@ -4,6 +4,7 @@ mod closed;
 mod exact;
 mod junctions;
 mod order;
+mod tips;
 
 use binspace::mesh::{Mesh, Triangles};
 use std::collections::HashMap;

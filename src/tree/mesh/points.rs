@@ -1,5 +1,8 @@
 //! Which nodes are the same point, and in which order the points of each line come.
 
+#[cfg(test)]
+mod tests;
+
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
@@ -7,7 +10,7 @@ use super::survey::{Node, Survey, ends};
 use super::union::Union;
 use crate::Error;
 use crate::exact::along::Fraction;
-use crate::exact::{POSITION_OFF, SymbolKind};
+use crate::exact::{POSITION_OFF, Symbol, SymbolKind};
 use crate::memory::reserve;
 
 /// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`]
@@ -75,12 +78,17 @@ impl Points {
 
     /// Sorts the ends on one line, unites those in one place, and notes the places.
     fn order(&mut self, survey: &Survey<'_>, line: usize, ends: &mut [End]) -> Result<(), Error> {
-        ends.sort_unstable_by(|a, b| self.compare(survey, line, a, b));
+        ends.sort_unstable_by(|a, b| compare(survey, line, a, b));
         reserve(&mut self.on_lines, ends.len())?;
         let mut last: Option<End> = None;
+        // What the edges as given have made one point may have two places on a line of a face whose corners
+        // were moved.
+        let is_one = |same: &Union, a: &End, b: &End| {
+            same.root(a.node) == same.root(b.node) || compare(survey, line, a, b).is_eq()
+        };
         for end in ends.iter() {
             match last {
-                Some(last) if self.compare(survey, line, &last, end).is_eq() => {
+                Some(last) if is_one(&self.same, &last, end) => {
                     self.same.unite(last.node, end.node);
                 }
                 _ => self.on_lines.push(end.node),
@@ -91,31 +99,36 @@ impl Points {
         }
         Ok(())
     }
-
-    fn compare(&self, survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
-        let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
-        // A rounded coordinate that is not to be relied on is NaN, and then no difference is large.
-        if (a.rounded - b.rounded).abs() > slack {
-            return a.rounded.total_cmp(&b.rounded);
-        }
-        if self.root(a.node) == self.root(b.node) || is_same_cut(survey, line, a.node, b.node) {
-            return Ordering::Equal;
-        }
-        let [a, b] = [a, b].map(|end| coordinate(survey, line, end.node));
-        a.compare(&b)
-    }
 }
 
-/// Whether two nodes on a line that faces share are where the same plane cuts it.
-fn is_same_cut(survey: &Survey<'_>, line: usize, a: Node, b: Node) -> bool {
-    let plane = |node| match survey.cut(node) {
-        Some((face, symbol)) => match symbol.kind() {
-            SymbolKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
-            _ => None,
-        },
-        None => None,
+/// How two ends on a line compare: as their [`coordinate`]s there do, whatever is known of their points. So
+/// it is a total order.
+fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
+    let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
+    // A rounded coordinate that is not to be relied on is NaN, and then no difference is large.
+    if (a.rounded - b.rounded).abs() > slack {
+        return a.rounded.total_cmp(&b.rounded);
+    }
+    if a.node == b.node || is_same_place(survey, line, a, b) {
+        return Ordering::Equal;
+    }
+    let [a, b] = [a, b].map(|end| coordinate(survey, line, end.node));
+    a.compare(&b)
+}
+
+/// Whether two ends on a line that faces share are corners given there in one place, or where the same
+/// plane cuts it.
+fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
+    let plane = |(face, symbol): (u32, Symbol)| match symbol.kind() {
+        SymbolKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
+        _ => None,
     };
-    survey.carriers[line].face.is_none() && plane(a).is_some() && plane(a) == plane(b)
+    survey.carriers[line].face.is_none()
+        && match [a, b].map(|end| survey.cut(end.node)) {
+            [None, None] => a.rounded == b.rounded,
+            [Some(a), Some(b)] => plane(a).is_some() && plane(a) == plane(b),
+            _ => false,
+        }
 }
 
 fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
@@ -133,7 +146,7 @@ pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fracti
         (None, None) => Fraction::whole(faces.given_corner(node)[carrier.axis]),
         (None, Some(face)) => {
             let first = faces.corner_range(face).start as u32;
-            faces.along(face, crate::exact::Symbol::corner(node - first), carrier.axis)
+            faces.along(face, Symbol::corner(node - first), carrier.axis)
         }
         (Some((face, symbol)), None) => {
             let given = match symbol.kind() {

@@ -1,0 +1,81 @@
+//! The order of points along lines, of faces whose corners were moved.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+
+use super::{Points, by_line, compare};
+use crate::random::SplitMix64;
+use crate::tree::BspTree;
+use crate::tree::mesh::survey::Survey;
+use crate::{BuildOptions, Heuristic};
+
+/// By how much a corner is below the plane of the others.
+const OFF: f64 = 1.0 / 64.0;
+
+/// A quad whose topmost corner is given below the plane of the others, by less than the tolerance, and is
+/// moved up onto it; a floor through that corner as given, which cuts off a tip of the quad as moved, though
+/// none of it as given; and triangles that cut the tip.
+fn tip(triangles: usize, random: &mut SplitMix64) -> BspTree {
+    let quad = [[2.0, 1.0, -2.625], [4.0, 4.0, -7.0], [1.0, 2.0, -2.625], [0.0, 0.0, -OFF]];
+    let floor = [(-3.0, -3.0), (-2.0, -3.0), (-2.0, -2.0), (-3.0, -2.0)].map(|(x, y)| [x, y, -OFF]);
+    let mut polygons = vec![floor.map(DVec3::from).to_vec()];
+    for _ in 0..triangles {
+        // From one of the ends of the cut to the other, at this height.
+        let share = random.range(0.1, 0.9);
+        let at = DVec3::new(1.0 + share, 2.0 - share, -2.625) * (OFF / 2.625);
+        let [u, v] = [(); 2].map(|()| random.point(-1.0, 1.0));
+        polygons.push(vec![at + u, at - u + v, at - u - v]);
+    }
+    // Last, so that all others cut it.
+    polygons.push(quad.map(DVec3::from).to_vec());
+    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+    options.with_tolerance(OFF / 1.25).build(polygons).unwrap()
+}
+
+/// Whether any three ends on each line compare as numbers do. How many pairs on lines are at one point
+/// though they are at different places of the line.
+fn check(tree: &BspTree) -> usize {
+    let survey = Survey::new(tree).unwrap();
+    let points = Points::new(&survey).unwrap();
+    let (all, starts) = by_line(&survey).unwrap();
+    let mut apart = 0;
+    for (line, range) in starts.windows(2).enumerate() {
+        let ends = &all[range[0] as usize..range[1] as usize];
+        let order = |a: usize, b: usize| compare(&survey, line, &ends[a], &ends[b]);
+        for a in 0..ends.len() {
+            for b in 0..ends.len() {
+                assert_eq!(order(a, b), order(b, a).reverse(), "line {line}");
+                let is_one = points.root(ends[a].node) == points.root(ends[b].node);
+                apart += usize::from(is_one && order(a, b).is_ne());
+                for c in 0..ends.len().min(60) {
+                    let [ab, bc, ac] = [order(a, b), order(b, c), order(a, c)];
+                    if ab != Ordering::Greater && bc != Ordering::Greater {
+                        assert_eq!(ac, ab.min(bc), "line {line}");
+                    }
+                }
+            }
+        }
+    }
+    apart
+}
+
+#[test]
+fn ends_on_a_line_of_a_face_with_moved_corners_have_a_total_order() {
+    let mut random = SplitMix64::new(1);
+    let mut apart = 0;
+    for triangles in [1, 1, 1, 2, 2, 3, 3, 4, 6] {
+        apart += check(&tip(triangles, &mut random));
+    }
+    assert!(apart > 0, "no point has two places on a line");
+}
+
+/// So many ends that a sort by an order with a contradiction panics.
+#[test]
+fn a_face_with_moved_corners_does_not_make_a_sort_panic() {
+    for (triangles, seed) in [(8, 8), (9, 10), (10, 10), (11, 10)] {
+        let tree = tip(triangles, &mut SplitMix64::new(seed));
+        tree.mesh().unwrap();
+        tree.welded_mesh().unwrap();
+    }
+}
