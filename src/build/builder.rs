@@ -4,6 +4,7 @@ mod arena;
 mod divide;
 mod emit;
 mod leaf;
+mod settle;
 mod state;
 mod table;
 mod tabled;
@@ -74,15 +75,15 @@ impl<K: Kernel> Builder<'_, K> {
                 Choice::Split(plane) => plane,
                 Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),
             };
-            self.classify(start, plane)?;
+            let plane = self.settle(start, plane)?;
             if self.makes_progress(count) {
                 self.divide(start, plane)?;
                 plane
             } else {
                 // Free planes are counted by rounded distances, so exact decisions can show that one
                 // separates nothing. A piece's own plane always does.
-                let plane = PlaneId::face(self.pieces[start].face);
-                self.partition(start, plane)?;
+                let plane = self.settle(start, PlaneId::face(self.pieces[start].face))?;
+                self.divide(start, plane)?;
                 plane
             }
         };

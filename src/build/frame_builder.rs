@@ -5,6 +5,8 @@ use std::fmt;
 use super::driver::FrameMemory;
 use super::options::BuildOptions;
 use crate::error::Error;
+#[cfg(feature = "layers")]
+use crate::exact::Faces;
 use crate::input::Polygon;
 use crate::tree::BspTree;
 
@@ -64,8 +66,20 @@ impl FrameBuilder {
         &mut self,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<&BspTree, Error> {
-        self.memory.rebuild(&mut self.tree, &self.options, polygons)?;
+        self.memory.rebuild(&mut self.tree, &self.options, polygons, false, |_| Ok(()))?;
         Ok(&self.tree)
+    }
+
+    /// Builds a tree of polygons that are flat by definition, those of each group in one plane.
+    #[cfg(feature = "layers")]
+    pub(crate) fn build_in_planes<'g, P: Polygon>(
+        &mut self,
+        polygons: impl IntoIterator<Item = P>,
+        mut groups: impl Iterator<Item = &'g [u32]>,
+    ) -> Result<(), Error> {
+        let arrange =
+            |faces: &mut Faces| groups.try_for_each(|group| faces.put_into_one_plane(group));
+        self.memory.rebuild(&mut self.tree, &self.options, polygons, true, arrange)
     }
 
     /// The last tree that was built.

@@ -110,11 +110,11 @@ impl Live {
     }
 
     /// A point on the plane of its face: a vertex of the piece, as of one far away the rounding of the
-    /// normal would count. (Of a whole face, only three corners are certain to lie on it, others within
-    /// the tolerance.)
+    /// normal would count.
     pub(crate) fn point<V: Vertex>(&self, faces: &Faces, arena: &[V]) -> DVec3 {
         DVec3::from_array(match self.piece(arena).cut {
-            None => faces.corner(faces.reference_triangle(self.face)[0]),
+            // On the plane, or within half a step of it.
+            None => faces.corners(self.face)[0],
             Some(cut) => cut[0].position(),
         })
     }

@@ -14,8 +14,10 @@ impl Faces {
     pub(crate) fn barycentric(&self, face: u32, vertex: Symbol) -> SmallVec<[(u32, f64); 3]> {
         let len = self.corners(face).len() as u32;
         let edge = |k: u32| [k, (k + 1) % len];
+        if let SymbolKind::Corner(k) = vertex.kind() {
+            return SmallVec::from_slice(&[(k, 1.0)]);
+        }
         match (vertex.kind(), self.weights(face, vertex)) {
-            (SymbolKind::Corner(k), _) => SmallVec::from_slice(&[(k, 1.0)]),
             (SymbolKind::OnEdge(k, _), Weights::Edge(_, weights)) => shares(edge(k), weights),
             (SymbolKind::OnEdge(k, _), _) => {
                 // The edge of a face that is planar only by definition: the exact weights are over
@@ -27,14 +29,24 @@ impl Faces {
                 let [a, b] = edge(k);
                 SmallVec::from_slice(&[(a, 1.0 - t), (b, t)])
             }
-            (SymbolKind::Inside(..), weights) => {
-                let triangle = self.faces[face as usize].frame.triangle();
-                match weights {
-                    Weights::Inside(_, weights) => shares(triangle, weights),
-                    _ => SmallVec::new(),
-                }
+            (_, Weights::Inside(_, weights)) if self.has_own_plane(face) => {
+                shares(self.faces[face as usize].frame.triangle(), weights)
             }
+            // The exact weights are over corners of other faces.
+            _ => self.rounded_shares(face, self.position(face, vertex)),
         }
+    }
+
+    /// The weights of a point of a face's plane over the face's own corners, by its rounded position.
+    fn rounded_shares(&self, face: u32, position: [f64; 3]) -> SmallVec<[(u32, f64); 3]> {
+        let triangle = self.faces[face as usize].frame.triangle();
+        let [a, b, c] = triangle.map(|k| DVec3::from(self.corners(face)[k as usize]));
+        let normal = (b - a).cross(c - a);
+        let point = DVec3::from(position);
+        let area = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(normal);
+        let areas = [area(b, c), area(c, a), area(a, b)];
+        let total: f64 = areas.iter().sum();
+        triangle.into_iter().zip(areas).map(|(k, area)| (k, area / total)).collect()
     }
 }
 

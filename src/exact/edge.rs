@@ -54,6 +54,7 @@ impl Faces {
     /// Whether corner `k` is one of the three that define its face's plane. Others are within half a
     /// step of it along the axis, which 128 bits hold.
     fn is_on_triangle(&self, face: u32, k: u32) -> bool {
-        self.faces[face as usize].frame.triangle().contains(&k)
+        let first = self.faces[face as usize].start;
+        self.reference_triangle(face).contains(&(first + k))
     }
 }

@@ -1,5 +1,7 @@
 //! The faces of a scene: convex, planar, on the lattice.
 
+#[cfg(feature = "layers")]
+mod one_plane;
 #[cfg(feature = "save")]
 mod saved;
 
@@ -30,6 +32,9 @@ pub struct Faces {
     /// The corners, counted over all faces, that were moved onto their face's plane, and where they
     /// were. In ascending order.
     pub(crate) moved: Vec<(u32, [f64; 3])>,
+    /// For each face, the three corners that define its plane, where some are of other faces; empty if
+    /// each face's plane is that of its own reference triangle.
+    pub(crate) planes: Vec<[u32; 3]>,
     pub(crate) thin: Thin,
 }
 
@@ -164,8 +169,21 @@ impl Faces {
     #[doc(hidden)]
     #[inline]
     pub fn reference_triangle(&self, face: u32) -> [u32; 3] {
+        match self.planes.get(face as usize) {
+            Some(&triangle) => triangle,
+            None => self.own_triangle(face),
+        }
+    }
+
+    #[inline]
+    fn own_triangle(&self, face: u32) -> [u32; 3] {
         let face = &self.faces[face as usize];
         face.frame.triangle().map(|k| face.start + k)
+    }
+
+    /// Whether corners of the face itself define its plane.
+    pub(crate) fn has_own_plane(&self, face: u32) -> bool {
+        self.reference_triangle(face) == self.own_triangle(face)
     }
 
     /// Adds a face.
@@ -243,6 +261,7 @@ impl Faces {
     /// Removes the faces from number `faces` on, and with them all that have no area.
     pub(crate) fn truncate(&mut self, faces: usize) {
         self.thin = Thin::default();
+        self.planes.truncate(faces);
         let Some(face) = self.faces.get(faces) else { return };
         let (corners, first) = (face.start, faces as u32);
         self.faces.truncate(faces);
@@ -262,5 +281,6 @@ impl Faces {
             + size_of_val(&*self.numbered)
             + size_of_val(&*self.faces)
             + size_of_val(&*self.moved)
+            + size_of_val(&*self.planes)
     }
 }

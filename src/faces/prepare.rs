@@ -70,6 +70,8 @@ pub(crate) struct Preparer {
     outlines: Outlines,
     /// What the lattice has to hold besides the polygons.
     room: Option<[DVec3; 2]>,
+    /// Whether all polygons are flat by definition.
+    pub(crate) are_flat: bool,
 }
 
 impl Preparer {
@@ -93,6 +95,7 @@ impl Preparer {
         let precision = Precision::new(self.input.precision, own);
         let lattice = Lattice::new(min, max);
         let ground = Ground::new(lattice, [min, max], tolerance, precision);
+        let ground = if self.are_flat { ground.of_flat_polygons() } else { ground };
         self.builder.faces = kept;
         self.builder.faces.lattice = lattice;
         self.builder.faces.tolerance = ground.tolerance;

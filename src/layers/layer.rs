@@ -48,6 +48,21 @@ impl Layer {
         is_seen.then_some(local.to_array())
     }
 
+    /// A number that is the same for layers of [one plane](Self::shares_plane), and rarely for others.
+    pub(super) fn plane_key(&self) -> u64 {
+        let numbers = self.rows.iter().flat_map(|row| row.to_array());
+        // 0 and −0 are equal.
+        let add = |key: u64, number: f64| {
+            (key.rotate_left(5) ^ (number + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        };
+        numbers.fold(0, add)
+    }
+
+    /// Whether its plane is another layer's by definition: their matrices are equal.
+    pub(super) fn shares_plane(&self, other: &Self) -> bool {
+        self.rows == other.rows
+    }
+
     /// The corners (u, v) of the rectangle; edge k runs from corner k to the next.
     pub(super) fn corners(&self) -> [DVec2; 4] {
         let Self { low, high, .. } = *self;

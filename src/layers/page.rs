@@ -45,6 +45,8 @@ pub struct Layers {
     outlines: Vec<Outline>,
     /// The corners of all outlines.
     corners: Vec<ClippedCorner>,
+    /// All outlines, those of one plane in a row.
+    by_plane: Vec<u32>,
     builder: FrameBuilder,
     /// Whether the builder's tree is of the last frame.
     is_built: bool,
@@ -57,6 +59,8 @@ pub struct Layers {
 #[derive(Clone, Debug)]
 struct Outline {
     layer: usize,
+    /// Equal for layers of one plane.
+    plane_key: u64,
     /// Where its corners begin; they end where the next outline's begin.
     corners: usize,
     pieces: usize,
@@ -72,6 +76,7 @@ impl Layers {
             layers: Vec::new(),
             outlines: Vec::new(),
             corners: Vec::new(),
+            by_plane: Vec::new(),
             builder: FrameBuilder::new(BuildOptions::DEFAULT),
             is_built: false,
             order: Vec::new(),
@@ -166,7 +171,8 @@ impl Layers {
             let corners = self.corners.len();
             if let Some(precision) = clip(from, limits, &mut self.corners) {
                 coarsest = coarsest.max(precision);
-                self.outlines.push(Outline { layer, corners, pieces: 0 });
+                let plane_key = from.plane_key();
+                self.outlines.push(Outline { layer, plane_key, corners, pieces: 0 });
             }
         }
         Ok(coarsest)
@@ -174,11 +180,18 @@ impl Layers {
 
     /// The only place where a tree is built.
     fn build(&mut self, tolerance: f64) -> Result<(), Error> {
-        let Self { builder, outlines, corners, .. } = self;
+        let Self { builder, layers, outlines, corners, by_plane, .. } = self;
         let polygons = (0..outlines.len()).map(|k| Clipped(corners_of(outlines, corners, k)));
+        by_plane.clear();
+        reserve(by_plane, outlines.len())?;
+        by_plane.extend(0..outlines.len() as u32);
+        by_plane.sort_unstable_by_key(|&k| outlines[k as usize].plane_key);
+        let planes = by_plane.chunk_by(|&a, &b| {
+            let [a, b] = [a, b].map(|k| &outlines[k as usize]);
+            a.plane_key == b.plane_key && layers[a.layer].shares_plane(&layers[b.layer])
+        });
         builder.set_options(BuildOptions::DEFAULT.with_tolerance(tolerance));
-        builder.build(polygons)?;
-        Ok(())
+        builder.build_in_planes(polygons, planes)
     }
 
     fn corners_of(&self, outline: usize) -> &[ClippedCorner] {

@@ -63,21 +63,25 @@ impl<'p> LayerPiece<'p> {
     }
 
     /// Whether it covers a point of the screen, or comes as near to it as `slack`.
+    ///
+    /// By a ray along x, which the outline crosses an odd number of times, and by distances from the
+    /// edges: not by sides of lines, as that of an edge no longer than its rounding points anywhere.
     pub(super) fn covers(&self, at: DVec2, slack: f64) -> bool {
         let mut vertices = self.vertices().map(|vertex| vertex.position.truncate());
         let Some(first) = vertices.next() else { return false };
-        let (mut from, mut low, mut high) = (first, f64::INFINITY, f64::NEG_INFINITY);
-        let mut bounds = [first, first];
+        let (mut from, mut is_inside) = (first, false);
         for to in vertices.chain([first]) {
-            let side = to - from;
-            // How far the point is to one side of the edge; nothing of an edge without length.
-            let off = side.perp_dot(at - from) / side.length();
-            (low, high) = (low.min(off), high.max(off));
-            bounds = [bounds[0].min(to), bounds[1].max(to)];
+            let (edge, arm) = (to - from, at - from);
+            // Where on the edge the nearest point is; NaN of an edge without length.
+            let share = (arm.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+            let nearest = if share > 0.0 { edge * share } else { DVec2::ZERO };
+            if arm.distance_squared(nearest) <= slack * slack {
+                return true;
+            }
+            let crosses = (from.y > at.y) != (to.y > at.y);
+            is_inside ^= crosses && arm.x < edge.x * (arm.y / edge.y);
             from = to;
         }
-        // Pieces run either way around: the front or the back is seen.
-        let is_near = at.clamp(bounds[0] - slack, bounds[1] + slack) == at;
-        is_near && (low >= -slack || high <= slack)
+        is_inside
     }
 }

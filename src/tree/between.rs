@@ -52,9 +52,12 @@ mod tests {
     use crate::random::SplitMix64;
     use crate::{BuildOptions, Heuristic, scene};
 
+    /// For a pair of fragments: the plane between them, and on which side of it each is.
+    type Entry = Option<(PlaneId, [Ordering; 2])>;
+
     /// The plane between any two fragments by the ranges of all nodes, in a table: a pair that
     /// is not on one side of a plane is parted there, and nowhere else.
-    fn table(tree: &BspTree) -> Vec<Vec<Option<(PlaneId, [Ordering; 2])>>> {
+    fn table(tree: &BspTree) -> Vec<Vec<Entry>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {
             let plane = node.plane();

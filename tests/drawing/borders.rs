@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::sheets::{Sheet, from_above, stack, tree_of};
-use super::support::dice::Dice;
 use binspace::drawing::VisibilityMap;
 use binspace::raster::Rays;
+use testkit::dice::Dice;
 
 /// The ends of an edge, the lower first.
 type Ends = [[i64; 3]; 2];

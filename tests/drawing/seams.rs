@@ -4,12 +4,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
-use super::support::dice::Dice;
 use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use testkit::dice::Dice;
 
 type Outline = Vec<[f64; 2]>;
 

@@ -1,9 +1,9 @@
 //! Rectangles over a grid, seen from above: what shows of them where is known in integers.
 
-use super::support::dice::Dice;
 use binspace::glam::DVec3;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
+use testkit::dice::Dice;
 
 pub(crate) type Corners = Vec<[f64; 3]>;
 

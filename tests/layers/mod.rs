@@ -4,10 +4,13 @@
 mod drawn;
 mod hit;
 mod hostile;
+mod neighbours;
+mod one_plane;
 mod oracle;
 mod order;
 mod outline;
 mod planes;
+mod short_edges;
 
 use binspace::glam::{DMat4, dvec3};
 use binspace::layers::{Layer, Layers};

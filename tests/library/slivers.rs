@@ -227,7 +227,6 @@ fn nothing_further_off_than_the_tolerance_is_coplanar() {
                 }
             }
         }
-        println!("{number}: {score:?}");
         assert!(score.nearly_on > 50 && score.beside > 500 && score.lost > 20, "{score:?}");
     }
 }

@@ -6,6 +6,7 @@ mod extend;
 mod faults;
 mod frames;
 mod input;
+mod one_plane;
 mod order;
 mod picture;
 mod progress;

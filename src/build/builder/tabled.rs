@@ -5,7 +5,7 @@ use super::state::{Builder, Pending, Shared};
 use super::table::{Open, Row, SLOTS, Slot};
 use crate::Error;
 use crate::bits::bits;
-use crate::build::choose::{Best, Quick, Rules, Set, cross};
+use crate::build::choose::{Best, Quick, Rules, Set, crosses};
 use crate::build::live::Live;
 use crate::exact::{Kernel, PlaneId, Side};
 use crate::memory::{push, reserve};
@@ -78,48 +78,78 @@ impl<K: Kernel> Builder<'_, K> {
     /// free plane that cuts nothing, or the best of its own. (Where an own plane cannot be trusted, free
     /// planes come first.)
     fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row<K>, Error> {
-        let (own, ends_search) = self.best_own_of_table(set, quick)?;
-        if ends_search {
-            return Ok(own);
+        let (slot, ends_search) = self.best_own_of_table(set, quick)?;
+        if !ends_search && let Some(free) = self.free_of_table(set)? {
+            return Ok(free);
         }
-        Ok(self.free_of_table(set)?.unwrap_or(own))
+        self.settle_row(set, slot)
     }
 
-    /// The best own plane of a set, and whether no free plane is better.
-    fn best_own_of_table(&mut self, set: u64, quick: &Quick) -> Result<(Row<K>, bool), Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let table = &mut self.table;
-        let pieces = bits(set).map(|slot| &table.slots[slot].piece);
-        let Rules { tuning, watch, .. } = self.shared.rules;
+    /// The slot of the best own plane of a set, and whether no free plane is better.
+    fn best_own_of_table(&mut self, set: u64, quick: &Quick) -> Result<(usize, bool), Error> {
+        let Shared { faces, rules: Rules { tuning, .. }, .. } = self.shared;
         let mut best: Option<Best> = None;
         for slot in bits(set) {
-            let Slot { piece, row } = &table.slots[slot];
-            let plane = &mut table.planes[*row];
-            let unknown = set & !plane.known;
-            if unknown != 0 {
-                watch.work(unknown.count_ones() as usize)?;
-            }
-            for other in bits(unknown) {
-                let piece = table.slots[other].piece.piece(&self.arena);
-                plane.set(other, kernel.classify(faces, &plane.splitter, piece));
-            }
-            let cut = set & plane.front & plane.back;
+            let row = self.table.slots[slot].row;
+            self.complete(set, row)?;
+            let Row { front, back, .. } = self.table.planes[row];
+            let cut = set & front & back;
             // What crosses the piece has to be cut anyway, or the piece.
-            if cut != 0
+            let is_needed = cut != 0
                 && cut.count_ones() as usize <= quick.crossings
-                && bits(cut).all(|cut| cross(faces, &self.arena, piece, &table.slots[cut].piece))
-            {
-                return Ok((*plane, true));
+                && self.cuts_what_crosses(slot, cut)?;
+            let slots = &self.table.slots;
+            if is_needed && !quick.is_coarse(faces) {
+                return Ok((slot, true));
             }
-            let best = best.get_or_insert_with(|| Best::new(pieces.clone(), faces, tuning, quick));
-            best.see(slot, piece, [set & plane.front, set & plane.back]);
+            let best = best.get_or_insert_with(|| {
+                Best::new(bits(set).map(|slot| &slots[slot].piece), faces, tuning, quick)
+            });
+            let piece = &slots[slot].piece;
+            if is_needed && best.is_trusted(piece) {
+                return Ok((slot, true));
+            }
+            best.see(slot, piece, [set & front, set & back]);
             if best.is_even() {
                 break;
             }
         }
         let first = set.trailing_zeros() as usize;
-        let own = table.planes[table.slots[best.as_ref().map_or(first, Best::slot)].row];
-        Ok((own, best.is_some_and(|best| best.is_sure())))
+        let slot = best.as_ref().map_or(first, Best::slot);
+        Ok((slot, best.is_some_and(|best| best.is_sure())))
+    }
+
+    /// Finds out where pieces lie against a plane of which that is not known.
+    pub(super) fn complete(&mut self, set: u64, row: usize) -> Result<(), Error> {
+        let Shared { kernel, faces, rules, .. } = self.shared;
+        let table = &mut self.table;
+        let row = &mut table.planes[row];
+        let unknown = set & !row.known;
+        if unknown != 0 {
+            rules.watch.work(unknown.count_ones() as usize)?;
+        }
+        for slot in bits(unknown) {
+            let piece = table.slots[slot].piece.piece(&self.arena);
+            row.set(slot, kernel.classify(faces, &row.splitter, piece));
+        }
+        Ok(())
+    }
+
+    /// Whether all of some pieces that the plane of a piece cuts cross the piece, and have planes that
+    /// cut it.
+    fn cuts_what_crosses(&mut self, slot: usize, cut: u64) -> Result<bool, Error> {
+        for other in bits(cut) {
+            let row = self.table.slots[other].row;
+            self.complete(1 << slot, row)?;
+            let Row { front, back, .. } = self.table.planes[row];
+            let [piece, other] = [slot, other].map(|slot| &self.table.slots[slot].piece);
+            if front & back & 1 << slot == 0
+                || !crosses(self.shared.faces, &self.arena, piece, other)
+            {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// A free plane that cuts nothing of a set.

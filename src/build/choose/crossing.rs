@@ -1,70 +1,113 @@
 //! Whether two pieces cross.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use crate::build::live::Live;
-use crate::exact::{Faces, Vertex};
+use crate::exact::{Faces, RoundedNormal, Vertex};
 
-/// Whether two pieces cross: any tree has to cut one of the two.
+/// How far a plane may be off at a vertex, in the `size` of its rounded normal. The vertex is rounded by
+/// less than 1 lattice unit, and its difference from the plane's point, which is below 2⁵³, by ½. The
+/// normal's components are off by 2⁻⁵² of their shares of the size together, and their products and sums
+/// by as much again: 4 units.
+const PLANE_OFF: f64 = 6.0;
+/// How far a coordinate of the difference of two vertices may be off, in lattice units: each vertex is
+/// rounded by less than 1, and the difference by ½.
+const ARM_OFF: f64 = 2.5;
+/// How far the determinant of three vectors may be off by its own rounding, per product of the largest
+/// coordinate of each: six products of three factors, and their sums.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Whether two pieces certainly cross: no tree leaves both whole, except by its tolerance.
 ///
-/// Each is cut by the plane of the other along a segment of the line in which the two planes meet
-/// (Möller, “A fast triangle-triangle intersection test”, 1997).
-pub(in crate::build) fn cross<V: Vertex>(faces: &Faces, arena: &[V], a: &Live, b: &Live) -> bool {
-    let [normal, other] = [a, b].map(|live| faces.normal(live.face));
-    let line = normal.cross(other);
-    let [low, high] = segment(faces, arena, a, (b.point(faces, arena), other), line);
-    let [other_low, other_high] = segment(faces, arena, b, (a.point(faces, arena), normal), line);
-    low.max(other_low) < high.min(other_high)
+/// Each is cut by the plane of the other along a segment of the line in which the two planes meet, and
+/// the segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
+/// orientation predicates”, 2003). Where rounding may decide that, as of pieces that only touch or lie
+/// nearly in one plane, they do not cross.
+pub(in crate::build) fn crosses<V: Vertex>(faces: &Faces, arena: &[V], a: &Live, b: &Live) -> bool {
+    let Some(one) = Ends::of(faces, arena, a, b.face) else { return false };
+    let Some(other) = Ends::of(faces, arena, b, a.face) else { return false };
+    // Along the line, in the direction in which the front of `b` is on the left in the plane of `a`, the
+    // last point of `a` is where it comes to the front of `b`, and the first of `b` where it comes to
+    // that of `a`.
+    let [p, q] = one.to_back;
+    is_positive(one.to_front, other.to_front) && is_positive([q, p], other.to_back)
 }
 
-/// From where to where a piece reaches along a line of a plane, where that cuts it.
-fn segment<V: Vertex>(
-    faces: &Faces,
-    arena: &[V],
-    live: &Live,
-    (point, normal): (DVec3, DVec3),
-    line: DVec3,
-) -> [f64; 2] {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut see = |[from, to]: [DVec3; 2], [before, after]: [f64; 2]| {
-        let here = line.dot(from + (to - from) * (before / (before - after)));
-        (low, high) = (low.min(here), high.max(here));
-    };
-    let mut first = None;
-    let mut last = (DVec3::ZERO, 0.0);
-    live.for_each_vertex(faces, arena, |vertex| {
-        let vertex = DVec3::from_array(vertex);
-        let off = normal.dot(vertex - point);
-        if first.is_none() {
-            first = Some((vertex, off));
-        } else if (off > 0.0) != (last.1 > 0.0) {
-            see([last.0, vertex], [last.1, off]);
-        }
-        last = (vertex, off);
-    });
-    if let Some((vertex, off)) = first
-        && (off > 0.0) != (last.1 > 0.0)
-    {
-        see([last.0, vertex], [last.1, off]);
+/// The edges in which a convex outline passes a plane.
+struct Ends {
+    to_front: [DVec3; 2],
+    to_back: [DVec3; 2],
+}
+
+impl Ends {
+    /// Those of a piece and the plane of a face; `None` if the outline may not pass it.
+    fn of<V: Vertex>(faces: &Faces, arena: &[V], live: &Live, plane: u32) -> Option<Self> {
+        let triangle = faces.triangle(plane);
+        let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
+        let (normal, through) = (DVec3::from(normal), DVec3::from(triangle[0]));
+        let (mut to_front, mut to_back) = (None, None);
+        let mut see = |(from, before): (DVec3, Ordering), (to, after): (DVec3, Ordering)| match (
+            before, after,
+        ) {
+            (Ordering::Less, Ordering::Greater) => to_front = Some([from, to]),
+            (Ordering::Greater, Ordering::Less) => to_back = Some([from, to]),
+            _ => {}
+        };
+        let (mut first, mut last) = (None, None);
+        live.for_each_vertex(faces, arena, |vertex| {
+            let vertex = DVec3::from(vertex);
+            let distance = normal.dot(vertex - through);
+            let is_certain = distance.abs() > PLANE_OFF * size;
+            let side = if is_certain { distance.total_cmp(&0.0) } else { Ordering::Equal };
+            let here = (vertex, side);
+            match last {
+                None => first = Some(here),
+                Some(last) => see(last, here),
+            }
+            last = Some(here);
+        });
+        see(last?, first?);
+        Some(Self { to_front: to_front?, to_back: to_back? })
     }
-    [low, high]
+}
+
+/// Whether the volume that two edges span is certainly positive.
+fn is_positive([p, q]: [DVec3; 2], [r, s]: [DVec3; 2]) -> bool {
+    let arms = [q - p, r - p, s - p];
+    let volume = arms[0].dot(arms[1].cross(arms[2]));
+    // Six products, in each of which every factor may be off.
+    let [a, b, c] = arms.map(|arm| arm.abs().max_element());
+    let (product, most) = (a * b * c, (a + ARM_OFF) * (b + ARM_OFF) * (c + ARM_OFF));
+    volume > 6.0 * (most - product) + ROUNDING * most
 }
 
 #[cfg(test)]
 mod tests {
     use glam::{DQuat, DVec3, EulerRot};
+    use num_bigint::BigInt;
+    use num_traits::{FromPrimitive, Signed, Zero};
 
-    use super::super::tests::Fixture;
+    use super::super::tests::{Fixture, triangles};
+    use super::crosses;
+    use crate::exact::Exact;
+    use crate::random::SplitMix64;
+
+    fn cross(fixture: &Fixture) -> bool {
+        let none: &[<Exact as crate::exact::Kernel>::Vertex] = &[];
+        crosses(&fixture.faces, none, &fixture.pieces[0], &fixture.pieces[1])
+    }
 
     /// A square of side 2 in the plane z = 0, and one in the plane x = 0, moved along y and z.
     #[test]
-    fn pieces_cross_where_their_segments_overlap() {
+    fn pieces_cross_where_an_edge_of_one_goes_through_the_other() {
         let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
         let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let level = square.map(|[x, y]| turn * DVec3::new(x, y, 0.0));
         for (y, z, expected) in [
-            (0.0, 0.0, true),
-            (0.0, 0.9, true),
+            (0.1, 0.0, true),
+            (0.1, 0.9, true),
             (1.9, 0.0, true),
             (-1.9, -0.9, true),
             (0.0, 1.1, false),
@@ -74,9 +117,63 @@ mod tests {
         ] {
             let upright = square.map(|[u, v]| turn * DVec3::new(0.0, u + y, v + z));
             for polygons in [[level, upright], [upright, level]] {
-                let fixture = Fixture::new(&polygons, 1e-9);
-                assert_eq!(fixture.set().cross(0, 1), expected, "{y} {z}");
+                assert_eq!(cross(&Fixture::new(&polygons, 1e-9)), expected, "{y} {z}");
             }
         }
+    }
+
+    /// The volume that a point spans with three others, in integers.
+    fn volume(point: &[BigInt; 3], triangle: [&[BigInt; 3]; 3]) -> BigInt {
+        let [a, b, c] = triangle.map(|p| [0, 1, 2].map(|axis: usize| &p[axis] - &point[axis]));
+        let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
+        &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
+    }
+
+    fn goes_through(one: &[[BigInt; 3]], other: &[[BigInt; 3]]) -> bool {
+        let sign = |value: BigInt| value.signum();
+        (0..3).any(|k| {
+            let (p, q) = (&one[k], &one[(k + 1) % 3]);
+            let plane = [&other[0], &other[1], &other[2]];
+            let sides = [p, q].map(|end| sign(volume(end, plane)));
+            let turns = [0, 1, 2].map(|e| sign(volume(p, [q, &other[e], &other[(e + 1) % 3]])));
+            &sides[0] * &sides[1] == BigInt::from(-1)
+                && !turns[0].is_zero()
+                && turns.iter().all(|turn| *turn == turns[0])
+        })
+    }
+
+    /// Triangles of every size, and such as miss each other by any power of two.
+    #[test]
+    fn what_certainly_crosses_does_so_in_integers() {
+        let mut random = SplitMix64::new(5);
+        let (mut certain, mut near) = (0, 0);
+        for round in 0..20_000 {
+            let size = 2f64.powf(random.range(-40.0, 0.0));
+            let [a, mut b] = [(); 2].map(|()| triangles(&mut random, 1, 1.0)[0]);
+            if round % 2 == 0 {
+                // The first with one corner moved off its plane, and each a little.
+                b = [a[0].lerp(a[1], 0.3), a[2].lerp(a[1], 0.2), a[2].lerp(a[0], 0.4)];
+                b = b.map(|corner| corner + random.point(-size, size));
+            } else {
+                // An edge that begins near an edge of the other.
+                b[0] = a[0].lerp(a[1], random.range(0.1, 0.9)) + random.point(-size, size);
+                b[1] = b[0] + random.point(-1.0, 1.0);
+            }
+            let fixture = Fixture::new(&[a, b], 0.0);
+            if fixture.pieces.len() < 2 {
+                continue;
+            }
+            let corners = [0, 1].map(|face| {
+                let integer = |c: &f64| BigInt::from_f64(*c).unwrap();
+                let corners = fixture.faces.corners(face).iter();
+                corners.map(|p| p.each_ref().map(integer)).collect::<Vec<_>>()
+            });
+            let exactly =
+                goes_through(&corners[0], &corners[1]) || goes_through(&corners[1], &corners[0]);
+            assert!(exactly || !cross(&fixture), "{a:?} {b:?}");
+            certain += usize::from(cross(&fixture));
+            near += usize::from(exactly && !cross(&fixture));
+        }
+        assert!(certain > 2000 && near > 20 && near < certain / 4, "{certain} {near}");
     }
 }

@@ -36,7 +36,7 @@ use crate::Error;
 use crate::exact::{Kernel, PlaneId};
 use crate::random::mix;
 use auto::Auto;
-pub(super) use crossing::cross;
+pub(super) use crossing::crosses;
 pub(super) use peel::Peeled;
 pub(super) use quick::Best;
 pub(super) use rules::{Choice, MOST_IN_TABLE, Rules};

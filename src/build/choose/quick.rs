@@ -13,8 +13,14 @@ use crate::exact::{Faces, Kernel, LATTICE_LIMIT, PlaneId, Side};
 /// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
 /// others that belong together.
 fn trusted_share(faces: &Faces, quick: &Quick) -> f64 {
-    let is_coarse = faces.tolerance() > quick.coarse * LATTICE_LIMIT;
-    if is_coarse { quick.trusted_share } else { 0.0 }
+    if quick.is_coarse(faces) { quick.trusted_share } else { 0.0 }
+}
+
+impl Quick {
+    /// Whether planes of small pieces cannot be trusted.
+    pub(in crate::build) fn is_coarse(&self, faces: &Faces) -> bool {
+        faces.tolerance() > self.coarse * LATTICE_LIMIT
+    }
 }
 
 /// The best own plane of a small set, by exact counts of all its pieces.
@@ -82,6 +88,11 @@ impl Best {
         }
     }
 
+    /// Whether the plane of a piece can be trusted.
+    pub(in crate::build) fn is_trusted(&self, piece: &Live) -> bool {
+        self.shares.get(piece) >= self.trusted_share
+    }
+
     /// Whether the best plane can be trusted, cuts nothing, and leaves enough on both sides.
     pub(in crate::build) fn is_even(&self) -> bool {
         self.is_even
@@ -142,13 +153,14 @@ impl Middle {
             let piece = &set.pieces[own];
             piece.min[axis] < middle && middle < piece.max[axis]
         };
+        let (shares, least_trusted) = (Shares::of(set.size()), trusted_share(set.faces, quick));
         let cuts_what_crosses = |&own: &usize| {
             let splitter = set.splitter(set.own_plane(own));
             let mut cuts = 0;
             let is_needed = (0..set.len()).all(|piece| {
                 let spans = set.classify(&splitter, piece) == Side::Spanning;
                 cuts += usize::from(spans);
-                !spans || set.cross(own, piece)
+                !spans || set.crosses(piece, own)
             });
             is_needed && cuts > 0
         };
@@ -156,7 +168,8 @@ impl Middle {
         if there.peek().is_none() {
             return Self::Gap;
         }
-        let own = there.find(cuts_what_crosses);
+        let is_trusted = |&own: &usize| shares.get(&set.pieces[own]) >= least_trusted;
+        let own = there.find(|own| is_trusted(own) && cuts_what_crosses(own));
         own.map_or(Self::Taken, |own| Self::Crossing(set.own_plane(own)))
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::crossing::cross;
+use super::crossing::crosses;
 use crate::build::live::Live;
 use crate::exact::{Faces, Kernel, Piece, PlaneId, Side};
 
@@ -94,8 +94,10 @@ impl<'a, K: Kernel> Set<'a, K> {
         (normal, live.point(self.faces, self.arena))
     }
 
-    pub(super) fn cross(&self, a: usize, b: usize) -> bool {
-        cross(self.faces, self.arena, &self.pieces[a], &self.pieces[b])
+    /// Whether the plane of a piece cuts another, and the two certainly cross.
+    pub(super) fn crosses(&self, piece: usize, other: usize) -> bool {
+        self.classify(&self.splitter(self.own_plane(piece)), other) == Side::Spanning
+            && crosses(self.faces, self.arena, &self.pieces[piece], &self.pieces[other])
     }
 
     /// The plane of a piece's face.

@@ -70,14 +70,14 @@ impl FaceBuilder {
             let points = input.polygon(polygon);
             if let &[a, b, c, d] = points
                 && let Some(quad) = Quad::of([snap(a), snap(b), snap(c), snap(d)])
-                && let Some(off) = quad.push(polygon, &mut self.faces)?
+                && let Some(off) = quad.push(polygon, &mut self.faces, ground.bend)?
             {
                 report.flattened += usize::from(off > 0.0);
                 report.flattened_by = report.flattened_by.max(off);
                 outlines.add(polygon, quad.corners.into_iter());
                 continue;
             }
-            match self.add(polygon, points, listener)? {
+            match self.add(polygon, points, ground.bend, listener)? {
                 Outcome::Whole { off } => {
                     report.flattened += usize::from(off > 0.0);
                     report.flattened_by = report.flattened_by.max(off);
@@ -104,6 +104,7 @@ impl FaceBuilder {
         &mut self,
         polygon: usize,
         points: &[DVec3],
+        bend: f64,
         listener: &dyn Listener,
     ) -> Result<Outcome, Error> {
         listener.work(points.len() / STEP_CORNERS)?;
@@ -121,7 +122,7 @@ impl FaceBuilder {
         let mut off = 0.0;
         if convex && self.corners.kept.len() <= Frame::MAX_CORNERS {
             off = self.push_flat(polygon, widest, axis)?;
-            if off <= self.faces.tolerance {
+            if off <= bend {
                 return Ok(Outcome::Whole { off });
             }
             self.faces.truncate(self.faces.len() - 1);

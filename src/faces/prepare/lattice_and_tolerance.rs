@@ -98,13 +98,16 @@ pub(super) struct Ground {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
+    /// How far a corner of a convex polygon that becomes one face may be off the plane of others, in
+    /// lattice units.
+    pub(super) bend: f64,
 }
 
 impl Ground {
     /// That of faces that are prepared.
     pub(super) fn of(faces: &Faces) -> Self {
         let Faces { lattice, tolerance, .. } = *faces;
-        Self { lattice, tolerance }
+        Self { lattice, tolerance, bend: tolerance }
     }
 
     /// For corners in a box, of this precision.
@@ -126,7 +129,13 @@ impl Ground {
             Tolerance::Length(length) => lattice.length_to_lattice(length),
             Tolerance::Relative(share) => share * extent,
         };
-        Self { lattice, tolerance: tolerance.min(MAX_TOLERANCE) }
+        let tolerance = tolerance.min(MAX_TOLERANCE);
+        Self { lattice, tolerance, bend: tolerance }
+    }
+
+    /// The same for polygons that are flat by definition: what their corners are off by is rounding.
+    pub(super) fn of_flat_polygons(self) -> Self {
+        Self { bend: MAX_TOLERANCE, ..self }
     }
 
     /// Whether a corner of a polygon is so little off the plane of the others, in lattice units, that a

@@ -12,6 +12,7 @@ impl Faces {
         self.numbered.clear();
         self.faces.clear();
         self.moved.clear();
+        self.planes.clear();
         self.thin = Thin::default();
     }
 
@@ -24,7 +25,7 @@ impl Faces {
     /// A copy, or an error where there is no memory for it.
     pub(crate) fn try_clone(&self) -> Result<Self, Error> {
         let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;
-        let Self { ref faces, ref moved, thin, .. } = *self;
+        let Self { ref faces, ref moved, ref planes, thin, .. } = *self;
         Ok(Self {
             lattice,
             tolerance,
@@ -33,6 +34,7 @@ impl Faces {
             numbered: collect(numbered.iter().copied())?,
             faces: collect(faces.iter().copied())?,
             moved: collect(moved.iter().copied())?,
+            planes: collect(planes.iter().copied())?,
             thin,
         })
     }
@@ -44,6 +46,7 @@ impl Faces {
         self.numbered.shrink_to_fit();
         self.faces.shrink_to_fit();
         self.moved.shrink_to_fit();
+        self.planes.shrink_to_fit();
     }
 
     /// Adds the faces of the polygons that follow.

@@ -50,15 +50,20 @@ fn widest(corners: &[[f64; 3]; 4]) -> [usize; 2] {
 }
 
 impl Quad {
-    /// Adds itself as one face, if it is flat within the tolerance; gives how far a corner is off the
-    /// plane of the others.
-    pub(super) fn push(&self, polygon: usize, faces: &mut Faces) -> Result<Option<f64>, Error> {
+    /// Adds itself as one face, if no corner is further than `bend` off the plane of the others; gives
+    /// how far one is.
+    pub(super) fn push(
+        &self,
+        polygon: usize,
+        faces: &mut Faces,
+        bend: f64,
+    ) -> Result<Option<f64>, Error> {
         let Self { mut corners, second, third, axis } = *self;
         let spare = 6 - second - third;
         let given = corners[spare];
         let flattener = Flattener::new([0, second, third].map(|k| corners[k]), axis);
         let off = flattener.off(&given);
-        if off.distance > faces.tolerance {
+        if off.distance > bend {
             return Ok(None);
         }
         let start = faces.corners.len();

@@ -1,0 +1,197 @@
+//! Small cards of one plane, whose corners are rounded by less than the tolerance: by no heuristic is a
+//! card cut by the plane of one that lies within the tolerance of its own.
+
+use std::collections::HashMap;
+
+use binspace::glam::{DQuat, DVec2, DVec3, EulerRot};
+use binspace::internals::{Faces, PlaneId, PlaneKind};
+use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
+
+use testkit::dice::Dice;
+use testkit::model;
+use testkit::rational::{Rational, exact, scalar};
+
+/// About four steps of `f32`.
+const TOLERANCE: f64 = 4.8e-7;
+
+type Card = [DVec3; 4];
+
+struct Cards {
+    all: Vec<Card>,
+    /// How many of the first lie in one plane, and the plane's axes.
+    level: usize,
+    axes: [DVec3; 3],
+}
+
+/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance, and
+/// others that go through it, or none.
+fn cards(dice: &mut Dice, others: usize) -> Cards {
+    let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
+    let mut turn = || {
+        let mut angle = || between(-3.0, 3.0);
+        DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle())
+    };
+    let (plane, turns) = (turn(), [(); 8].map(|()| turn()));
+    let at = DVec3::new(between(-0.3, 0.3), between(-0.3, 0.3), between(-0.3, 0.3));
+    let (level, is_single) = (2 + dice.below(11), dice.below(2) == 0);
+    let mut all = Vec::new();
+    for k in 0..level {
+        let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
+        let size = [0.01, 0.6, 10f64.powf(between(-2.5, 0.0))][if k < 2 { k } else { 2 }];
+        let middle = DVec2::new(between(-0.6, 0.6), between(-0.6, 0.6));
+        let u = DVec2::from_angle(between(0.0, 6.3)) * size;
+        let v = u.perp() * between(0.3, 1.0);
+        let corners = [middle - u - v, middle + u - v, middle + u + v, middle - u + v];
+        all.push(corners.map(|corner| {
+            let corner = at + plane * corner.extend(0.0);
+            let mut noise = || 0.2 * TOLERANCE * dice.around_zero(1);
+            let moved = corner + plane * DVec3::new(0.0, 0.0, noise());
+            if is_single { corner.as_vec3().as_dvec3() } else { moved }
+        }));
+    }
+    let first = dice.below(level);
+    all.swap(0, first);
+    for turn in turns.into_iter().take(others) {
+        let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
+        let size = 10f64.powf(between(-1.5, 0.0));
+        let middle = DVec3::new(between(-0.6, 0.6), between(-0.6, 0.6), between(-0.6, 0.6));
+        let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        all.push(signs.map(|[x, y]| middle + turn * DVec3::new(x, y, 0.0) * size));
+    }
+    Cards { all, level, axes: [plane * DVec3::X, plane * DVec3::Y, plane * DVec3::Z] }
+}
+
+/// A tree of each heuristic, and one of a frame.
+fn trees(cards: &[Card]) -> Vec<(String, BspTree)> {
+    let options = BuildOptions::DEFAULT.with_tolerance(TOLERANCE);
+    let tree = |&heuristic: &Heuristic| {
+        let tree = options.with_heuristic(heuristic).build(cards).unwrap();
+        (heuristic.to_string(), tree)
+    };
+    let mut frames = FrameBuilder::new(options);
+    let frame = frames.build(cards).unwrap().clone();
+    Heuristic::ALL.iter().map(tree).chain([("frame".to_owned(), frame)]).collect()
+}
+
+/// Whether all corners of a face clearly are within the tolerance of another's plane.
+fn is_on(faces: &Faces, face: u32, other: u32) -> bool {
+    let plane = model::plane(faces, PlaneId::face(other));
+    let most = exact(faces.tolerance()) * exact(1.0 - 1e-6);
+    let most = &most * &most * scalar(&plane.normal, &plane.normal);
+    model::Face::new(faces, face).corners.iter().all(|corner| {
+        let off: Rational = plane.at(corner);
+        &off * &off <= most
+    })
+}
+
+/// Pairs of fragments that overlap, seen along the plane's normal, out of input order.
+fn exchanged(tree: &BspTree, cards: &Cards) -> usize {
+    let [x, y, z] = cards.axes;
+    let flat = |p: DVec3| DVec2::new(p.dot(x), p.dot(y));
+    let inside = |outline: &[DVec2], at: DVec2| {
+        let next = outline.iter().cycle().skip(1);
+        let sides = outline.iter().zip(next).map(|(&a, &b)| (b - a).normalize().perp_dot(at - a));
+        let (low, high) =
+            sides.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)));
+        low > 1e-4 || high < -1e-4
+    };
+    let mut found = 0;
+    for direction in [z, -z] {
+        let order = tree.back_to_front(Viewpoint::direction(direction.to_array()));
+        let pieces: Vec<(usize, Vec<DVec2>)> =
+            order.map(|f| (f.polygon(), f.vertices().map(flat).collect())).collect();
+        for (k, (earlier, outline)) in pieces.iter().enumerate() {
+            for (later, other) in &pieces[k + 1..] {
+                let middle =
+                    |outline: &[DVec2]| outline.iter().sum::<DVec2>() / outline.len() as f64;
+                let [a, b] = [outline, other].map(|outline| middle(outline));
+                let overlap = (0..=8).any(|step| {
+                    let at = a.lerp(b, f64::from(step) / 8.0);
+                    inside(outline, at) && inside(other, at)
+                });
+                found += usize::from(later < earlier && overlap);
+            }
+        }
+    }
+    found
+}
+
+/// The cards of the two that were found: a hundredth of the other's size, and cut it.
+#[test]
+fn a_frame_does_not_cut_a_card_by_a_small_one_in_its_plane() {
+    let small: [[f32; 3]; 4] = [
+        [0.07435414, 0.04701618, 0.38188425],
+        [0.06429868, 0.019585103, 0.36612988],
+        [0.07316165, 0.013837662, 0.37048024],
+        [0.0832171, 0.04126874, 0.38623464],
+    ];
+    let large = [
+        [-0.41155723, 0.64058316, 0.23210758],
+        [-0.81692785, -0.4652595, -0.40300676],
+        [0.033688046, -1.0168657, 0.014516396],
+        [0.43905866, 0.08897696, 0.6496307],
+    ];
+    let mut frames = FrameBuilder::new(BuildOptions::DEFAULT);
+    let tree = frames.build([small, large]).unwrap();
+    for z in [1.0, -1.0] {
+        let order = tree.back_to_front(Viewpoint::direction([0.0, 0.0, z]));
+        assert_eq!(order.map(|f| f.polygon()).collect::<Vec<_>>(), [0, 1]);
+    }
+    for &heuristic in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        assert_eq!(options.build([small, large]).unwrap().len(), 2, "{heuristic}");
+    }
+}
+
+#[test]
+fn a_polygon_is_not_cut_by_the_plane_of_one_that_lies_on_its_own() {
+    let mut dice = Dice(61);
+    let (mut cuts, mut pairs) = (0, 0);
+    for round in 0..60 {
+        let cards = cards(&mut dice, round % 4 * 2);
+        for (name, tree) in trees(&cards.all) {
+            let faces = tree.faces();
+            let mut known = HashMap::new();
+            let mut is_on = |face, other| {
+                *known.entry((face, other)).or_insert_with(|| is_on(faces, face, other))
+            };
+            for fragment in tree.fragments() {
+                let planes = fragment.lines().filter_map(|line| line.as_cut());
+                for plane in planes {
+                    let PlaneKind::Face(by) = plane.kind() else { continue };
+                    cuts += 1;
+                    assert!(!is_on(by, fragment.face()), "{name}: {by} cuts {}", fragment.face());
+                }
+            }
+            pairs += usize::from(cards.level == cards.all.len());
+        }
+    }
+    assert!(cuts > 3000 && pairs > 100, "{cuts} {pairs}");
+}
+
+/// If of any two one lies on the plane of the other, none is cut; and as the default heuristic and
+/// frames take the planes of large cards, the small ones keep their order too.
+#[test]
+fn cards_of_one_plane_stay_whole_by_every_heuristic() {
+    let mut dice = Dice(62);
+    let mut whole = 0;
+    for _ in 0..60 {
+        let cards = cards(&mut dice, 0);
+        let faces = Faces::new(&cards.all, Some(TOLERANCE)).unwrap().0;
+        assert_eq!(faces.len(), cards.level);
+        let numbers = || 0..cards.level as u32;
+        let pairs = numbers().flat_map(|a| numbers().take(a as usize).map(move |b| [a, b]));
+        let is_flat = pairs.clone().all(|[a, b]| is_on(&faces, a, b) || is_on(&faces, b, a));
+        for (name, tree) in trees(&cards.all) {
+            if !is_flat {
+                continue;
+            }
+            assert_eq!(tree.len(), cards.level, "{name}");
+            if name == "auto" || name == "frame" {
+                assert_eq!(exchanged(&tree, &cards), 0, "{name}");
+            }
+            whole += 1;
+        }
+    }
+    assert!(whole > 180, "{whole}");
+}
