@@ -1,6 +1,8 @@
 //! The lines of a picture, each known by what made it.
 
 mod adopted;
+#[cfg(test)]
+mod names;
 mod of_halves;
 #[cfg(test)]
 mod tests;

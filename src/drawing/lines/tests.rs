@@ -17,7 +17,7 @@ use crate::view::Camera;
 const SIZE: [u32; 2] = [320, 200];
 
 /// All lines of all pieces that a camera sees.
-fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
+pub(super) fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
     let rays = Rays::new(camera, tree.faces()).ok()?;
     let stock = Stock::new(tree, rays, vec![], &Watch::default()).unwrap();
     let mut rims = Rims::new(&stock);
