@@ -1,6 +1,7 @@
 //! The library's parts, each against an oracle of its own. One program: it links once.
 
 mod bounds;
+mod boxes_of_cuts;
 mod cancel;
 mod cuts;
 mod dropped;
