@@ -2,6 +2,7 @@
 
 mod bent_counts;
 mod bounds;
+mod boxes_of_cuts;
 mod cancel;
 mod cuts;
 mod dropped;

@@ -5,6 +5,7 @@ mod cases;
 mod crowded;
 mod hard;
 mod large;
+mod limits;
 mod locate;
 mod names;
 mod real_scenes;

@@ -1,0 +1,31 @@
+//! How far along a ray is searched for what may come before the nearest hit so far.
+
+use binspace::{BspTree, BuildOptions, Heuristic, Ray};
+
+/// The numbers of the polygons that a ray hits, without boxes and with them.
+fn hits(tree: &BspTree, ray: Ray) -> Vec<usize> {
+    let hits: Vec<usize> = tree.hits(ray).map(|hit| hit.polygon()).collect();
+    let with_boxes = tree.bounds().unwrap();
+    assert!(
+        with_boxes.hits(tree, ray).map(|hit| hit.polygon()).eq(hits.iter().copied()),
+        "{ray:?}"
+    );
+    hits
+}
+
+/// A ray that comes down on a floor so flat that it is known only roughly, in floats, where. The wall before
+/// that place reaches across the floor's plane by less than the tolerance, so that it counts as behind:
+/// the floor is looked at before it.
+#[test]
+fn a_wall_before_a_floor_that_is_met_flat_is_hit_first() {
+    const S: f64 = ((1_u64 << 51) - 1) as f64;
+    let floor = [[-S, -S, 0.0], [S, -S, 0.0], [S, S, 0.0], [-S, S, 0.0]];
+    let wall = |x: f64, [low, high]: [f64; 2]| {
+        [(-1e15, low), (1e15, low), (1e15, high), (-1e15, high)].map(|(y, z)| [x, y, z])
+    };
+    let polygons = [floor, wall(6e14, [-2e15, -1e15]), wall(6.2e14, [-1e15, 1000.0])];
+    let tree = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).build(polygons).unwrap();
+    let flat = Ray::new([0.0, 0.0, 8.0], [1.0, 0.0, -49.6 * f64::EPSILON]);
+    // At x = 6.2e14, where it is 1.2 above the floor, and at 7.3e14.
+    assert_eq!(hits(&tree, flat), [2, 0]);
+}
