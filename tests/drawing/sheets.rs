@@ -29,13 +29,12 @@ pub(crate) struct Sheet {
 
 impl Sheet {
     pub(crate) fn new(dice: &mut Dice) -> Self {
-        let mut ends = [[0; 2]; 2];
-        for axis in 0..2 {
+        let [x, y] = [(); 2].map(|()| {
             let size = 1 + dice.below(5);
             let low = dice.below(9 - size);
-            (ends[0][axis], ends[1][axis]) = (low as i64, (low + size) as i64);
-        }
-        let [low, high] = ends;
+            [low, low + size].map(|end| end as i64)
+        });
+        let (low, high) = ([x[0], y[0]], [x[1], y[1]]);
         let slope = [0, 0, 1, -1][dice.below(4)];
         let height = dice.below(5) as i64 - 4 * slope;
         Self { low, high, slope, height, is_opaque: dice.below(2) == 0 }

@@ -61,7 +61,7 @@ fn matrix(dice: &mut Dice) -> DMat4 {
     let down = 10f64.powf(between(-4.0, 2.5));
     super::camera()
         * DMat4::from_translation(dvec3(0.0, down, between(-300.0, 300.0)))
-        * DMat4::from_rotation_x(1.5707963 + between(-0.1, 0.1))
+        * DMat4::from_rotation_x(std::f64::consts::FRAC_PI_2 + between(-0.1, 0.1))
         * DMat4::from_rotation_z(between(-1.0, 1.0))
 }
 

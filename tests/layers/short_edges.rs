@@ -19,7 +19,7 @@ fn cards(dice: &mut Dice, off: f64) -> Vec<Given> {
             * DMat4::from_rotation_y(between(0.0, 6.3))
             * DMat4::from_rotation_x(between(0.0, 6.3));
         let (width, height) = (between(50.0, 300.0), between(50.0, 300.0));
-        let low = if k % 2 == 0 { 0.0 } else { -height };
+        let low = if k.is_multiple_of(2) { 0.0 } else { -height };
         Given { rect: [[0.0, low], [width, height]], matrix: place * turn }
     };
     (0..6).map(&mut card).collect()
