@@ -38,7 +38,7 @@ impl ExactSplitter {
                 let RoundedNormal { normal, size } = rounded;
                 let ([x, y, z], p) = (normal, corners[0]);
                 let offset = x * p[0] + y * p[1] + z * p[2];
-                let band = (faces.tolerance() * rounded.certain(corners).length()).floor();
+                let band = (faces.tolerance() * faces.normal_length(face, &rounded)).floor();
                 ExactSplitter { plane, normal, offset, bound: FACE_ERROR * size, band }
             }
         }

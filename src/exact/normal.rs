@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::faces::Faces;
-use super::plane::{Plane, cross};
+use super::label::PlaneId;
+use super::plane::cross;
 
 /// A rounded normal is used if its `size` is at most this many times its longest component; of others,
 /// too many bits were cancelled, and integers compute them. Larger: normals are taken that
@@ -36,18 +37,6 @@ impl RoundedNormal {
         Self { normal, size }
     }
 
-    /// The normal, of the same three lattice points: each component is within 2⁻³⁴ of the longest of
-    /// them.
-    #[inline]
-    pub(super) fn certain(&self, corners: [[f64; 3]; 3]) -> DVec3 {
-        let normal = DVec3::from_array(self.normal);
-        if self.size <= CANCELLED * normal.abs().max_element() {
-            normal
-        } else {
-            exact_normal(corners)
-        }
-    }
-
     /// The axis along which it is longest; the first of several.
     #[inline]
     pub(crate) fn longest(&self) -> usize {
@@ -78,13 +67,27 @@ impl Faces {
     #[inline]
     pub(crate) fn normal(&self, face: u32) -> DVec3 {
         let corners = self.triangle(face);
-        RoundedNormal::through(corners).certain(corners)
+        let RoundedNormal { normal, size } = RoundedNormal::through(corners);
+        let normal = DVec3::from_array(normal);
+        if size <= CANCELLED * normal.abs().max_element() {
+            normal
+        } else {
+            self.exact_normal(face)
+        }
     }
-}
 
-#[cold]
-fn exact_normal(corners: [[f64; 3]; 3]) -> DVec3 {
-    Plane::through(corners).normal_f64()
+    /// The length of the normal of a face's plane, within 2⁻³⁴ of it, from the rounded normal.
+    #[inline]
+    pub(super) fn normal_length(&self, face: u32, rounded: &RoundedNormal) -> f64 {
+        // Not by the longest component, which takes more time to find.
+        let length = DVec3::from_array(rounded.normal).length();
+        if rounded.size <= CANCELLED * length { length } else { self.exact_normal(face).length() }
+    }
+
+    #[cold]
+    fn exact_normal(&self, face: u32) -> DVec3 {
+        self.plane(PlaneId::face(face)).normal_f64()
+    }
 }
 
 #[cfg(test)]
