@@ -242,7 +242,7 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
 #[test]
 fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
     let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);
-    for (seed, of_frame) in (0..300).flat_map(|seed| [(seed, false), (seed, true)]) {
+    for (seed, of_frame) in (0..360).flat_map(|seed| [(seed, false), (seed, true)]) {
         let scene = scene(&mut Dice(seed), 4 + seed as usize % 13);
         let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
         let tree = build(&scene, Heuristic::Auto);

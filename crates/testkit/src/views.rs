@@ -16,6 +16,8 @@ pub struct View {
     pub viewpoint: Viewpoint,
     /// The eye in lattice units; or the direction of view, in integers.
     lattice: DVec3,
+    /// The eye as the library rounds it; `None` for a direction, and for an eye too far to be a point.
+    eye: Option<Point>,
 }
 
 impl View {
@@ -23,12 +25,14 @@ impl View {
     pub fn eye(faces: &Faces, point: DVec3) -> Self {
         let world = faces.lattice().to_world(point.round().to_array());
         let lattice = DVec3::from(faces.lattice().to_lattice(world)).round();
-        Self { viewpoint: Viewpoint::Eye(world), lattice }
+        let eye = rounded_eye(in_lattice(faces.lattice(), world));
+        Self { viewpoint: Viewpoint::Eye(world), lattice, eye }
     }
 
     /// A direction, rounded to 2⁻⁵² of the largest power of two in its largest component.
     pub fn direction(direction: DVec3) -> Self {
-        Self { viewpoint: Viewpoint::Direction(direction), lattice: whole_direction(direction) }
+        let lattice = whole_direction(direction);
+        Self { viewpoint: Viewpoint::Direction(direction), lattice, eye: None }
     }
 
     pub fn is_parallel(&self) -> bool {
@@ -37,12 +41,9 @@ impl View {
 
     /// On which side of a plane it is; on neither if it is on the plane, or looks along it.
     pub fn side(&self, plane: &Plane) -> Ordering {
-        let (point, towards) = match self.viewpoint {
-            Viewpoint::Eye(_) => (rounded_eye(rational::point(self.lattice)), self.lattice),
-            Viewpoint::Direction(_) => (None, -self.lattice),
-        };
-        rational::sign(&match point {
-            Some(point) => plane.at(&point),
+        let towards = if self.is_parallel() { -self.lattice } else { self.lattice };
+        rational::sign(&match &self.eye {
+            Some(point) => plane.at(point),
             None => rational::scalar(&plane.normal, &rational::point(whole_direction(towards))),
         })
     }
