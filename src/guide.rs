@@ -53,7 +53,7 @@ pub mod moving {}
 pub mod frames {}
 
 #[doc = links!()]
-/// Orders of what is in view: [`Culling`](crate::Culling), [`Bounds`](crate::Bounds),
+/// Orders of the visible part of a scene: [`Culling`](crate::Culling), [`Bounds`](crate::Bounds),
 /// [`Frustum`](crate::Frustum), and the module `occlusion`.
 #[doc = ""]
 #[doc = include_str!("../docs/guide/culling.md")]

@@ -79,6 +79,7 @@ mod save;
 #[cfg(feature = "scene")]
 pub mod scene;
 mod tree;
+mod union;
 #[cfg(feature = "raster")]
 pub mod verify;
 #[cfg(feature = "raster")]

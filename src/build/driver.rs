@@ -168,22 +168,22 @@ pub(super) struct FrameMemory {
 
 impl FrameMemory {
     /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
-    /// layout that makes many orders fast. Polygons may be flat by definition, and their faces go
-    /// through `arrange`. After an error the tree is empty.
+    /// layout that makes many orders fast. After an error the tree is empty.
+    ///
+    /// With `arrange`, polygons are flat by definition, and it puts their faces into planes.
     pub(super) fn rebuild<P: Polygon>(
         &mut self,
         tree: &mut BspTree,
         options: &BuildOptions,
         polygons: impl IntoIterator<Item = P>,
-        are_flat: bool,
-        arrange: impl FnOnce(&mut Faces) -> Result<(), Error>,
+        arrange: Option<&mut dyn FnMut(&mut Faces) -> Result<(), Error>>,
     ) -> Result<(), Error> {
         let Self { preparer, memory, nodes, sizes } = self;
         let (mut faces, parts) = tree.take_parts();
         memory.output.parts = Parts { nodes: take(nodes), ..parts };
         let watch = Watch::default();
         preparer.hold(options.bounds)?;
-        preparer.are_flat = are_flat;
+        preparer.are_flat = arrange.is_some();
         let preparation = preparer.prepare(
             &mut faces,
             polygons,
@@ -191,7 +191,9 @@ impl FrameMemory {
             options.max_fragments,
             &watch,
         )?;
-        arrange(&mut faces)?;
+        if let Some(arrange) = arrange {
+            arrange(&mut faces)?;
+        }
         let tuning = &Tuning::FRAMES;
         let shared = Shared::new(Exact, &faces, options, tuning, &watch)?;
         let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;

@@ -66,7 +66,7 @@ impl FrameBuilder {
         &mut self,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<&BspTree, Error> {
-        self.memory.rebuild(&mut self.tree, &self.options, polygons, false, |_| Ok(()))?;
+        self.memory.rebuild(&mut self.tree, &self.options, polygons, None)?;
         Ok(&self.tree)
     }
 
@@ -77,9 +77,9 @@ impl FrameBuilder {
         polygons: impl IntoIterator<Item = P>,
         mut groups: impl Iterator<Item = &'g [u32]>,
     ) -> Result<(), Error> {
-        let arrange =
+        let mut arrange =
             |faces: &mut Faces| groups.try_for_each(|group| faces.put_into_one_plane(group));
-        self.memory.rebuild(&mut self.tree, &self.options, polygons, true, arrange)
+        self.memory.rebuild(&mut self.tree, &self.options, polygons, Some(&mut arrange))
     }
 
     /// The last tree that was built.

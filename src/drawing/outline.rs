@@ -14,6 +14,7 @@ use super::rounded::{ROUNDING, Rounded};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, filled, place, push, reserve};
+use crate::union::Union;
 
 /// Convex parts of an area, by their sides.
 #[derive(Default)]
@@ -23,7 +24,7 @@ pub(super) struct Area {
     ends: Vec<u32>,
 }
 
-/// To go on from a piece to the next takes as long as a build takes to examine so many pieces.
+/// The cost of following an outline to its next piece, in work units: pieces that a build examines.
 const FOLLOWED: usize = 16;
 /// No piece.
 const NONE: u32 = u32::MAX;
@@ -59,9 +60,6 @@ struct Piece {
     to: u32,
 }
 
-/// Corners that are one point: each leads to the one that stands for all of them.
-struct Points(Vec<u32>);
-
 impl Area {
     pub(super) fn is_empty(&self) -> bool {
         self.ends.is_empty()
@@ -83,8 +81,8 @@ impl Area {
         &self.sides[start as usize..self.ends[i] as usize]
     }
 
-    /// The closed outlines of all parts, each around what is on its left: what parts that lie side by side have in
-    /// common in opposite directions is no outline. Where parts overlap, outlines wind around both.
+    /// The closed outlines of all parts, each with the area on its left. Sides that two neighbouring parts share in
+    /// opposite directions cancel. Where parts overlap, outlines wind around both.
     pub(super) fn outlines(
         &self,
         lines: &Lines<'_>,
@@ -95,14 +93,15 @@ impl Area {
             return Ok(vec![collect(corners)?]);
         }
         let sides = Sides::new(lines, self)?;
-        let mut points = Points(collect(0..place(self.sides.len())?)?);
+        // Corners that are one point.
+        let mut points = Union::new(place(self.sides.len())?)?;
         let pieces = sides.pieces(&mut points, watch)?;
         // The first of the pieces that begin at each point, and the one after each.
         let (mut begin, mut others) =
             (filled(self.sides.len(), NONE)?, filled(pieces.len(), NONE)?);
         for numbered in each(watch, VISITED, pieces.iter().enumerate().rev()) {
             let (i, piece) = numbered?;
-            let point = points.of(piece.from) as usize;
+            let point = points.root(piece.from) as usize;
             others[i] = std::mem::replace(&mut begin[point], i as u32);
         }
         let (mut is_used, mut outlines) = (filled(pieces.len(), false)?, Vec::new());
@@ -110,7 +109,7 @@ impl Area {
             if is_used[i] {
                 continue;
             }
-            let (start, mut outline, mut next) = (points.of(first.from), Vec::new(), Some(i));
+            let (start, mut outline, mut next) = (points.root(first.from), Vec::new(), Some(i));
             while let Some(i) = next {
                 watch.work(FOLLOWED)?;
                 is_used[i] = true;
@@ -119,7 +118,7 @@ impl Area {
                 if outline.last().is_none_or(|last: &Piece| last.half != piece.half) {
                     push(&mut outline, *piece)?;
                 }
-                let point = points.of(piece.to);
+                let point = points.root(piece.to);
                 if point == start {
                     break;
                 }
@@ -155,7 +154,7 @@ impl<'a> Sides<'a> {
     }
 
     /// The sides without what two of them have in common, in opposite directions.
-    fn pieces(&self, points: &mut Points, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
+    fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
         let half = |side: u32| self.sides[side as usize].half;
         let mut by_line: Vec<u32> = collect(0..self.sides.len() as u32)?;
         sort_by(&mut by_line, watch, |&a, &b| half(a).line().cmp(&half(b).line()))?;
@@ -206,13 +205,13 @@ impl<'a> Sides<'a> {
         if b.is_ahead { side } else { side.reverse() }
     }
 
-    /// Adds what is left of the sides on a line, of which these are the ends in order; those at one place are one
-    /// point.
+    /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the ends of
+    /// these sides in order along the line; ends in one place become one point.
     fn add_pieces(
         &self,
         line: Half,
         ends: &[End],
-        points: &mut Points,
+        points: &mut Union,
         pieces: &mut Vec<Piece>,
     ) -> Result<(), Error> {
         let rounded = self.lines.rounded(line);
@@ -243,23 +242,5 @@ impl<'a> Sides<'a> {
             [ky, -kx]
         });
         (ax * by - ay * bx).atan2(ax * bx + ay * by)
-    }
-}
-
-impl Points {
-    fn of(&mut self, corner: u32) -> u32 {
-        let mut at = corner;
-        while self.0[at as usize] != at {
-            let next = self.0[at as usize];
-            self.0[at as usize] = self.0[next as usize];
-            at = next;
-        }
-        at
-    }
-
-    fn unite(&mut self, a: u32, b: u32) {
-        let [a, b] = [self.of(a), self.of(b)];
-        // Whichever was met first.
-        self.0[a.max(b) as usize] = a.min(b);
     }
 }

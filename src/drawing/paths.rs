@@ -101,11 +101,12 @@ impl<'d> Path<'d> {
         self.record.is_clipped
     }
 
-    /// Its outlines, to be filled together by the nonzero rule, as far as the polygon is in the picture:
-    /// each by its corners, in pixels from the centre of the first one, x to the right and y down,
-    /// clockwise around what is filled, counter-clockwise around holes. There is one at least, and each has three
-    /// corners at least. Those of a folded polygon overlap. Outlines are exact, and only their corners are rounded, each
-    /// by less than a millionth of a pixel: those of needles may have one place.
+    /// The outlines of the part in the picture; fill them together by the nonzero rule. There is at least one.
+    ///
+    /// Each is a list of at least three corners in pixels: x to the right, y down, and the centre of the first
+    /// pixel at (0, 0). Outer outlines run clockwise, and holes counter-clockwise. The outlines of a folded polygon
+    /// overlap. Only the corners are rounded, by less than a millionth of a pixel; corners of needles may
+    /// coincide.
     pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
         let Drawing { outlines, corners, .. } = self.drawing;
         self.record.outlines.clone().map(move |outline| {

@@ -43,8 +43,6 @@ pub(crate) mod lattice;
 mod normal;
 mod plane;
 mod rounded_vertex;
-#[cfg(all(test, feature = "drawing"))]
-mod slivers;
 mod split;
 mod tolerance;
 pub(crate) mod vertex;

@@ -6,7 +6,6 @@ mod outline;
 mod points;
 mod survey;
 mod triangles;
-mod union;
 
 use glam::DVec3;
 

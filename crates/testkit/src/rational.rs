@@ -31,7 +31,7 @@ pub fn point(p: impl Into<DVec3>) -> Point {
 
 /// The length of a lattice step in the world: a power of two, which may be too small for `f64`.
 pub fn step(lattice: &Lattice) -> Rational {
-    /// So many steps are an `f64`, and exact.
+    /// The length of this many steps is an exact `f64`.
     const MANY: f64 = (1u128 << 100) as f64;
     let one = lattice.length_to_world(1.0);
     if one >= 1.0 {

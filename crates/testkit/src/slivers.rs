@@ -40,7 +40,7 @@ impl Sliver {
     }
 }
 
-/// A point so many steps from another.
+/// The point `s` and `t` steps along `u` and `v` from another.
 pub fn along(from: Point, [u, v]: [Point; 2], [s, t]: [i64; 2]) -> Point {
     std::array::from_fn(|i| from[i] + s * u[i] + t * v[i])
 }

@@ -21,8 +21,7 @@ pub fn tally<S: Strategy, T: Default>(
     total.into_inner()
 }
 
-/// Asserts that enough was compared: each count above its floor. Panics with those that fall short, and
-/// with what is said of all.
+/// Asserts that enough was compared. Panics with the conditions that fail, and with the message.
 #[macro_export]
 macro_rules! enough {
     ($($enough:expr),+; $($what:tt)+) => {{

@@ -76,9 +76,8 @@ impl Tolerance {
 pub(crate) struct Precision {
     /// How far a corner may be off the plane that it was meant to be on, in the world.
     length: f64,
-    /// Whether the type of their numbers says so. Nothing finer than a step is in such numbers, so all of
-    /// it counts, whatever share of the extent it is. Others claim to be as coarse, but tell apart what is
-    /// nearer.
+    /// Whether `length` is the rounding of the number type. Such numbers cannot express anything finer, so
+    /// the default tolerance has no upper limit. Other polygons only state a precision, and it is limited.
     is_of_numbers: bool,
 }
 

@@ -6,7 +6,6 @@ mod mesh;
 pub(crate) mod oracle;
 mod parts;
 mod signs;
-mod slivers;
 mod tiling;
 
 use glam::DVec3;

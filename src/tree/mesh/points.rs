@@ -7,11 +7,11 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::survey::{Node, Survey, ends};
-use super::union::Union;
 use crate::Error;
 use crate::exact::along::Fraction;
 use crate::exact::{POSITION_OFF, Symbol, SymbolKind};
 use crate::memory::reserve;
+use crate::union::Union;
 
 /// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`]
 /// for both, are in their true order: each is off by three roundings of its own size at most, and
@@ -39,7 +39,7 @@ struct End {
 
 impl Points {
     pub(super) fn new(survey: &Survey<'_>) -> Result<Self, Error> {
-        let same = Union::new(survey.nodes())?;
+        let same = Union::new(survey.nodes() as u32)?;
         let mut points = Self { same, on_lines: Vec::new(), ends: Vec::new() };
         points.unite_corners(survey)?;
         let (mut all, starts) = by_line(survey)?;

@@ -1,31 +1,34 @@
-//! Which nodes are the same point.
+//! Sets that are united: union-find.
 
 use std::cell::Cell;
 
-use super::survey::Node;
 use crate::Error;
 use crate::memory::reserve;
 
-/// Sets of nodes, each named by its least (Galler and Fischer 1964).
-pub(super) struct Union {
-    /// For each node, a lesser one of the same set. The least names itself.
-    up: Vec<Cell<Node>>,
+/// Sets of numbers, each named by its least (Galler and Fischer 1964).
+pub(crate) struct Union {
+    /// For each number, a lesser one of the same set. The least names itself.
+    up: Vec<Cell<u32>>,
 }
 
 impl Union {
-    /// Nodes that are each a set of their own.
-    pub(super) fn new(nodes: usize) -> Result<Self, Error> {
+    /// The numbers below `len`, each a set of its own.
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory.
+    pub(crate) fn new(len: u32) -> Result<Self, Error> {
         let mut up = Vec::new();
-        reserve(&mut up, nodes)?;
-        up.extend((0..nodes as u32).map(Cell::new));
+        reserve(&mut up, len as usize)?;
+        up.extend((0..len).map(Cell::new));
         Ok(Self { up })
     }
 
-    /// The least node of a node's set.
+    /// The least number of a number's set.
     ///
-    /// Every node on the way is moved to the one after the next, so that long chains are walked
-    /// once and not by every node: O(log n) on average (Tarjan and van Leeuwen 1984).
-    pub(super) fn root(&self, mut node: Node) -> Node {
+    /// Every number on the way is moved to the one after the next, so that long chains are walked
+    /// once and not by every number: O(log n) on average (Tarjan and van Leeuwen 1984).
+    pub(crate) fn root(&self, mut node: u32) -> u32 {
         loop {
             let up = self.up[node as usize].get();
             if up == node {
@@ -37,7 +40,7 @@ impl Union {
         }
     }
 
-    pub(super) fn unite(&mut self, a: Node, b: Node) {
+    pub(crate) fn unite(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.up[a.max(b) as usize].set(a.min(b));
     }
@@ -51,7 +54,7 @@ mod tests {
     #[test]
     fn a_long_chain_is_not_walked_by_every_node() {
         const COUNT: u32 = 100_000;
-        let mut union = Union::new(COUNT as usize).expect("memory");
+        let mut union = Union::new(COUNT).expect("memory");
         (1..COUNT).rev().for_each(|node| union.unite(node, node - 1));
         let mut steps = 0_usize;
         for node in (0..COUNT).rev() {
