@@ -52,9 +52,12 @@ mod tests {
     use crate::random::SplitMix64;
     use crate::{BuildOptions, Heuristic, scene};
 
+    /// A plane, and on which sides of it two fragments are.
+    type Parting = (PlaneId, [Ordering; 2]);
+
     /// The plane between any two fragments by the ranges of all nodes, in a table: a pair that
     /// is not on one side of a plane is parted there, and nowhere else.
-    fn table(tree: &BspTree) -> Vec<Vec<Option<(PlaneId, [Ordering; 2])>>> {
+    fn table(tree: &BspTree) -> Vec<Vec<Option<Parting>>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {
             let plane = node.plane();
