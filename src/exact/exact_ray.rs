@@ -53,6 +53,12 @@ impl ExactRay {
         }
     }
 
+    /// Its origin, its direction, and the exponent of their unit, negated.
+    #[cfg(test)]
+    pub(crate) fn parts(&self) -> ([i128; 3], [i128; 3], u32) {
+        (self.origin, self.direction, self.bits)
+    }
+
     /// Whether a parameter is one of the ray: 0 or more, and of a segment 1 or less.
     pub(crate) fn has(&self, t: &Parameter) -> bool {
         !t.numerator.is_negative()

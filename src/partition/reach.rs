@@ -10,11 +10,14 @@ use crate::input::Polygon;
 
 /// How far beyond its corners a polygon may reach, in tolerances and in steps of the lattice: a corner
 /// that is moved onto its plane moves by √3 of the tolerance and half a step, and what is within the
-/// tolerance of a cell's plane belongs to one side. Smaller: cells miss what is theirs; larger: more
+/// tolerance of a cell's plane belongs to one side. Together √3 + 1 = 2.74 tolerances and half a step. Smaller: cells miss what is theirs; larger: more
 /// polygons are given to cells that nothing of them is in.
 const MARGIN: [f64; 2] = [3.0, 2.0];
 /// What rounding adds to the distance of a corner from a plane, as a share of the lengths that it is made
-/// of: three products and three sums, of numbers rounded once or twice.
+/// of. The normal is any, and taken as it is. With u = 2⁻⁵³: arms of corners are exact, so a scalar product with
+/// one is off by 3u, three for the product and the sums on the way; an end of a box by u and its difference
+/// from a corner by u, its middle and its half by u more, and their products by 3u each. Together with the sums
+/// and differences in `meets`, and the slack itself, that is less than 20u.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Partition {

@@ -87,7 +87,7 @@ impl RoundedAtRay {
 /// Whether the beginning of a ray certainly is off the plane of a face.
 pub(super) fn is_off_plane(probe: &Probe, faces: &Faces, face: u32) -> bool {
     let (own, _) = RoundedAtRay::face(probe, faces, face);
-    probe.is_near() && own.start.abs() > START_ERROR * own.size * probe.reach
+    own.start.abs() > START_ERROR * own.size * probe.reach
 }
 
 /// Whether a ray meets a fragment, as far as floats can tell.

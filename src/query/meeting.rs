@@ -28,6 +28,10 @@ pub(super) struct Meeting {
 }
 
 /// A parameter that is rounded from the exact one is off by less than this share of it.
+///
+/// With ε = 2⁻⁵², a quotient of integers has one rounding and what is lost of its second part, ε / 2 and some
+/// ε²; the product with 1 ± this share has another ε / 2. So this is about four times as much as is needed.
+/// Smaller: depths compare in the wrong order; larger: more of them are compared by integers.
 const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl Depth {

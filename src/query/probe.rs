@@ -1,5 +1,8 @@
 //! A ray, prepared to be held against a tree.
 
+#[cfg(test)]
+mod tests;
+
 use crate::exact::Lattice;
 use crate::exact::exact_ray::{ExactRay, Parameter};
 use crate::exact::lattice::{MAX_CORNER, exponent_of, scaled};
@@ -20,18 +23,25 @@ pub(super) struct Probe {
     /// The largest magnitude in the direction.
     pub(super) speed: f64,
     pub(super) is_endless: bool,
-    /// Whether each coordinate above is off by no more than one rounding and a thousandth of one.
+    /// Whether each coordinate of the direction is off, from that in integers, by no more than one rounding
+    /// and a thousandth of one, as those of the origin always are.
     pub(super) is_precise: bool,
 }
 
 /// Bits of the largest coordinate of an endless ray's rounded direction.
 const SPEED_BITS: i32 = 52;
 
-/// The grid of a segment's ends has steps of up to 2⁻¹²² of its largest coordinate. Segments that are
-/// shorter than this share of it lose more of their direction than a thousandth of a rounding.
+/// Segments that are shorter than this share of their largest coordinate lose more of their direction, in
+/// integers, than a thousandth of a rounding in floats.
+///
+/// The grid of a segment's ends has steps of up to 2⁻¹²² of that coordinate, and each end is off by half a
+/// step: together 2⁻¹²², where a thousandth of a rounding is 2⁻⁶³ of the length. So 2⁻⁵⁹ is enough, and this is
+/// its double. (Where the places half way between two floats are on that grid, down to 2⁻⁶⁹, rounding to it
+/// leads to the same float, so that nothing is lost. An origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. Its rounding is
+/// 2⁻⁵³ of the reach, which is 2⁵¹ or more, and no lattice at all is further than 2¹¹⁰ from the world's origin:
+/// so that is less than a thousandth, however far out it is.)
+/// Smaller: floats decide what integers decide otherwise; larger: more is decided by integers.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
-/// So far out, floats and integers may differ by more, because both round.
-const PRECISE_REACH: f64 = (1u128 << 100) as f64;
 
 impl Probe {
     /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
@@ -71,13 +81,8 @@ impl Probe {
             reach,
             speed,
             is_endless: matches!(ray, Ray::Endless { .. }),
-            is_precise: speed >= least && reach < PRECISE_REACH,
+            is_precise: speed >= least,
         })
-    }
-
-    /// Whether the beginning is off by no more than one rounding and a thousandth of one.
-    pub(super) fn is_near(&self) -> bool {
-        self.reach < PRECISE_REACH
     }
 
     /// The ray in integers. Never `None`, as there is a probe.

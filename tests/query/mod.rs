@@ -1,6 +1,7 @@
 //! What rays hit, what blocks a line of sight, and where points are, against exact rationals: every ray
 //! against every polygon.
 
+mod beginnings;
 mod cases;
 mod crowded;
 mod hard;

@@ -14,7 +14,10 @@ pub(in crate::tree) struct Normals {
     high: [f32; 3],
 }
 
-/// A bound on the error of a unit normal's coordinate in `f32`. Smaller: a box may be without the exact
+/// A bound on the error of a unit normal's coordinate in `f32`, and of adding this to it. With ε = 2⁻²³: a
+/// normal is within 2⁻³⁴ of its longest coordinate and is made a unit one in `f64`, which leaves less than
+/// ε / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
+/// more than 1. So this is more than twice as much as is needed. Smaller: a box may be without the exact
 /// normal; larger: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
@@ -53,6 +56,8 @@ impl Normals {
             high += products.into_iter().fold(f64::NEG_INFINITY, f64::max);
             size += products.into_iter().fold(0.0, |size, product| product.abs().max(size));
         }
+        // With ε = 2⁻⁵²: each product has a rounding, ε / 2 of it, and each sum one of its terms'. There are
+        // two sums that round (the first adds to 0), so ε / 2 + ε / 2 + ε / 2 of the size is enough.
         let margin = 4.0 * f64::EPSILON * size;
         if low > margin {
             Some(Ordering::Greater)
@@ -85,7 +90,8 @@ impl Arms {
         let bound = |corner: [f64; 3], sign: f64| {
             std::array::from_fn(|axis| {
                 let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
-                // The eye and the difference are rounded. (A direction is exact.)
+                // The eye and the difference are rounded, by ε / 2 of the eye, and of the eye and the corner; and
+                // so is the sum below, by as much again. (A direction and corners of boxes are exact.)
                 let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
                 eye - corner + sign * rounded
             })
