@@ -11,6 +11,7 @@ mod facing;
 mod facing_bounds;
 mod fuzz_regressions;
 mod many_parts;
+mod narrow;
 mod parts;
 mod peeled;
 mod precision;
