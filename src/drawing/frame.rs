@@ -6,7 +6,7 @@
 //! κ the value of a plane at the eye (of parallel rays, its slope along them) and φ its value along a
 //! ray, k = κ_f φ_h − κ_h φ_f.
 //!
-//! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 192 bits and a cut 361; the
+//! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361; the
 //! determinant of three lines has less than 1088.
 
 use std::cmp::Ordering;

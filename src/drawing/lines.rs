@@ -5,7 +5,7 @@ mod adopted;
 mod names;
 mod of_halves;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub(super) use adopted::Adopted;
 
@@ -292,6 +292,12 @@ impl<'t> Lines<'t> {
     pub(super) fn is_cut_of(&self, half: Half, [one, other]: [u32; 2]) -> bool {
         let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
         cut.is_some_and(|cut| cut.line() == half.line())
+    }
+
+    /// How many lines there are, borders not counted.
+    #[cfg(test)]
+    pub(super) fn len(&self) -> usize {
+        self.keys.len()
     }
 
     /// What made a line first.

@@ -107,8 +107,8 @@ impl Seen<'_> {
 
 /// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b −
 /// a)), or (point − a) · ((a − b) × direction). The factor's components are off by 4.4
-/// roundings of the sum of their two products, their scalar products by 3 more, the evaluation
-/// by 4.
+/// roundings of the sum of their two products, the vectors that they are multiplied by 1, their scalar
+/// products by 3 more, the evaluation by 4.
 pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let origin = rays.origin_from(a);
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);

@@ -18,12 +18,12 @@ use crate::viewpoint::Viewpoint;
 /// | parallel | through the point base + x·right + y·down, in one direction for all |
 ///
 /// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel
-/// unless it is more than a million extents away, and every decision after that is exact. The eye
-/// and the direction are those of [`Eye`], for which trees are ordered too.
+/// unless it is more than a million extents away, and every decision after that is exact. Narrower
+/// views are refused. The eye and the direction are those of [`Eye`], for which trees are ordered too.
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
-/// as those of the cells of a partition, may share them; functions that take rays and faces of different
-/// grids refuse them: by an error if they return a `Result`, by a panic if not.
+/// such as the cells of a partition, may share them. A function that takes rays and faces of different
+/// grids returns an error if it returns a `Result`, and panics otherwise.
 #[derive(Clone, Debug)]
 pub struct Rays {
     lattice: Lattice,
@@ -67,23 +67,28 @@ pub(super) enum Given {
 /// beyond 2⁶¹).
 ///
 /// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a
-/// direction 160, and the product of two such 350: [`Digits`](super::digits) hold every decision.
-/// Larger: they do not. Smaller: narrow views lose accuracy.
-const DIRECTION: f64 = (1u64 << 50) as f64;
+/// direction 168, and the product of two such 358: [`Digits`](super::digits) hold every decision.
+/// Too large: a wide view leaves the [`REGION`], as a direction's components, and those of `right` and
+/// `down` times the picture's sides, add up to three times as much. Too small: narrow views are refused.
+const DIRECTION: f64 = (1u64 << 58) as f64;
 const FURTHEST: u32 = 20;
-/// Points that parallel rays go through are below this in magnitude.
+/// Points that parallel rays go through, and directions, are below this in magnitude.
 const REGION: f64 = (1u64 << 60) as f64;
-/// The least length of `right` and `down`: with less, their rounding turns the picture.
-const FINEST: f64 = 256.0;
+/// Pixels have at least this length for each ray of the picture's width and height. Components of `right` and
+/// `down` are rounded by 1 at most: a ray is off by √3/2 for each ray of the width and the height between it and the
+/// middle and beyond. Too small: more than a thousandth of a pixel.
+const FINEST: f64 = 1000.0;
 
 impl Rays {
     /// The rays of a camera through a scene.
     ///
     /// # Errors
     ///
-    /// If a perspective camera is further from the scene than about 2³⁰ of its extents, a parallel
-    /// one shows something as far from it as 2⁹ extents, or a pixel is finer than 2⁸ units of the
-    /// scene's lattice or 2⁻⁴² radians.
+    /// If a perspective camera is further from the scene than about 2³⁰ of its extents; if a parallel
+    /// one shows something as far from it as 2⁹ extents; or if the view is so narrow that rays could be off by a
+    /// thousandth of a pixel. In a picture of n pixels, width and height together, no pixel is too small that has
+    /// n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000 by 1 000 pixels, that is a
+    /// field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, CameraError> {
         Self::sampled(camera, faces, 1)
     }
@@ -114,7 +119,8 @@ impl Rays {
                 let pencil = Pencil::From { eye: eye.integer(), shift };
                 let depth_unit = lattice.length_to_world(scale);
                 let (middle, step) = (forward * scale, pixel * scale);
-                Self::build(camera, lattice, size, pencil, middle, step, depth_unit)
+                let finest = finest(size, samples) * reach;
+                Self::build(camera, lattice, size, pencil, middle, [step, finest], depth_unit)
             }
             (Projection::Parallel { centre, .. }, None) => {
                 let direction = eye.integer().map(|c| -c);
@@ -124,20 +130,22 @@ impl Rays {
                 let step = lattice.length_to_lattice(pixel);
                 let depth_unit = lattice.length_to_world(float(direction).length());
                 let pencil = Pencil::Along { direction };
-                Self::build(camera, lattice, size, pencil, middle, step, depth_unit)
+                let finest = finest(size, samples);
+                Self::build(camera, lattice, size, pencil, middle, [step, finest], depth_unit)
             }
             _ => Err(CameraProblem::TooFar.into()),
         }
     }
 
-    /// Rays with pixels of size `step`; `middle` is the parameter of the middle one.
+    /// Rays with pixels of size `step`, which is refused if it is less than `finest`; `middle` is the parameter of the
+    /// middle one.
     fn build(
         camera: &Camera,
         lattice: Lattice,
         size: [u32; 2],
         pencil: Pencil,
         middle: DVec3,
-        step: f64,
+        [step, finest]: [f64; 2],
         depth_unit: f64,
     ) -> Result<Self, CameraError> {
         let [width, height] = size.map(f64::from);
@@ -147,7 +155,7 @@ impl Rays {
         if !fits {
             return Err(CameraProblem::TooWide.into());
         }
-        if step < FINEST {
+        if step < finest {
             return Err(CameraProblem::TooNarrow.into());
         }
         let integer = |v: DVec3| v.to_array().map(|c| c.round() as i64);
@@ -281,6 +289,12 @@ impl Rays {
             Pencil::Along { .. } => std::array::from_fn(|i| self.base[i] as f64 - point[i]),
         }
     }
+}
+
+/// The least length of a ray's `right` and `down`, for so many samples each way in a pixel.
+fn finest(size: [u32; 2], samples: u32) -> f64 {
+    let [width, height] = size.map(f64::from);
+    FINEST * (width + height + 1.0) / f64::from(samples)
 }
 
 pub(super) fn float(v: [i64; 3]) -> DVec3 {

@@ -54,7 +54,7 @@ impl fmt::Display for CameraError {
             ),
             Kind::TooFar => f.write_str("the eye is too far from the scene: use a parallel camera"),
             Kind::TooNarrow => f.write_str(
-                "a pixel of the camera is finer than the scene's coordinates: widen its view",
+                "the camera's view is so narrow that rays would be off by a thousandth of a pixel: widen it",
             ),
             Kind::TooWide => f.write_str(
                 "the parallel camera shows, or is centred on, a region too far from the scene",

@@ -18,6 +18,7 @@ mod input_order;
 mod iterators;
 mod many_parts;
 mod modules;
+mod narrow;
 mod odd_viewpoints;
 mod other_trees;
 #[cfg(target_os = "linux")]

@@ -17,7 +17,7 @@ use crate::view::Camera;
 const SIZE: [u32; 2] = [320, 200];
 
 /// All lines of all pieces that a camera sees.
-pub(super) fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
+pub(in crate::drawing) fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
     let rays = Rays::new(camera, tree.faces()).ok()?;
     let stock = Stock::new(tree, rays, vec![], &Watch::default()).unwrap();
     let mut rims = Rims::new(&stock);
@@ -42,7 +42,7 @@ fn agree(a: &Rounded, b: &Rounded, reach: [f64; 2]) -> bool {
 
 /// Quads in a cube of this size at this distance from the origin, most of them bent a little, so that
 /// they are flattened.
-fn quads(random: &mut SplitMix64, size: f64, off: DVec3) -> Vec<[DVec3; 4]> {
+pub(in crate::drawing) fn quads(random: &mut SplitMix64, size: f64, off: DVec3) -> Vec<[DVec3; 4]> {
     let quad = |_| {
         let [a, u, v] = [(); 3].map(|()| random.point(-size, size));
         let bend = random.point(-size, size) * 1e-8;

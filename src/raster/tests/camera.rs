@@ -43,14 +43,14 @@ fn cameras_that_the_integers_cannot_hold_are_errors() {
     assert!(Rays::new(&from(1e8, 1e-8).unwrap(), &faces).is_ok());
     assert!(message(from(1e12, 1e-8).unwrap()).contains("parallel camera"));
     assert!(message(from(1e300, 1e-8).unwrap()).contains("parallel camera"));
-    assert!(message(from(5.0, 1e-12).unwrap()).contains("finer"));
+    assert!(message(from(5.0, 1e-12).unwrap()).contains("narrow"));
     let at = |centre: f64, height| {
         Camera::parallel(DVec3::X, up, DVec3::Y * centre, height, size).unwrap()
     };
     assert!(Rays::new(&at(0.0, 100.0), &faces).is_ok());
     assert!(message(at(0.0, 1e5)).contains("too far"));
     assert!(message(at(1e300, 1.0)).contains("too far"));
-    assert!(message(at(0.0, 1e-14)).contains("finer"));
+    assert!(message(at(0.0, 1e-14)).contains("narrow"));
 }
 
 #[test]
