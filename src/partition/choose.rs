@@ -10,8 +10,8 @@ use crate::input::Point;
 use crate::memory::{push, reserve};
 
 impl Partition {
-    /// Divides a scene into so many cells, with about as many samples in each; the grid also holds what is
-    /// in `room`. O(samples · log cells).
+    /// Divides a scene into `cells` cells with about equally many samples each. The grid includes `room`.
+    /// O(samples · log cells).
     pub(crate) fn new<P: Point>(
         extent: &Extent,
         room: &Extent,

@@ -291,7 +291,7 @@ impl Rays {
     }
 }
 
-/// The least length of a ray's `right` and `down`, for so many samples each way in a pixel.
+/// The least length of `right` and `down`, with `samples` samples per pixel in each direction.
 fn finest(size: [u32; 2], samples: u32) -> f64 {
     let [width, height] = size.map(f64::from);
     FINEST * (width + height + 1.0) / f64::from(samples)

@@ -61,7 +61,7 @@ fn after_a_panic_in_its_callback_a_drawing_stops() {
     }
 }
 
-/// The next operation of a map that keeps its callback begins anew.
+/// The next operation of a map that keeps its callback starts from the beginning.
 #[test]
 fn a_map_goes_on_after_a_panic_in_its_callback() {
     let tree = BspTree::build(scene::city(200, 1).polygons()).expect("within budget");

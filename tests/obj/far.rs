@@ -6,7 +6,7 @@ use super::read;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 
-/// A ground of 100 m by 100 m at a place, and two slabs on it, so many units of a decimal apart; the ground
+/// A ground of 100 m by 100 m at a place, and two slabs on it, a given number of decimal units apart; the ground
 /// is not quite level.
 fn site(at: [f64; 2], places: usize, units: [f64; 2]) -> String {
     let unit = 10f64.powi(-(places as i32));
