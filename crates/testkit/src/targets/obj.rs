@@ -49,7 +49,9 @@ fn read_any(bytes: &[u8]) {
     }
     let again = Scene::from_obj("again", text.as_bytes(), |_| None);
     let (again, _) = again.unwrap_or_else(|error| panic!("{error}: {text}"));
-    assert!(scene.polygons().eq(again.polygons()), "{text}");
+    // Corners alone: the precision also follows from vertices that no face names.
+    let corners = |scene: &Scene| scene.polygons().map(|p| p.to_vec()).collect::<Vec<_>>();
+    assert_eq!(corners(&scene), corners(&again), "{text}");
 }
 
 fn read_known(bytes: &mut Unstructured<'_>) -> Result<()> {
