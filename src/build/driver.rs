@@ -166,6 +166,9 @@ pub(super) struct FrameMemory {
     sizes: Vec<Sizes>,
 }
 
+/// Puts faces into planes that several of them share.
+pub(super) type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
+
 impl FrameMemory {
     /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
     /// layout that makes many orders fast. After an error the tree is empty.
@@ -176,7 +179,7 @@ impl FrameMemory {
         tree: &mut BspTree,
         options: &BuildOptions,
         polygons: impl IntoIterator<Item = P>,
-        arrange: Option<&mut dyn FnMut(&mut Faces) -> Result<(), Error>>,
+        arrange: Option<Arrange<'_>>,
     ) -> Result<(), Error> {
         let Self { preparer, memory, nodes, sizes } = self;
         let (mut faces, parts) = tree.take_parts();
