@@ -6,7 +6,7 @@ use testkit::targets;
 
 /// Runs a target on every file of its folder; the file's name says what it is about.
 fn replay(target: &str, run: fn(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/regressions").join(target);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/regressions").join(target);
     let mut count = 0;
     for entry in std::fs::read_dir(&folder).expect("the folder of regressions") {
         let path = entry.expect("an entry").path();
