@@ -9,6 +9,10 @@ use std::str::FromStr;
 /// Naylor, “On visible surface generation by a priori tree structures”, 1980), and *free planes*,
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
+/// By no heuristic is a polygon cut by the plane of another that lies within the coplanar tolerance of
+/// the polygon's own plane: the plane of the larger one divides the set instead. Free planes may cut
+/// both.
+///
 /// Every heuristic is deterministic. Those that would try the planes of all polygons of a set try at
 /// most 96 of them, spread evenly over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
