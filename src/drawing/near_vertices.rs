@@ -48,6 +48,8 @@ fn on_edge(faces: &Faces, [a, b]: [[f64; 3]; 2], plane: PlaneId) -> Option<[f64;
     }
     let share = at_a / fall;
     let arm = difference(b, a);
+    // Where s is the exact share, this one is wrong by off · (|s| + |1 − s|) / least at most, and by the roundings:
+    // between the ends, where vertices are, by off / least. A forged tree may have others.
     let spread = (off + 2.0 * off * share.abs()) / least + 4.0 * f64::EPSILON * share.abs();
     near(a, arm.map(|c| share * c), arm.map(|c| spread * c.abs()))
 }

@@ -1,5 +1,7 @@
 //! Partitions: which cells there are, and which polygons reach them.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use binspace::glam::DVec3;
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
@@ -307,6 +309,32 @@ fn a_tree_is_of_its_own_cell_alone() {
             }
             assert!(!scene.partition.is_tree_of(cell, &whole));
             assert!(!other.partition.is_tree_of(cell, &own.tree));
+        }
+    }
+}
+
+/// It must not be taken for the last one.
+#[test]
+fn a_cell_behind_the_last_is_refused() {
+    let square = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
+    let square: Corners = square.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+    for cells in [1, 2, 5] {
+        let scene = Divided::new(vec![square.clone()], BuildOptions::DEFAULT, cells).unwrap();
+        let (partition, tree) = (&scene.partition, &scene.cells[cells - 1].tree);
+        assert_eq!(partition.cells(), cells);
+        for cell in [cells, cells + 1, usize::MAX] {
+            let calls: [&dyn Fn(); 3] = [
+                &|| {
+                    partition.bounds(cell);
+                },
+                &|| {
+                    partition.is_tree_of(cell, tree);
+                },
+                &|| drop(BuildOptions::DEFAULT.build_cell(partition, cell, [&square])),
+            ];
+            for call in calls {
+                assert!(catch_unwind(AssertUnwindSafe(call)).is_err(), "{cell} of {cells}");
+            }
         }
     }
 }

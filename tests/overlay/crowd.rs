@@ -106,3 +106,30 @@ fn crowds_in_several_leaves_are_placed_each_by_its_own_box() {
     }
     enough!(checked >= 5 * 600; "{checked}");
 }
+
+/// A crowd of points on one side of a polygon of the overlay, and another polygon on the other side.
+#[test]
+fn polygons_across_a_plane_from_a_crowd_stay() {
+    let room = DVec3::splat(9.0);
+    let none: [[DVec3; 3]; 0] = [];
+    let tree = BuildOptions::DEFAULT.with_bounds(-room, room).build(none).expect("a tree");
+    for (side, is_turned) in [1.0, -1.0].into_iter().flat_map(|side| [(side, false), (side, true)])
+    {
+        let square = |height: f64| {
+            let mut corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
+            if is_turned {
+                corners.reverse();
+            }
+            corners.map(|(x, y)| dvec3(x, y, side * height))
+        };
+        let crowd = (0..300).map(|k| dvec3(0.01 * f64::from(k), 1.0, side * 5.0));
+        let mut overlay = Overlay::new(&tree);
+        let shapes = Shapes::NONE.with_polygons([1.0, 0.0, 2.0].map(square)).with_points(crowd);
+        overlay.replace_with(&tree, shapes).expect("on the grid");
+        let toward_crowd = Viewpoint::direction([0.0, 0.0, -side]);
+        let order = overlay.back_to_front(&tree, toward_crowd).expect("its own tree");
+        let polygons = order.map(|shape| shape.fragment().map(|polygon| polygon.polygon()));
+        let expected = [1, 0, 2].map(Some).into_iter().chain([None; 300]);
+        assert!(polygons.eq(expected), "{side} {is_turned}");
+    }
+}

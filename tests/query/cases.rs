@@ -199,3 +199,25 @@ fn scenes_of_every_size_are_hit() {
         assert!(bounds.hits(&tree, beside).next().is_none() && !tree.is_blocked(beside));
     }
 }
+
+/// Its two ends are numbers, the way from one to the other is none.
+#[test]
+fn a_segment_longer_than_any_number_hits_what_it_meets() {
+    let most = 1.5 * 2.0_f64.powi(1023);
+    let square = |z: f64| {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [most * x, most * y, z])
+    };
+    let tree = BspTree::build([0.0, 0.5 * most, -0.5 * most].map(square)).unwrap();
+    let bounds = tree.bounds().unwrap();
+    for slope in [0.0, 0.25, 1.0] {
+        for (turn, expected) in [(1.0, [2, 0, 1]), (-1.0, [1, 0, 2])] {
+            let end = |z: f64| DVec3::new(slope * z, -0.5 * slope * z, z * turn);
+            let ray = Ray::between(end(-most), end(most));
+            let shares: Vec<f64> = tree.hits(ray).map(|hit| hit.parameter()).collect();
+            assert_eq!(shares, [0.25, 0.5, 0.75], "{ray:?}");
+            assert!(tree.hits(ray).map(|hit| hit.polygon()).eq(expected), "{ray:?}");
+            assert!(bounds.hits(&tree, ray).map(|hit| hit.polygon()).eq(expected), "{ray:?}");
+            assert!(tree.is_blocked(ray) && bounds.is_blocked(&tree, ray), "{ray:?}");
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! What is read is what was written, bit for bit.
 
+use std::io;
+
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
@@ -118,14 +120,14 @@ fn no_more_is_read_than_was_written() {
 /// A reader that gives a byte at a time, and is interrupted.
 struct Slow<'a>(&'a [u8], bool);
 
-impl std::io::Read for Slow<'_> {
-    fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
+impl io::Read for Slow<'_> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
         self.1 = !self.1;
         if self.1 {
-            return Err(std::io::ErrorKind::Interrupted.into());
+            return Err(io::ErrorKind::Interrupted.into());
         }
         let len = to.len().min(1);
-        std::io::Read::read(&mut self.0, &mut to[..len])
+        io::Read::read(&mut self.0, &mut to[..len])
     }
 }
 
@@ -139,7 +141,6 @@ fn a_slow_reader_is_waited_for() {
 #[test]
 fn errors_of_readers_and_writers_are_passed_on() {
     use std::error::Error;
-    use std::io;
 
     struct Broken;
     impl io::Read for Broken {
@@ -160,4 +161,51 @@ fn errors_of_readers_and_writers_are_passed_on() {
     assert_eq!(error.to_string(), "cannot be read: the disk is gone");
     let tree = BspTree::build(scene::chain(2).polygons()).unwrap();
     assert_eq!(tree.write(Broken).unwrap_err().to_string(), "the disk is full");
+}
+
+/// A writer that fails at one of its calls, counted from 0, and takes everything else.
+struct FailsOnce {
+    calls: usize,
+    at: usize,
+}
+
+impl io::Write for FailsOnce {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.calls += 1;
+        if self.calls == self.at + 1 {
+            return Err(io::Error::other("the network is gone"));
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Wherever it fails, in each of the lists of a file.
+#[test]
+fn a_writer_that_fails_once_is_reported() {
+    // Each list is longer than what is written at once, 64 kB: a wall cuts all of many squares.
+    const COUNT: usize = 9000;
+    let square = |k: usize| {
+        let z = (k * 2753 % COUNT) as f64;
+        [[0.0, 0.0, z], [2.0, 0.0, z], [2.0, 2.0, z], [0.0, 2.0, z]]
+    };
+    let wall =
+        [[1.0, -1.0, -1.0], [1.0, 3.0, -1.0], [1.0, 3.0, COUNT as f64], [1.0, -1.0, COUNT as f64]];
+    let polygons = [wall].into_iter().chain((0..COUNT).map(square));
+    let tree = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).build(polygons).unwrap();
+    assert!(8 * tree.nodes().len() > 1 << 16 && tree.len() == 2 * COUNT + 1, "{tree:?}");
+    let written = bytes(&tree).len();
+    let mut calls = 0;
+    loop {
+        let mut output = FailsOnce { calls: 0, at: calls };
+        match tree.write(&mut output) {
+            Err(error) => assert_eq!(error.to_string(), "the network is gone"),
+            Ok(()) => break,
+        }
+        calls += 1;
+    }
+    assert!(calls >= written >> 16, "{calls}");
 }
