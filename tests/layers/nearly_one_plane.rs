@@ -261,7 +261,7 @@ fn a_small_card_does_not_come_between_two_others_of_its_plane() {
 #[test]
 fn the_end_of_the_box_does_not_move_a_corner_off_its_plane() {
     let mut dice = Dice(102);
-    let mut far = [0; 2];
+    let mut far = 0;
     for round in 0..300 {
         let kind = Kind { is_single: false, is_clipped: round % 2 == 0 };
         for given in cards(&mut dice, false) {
@@ -271,9 +271,9 @@ fn the_end_of_the_box_does_not_move_a_corner_off_its_plane() {
                 let rounding = 4.0 * plane.rounding(&given, vertex, kind.step());
                 let most = rounding.max(1e-9 * SIZE);
                 assert!(off <= most, "{off} {most} {vertex:?} {given:?}");
-                far[round % 2] += usize::from(vertex.position.abs().max_element() > 1e8);
+                far += usize::from(vertex.position.abs().max_element() > 1e8);
             }
         }
     }
-    assert!(far[0] > 20 && far[1] > 50, "{far:?}");
+    assert!(far > 100, "{far}");
 }
