@@ -52,23 +52,6 @@ fn a_card_on_a_floor_that_all_but_passes_through_the_eye_is_not_painted_over_it(
     assert_eq!(page.hit([619.9998, 256.0824]).map(|(layer, _)| layer), Some(1));
 }
 
-/// 0 and −0 are equal.
-#[test]
-fn matrices_that_differ_by_the_sign_of_a_zero_are_equal() {
-    let floor = DMat4::from_cols_array(&[
-        1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.01, 0.0, 1.0,
-    ]);
-    let matrix = camera() * floor;
-    let signed = matrix.to_cols_array().map(|number| if number == 0.0 { -0.0 } else { number });
-    let layers = [
-        Layer::new([[0.18, 999.333333], [0.193333, 999.714286]], matrix),
-        Layer::new([[-1000.0, -1000.0], [1000.0, 1000.0]], DMat4::from_cols_array(&signed)),
-    ];
-    let mut page = Layers::new([[0.0, 0.0], [640.0, 480.0]]);
-    page.update(&layers).unwrap();
-    assert_eq!(order(&page), [0, 1]);
-}
-
 /// A matrix of a floor that passes near the eye, or of any plane.
 fn matrix(dice: &mut Dice) -> DMat4 {
     if dice.below(3) == 0 {

@@ -125,7 +125,7 @@ mod tests {
         for reversed in 0..2 {
             let mut squares = [square(0.1, 1e-7), square(-1.0, 2.0)];
             squares[reversed].reverse();
-            let mut faces = Faces::new(&squares, Some(1e-9)).unwrap().0;
+            let mut faces = Faces::new(squares, Some(1e-9)).unwrap().0;
             let front =
                 |faces: &Faces, face| faces.plane(PlaneId::face(face)).normal_f64().normalize();
             let before = [0, 1].map(|face| front(&faces, face));
