@@ -28,11 +28,16 @@ type Points = SmallVec<[Point; MOST_CORNERS]>;
 /// Appends the corners of a layer's part in a box of the screen, and returns how far rounding may
 /// have moved them off their plane. `None`, and nothing appended, if nothing of it is seen.
 ///
+/// Rounding may put a corner outside of the box by a little. It is moved onto the sides that lie in
+/// `viewport`, but not onto those that are a million sizes of the viewport away: there the last bit of its
+/// place in the layer is a tenth of a pixel on the screen, so it would leave its plane by as much.
+///
 /// The layer is clipped in its own plane, where every side of the box is a half plane. So all corners
 /// lie in one plane up to the rounding of their last computation, however they were clipped.
 pub(super) fn clip(
     layer: &Layer,
     limits: [DVec3; 2],
+    viewport: Option<[DVec2; 2]>,
     corners: &mut Vec<ClippedCorner>,
 ) -> Option<f64> {
     if layer.is_empty() {
@@ -51,8 +56,10 @@ pub(super) fn clip(
             corners.truncate(begin);
             return None;
         }
-        // Rounding may put a clipped point outside by a little.
-        let position = (DVec3::new(x, y, z) / w).clamp(limits[0], limits[1]);
+        let mut position = DVec3::new(x, y, z) / w;
+        if let Some([low, high]) = viewport {
+            position = position.truncate().clamp(low, high).extend(position.z);
+        }
         precision = precision.max(plane.abs().dot(layer.rounding(rows, local)) / w);
         let vertex = LayerVertex { position, w: w / scale, local };
         corners.push(ClippedCorner { vertex, edge });

@@ -73,7 +73,7 @@
 //! only numbers that are none are an error: a card that turns past its edge, or leaves the screen, is
 //! an ordinary frame. [`Layers::visible`] counts the layers that have a piece; which those are,
 //! [`LayerPiece::layer`] tells. A layer's number is its index in the list, whatever became of others.
-//! Layers in one plane come in the order of the list.
+//! Layers in one plane come in the order of the list; the [tolerance](#tolerance) says which those are.
 //!
 //! # Why to clip
 //!
@@ -87,10 +87,25 @@
 //!
 //! # Tolerance
 //!
-//! Layers nearer to a common plane than the tolerance count as coplanar. It follows the matrices: how
-//! far their rounding (of `f64`, or of `f32` for [`Layer::from_f32`]) moves a corner off its plane,
-//! but at least 10⁻⁹ and at most 10⁻⁵ of the viewport's longer side. It does not depend on how far
-//! layers reach outside the viewport.
+//! A page has one tolerance, a length on the screen, where depth counts like x and y. It is four times
+//! what rounding moves a corner off its layer's plane, at the corner where that is most: each number
+//! of a matrix is taken to be off by 2⁻⁵² of itself, or 2⁻²³ if the layer is made by
+//! [`Layer::from_f32`]. It is at least 10⁻⁹ of the viewport's longer side, and at least 2⁻⁴⁵ of the
+//! largest coordinate, x, y or depth, of any corner (which is more only if a layer reaches further than
+//! 35 000 times that side). It is at most 10⁻⁵ of that side.
+//!
+//! The order of two layers where they lie over each other:
+//!
+//! | two layers | painted |
+//! |---|---|
+//! | of equal matrices | in the order of the list, as they lie in one plane by definition |
+//! | each of which has all its corners within the tolerance of the other's plane | in the order of the list |
+//! | further apart there than twice the tolerance, measured along the normal of either plane | by depth |
+//! | any other | in either order |
+//!
+//! The first three rows have one exception. Where the two lie over each other only within twice the
+//! tolerance of the plane of a third layer that does not lie in theirs, they come in either order. It is
+//! that of the [tree](crate::BspTree#exactness).
 
 mod clip;
 mod layer;

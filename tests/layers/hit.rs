@@ -64,3 +64,20 @@ fn another_viewport_makes_another_page() {
         seen.push(pieces(&page));
     }
 }
+
+/// A row through two corners of a diamond, and one through its lowest.
+#[test]
+fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
+    let mut diamond = DMat4::IDENTITY;
+    (diamond.x_axis.y, diamond.y_axis.x) = (1.0, -1.0);
+    let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
+    let mut page = Layers::new(VIEWPORT);
+    page.update(&[Layer::new([[-50.0, -50.0], [50.0, 50.0]], middle * diamond)]).unwrap();
+    // Its corners are 100 to the right, below, to the left and above.
+    for x in [-99.0, -50.0, 0.0, 50.0, 99.0] {
+        assert!(page.hit([960.0 + x, 540.0]).is_some(), "{x}");
+    }
+    for (x, y) in [(-101.0, 0.0), (101.0, 0.0), (-5.0, 100.0), (5.0, 100.0), (-5.0, -100.0)] {
+        assert!(page.hit([960.0 + x, 540.0 + y]).is_none(), "{x} {y}");
+    }
+}

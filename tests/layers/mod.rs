@@ -4,6 +4,7 @@
 mod drawn;
 mod hit;
 mod hostile;
+mod nearly_one_plane;
 mod neighbours;
 mod one_plane;
 mod oracle;
@@ -23,7 +24,7 @@ type Rect = [[f64; 2]; 2];
 const VIEWPORT: Rect = [[0.0; 2], SCREEN];
 
 /// A layer as given, for both the library and its judge.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Given {
     rect: Rect,
     matrix: DMat4,

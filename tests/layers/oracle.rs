@@ -41,6 +41,15 @@ impl Truth {
         w.is_positive().then(|| (local, z / w))
     }
 
+    /// The plane on the screen, as coefficients of x, y, z and w.
+    pub(crate) fn plane(&self) -> [Rational; 4] {
+        let [x, y, z, w] = &self.rows;
+        [[y, z, w], [z, x, w], [x, y, w], [x, z, y]].map(|[a, b, c]| {
+            let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
+            &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
+        })
+    }
+
     /// How far inside the rectangle a point is, as a share of the smaller side; negative outside.
     pub(crate) fn inside(&self, local: &Point2) -> f64 {
         let [low, high] = &self.rect;

@@ -3,6 +3,9 @@
 //! The corners of a small polygon are rounded by as much as those of a large one, so its plane is less
 //! certain: extended across a large polygon in the same plane, it can leave the tolerance on both sides.
 //! The large one's plane has the small one within the tolerance, and divides the set instead.
+//!
+//! In frames it does so as well where the small one's plane passes beside the large one and cuts nothing:
+//! it would come between the large one and others of its plane.
 
 use smallvec::SmallVec;
 
@@ -22,9 +25,24 @@ impl<K: Kernel> Builder<'_, K> {
         let mut tried = Tried::new();
         loop {
             self.classify(start, plane)?;
-            let pieces = self.pieces[start..].iter().zip(&self.scratch.sides);
-            let cut = pieces.filter(|&(_, &side)| side == Side::Spanning).map(|(piece, _)| piece);
-            let Some(larger) = larger(self.shared, plane, cut, &mut tried)? else {
+            let PlaneKind::Face(face) = plane.kind() else { return Ok(plane) };
+            tried.push(face);
+            let pieces = &self.pieces[start..];
+            // The plane may not pass beside a piece that is larger than its own: outside of frames it may.
+            let least = match self.shared.rules.tuning.quick {
+                Some(_) => {
+                    let own = pieces.iter().filter(|piece| piece.face == face);
+                    own.map(size).fold(0.0, f64::max)
+                }
+                None => f64::INFINITY,
+            };
+            let is_rival = |(piece, side): &(&Live, &Side)| match side {
+                Side::Spanning => !tried.contains(&piece.face),
+                Side::Coplanar => false,
+                Side::Front | Side::Back => size(piece) > least && !tried.contains(&piece.face),
+            };
+            let rivals = pieces.iter().zip(&self.scratch.sides).filter(is_rival);
+            let Some(larger) = larger(self.shared, face, rivals.map(|(piece, _)| piece))? else {
                 return Ok(plane);
             };
             plane = PlaneId::face(larger.face);
@@ -38,9 +56,14 @@ impl<K: Kernel> Builder<'_, K> {
             let row = self.table.slots[slot].row;
             let Row { front, back, .. } = self.table.planes[row];
             tried |= 1 << slot;
+            let least = size(&self.table.slots[slot].piece);
             let mut best: Option<(f64, usize)> = None;
-            for other in bits(set & front & back & !tried) {
+            for other in bits(set & (front | back) & !tried) {
                 let Slot { piece, row } = self.table.slots[other];
+                let is_cut = front & back & 1 << other != 0;
+                if !is_cut && size(&piece) <= least {
+                    continue;
+                }
                 self.complete(1 << slot, row)?;
                 let Row { front, back, .. } = self.table.planes[row];
                 if (front | back) >> slot & 1 == 0
@@ -61,22 +84,18 @@ fn size(piece: &Live) -> f64 {
     (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
 }
 
-/// The largest of the pieces that a plane cuts and on whose own plane the plane's face lies.
+/// The largest of some pieces on whose own plane a face lies.
 fn larger<'p, K: Kernel>(
     shared: &Shared<'_, K>,
-    plane: PlaneId,
-    cut: impl Iterator<Item = &'p Live>,
-    tried: &mut Tried,
+    face: u32,
+    pieces: impl Iterator<Item = &'p Live>,
 ) -> Result<Option<&'p Live>, Error> {
-    let PlaneKind::Face(face) = plane.kind() else { return Ok(None) };
     let Shared { kernel, faces, rules, .. } = shared;
-    tried.push(face);
     let mut best: Option<(f64, &Live)> = None;
-    for piece in cut {
+    for piece in pieces {
         rules.watch.work(1)?;
         let splitter = kernel.splitter(faces, PlaneId::face(piece.face));
         if best.is_none_or(|(most, _)| size(piece) > most)
-            && !tried.contains(&piece.face)
             && kernel.classify(faces, &splitter, Piece { face, cut: None }) == Side::Coplanar
         {
             best = Some((size(piece), piece));
