@@ -138,3 +138,16 @@ fn keep_inside(points: Points, side: DVec3) -> Points {
     }
     kept
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{determinant, permanent};
+    use glam::DVec3;
+
+    #[test]
+    fn the_permanent_has_all_six_terms() {
+        let rows = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]].map(DVec3::from);
+        assert_eq!(permanent(rows), 50.0 + 48.0 + 84.0 + 96.0 + 80.0 + 105.0);
+        assert_eq!(determinant(rows), 50.0 - 48.0 + 84.0 - 105.0 + 96.0 - 80.0);
+    }
+}

@@ -179,3 +179,18 @@ fn cut_layers_of_one_matrix_know_their_places() {
     }
     assert!(inner > 300, "{inner}");
 }
+
+/// The plane of a strip is uncertain across it, and so misses the other strip.
+#[test]
+fn strips_of_one_matrix_that_cross_are_not_cut() {
+    let mut dice = Dice(103);
+    for _ in 0..100 {
+        let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
+        let (x, z) = (between(-1.0, 1.0), between(-3.0, 3.0));
+        let matrix = camera() * DMat4::from_rotation_x(x) * DMat4::from_rotation_z(z);
+        let strips = [[[-300.0, -1e-8], [300.0, 1e-8]], [[-1e-8, -300.0], [1e-8, 300.0]]];
+        for is_clipped in [true, false] {
+            assert_eq!(order(&page(is_clipped, &strips, matrix)), [0, 1], "{x} {z}");
+        }
+    }
+}
