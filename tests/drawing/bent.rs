@@ -4,13 +4,13 @@ use super::overlay::{between, origin, place_in, project};
 use super::sightlines::{Origin, Sightlines};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::{DVec2, DVec3};
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use testkit::dice::Dice;
 use testkit::enough;
 use testkit::model::Face;
 use testkit::rational::{self, Point, Rational};
@@ -65,26 +65,26 @@ fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
 }
 
 /// A number of so many 256ths.
-fn number(random: &mut SplitMix64, most: f64) -> f64 {
-    (random.range(-most, most) * 256.0).round() / 256.0
+fn number(dice: &mut Dice, most: f64) -> f64 {
+    (dice.range(-most, most) * 256.0).round() / 256.0
 }
 
-fn vector(random: &mut SplitMix64, most: f64) -> DVec3 {
-    DVec3::from_array([(); 3].map(|()| number(random, most)))
+fn vector(dice: &mut Dice, most: f64) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| number(dice, most)))
 }
 
 /// Pairs of polygons around lines: at least one of each pair is bent along its line.
-fn pairs(random: &mut SplitMix64, count: usize) -> Vec<Vec<DVec3>> {
+fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons = vec![];
     for i in 0..count {
         // Quarters and eighths of it are numbers of few bits.
-        let (from, along) = (vector(random, 1.0), vector(random, 0.25) * 2.0);
+        let (from, along) = (vector(dice, 1.0), vector(dice, 0.25) * 2.0);
         let at = |share: f64| from + along * share;
         // On either side of the line, further apart than it is long: it is the shorter diagonal.
         let mut sides = || {
-            let away = vector(random, 0.5);
+            let away = vector(dice, 0.5);
             let away = away + away.signum() * 0.25;
-            [at(0.5) + away, at(0.5) - away + vector(random, 0.375)]
+            [at(0.5) + away, at(0.5) - away + vector(dice, 0.375)]
         };
         let ([a, b], [c, d]) = (sides(), sides());
         polygons.push(vec![at(0.0), a, at(1.0), b]);
@@ -254,16 +254,15 @@ fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
 
 #[test]
 fn crossings_along_bends_are_those_that_rays_meet() {
-    let (mut random, mut score) = (SplitMix64::new(14), Score::default());
+    let (mut dice, mut score) = (Dice(14), Score::default());
     let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
     for (count, rounds, options) in
         [(1, 24, exact), (8, 4, exact), (8, 4, BuildOptions::DEFAULT), (30, 1, exact)]
     {
         for round in 0..rounds {
-            let tree = options.build(pairs(&mut random, count)).unwrap();
+            let tree = options.build(pairs(&mut dice, count)).unwrap();
             let lattice = *tree.faces().lattice();
-            let place =
-                random.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };
+            let place = dice.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };
             let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
             let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]);
             let parallel = Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 3.0, [320, 240]);
@@ -292,12 +291,12 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
 /// Whatever the tolerance leaves open at the ends of polygons and along their bends.
 #[test]
 fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
-    let (mut random, mut compared) = (SplitMix64::new(15), 0);
+    let (mut dice, mut compared) = (Dice(15), 0);
     for tolerance in [0.0, 0.01, 0.05, 0.2] {
         for _ in 0..12 {
             let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
-            let tree = options.build(pairs(&mut random, 8)).unwrap();
-            let eye = random.point(-1.0, 1.0).normalize() * 4.0;
+            let tree = options.build(pairs(&mut dice, 8)).unwrap();
+            let eye = dice.point(-1.0, 1.0).normalize() * 4.0;
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
             let rays = Rays::new(&camera, tree.faces()).unwrap();
             let map = VisibilityMap::of(&tree, rays).unwrap();

@@ -6,11 +6,11 @@ use super::overlay::{between, origin, project};
 use super::sightlines::{Cover, Origin, Sightlines};
 use binspace::drawing::{EdgeKind, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Ray};
 use num_traits::{Signed, ToPrimitive, Zero};
+use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
 use testkit::fill::ray;
@@ -19,21 +19,21 @@ use testkit::rational::{self, Point};
 
 /// So many corners along each axis.
 const GRID: f64 = 4.0;
-fn corner(random: &mut SplitMix64) -> DVec3 {
-    DVec3::from_array([(); 3].map(|()| random.range(0.0, GRID).floor()))
+fn corner(dice: &mut Dice) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| dice.range(0.0, GRID).floor()))
 }
 
 /// Triangles, parallelograms, and quads that are bent; some with corners of others.
-fn polygons(random: &mut SplitMix64, count: usize) -> Vec<Vec<DVec3>> {
+fn polygons(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons: Vec<Vec<DVec3>> = vec![];
     while polygons.len() < count {
-        let mut corners: Vec<DVec3> = (0..4).map(|_| corner(random)).collect();
+        let mut corners: Vec<DVec3> = (0..4).map(|_| corner(dice)).collect();
         if let Some(other) = polygons.last()
-            && random.range(0.0, 1.0) < 0.3
+            && dice.range(0.0, 1.0) < 0.3
         {
             corners[..2].copy_from_slice(&other[..2]);
         }
-        match random.range(0.0, 3.0) as u32 {
+        match dice.range(0.0, 3.0) as u32 {
             0 => corners.truncate(3),
             1 => corners[3] = corners[0] + corners[2] - corners[1],
             _ => {}
@@ -173,21 +173,21 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
 
 #[test]
 fn crossings_of_polygons_on_a_grid_are_those_of_rationals() {
-    let (mut random, mut score) = (SplitMix64::new(23), Score::default());
+    let (mut dice, mut score) = (Dice(23), Score::default());
     for round in 0..times(100) {
-        let polygons = polygons(&mut random, 2 + round % 5);
+        let polygons = polygons(&mut dice, 2 + round % 5);
         let options = match round % 3 {
             0 => BuildOptions::DEFAULT,
             _ => BuildOptions::DEFAULT.with_tolerance(0.0),
         };
         let Ok(tree) = options.build(&polygons) else { continue };
         for _ in 0..2 {
-            let eye = corner(&mut random) * 3.0 - DVec3::splat(4.0);
-            let target = corner(&mut random) + DVec3::new(0.25, 0.125, 0.0);
+            let eye = corner(&mut dice) * 3.0 - DVec3::splat(4.0);
+            let target = corner(&mut dice) + DVec3::new(0.25, 0.125, 0.0);
             let up = DVec3::new(0.25, 0.5, 1.0);
             let perspective = Camera::perspective(eye, target, up, 0.9, [320, 240]);
             let middle = DVec3::splat(0.5 * GRID);
-            let parallel = Camera::parallel(eye - corner(&mut random), up, middle, 8.0, [320, 240]);
+            let parallel = Camera::parallel(eye - corner(&mut dice), up, middle, 8.0, [320, 240]);
             for camera in [perspective, parallel].into_iter().flatten() {
                 check(&tree, &camera, &mut score);
             }

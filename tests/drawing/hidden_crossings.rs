@@ -1,16 +1,18 @@
 //! Where polygons go through one another, shown or hidden, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project, square, triangles};
+use super::overlay::{between, origin, place_in, project};
 use super::sightlines::{Origin, Sightlines};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use num_traits::Signed;
+use testkit::dice::Dice;
 use testkit::model::Face;
 use testkit::rational::{self, Point};
+use testkit::scenes::triangles;
+use testkit::shapes::rectangle;
 
 fn length(run: &EdgeRun) -> f64 {
     let [[ax, ay], [bx, by]] = run.ends;
@@ -26,10 +28,10 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     ];
     let mut polygons: Vec<Vec<DVec3>> =
         cards.iter().map(|card| card.map(DVec3::from).to_vec()).collect();
-    polygons.push(square([-3.0, -1.5], [3.0, 1.0], 3.0));
-    polygons.push(square([-3.0, -0.5], [3.0, 0.5], 4.0));
+    polygons.push(rectangle([-3.0, -1.5], [3.0, 1.0], 3.0));
+    polygons.push(rectangle([-3.0, -0.5], [3.0, 0.5], 4.0));
     // Behind all, and one of the cards goes through nothing of it.
-    polygons.push(square([-3.0, -3.0], [3.0, 3.0], -3.0));
+    polygons.push(rectangle([-3.0, -3.0], [3.0, 3.0], -3.0));
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let tree = BspTree::build(&polygons).unwrap();
     let rays = Rays::new(&camera, tree.faces()).unwrap();
@@ -88,12 +90,12 @@ fn is_inside(face: &Face, point: &Point) -> bool {
 
 #[test]
 fn crossings_have_as_many_layers_as_rays_meet() {
-    let mut random = SplitMix64::new(8);
+    let mut dice = Dice(8);
     let (mut judged, mut most, mut pairs, mut unsure) = ([0; 4], 0, 0, 0);
     for (count, edge, is_parallel) in
         [(40, 0.8, false), (40, 0.8, true), (120, 0.5, false), (250, 0.25, true)]
     {
-        let polygons = triangles(&mut random, count, edge);
+        let polygons = triangles(&mut dice, count, [-1.0, 1.0], edge);
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap();
         let lattice = *tree.faces().lattice();
         let faces: Vec<Face> =
@@ -112,7 +114,7 @@ fn crossings_have_as_many_layers_as_rays_meet() {
         }
         pairs += crossing.len();
         for far in [3.0, 0.4] {
-            let place = random.point(-1.0, 1.0).normalize() * far;
+            let place = dice.point(-1.0, 1.0).normalize() * far;
             let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
             let camera = match is_parallel {
                 true => Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 1.5 * far, [320, 240]),

@@ -1,10 +1,9 @@
 //! How many polygons lie in front of hidden edges, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project, square, triangles};
+use super::overlay::{between, origin, place_in, project};
 use super::sightlines::Sightlines;
 use binspace::drawing::{EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::Builtin;
 use binspace::view::Camera;
@@ -12,7 +11,10 @@ use binspace::{BspTree, BuildOptions};
 use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
+use testkit::hard::bounds;
 use testkit::rational::{self, Point};
+use testkit::scenes::{polygons, triangles};
+use testkit::shapes::rectangle;
 
 fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
@@ -42,9 +44,9 @@ fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
 fn squares_before_one_another_are_counted() {
     let side = |k: u32| f64::from(5 - k);
     let squares: Vec<Vec<DVec3>> =
-        (0..4).map(|k| square([-side(k), -0.5], [side(k), 0.5], f64::from(k))).collect();
+        (0..4).map(|k| rectangle([-side(k), -0.5], [side(k), 0.5], f64::from(k))).collect();
     // Behind all of them.
-    let bar = square([-6.0, -0.25], [6.0, 0.25], -1.0);
+    let bar = rectangle([-6.0, -0.25], [6.0, 0.25], -1.0);
     let tree = BspTree::build(squares.iter().chain([&bar])).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 16.0, [160, 160]).unwrap();
     let runs = in_layers(&tree, &camera);
@@ -63,20 +65,17 @@ fn squares_before_one_another_are_counted() {
 
 #[test]
 fn edges_have_as_many_layers_as_rays_meet() {
-    let (mut random, mut dice) = (SplitMix64::new(8), Dice(8));
+    let (mut random, mut dice) = (Dice(8), Dice(8));
     let mut scenes: Vec<Vec<Vec<DVec3>>> = [(40, 0.8), (120, 0.3), (200, 0.1)]
-        .map(|(count, edge)| triangles(&mut random, count, edge))
+        .map(|(count, edge)| triangles(&mut random, count, [-1.0, 1.0], edge))
         .to_vec();
     for builtin in [Builtin::City, Builtin::Sphere] {
-        let scene = builtin.build(Some(100), 2);
-        scenes.push((0..scene.len()).map(|i| scene.polygon(i).to_vec()).collect());
+        scenes.push(polygons(&builtin.build(Some(100), 2)));
     }
     let (mut judged, mut most, mut on_walls) = ([0; 4], 0, 0);
     for polygons in &scenes {
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(polygons).unwrap();
-        let corners = || polygons.iter().flatten().copied();
-        let (low, high) =
-            (corners().reduce(DVec3::min).unwrap(), corners().reduce(DVec3::max).unwrap());
+        let [low, high] = bounds(polygons).unwrap();
         let lattice = *tree.faces().lattice();
         for far in [2.0, 0.2] {
             let (middle, size) = ((low + high) * 0.5, high - low);
@@ -117,7 +116,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
 /// one end to the other, in its direction.
 #[test]
 fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
-    let (mut random, mut dice) = (SplitMix64::new(3), Dice(3));
+    let (mut random, mut dice) = (Dice(3), Dice(3));
     let outlines: Vec<Vec<[f64; 2]>> = vec![
         // A comb, with corners on its back.
         vec![

@@ -2,13 +2,14 @@
 
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions};
+use testkit::dice::Dice;
 use testkit::enough;
 use testkit::fill::{Score, check, check_rays};
+use testkit::scenes::{scene_of, triangles};
 
 const SIZE: [u32; 2] = [240, 180];
 
@@ -50,15 +51,11 @@ fn drawings_of_whole_scenes_are_what_rays_meet() {
 /// Fewer and fewer pixels for each polygon: tiles are halved down to a few pixels and below.
 #[test]
 fn many_small_triangles() {
-    let mut random = SplitMix64::new(1);
+    let mut dice = Dice(1);
     let mut score = Score::default();
     for (count, edge) in [(3000, 0.03), (1000, 0.3), (200, 1.0)] {
-        let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
-        for _ in 0..count {
-            let centre = random.point(0.0, 1.0);
-            scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge), 0);
-        }
-        check_scene(&scene, &mut score);
+        let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
+        check_scene(&scene_of(format!("{count} triangles"), triangles), &mut score);
     }
     enough!(score.pixels > 1_000_000, score.clipped > 500; "{score:?}");
 }

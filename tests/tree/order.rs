@@ -1,6 +1,5 @@
 //! Orders against the tree's planes, of which exact rationals say on which side the eye is.
 
-use crate::tree::{build, fail};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::scene;
@@ -13,6 +12,7 @@ use testkit::effort::cases;
 use testkit::hard;
 use testkit::judge::{Verdict, ensure};
 use testkit::rational::Plane;
+use testkit::tally::fail;
 use testkit::views::View;
 use testkit::{model, orders};
 
@@ -184,7 +184,7 @@ proptest! {
     fn awkward_eyes_are_on_the_sides_that_rationals_say(
         scene in hard::scene(), by in crate::tree::heuristic(), seed in any::<u64>(),
     ) {
-        let tree = build(&scene, by)?;
+        let tree = scene.build(by).map_err(fail)?;
         let views = awkward_views(tree.faces(), 2, &mut Dice(seed));
         Sides::new(&tree).check_all(&views).map_err(fail)?;
     }

@@ -11,6 +11,7 @@ use peers::{Bvh, Parry32, Parry64, Peer};
 use std::hint::black_box;
 use std::time::Instant;
 use support::{Table, Target, against, check, scene, triangulated};
+use testkit::dice::Dice;
 use truth::Truth;
 
 const SCENES: [&str; 10] = [
@@ -69,26 +70,26 @@ impl Case {
     }
 }
 
-/// Points of a box from a seed: SplitMix64.
+/// Points of a box from a seed.
 struct Points {
-    random: binspace::internals::SplitMix64,
+    dice: Dice,
     bounds: [DVec3; 2],
 }
 
 impl Points {
     fn new(bounds: [DVec3; 2]) -> Self {
-        Self { random: binspace::internals::SplitMix64::new(support::SEED), bounds }
+        Self { dice: Dice(support::SEED), bounds }
     }
 
     /// A point of the box, enlarged.
     fn next(&mut self, by: f64) -> DVec3 {
         let [low, high] = self.bounds;
-        let share = self.random.point(0.5 - 0.5 * by, 0.5 + 0.5 * by);
+        let share = self.dice.point(0.5 - 0.5 * by, 0.5 + 0.5 * by);
         low + (high - low) * share
     }
 
     fn below(&mut self, n: usize) -> usize {
-        (self.random.next() % n as u64) as usize
+        self.dice.below(n)
     }
 }
 

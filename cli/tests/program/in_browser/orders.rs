@@ -1,11 +1,12 @@
 //! The script of a page orders as the library does.
 
 use binspace::glam::DVec3;
-use binspace::internals::{LATTICE_LIMIT, SplitMix64};
+use binspace::internals::LATTICE_LIMIT;
 use binspace::{BspTree, Viewpoint};
 
 use super::{browser, page_and_tree, said};
 use crate::run::{CROSSING, Folder};
+use testkit::dice::Dice;
 
 /// An eye at a point of the grid, or a direction to look in, of components that are kept as they are.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +41,13 @@ impl Eye {
 /// Eyes around and inside a scene and far from it; on planes, on their lines and on vertices; and directions,
 /// also along planes.
 fn eyes(tree: &BspTree, count: usize, seed: u64) -> Vec<Eye> {
-    let mut random = SplitMix64::new(seed);
+    let mut dice = Dice(seed);
     let nodes: Vec<_> = tree.nodes().map(|node| node.grid_points()).collect();
     let mut eyes = Vec::new();
     for k in 0..count {
         let [p, q, r] =
-            nodes[random.next() as usize % nodes.len()].map(|point| point.map(|c| c as f64));
-        let mut point = |reach: f64| [(); 3].map(|()| (random.range(-reach, reach)).round());
+            nodes[dice.roll() as usize % nodes.len()].map(|point| point.map(|c| c as f64));
+        let mut point = |reach: f64| [(); 3].map(|()| (dice.range(-reach, reach)).round());
         let along =
             |a: f64, b: f64| std::array::from_fn(|i| p[i] + a * (q[i] - p[i]) + b * (r[i] - p[i]));
         eyes.push(match k % 10 {

@@ -2,10 +2,10 @@
 
 use binspace::BuildOptions;
 use binspace::glam::{DVec3, dvec3};
-use binspace::internals::SplitMix64;
 use binspace::scene::Scene;
 use binspace::{BspTree, Ray};
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
+use testkit::dice::Dice;
 use testkit::effort::times;
 
 type Point = [i128; 3];
@@ -54,16 +54,16 @@ fn setting() -> (Scene, BspTree, Vec<Vec<Point>>) {
 }
 
 /// A point of a surface in whole numbers; often on a rim or in line with one.
-fn point(scene: &Scene, random: &mut SplitMix64) -> DVec3 {
+fn point(scene: &Scene, dice: &mut Dice) -> DVec3 {
     // The floor is the first polygon, and half of the points are on it.
-    let polygon = match random.next() % 2 {
+    let polygon = match dice.roll() % 2 {
         0 => 0,
-        _ => (random.next() % scene.len() as u64) as usize,
+        _ => (dice.roll() % scene.len() as u64) as usize,
     };
     let [a, b, _, d] = std::array::from_fn(|k| scene.polygon(polygon)[k]);
-    let [u, v] = [0, 1].map(|_| match random.next() % 8 {
-        0 => (random.next() % 2) as f64,
-        _ => (random.next() % 4097) as f64 / 4096.0,
+    let [u, v] = [0, 1].map(|_| match dice.roll() % 8 {
+        0 => (dice.roll() % 2) as f64,
+        _ => (dice.roll() % 4097) as f64 / 4096.0,
     });
     (a + u * (b - a) + v * (d - a)).round()
 }
@@ -82,10 +82,10 @@ fn a_million_sight_lines_are_those_of_whole_numbers() {
 fn compare_sight_lines(count: usize) {
     let (scene, tree, polygons) = setting();
     let bounds = tree.bounds().unwrap();
-    let (mut random, lamp) = (SplitMix64::new(9), lamp(9));
+    let (mut dice, lamp) = (Dice(9), lamp(9));
     let (mut blocked, mut wrong) = (0, 0);
     for k in 0..count {
-        let (point, at) = (point(&scene, &mut random), lamp[k % lamp.len()]);
+        let (point, at) = (point(&scene, &mut dice), lamp[k % lamp.len()]);
         let found = bounds.is_blocked(&tree, Ray::between(point, at));
         let truth = polygons.iter().any(|polygon| blocks(polygon, whole(point), whole(at)));
         wrong += usize::from(found != truth);
@@ -108,11 +108,11 @@ fn a_shadow_that_breaks_the_rule_is_noticed() {
 fn zones_are_those_of_many_more_points_but_for_a_rim() {
     let (scene, tree, polygons) = setting();
     let bounds = tree.bounds().unwrap();
-    let mut random = SplitMix64::new(4);
+    let mut dice = Dice(4);
     let (corners, some, many) = (lamp(2), lamp(5), lamp(25));
     let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
     for _ in 0..times(1500) {
-        let point = point(&scene, &mut random);
+        let point = point(&scene, &mut dice);
         let hidden = |at: &DVec3| polygons.iter().any(|p| blocks(p, whole(point), whole(*at)));
         let truth = match many.iter().filter(|at| hidden(at)).count() {
             0 => Zone::Lit,
