@@ -1,7 +1,7 @@
 //! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project};
-use super::sightlines::{Origin, Sightlines};
+use super::overlay::{between, place_in};
+use super::sightlines::Sightlines;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::{DVec2, DVec3};
 use binspace::raster::Rays;
@@ -194,38 +194,23 @@ pub(crate) fn at(
 }
 
 fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
-    let (faces, lattice) = (tree.faces(), *tree.faces().lattice());
-    let Some(origin) = origin(tree, camera) else { return };
-    let sightlines = Sightlines::new(faces, origin);
+    let faces = tree.faces();
+    let Some(sightlines) = Sightlines::of(tree, camera) else { return };
     let rays = Rays::new(camera, faces).unwrap();
     let map = VisibilityMap::with_opacities(tree, rays, |_| opacity).unwrap();
     let (runs, shown) = (map.crossings_in_layers().unwrap(), map.crossings().unwrap());
-    let models: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
-    let of = |polygon: usize| {
-        let own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == polygon);
-        own.map(|face| &models[face as usize]).collect::<Vec<_>>()
-    };
     for face in 0..faces.len() as u32 {
         let Some(k) = (0..3).find(|&k| faces.outline_edge(face, k).is_none()) else { continue };
         let polygon = faces.polygon(face);
         let other = polygon ^ 1;
-        let corners = &models[face as usize].corners;
+        let corners = &sightlines.faces[face as usize].1.corners;
         let ends = [corners[k as usize].clone(), corners[(k as usize + 1) % 3].clone()];
         let along = rational::difference(&ends[1], &ends[0]);
         for i in 0..5 {
             let point = between(&ends, 0.061 + 0.19 * f64::from(i));
-            if let Origin::Eye(eye) = &sightlines.origin {
-                let arm = rational::difference(&point, eye);
-                if !rational::scalar(&arm, &rational::point(camera.forward())).is_positive() {
-                    continue;
-                }
-            }
-            let Some(place) = project(camera, &lattice, &point) else { continue };
-            let [x, y] = place;
-            if !(0.0 < x && x < 319.0 && 0.0 < y && y < 239.0) {
-                continue;
-            }
-            let sides = [polygon, other].map(|polygon| sides_at(&of(polygon), &along, &point));
+            let Some(place) = sightlines.place_of(&point) else { continue };
+            let sides = [polygon, other]
+                .map(|polygon| sides_at(&sightlines.faces_of(polygon), &along, &point));
             let Some(is_crossed) = do_cross(&along, &sides) else { continue };
             let here: Vec<(&EdgeRun, bool)> = at(&runs, [polygon, other], place).collect();
             if !is_crossed {
@@ -247,7 +232,7 @@ fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
             let is_shown = at(&shown, [polygon, other], place).any(|(_, is_inside)| is_inside);
             assert_eq!(is_shown, before == 0, "{place:?} {camera:?}");
             score.crossed[before.min(2)] += 1;
-            score.both += usize::from(of(other).len() > 1);
+            score.both += usize::from(sightlines.faces_of(other).len() > 1);
         }
     }
 }

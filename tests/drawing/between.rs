@@ -1,6 +1,6 @@
 //! Lines and points between translucent polygons, against rays in rationals.
 
-use super::overlay::{between, for_each_crowd, hard_shapes, origin, place_in, project};
+use super::overlay::{between, for_each_crowd, hard_shapes, place_in};
 use super::sightlines::Sightlines;
 use binspace::drawing::{DisplayItem, Drawing, LineRun, Path, VisibilityMap};
 use binspace::glam::DVec3;
@@ -74,25 +74,20 @@ fn check(
     let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
     overlay.replace_with(tree, shapes).map_err(text)?;
     let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
-    let Some(origin) = origin(tree, camera) else { return Ok(()) };
-    let sightlines = Sightlines::new(tree.faces(), origin);
+    let Some(sightlines) = Sightlines::of(tree, camera) else { return Ok(()) };
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
     let drawing = Drawing::translucent_with_overlay(tree, rays.clone(), &overlay).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
-    let mut faces_of =
-        vec![
-            0;
-            1 + (0..tree.faces().len()).map(|f| tree.faces().polygon(f as u32)).max().unwrap_or(0)
-        ];
-    (0..tree.faces().len()).for_each(|face| faces_of[tree.faces().polygon(face as u32)] += 1);
     // How many paths there have to be before a point, and not before it.
     let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
         let before = sightlines.polygons_before(point);
         let mut judged = [0; 2];
         for (number, path) in paths.iter().enumerate() {
             // Those of bent polygons may be behind a line with one face and in front with another.
-            if faces_of[path.polygon()] > 1 || covers(path, at, through) != Some(true) {
+            if covers(path, at, through) != Some(true)
+                || sightlines.faces_of(path.polygon()).len() > 1
+            {
                 continue;
             }
             let is_before = before.contains(&path.polygon());
@@ -117,7 +112,7 @@ fn check(
                 for _ in 0..each {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
                     let point: Point = between(&ends, share);
-                    let Some(at) = project(camera, &lattice, &point) else { continue };
+                    let Some(at) = sightlines.project(&point) else { continue };
                     if place_in(run.ends, at) == Some(true) {
                         let judged = judge(&point, at, below)?;
                         score.below += judged[0];

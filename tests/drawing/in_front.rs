@@ -1,6 +1,6 @@
 //! How many polygons lie in front of hidden edges, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project};
+use super::overlay::{between, place_in};
 use super::sightlines::Sightlines;
 use binspace::drawing::{EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
@@ -82,8 +82,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
             let eye = middle + random.point(-1.0, 1.0).normalize() * size * far;
             let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
             let camera = Camera::perspective(eye, middle, DVec3::Z, 0.8, [320, 240]).unwrap();
-            let Some(origin) = origin(&tree, &camera) else { continue };
-            let sightlines = Sightlines::new(tree.faces(), origin);
+            let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             for run in in_layers(&tree, &camera) {
                 let edge = run.edge.unwrap() as usize;
                 let corners = &polygons[run.polygon];
@@ -92,7 +91,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
                 for _ in 0..3 {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
                     let point: Point = between(&ends, share);
-                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    let Some(at) = sightlines.project(&point) else { continue };
                     if place_in(run.ends, at) != Some(true) {
                         continue;
                     }
@@ -176,8 +175,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
             let eye = random.point(-1.0, 1.0).normalize() * far;
             let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [320, 240]).unwrap();
-            let Some(origin) = origin(&tree, &camera) else { continue };
-            let sightlines = Sightlines::new(tree.faces(), origin);
+            let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             let runs = in_layers(&tree, &camera);
             for edge in runs.chunk_by(|a, b| (a.polygon, a.edge) == (b.polygon, b.edge)) {
                 let corners = &polygons[edge[0].polygon];
@@ -185,7 +183,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
                 let ends = [number, (number + 1) % corners.len()]
                     .map(|k| rational::point(lattice.snap(corners[k])));
                 // Runs go from the beginning of the edge to its end.
-                let projected = ends.each_ref().map(|end| project(&camera, &lattice, end));
+                let projected = ends.each_ref().map(|end| sightlines.project(end));
                 if let [Some(a), Some(b)] = projected {
                     let way = [b[0] - a[0], b[1] - a[1]];
                     for run in edge {
@@ -200,7 +198,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
                 for _ in 0..4 {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
                     let point: Point = between(&ends, share);
-                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    let Some(at) = sightlines.project(&point) else { continue };
                     let Some(run) = edge.iter().find(|run| place_in(run.ends, at) == Some(true))
                     else {
                         continue;

@@ -1,6 +1,6 @@
 //! Lines and points of an overlay in a picture, by hand and against rays in rationals.
 
-use super::sightlines::{Origin, Sightlines};
+use super::sightlines::Sightlines;
 use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shapes};
@@ -50,8 +50,7 @@ fn check(
     let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
     overlay.replace_with(tree, shapes).map_err(text)?;
     let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
-    let Some(origin) = origin(tree, camera) else { return Ok(()) };
-    let sightlines = Sightlines::new(tree.faces(), origin);
+    let Some(sightlines) = Sightlines::of(tree, camera) else { return Ok(()) };
     let map = VisibilityMap::of(tree, rays).map_err(text)?;
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
@@ -62,7 +61,7 @@ fn check(
         for _ in 0..each {
             let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
             let point: Point = between(&ends, share);
-            let Some(at) = project(camera, &lattice, &point) else { continue };
+            let Some(at) = sightlines.project(&point) else { continue };
             match place_in(run.ends, at) {
                 Some(true) => {}
                 Some(false) => {
@@ -83,7 +82,7 @@ fn check(
     check_tiling(&runs)?;
     for MarkerView { point, at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
         let exact = snap(points[point]);
-        let projected = project(camera, &lattice, &exact).expect("ahead of the eye");
+        let projected = sightlines.project(&exact).expect("ahead of the eye");
         if (0..2).any(|i| (projected[i] - at[i]).abs() > 1.1e-3) {
             return Err(format!("point {point}: {at:?}, not {projected:?}, {camera:?}"));
         }
@@ -111,35 +110,9 @@ fn check_tiling(runs: &[LineRun]) -> Result<(), String> {
     Ok(())
 }
 
-/// Where rays come from in a scene's lattice; `None` if that is rounded.
-pub(crate) fn origin(tree: &BspTree, camera: &Camera) -> Option<Origin> {
-    let lattice = tree.faces().lattice();
-    match camera.viewpoint() {
-        binspace::Viewpoint::Eye(eye) => {
-            let place = lattice.to_lattice(eye);
-            let is_exact = place.iter().all(|c| c.fract() == 0.0);
-            is_exact.then(|| Origin::Eye(rational::point(place)))
-        }
-        binspace::Viewpoint::Direction(direction) => {
-            Some(Origin::Along(rational::point(direction)))
-        }
-    }
-}
-
 pub(crate) fn between([a, b]: &[Point; 2], share: f64) -> Point {
     let share = rational::exact(share);
     std::array::from_fn(|i| &a[i] + (&b[i] - &a[i]) * &share)
-}
-
-pub(crate) fn project(
-    camera: &Camera,
-    lattice: &binspace::internals::Lattice,
-    point: &Point,
-) -> Option<[f64; 2]> {
-    use num_traits::ToPrimitive;
-    let rounded = point.each_ref().map(|c| c.to_f64().expect("in range"));
-    // Pixels of cameras begin at the picture's corner.
-    camera.project(lattice.to_world(rounded)).map(|at| at.map(|c| c - 0.5))
 }
 
 /// Whether a point is well inside of a run; `None` if it is not in it at all.

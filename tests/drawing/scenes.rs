@@ -73,31 +73,3 @@ fn nothing_is_clipped_of_scans() {
         }
     }
 }
-
-/// Polygons that show in the upper or in the lower rows are those that show in all.
-#[test]
-fn parts_of_a_picture_show_the_same_polygons() {
-    let scene = Builtin::City.build(Some(1000), 3);
-    let tree = BspTree::build(scene.polygons()).unwrap();
-    let mut compared = 0;
-    for camera in cameras(&scene, 4, SIZE) {
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let shown = |rays: Rays| {
-            let map = VisibilityMap::of(&tree, rays).unwrap();
-            map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
-        };
-        let whole = shown(rays.clone());
-        let mut parts = [0..50, 50..51, 51..180].map(|rows| shown(rays.rows(rows))).concat();
-        parts.sort_by_key(|&(polygon, _)| polygon);
-        let together: Vec<(usize, f64)> = parts
-            .chunk_by(|a, b| a.0 == b.0)
-            .map(|same| (same[0].0, same.iter().map(|part| part.1).sum()))
-            .collect();
-        assert_eq!(whole.len(), together.len());
-        for (whole, parts) in whole.iter().zip(&together) {
-            assert!(whole.0 == parts.0 && (whole.1 - parts.1).abs() < 1e-6, "{whole:?} {parts:?}");
-            compared += 1;
-        }
-    }
-    enough!(compared > 500; "{compared}");
-}

@@ -8,27 +8,11 @@ use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
 use testkit::hits::{Oracle, Score};
-use testkit::scenes::polygons;
+use testkit::scenes::{cells, polygons};
 use testkit::shapes;
 use testkit::shots::Shots;
 
 type Polygons = Vec<Vec<DVec3>>;
-
-/// Unit squares of a cubic lattice, most of the walls between its cells: rays meet many at once.
-fn cells(n: usize, dice: &mut Dice) -> Polygons {
-    let mut polygons = Vec::new();
-    for at in 0..n * n * n {
-        let corner = [at % n, at / n % n, at / n / n].map(|c| c as f64);
-        for axis in 0..3 {
-            if dice.below(4) > 0 {
-                let [u, v] = [DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]];
-                let corner = DVec3::from_array(corner);
-                polygons.push(vec![corner, corner + u, corner + u + v, corner + v]);
-            }
-        }
-    }
-    polygons
-}
 
 /// Squares through one line.
 fn sheaf(n: u32) -> Polygons {
@@ -63,7 +47,7 @@ fn sheets(layers: usize, gap: f64, dice: &mut Dice) -> Polygons {
 /// Stars and bent squares, which are triangulated.
 fn stars(n: usize, dice: &mut Dice) -> Polygons {
     let star = |_| {
-        let centre = DVec3::from_array([0; 3].map(|_| dice.around_zero(20)));
+        let centre = dice.whole_point(20);
         let bend = dice.below(2) as f64;
         let corner = |k: usize| {
             let turn = shapes::regular(10, DMat3::IDENTITY, DVec3::ZERO)[k];

@@ -98,7 +98,7 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
 
 /// A region of some kind that is hard for a scene.
 fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
-    let normal = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));
+    let normal = |dice: &mut Dice| dice.whole_point(2);
     let through = |normal: DVec3, point: DVec3| (normal, normal.dot(point));
     match dice.below(8) {
         // Boxes with sides through corners, some of them flat.

@@ -11,10 +11,9 @@ use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use testkit::dice::Dice;
-use testkit::interior;
-use testkit::scenes::polygons;
+use testkit::scenes::{cells, polygons};
 
-/// Polygons with area of many kinds: cut, moved by the tolerance, far out, in one plane, a level.
+/// Polygons with area of many kinds: cut, moved by the tolerance, far out, in one plane, walls of cells.
 fn scenes() -> Vec<Vec<Vec<DVec3>>> {
     let mut scenes: Vec<Vec<Vec<DVec3>>> = [
         scene::random_triangles(70, 3),
@@ -34,7 +33,7 @@ fn scenes() -> Vec<Vec<Vec<DVec3>>> {
         let moved = source.iter().map(|polygon| polygon.iter().map(place).collect());
         scenes.push(moved.collect());
     }
-    scenes.push(interior::rooms(4).into_iter().map(|quad| quad.to_vec()).collect());
+    scenes.push(cells(4, &mut Dice(4)));
     scenes
 }
 

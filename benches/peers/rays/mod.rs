@@ -3,7 +3,6 @@
 //! second table has rays through corners and edges, and how many answers are wrong.
 
 mod peers;
-mod truth;
 
 use binspace::glam::DVec3;
 use binspace::{Bounds, BspTree, Ray};
@@ -12,7 +11,7 @@ use std::hint::black_box;
 use std::time::Instant;
 use support::{Table, Target, against, check, scene, triangulated};
 use testkit::dice::Dice;
-use truth::Truth;
+use testkit::hits::Oracle;
 
 const SCENES: [&str; 10] = [
     "random:1000",
@@ -194,7 +193,7 @@ fn errors(cases: &[Case]) {
     ];
     let table = Table::new("Nearest hits of rays through corners and edges", &columns);
     for case in cases.iter().filter(|case| case.triangles.len() < 30_000) {
-        let truth = Truth::new(&case.triangles);
+        let oracle = Oracle::new(&case.tree);
         let mut points = Points::new(case.extent());
         let peers: [Box<dyn Peer>; 3] = [
             Box::new(Parry64::new(&case.triangles)),
@@ -213,7 +212,7 @@ fn errors(cases: &[Case]) {
             let from =
                 if k % 3 == 0 { target.with_z(points.next(2.0).z) } else { points.next(2.0) };
             let ray = [from, target - from];
-            let expected = truth.nearest(ray);
+            let expected = oracle.nearest(Ray::new(ray[0], ray[1]));
             hits += usize::from(expected.is_some());
             let found = [
                 case.nearest(ray),

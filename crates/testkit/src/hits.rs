@@ -404,6 +404,13 @@ impl<'t> Oracle<'t> {
         hits
     }
 
+    /// The parameter of the nearest hit.
+    pub fn nearest(&self, ray: Ray) -> Option<f64> {
+        let line = self.line(ray);
+        let first = self.chords(&line).into_iter().map(|chord| chord.enter).min()?;
+        Some(line.parameter(&first))
+    }
+
     /// Compares what the tree says of a ray with what it should.
     pub fn check(&self, ray: Ray, score: &mut Score) -> Result<(), String> {
         let line = self.line(ray);

@@ -1,6 +1,7 @@
 //! The test kit: exact oracles to judge the library by, scenes that are hard to decide, choices from
 //! a seed, and the bodies of the fuzz targets. Tests, benches and fuzzing share it.
 
+pub mod browser;
 pub mod cell_cover;
 pub mod cell_orders;
 pub mod checks;
@@ -12,9 +13,9 @@ pub mod effort;
 pub mod fill;
 pub mod fragment_pixels;
 pub mod hard;
+pub mod hinted;
 pub mod hits;
 pub mod homogeneous;
-pub mod interior;
 pub mod judge;
 pub mod layered;
 pub mod model;

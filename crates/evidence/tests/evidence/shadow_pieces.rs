@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use testkit::dice::Dice;
 use testkit::enough;
-use testkit::vector::{difference, product, scalar};
+use testkit::vector::{Plane, scalar};
 
 type Point = [BigInt; 3];
 
@@ -21,29 +21,17 @@ fn whole(point: [f64; 3]) -> Point {
     })
 }
 
-/// A plane by a normal and a point on it.
-struct Through(Point, BigInt);
-
-impl Through {
-    fn new(a: &Point, b: &Point, c: &Point) -> Self {
-        let normal = product(&difference(b, a), &difference(c, a));
-        let offset = scalar(&normal, a);
-        Self(normal, offset)
-    }
-
-    /// The side of a point given by multiples of its coordinates, and the factor.
-    fn side(&self, [x, y, z, w]: &[BigInt; 4]) -> Sign {
-        let Self([a, b, c], offset) = self;
-        (a * x + b * y + c * z - offset * w).sign()
-    }
+/// The side of a point given by multiples of its coordinates, and the factor.
+fn side(plane: &Plane<BigInt>, [point @ .., factor]: &[BigInt; 4]) -> Sign {
+    (scalar(&plane.normal, point) - &plane.offset * factor).sign()
 }
 
 /// A face, as seen from a point of the lamp: its plane, the lamp's side of it, and the planes through
 /// the lamp and its edges.
 struct Screen {
-    plane: Through,
+    plane: Plane<BigInt>,
     lamp: Sign,
-    rims: Vec<Through>,
+    rims: Vec<Plane<BigInt>>,
 }
 
 /// What may hide a point of the lamp.
@@ -55,12 +43,12 @@ impl Judge {
         let lamp = whole(at.0);
         let screen = |face: u32| {
             let corners: Vec<Point> = faces.corners(face).iter().map(|&p| whole(p)).collect();
-            let plane = Through::new(&corners[0], &corners[1], &corners[2]);
+            let plane = Plane::through([&corners[0], &corners[1], &corners[2]]);
             let next = corners.iter().cycle().skip(1);
-            let rims = corners.iter().zip(next).map(|(a, b)| Through::new(&lamp, a, b)).collect();
-            let [x, y, z] = lamp.clone();
-            let side = plane.side(&[x, y, z, BigInt::from(1)]);
-            Screen { plane, lamp: side, rims }
+            let edges = corners.iter().zip(next);
+            let rims = edges.map(|(a, b)| Plane::through([&lamp, a, b])).collect();
+            let lamp = plane.at(&lamp).sign();
+            Screen { plane, lamp, rims }
         };
         Self((0..faces.len() as u32).map(screen).collect())
     }
@@ -72,10 +60,10 @@ impl Judge {
     /// Whether a face has a point between this one and the lamp.
     fn hides(&self, point: &[BigInt; 4]) -> bool {
         self.0.iter().any(|Screen { plane, lamp, rims }| {
-            if *lamp == Sign::NoSign || plane.side(point) != -*lamp {
+            if *lamp == Sign::NoSign || side(plane, point) != -*lamp {
                 return false;
             }
-            let sides: Vec<Sign> = rims.iter().map(|rim| rim.side(point)).collect();
+            let sides: Vec<Sign> = rims.iter().map(|rim| side(rim, point)).collect();
             !(sides.contains(&Sign::Plus) && sides.contains(&Sign::Minus))
         })
     }

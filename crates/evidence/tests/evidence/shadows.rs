@@ -7,6 +7,7 @@ use binspace::{BspTree, Ray};
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
 use testkit::dice::Dice;
 use testkit::effort::times;
+use testkit::vector::{Plane, difference, product, scalar};
 
 type Point = [i128; 3];
 
@@ -15,22 +16,10 @@ fn whole(p: DVec3) -> Point {
     p.to_array().map(|c| c as i128)
 }
 
-fn minus(p: Point, q: Point) -> Point {
-    std::array::from_fn(|i| p[i] - q[i])
-}
-
-fn dot(p: Point, q: Point) -> i128 {
-    (0..3).map(|i| p[i] * q[i]).sum()
-}
-
-fn cross(p: Point, q: Point) -> Point {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| p[i] * q[j] - p[j] * q[i])
-}
-
 /// Whether a convex polygon has a point between two that are not both in its plane.
 fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
-    let normal = cross(minus(polygon[1], polygon[0]), minus(polygon[2], polygon[0]));
-    let [at_a, at_b] = [a, b].map(|p| dot(normal, minus(p, polygon[0])));
+    let plane = Plane::through([&polygon[0], &polygon[1], &polygon[2]]);
+    let [at_a, at_b] = [a, b].map(|p| plane.at(&p));
     assert!(at_a != 0 || at_b != 0, "no sight line is in a plane");
     if at_a.signum() * at_b.signum() >= 0 {
         return false;
@@ -40,8 +29,8 @@ fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
     let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
     (0..polygon.len()).all(|k| {
         let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
-        let arm = minus(met, p.map(|c| c * by));
-        sign * dot(normal, cross(minus(q, p), arm)) >= 0
+        let arm = difference(&met, &p.map(|c| c * by));
+        sign * scalar(&plane.normal, &product(&difference(&q, &p), &arm)) >= 0
     })
 }
 
