@@ -1,10 +1,14 @@
-//! Where polygons go through one another, by hand.
+//! Where polygons go through one another, by hand and against rays.
 
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::view::{Camera, views};
+use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use testkit::dice::Dice;
+use testkit::enough;
+use testkit::fill::ray;
+use testkit::scenes::triangles;
 
 fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
@@ -173,4 +177,128 @@ fn what_only_touches_does_not_cross() {
     let eye = DVec3::new(-3.0, 4.0, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [200, 150]).unwrap();
     assert_eq!(crossings(&tree, &camera), []);
+}
+
+/// The segment that two triangles have in common, in floats.
+fn common(a: &[DVec3; 3], b: &[DVec3; 3]) -> Option<[DVec3; 2]> {
+    let normal = |[p, q, r]: &[DVec3; 3]| (*q - *p).cross(*r - *p);
+    let along = normal(a).cross(normal(b));
+    // Where the edges of one meet the plane of the other.
+    let ends = |of: &[DVec3; 3], other: &[DVec3; 3]| {
+        let n = normal(other);
+        let value = of.map(|p| n.dot(p - other[0]));
+        let cut = |i: usize| {
+            let j = (i + 1) % 3;
+            let share = value[i] / (value[i] - value[j]);
+            ((value[i] < 0.0) != (value[j] < 0.0)).then(|| of[i].lerp(of[j], share))
+        };
+        let mut cuts: Vec<DVec3> = (0..3).filter_map(cut).collect();
+        cuts.sort_by(|p, q| along.dot(*p).total_cmp(&along.dot(*q)));
+        <[DVec3; 2]>::try_from(cuts).ok()
+    };
+    let ([a0, a1], [b0, b1]) = (ends(a, b)?, ends(b, a)?);
+    let low = if along.dot(a0) > along.dot(b0) { a0 } else { b0 };
+    let high = if along.dot(a1) < along.dot(b1) { a1 } else { b1 };
+    (along.dot(low) < along.dot(high)).then_some([low, high])
+}
+
+/// Where a point is in the picture.
+fn project(camera: &Camera, point: DVec3) -> Option<[f64; 2]> {
+    let Viewpoint::Eye(eye) = camera.viewpoint() else { panic!("an eye") };
+    let [width, height] = camera.size().map(f64::from);
+    let arm = point - eye;
+    let depth = arm.dot(camera.forward()) * camera.pixel_size();
+    let x = arm.dot(camera.right()) / depth + 0.5 * width - 0.5;
+    let y = 0.5 * height - 0.5 - arm.dot(camera.up()) / depth;
+    let is_in = depth > 0.0 && x > 0.0 && y > 0.0 && x < width - 1.0 && y < height - 1.0;
+    is_in.then_some([x, y])
+}
+
+/// How far a point is from a segment, and from its nearer end.
+fn distances([[ax, ay], [bx, by]]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    let (ux, uy) = (bx - ax, by - ay);
+    let share = (((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy)).clamp(0.0, 1.0);
+    let off = (x - ax - share * ux).hypot(y - ay - share * uy);
+    [off, (x - ax).hypot(y - ay).min((x - bx).hypot(y - by))]
+}
+
+#[derive(Debug, Default)]
+struct Score {
+    visible: usize,
+    hidden: usize,
+    unsure: usize,
+    on_runs: usize,
+}
+
+fn check(triangles: &[[DVec3; 3]], camera: &Camera, score: &mut Score) {
+    let tree = BspTree::build(triangles).unwrap();
+    let runs = crossings(&tree, camera);
+    for i in 0..triangles.len() {
+        for j in i + 1..triangles.len() {
+            let Some([from, to]) = common(&triangles[i], &triangles[j]) else { continue };
+            for k in 0..5 {
+                let point = from.lerp(to, 0.09 + 0.2 * f64::from(k));
+                let Some(at) = project(camera, point) else { continue };
+                let Viewpoint::Eye(eye) = camera.viewpoint() else { panic!("an eye") };
+                let depth = point.distance(eye);
+                // A little to all sides something nearer hides it, or nothing does.
+                let is_hidden = |off: [f64; 2], margin: f64| {
+                    let ray = ray(camera, [at[0] + off[0], at[1] + off[1]]);
+                    let binspace::Ray::Endless { direction, .. } = ray else { panic!("no end") };
+                    let limit = depth / direction.length() * margin;
+                    let others = |polygon: usize| polygon != i && polygon != j;
+                    tree.hits(ray)
+                        .take_while(|hit| hit.parameter() < limit)
+                        .any(|hit| hit.parameter() > 0.0 && others(hit.polygon()))
+                };
+                let offs = [[0.0, 0.0], [0.01, 0.0], [-0.01, 0.0], [0.0, 0.01], [0.0, -0.01]];
+                let answers = offs.map(|off| is_hidden(off, 0.999));
+                // A third that is as far passes through, nearly.
+                let is_near = is_hidden([0.0; 2], 1.001) && !answers[0];
+                let of_pair = |run: &EdgeRun| (run.polygon, run.kind) == (i, EdgeKind::Crossing(j));
+                let mut nearest = [f64::INFINITY; 2];
+                for run in runs.iter().filter(|run| of_pair(run)) {
+                    let [off, end] = distances(run.ends, at);
+                    nearest = [nearest[0].min(off), nearest[1].min(end)];
+                }
+                let is_torn = answers.contains(&true) && answers.contains(&false);
+                if is_near || is_torn || nearest[1] < 0.02 {
+                    score.unsure += 1;
+                    continue;
+                }
+                let is_on_run = nearest[0] < 1e-6;
+                assert_eq!(is_on_run, !answers[0], "{i} and {j} at {at:?}: {nearest:?}");
+                score.visible += usize::from(is_on_run);
+                score.hidden += usize::from(!is_on_run);
+            }
+        }
+    }
+    // No long run but on a crossing.
+    for run in &runs {
+        let [[ax, ay], [bx, by]] = run.ends;
+        let EdgeKind::Crossing(other) = run.kind else { panic!("{run:?}") };
+        let [from, to] = common(&triangles[run.polygon], &triangles[other]).expect("they cross");
+        let middle = [(ax + bx) / 2.0, (ay + by) / 2.0];
+        if let (Some(from), Some(to)) = (project(camera, from), project(camera, to)) {
+            assert!(distances([from, to], middle)[0] < 1e-5, "{run:?}");
+            score.on_runs += 1;
+        }
+    }
+}
+
+#[test]
+fn rays_agree_with_crossings() {
+    let (mut score, mut dice) = (Score::default(), Dice(5));
+    for (count, edge) in [(60, 0.8), (150, 0.4), (300, 0.2)] {
+        let triangles: Vec<[DVec3; 3]> = triangles(&mut dice, count, [0.0, 1.0], edge)
+            .into_iter()
+            .map(|triangle| triangle.try_into().expect("three corners"))
+            .collect();
+        let bounds = [-DVec3::splat(edge), DVec3::splat(1.0 + edge)];
+        for camera in views(bounds, DVec3::Z, 4, [320, 240], 7).unwrap() {
+            check(&triangles, &camera, &mut score);
+        }
+    }
+    enough!(score.visible > 500, score.hidden > 5000, score.on_runs > 500; "{score:?}");
+    assert!(score.unsure * 20 < score.visible + score.hidden, "{score:?}");
 }

@@ -67,15 +67,9 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
 fn crossings_have_as_many_layers_as_rays_meet() {
     let mut dice = Dice(8);
     let (mut judged, mut most, mut pairs, mut unsure, mut on_lines) = ([0; 4], 0, 0, 0, 0);
-    for (count, edge, is_parallel) in [
-        (40, 0.8, false),
-        (40, 0.8, true),
-        (60, 0.8, false),
-        (120, 0.5, false),
-        (150, 0.4, false),
-        (250, 0.25, true),
-        (300, 0.2, false),
-    ] {
+    for (count, edge, is_parallel) in
+        [(40, 0.8, false), (40, 0.8, true), (120, 0.5, false), (250, 0.25, true)]
+    {
         let polygons = triangles(&mut dice, count, [-1.0, 1.0], edge);
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap();
         let lattice = tree.faces().lattice();
@@ -95,7 +89,7 @@ fn crossings_have_as_many_layers_as_rays_meet() {
             }
         }
         pairs += crossing.len();
-        for far in [3.0, 1.7, 1.0, 0.4] {
+        for far in [3.0, 0.4] {
             let place = dice.point(-1.0, 1.0).normalize() * far;
             let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
             let camera = match is_parallel {
@@ -124,8 +118,8 @@ fn crossings_have_as_many_layers_as_rays_meet() {
                         on_lines += 1;
                     }
                 }
-                for k in 0..12 {
-                    let point = between(ends, 0.046 + 0.08 * f64::from(k));
+                for k in 0..6 {
+                    let point = between(ends, 0.071 + 0.16 * f64::from(k));
                     let Some(at) = sightlines.place_of(&point) else { continue };
                     let mut here = runs.iter().filter(|run| place_in(run.ends, at).is_some());
                     let run = here.next().unwrap_or_else(|| panic!("{i} {j} {at:?}"));
@@ -145,8 +139,7 @@ fn crossings_have_as_many_layers_as_rays_meet() {
             assert_eq!(judged_runs, runs.len(), "of polygons that cross");
         }
     }
-    let all: usize = judged.iter().sum();
-    assert!(judged.iter().all(|&count| count > 700) && most > 4, "{judged:?} {most}");
-    assert!(all > 9000 && all - judged[0] > 5000 && on_lines > 500, "{judged:?} {on_lines}");
-    assert!(pairs > 200 && unsure * 20 < all, "{pairs} {unsure} {judged:?}");
+    assert!(judged.iter().all(|&count| count > 50) && most > 4, "{judged:?} {most}");
+    assert!(pairs > 200 && on_lines > 100, "{pairs} {on_lines}");
+    assert!(unsure * 20 < judged.iter().sum::<usize>(), "{unsure} {judged:?}");
 }

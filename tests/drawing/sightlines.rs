@@ -53,7 +53,7 @@ impl Sightlines {
         let all: Vec<(usize, Face)> = all.collect();
         let rounded = all.iter().map(|(_, face)| face.corners.iter().map(to_f64).collect());
         let (Origin::Eye(from) | Origin::Along(from)) = &origin;
-        let (from, camera, lattice) = (to_f64(from), camera.clone(), *faces.lattice());
+        let (from, camera, lattice) = (to_f64(from), *camera, *faces.lattice());
         Some(Self { rounded: rounded.collect(), faces: all, origin, from, camera, lattice })
     }
 

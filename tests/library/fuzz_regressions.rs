@@ -4,7 +4,9 @@ use std::path::Path;
 use testkit::enough;
 use testkit::targets;
 
-const TARGETS: [(&str, fn(&[u8])); 9] = [
+type Target = (&'static str, fn(&[u8]));
+
+const TARGETS: [Target; 9] = [
     ("split", targets::split::run),
     ("tree", targets::tree::run),
     ("cells", targets::cells::run),
