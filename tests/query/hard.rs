@@ -10,7 +10,7 @@ use testkit::shots::Shots;
 use testkit::tally::{fail, tally};
 
 #[test]
-fn rays_hit_what_rationals_say() {
+fn rays_hit_what_integers_say() {
     let cases = (hard::scene(), hard::heuristic(), any::<u64>(), any::<bool>());
     let score = tally(file!(), 256, cases, |score: &mut Score, (scene, by, seed, of_frame)| {
         let mut builder = FrameBuilder::new(scene.options(by));

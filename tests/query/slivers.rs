@@ -31,7 +31,7 @@ fn scene(dice: &mut Dice) -> Vec<Vec<[f64; 3]>> {
 }
 
 #[test]
-fn rays_among_slivers_hit_what_rationals_say() {
+fn rays_among_slivers_hit_what_integers_say() {
     let mut score = Score::default();
     for seed in 0..40 {
         let mut dice = Dice(seed);
