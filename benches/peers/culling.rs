@@ -6,9 +6,9 @@ use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{Bounds, BspTree, Culling, Frustum, Sides};
 use binspace_evidence::culling::unhidden;
+use binspace_evidence::interior::{HEIGHT, ROOM, rooms};
 use std::time::{Duration, Instant};
 use support::{Table, Target, against, time};
-use testkit::interior::{HEIGHT, ROOM, rooms};
 
 /// The rooms on a side of each level.
 const SIDES: [usize; 4] = [40, 100, 200, 475];

@@ -6,6 +6,7 @@ use binspace::overlay::{Overlay, Shapes};
 use binspace::{BspTree, BuildOptions, Viewpoint, scene};
 use std::time::{Duration, Instant};
 use support::{SEED, Table, Target, against, check, scene as named, time, viewpoints};
+use testkit::dice::Dice;
 
 const SCENES: [&str; 6] = [
     "city:10000",
@@ -99,9 +100,9 @@ fn moving() {
 /// Squares of a hundredth of the extent, on their ways through the scene, turning.
 fn movers(low: DVec3, high: DVec3, frame: usize) -> Vec<[DVec3; 4]> {
     let size = (high - low).max_element() * 0.005;
-    let mut random = binspace::internals::SplitMix64::new(SEED);
+    let mut dice = Dice(SEED);
     let mover = |_| {
-        let [x, y, z, turn] = [0; 4].map(|_| random.range(0.0, 1.0));
+        let [x, y, z, turn] = [0; 4].map(|_| dice.range(0.0, 1.0));
         let angle = turn * 6.0 + frame as f64 * 0.2;
         let way = DVec3::new(angle.cos(), angle.sin(), 0.3 * (2.0 * angle).sin()) * 0.02;
         let share = (DVec3::new(x, y, z) + way).clamp(DVec3::ZERO, DVec3::ONE);
@@ -222,8 +223,8 @@ fn lines_and_bodies() {
 
 /// Curves that wind through a box, and points anywhere in it.
 fn curves(low: DVec3, high: DVec3) -> (Vec<Vec<DVec3>>, Vec<DVec3>) {
-    let mut random = binspace::internals::SplitMix64::new(SEED);
-    let mut any = || DVec3::from_array([0; 3].map(|_| random.range(0.0, 1.0)));
+    let mut dice = Dice(SEED);
+    let mut any = || DVec3::from_array([0; 3].map(|_| dice.range(0.0, 1.0)));
     let place = |share: DVec3| low + (high - low) * share.clamp(DVec3::ZERO, DVec3::ONE);
     let curve = |_| {
         let (at, turn) = (any(), any());

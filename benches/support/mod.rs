@@ -3,13 +3,13 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
 
 use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::internals::SplitMix64;
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use std::{env, fs, thread};
+use testkit::dice::Dice;
 
 /// The seed of every generated scene.
 pub const SEED: u64 = 1;
@@ -51,13 +51,13 @@ pub fn random_quads(count: u32) -> Scene {
 
 /// A heap of turned boxes that cross each other.
 pub fn boxes(count: u32) -> Scene {
-    let mut random = SplitMix64::new(SEED);
+    let mut dice = Dice(SEED);
     let mut scene = Scene::new(format!("boxes:{count}"), DVec3::Z);
     for _ in 0..count {
-        let centre = random.point(-1.0, 1.0);
-        let angles = random.point(-3.0, 3.0);
+        let centre = dice.point(-1.0, 1.0);
+        let angles = dice.point(-3.0, 3.0);
         let turn = DQuat::from_euler(EulerRot::XYZ, angles.x, angles.y, angles.z);
-        let half = random.point(0.05, 0.3);
+        let half = dice.point(0.05, 0.3);
         for axis in 0..3 {
             for side in [-1.0, 1.0] {
                 let corner = |[u, v]: [f64; 2]| {
@@ -100,11 +100,11 @@ pub fn rulings(strips: i32, patches: i32) -> Scene {
 
 /// Triangles anywhere in the unit cube, each with corners anywhere in a cube of side 0.3.
 pub fn triangles_in_cubes(count: u32) -> Scene {
-    let mut random = SplitMix64::new(SEED);
+    let mut dice = Dice(SEED);
     let mut scene = Scene::new(format!("triangles in cubes:{count}"), DVec3::Z);
     for _ in 0..count {
-        let centre = random.point(0.0, 1.0);
-        scene.push([(); 3].map(|()| centre + random.point(-0.15, 0.15)), 0);
+        let centre = dice.point(0.0, 1.0);
+        scene.push([(); 3].map(|()| centre + dice.point(-0.15, 0.15)), 0);
     }
     scene
 }

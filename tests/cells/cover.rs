@@ -1,19 +1,17 @@
 //! Each point of each polygon is in one cell: areas and edges of all cells together, in rationals.
 
-use proptest::prelude::*;
-use proptest::test_runner::{Config, TestRunner};
-use testkit::enough;
-
-use binspace::BuildOptions;
 use binspace::glam::DVec3;
+use binspace::{BuildOptions, Heuristic};
 
 use crate::cells::polygons::{stars, tiles, triangles};
 use testkit::cell_cover::check;
 use testkit::dice::Dice;
 use testkit::divided::Divided;
+use testkit::enough;
 use testkit::hard;
 use testkit::judge::{Verdict, ensure};
-use testkit::shapes::Corners;
+use testkit::shapes::{Corners, sheet};
+use testkit::tally::{fail, tally};
 
 fn checked(polygons: Vec<Corners>, options: BuildOptions, cells: usize) -> usize {
     let scene = Divided::new(polygons, options, cells).unwrap();
@@ -36,30 +34,21 @@ fn every_polygon_is_in_all_cells_together_once() {
 
 #[test]
 fn every_hard_polygon_is_in_all_cells_together_once() {
-    let mut runner = TestRunner::new(Config { cases: 150, ..Config::default() });
-    let cut = std::cell::Cell::new(0);
-    let run = runner.run(&(hard::scene(), 1..10_usize), |(scene, cells)| {
-        let mut options = BuildOptions::DEFAULT;
-        if let Some(length) = scene.tolerance() {
-            options = options.with_tolerance(length);
-        }
+    let cases = (hard::scene(), 1..10_usize);
+    let cut = tally(file!(), 150, cases, |cut: &mut usize, (scene, cells)| {
+        let options = scene.options(Heuristic::default());
         let divided = Divided::new(scene.polygons, options, cells).expect("a tree of each");
-        let verdict = check(&divided, options);
-        prop_assert!(verdict.is_ok(), "{}", verdict.unwrap_err());
-        cut.set(cut.get() + verdict.unwrap());
+        *cut += check(&divided, options).map_err(fail)?;
         Ok(())
     });
-    run.unwrap();
-    enough!(cut.get() > 100; "{}", cut.get());
+    enough!(cut > 100; "{cut}");
 }
 
 /// What lies in the plane between two cells is in the one on the side of larger coordinates, and what is
 /// within the tolerance of it as well.
 #[test]
 fn what_lies_in_a_plane_between_is_in_the_cell_in_front() {
-    let square = |x: f64| -> Corners {
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(x, y, z)).to_vec()
-    };
+    let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
     let xs = [0.0, 2.0 - 1e-7, 2.0, 2.0 + 1e-7, 2.0 - 1e-5, 4.0];
     let polygons: Vec<Corners> = xs.map(square).into();
     // The middle of three samples.

@@ -2,12 +2,11 @@
 //! integers.
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use testkit::effort::times;
 use testkit::enough;
 
-use binspace::BuildOptions;
 use binspace::glam::DVec3;
+use binspace::{BuildOptions, Heuristic};
 
 use crate::cells::polygons::{stars, tiles, triangles};
 use testkit::cell_orders::{Score, judge, places, shoot};
@@ -15,19 +14,8 @@ use testkit::dice::Dice;
 use testkit::divided::Divided;
 use testkit::hard;
 use testkit::rays::{Ray, Rays};
-use testkit::shapes::Corners;
+use testkit::tally::{fail, tally};
 use testkit::views::View;
-
-fn judged(polygons: Vec<Corners>, tolerance: Option<f64>, cells: usize, seed: u64) -> Score {
-    let mut score = Score::default();
-    let mut options = BuildOptions::DEFAULT;
-    if let Some(length) = tolerance {
-        options = options.with_tolerance(length);
-    }
-    let scene = Divided::new(polygons, options, cells).unwrap();
-    judge(&scene, seed, 12, &mut score).unwrap_or_else(|what| panic!("{cells} cells: {what}"));
-    score
-}
 
 #[test]
 fn triangles_tiles_and_stars_come_far_before_near() {
@@ -35,11 +23,10 @@ fn triangles_tiles_and_stars_come_far_before_near() {
     for cells in 1..10 {
         let mut dice = Dice(cells as u64);
         for polygons in [triangles(&mut dice, 24, 40), tiles(&mut dice, 40), stars(&mut dice, 6)] {
-            let score = judged(polygons, Some(0.0), cells, 77 + cells as u64);
-            total.pairs += score.pairs;
-            total.apart += score.apart;
-            total.coplanar += score.coplanar;
-            total.excused += score.excused;
+            let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
+            let scene = Divided::new(polygons, exact, cells).unwrap();
+            judge(&scene, 77 + cells as u64, 12, &mut total)
+                .unwrap_or_else(|what| panic!("{cells} cells: {what}"));
         }
     }
     assert_eq!(total.excused, 0);
@@ -48,24 +35,13 @@ fn triangles_tiles_and_stars_come_far_before_near() {
 
 #[test]
 fn hard_scenes_come_far_before_near() {
-    // The bounds below are of these very scenes.
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let mut runner = TestRunner::new_with_rng(Config { cases: 100, ..Config::default() }, rng);
-    let total = std::cell::RefCell::new(Score::default());
-    let scenes = (hard::scene(), 1..10_usize, any::<u64>());
-    let judged = runner.run(&scenes, |(scene, cells, seed)| {
-        let mut options = BuildOptions::DEFAULT;
-        if let Some(length) = scene.tolerance() {
-            options = options.with_tolerance(length);
-        }
+    let cases = (hard::scene(), 1..10_usize, any::<u64>());
+    let total = tally(file!(), 100, cases, |total: &mut Score, (scene, cells, seed)| {
+        let options = scene.options(Heuristic::default());
         let divided = Divided::new(scene.polygons, options, cells).expect("a tree of each");
-        let verdict = judge(&divided, seed, 4, &mut total.borrow_mut());
-        prop_assert!(verdict.is_ok(), "{}", verdict.unwrap_err());
-        Ok(())
+        judge(&divided, seed, 4, total).map_err(fail)
     });
-    judged.unwrap();
-    let total = total.into_inner();
-    assert!(total.scenes == 100 && total.pairs > 3_000 && total.apart > 500, "{total:?}");
+    enough!(total.scenes >= 100, total.pairs > 3_000, total.apart > 500; "{total:?}");
     enough!(total.empty_cells > 20; "{total:?}");
     // What the tolerance excuses is the exception, also of pairs in different cells.
     assert!(total.excused * 50 < total.apart, "{total:?}");

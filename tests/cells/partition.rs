@@ -11,7 +11,8 @@ use testkit::enough;
 use crate::cells::polygons::{stars, tiles, triangles};
 use testkit::dice::Dice;
 use testkit::divided::{Divided, extent};
-use testkit::shapes::Corners;
+use testkit::scenes::polygons;
+use testkit::shapes::{Corners, sheet};
 use testkit::snapshot::Snapshot;
 
 /// What is seen of a tree: where its fragments are, and whose.
@@ -271,10 +272,7 @@ impl Polygon for Exact {
 #[test]
 fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
     let at = DVec3::splat(5e6);
-    let square = |x: f64| {
-        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        Exact(corners.map(|[y, z]| at + DVec3::new(x, y, z)).to_vec())
-    };
+    let square = |x: f64| Exact(sheet(0, x, 1.0).map(|corner| at + DVec3::from(corner)).to_vec());
     let squares = [square(0.0), square(0.5)];
     let mut extent = Extent::default();
     squares.iter().for_each(|square| extent.include(square));
@@ -294,9 +292,7 @@ fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
 
 #[test]
 fn a_tree_is_of_its_own_cell_alone() {
-    let square = |x: f64| -> Corners {
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(x, y, z)).to_vec()
-    };
+    let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
     let squares: Vec<Corners> = (0..9).map(|x| square(f64::from(x))).collect();
     let whole = BspTree::build(&squares).unwrap();
     for cells in [1, 2, 5] {
@@ -342,9 +338,7 @@ fn a_cell_behind_the_last_is_refused() {
 /// Two squares far apart in a corner of the extent: bounds that hold more.
 #[test]
 fn bounds_of_the_options_are_held_too() {
-    let square = |z: f64| -> Corners {
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()
-    };
+    let square = |z: f64| -> Corners { sheet(2, z, 1.0).map(DVec3::from).to_vec() };
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::splat(100.0));
     let scene = Divided::new(vec![square(0.0), square(1.0)], options, 2).unwrap();
     let whole = options.build(&scene.polygons).unwrap();
@@ -356,7 +350,7 @@ fn bounds_of_the_options_are_held_too() {
 #[test]
 fn a_cell_is_a_tree_as_any_other() {
     let terrain = scene::terrain(400, 3);
-    let polygons: Vec<Corners> = terrain.polygons().map(|p| p.to_vec()).collect();
+    let polygons = polygons(&terrain);
     let scene = Divided::new(polygons, BuildOptions::DEFAULT, 4).unwrap();
     let whole = BspTree::build(terrain.polygons()).unwrap();
     let (mut area, mut hits) = (0.0, [0; 2]);

@@ -7,7 +7,7 @@ use testkit::shapes::Corners;
 
 /// Triangles at random with whole corners from −n to n.
 pub(crate) fn triangles(dice: &mut Dice, count: usize, n: u32) -> Vec<Corners> {
-    let mut corner = || DVec3::from_array([0; 3].map(|_| dice.around_zero(n)));
+    let mut corner = || dice.whole_point(n);
     (0..count).map(|_| vec![corner(), corner(), corner()]).collect()
 }
 
@@ -32,7 +32,7 @@ pub(crate) fn tiles(dice: &mut Dice, count: usize) -> Vec<Corners> {
 /// Stars that are not convex, so that they are triangulated, turned any way.
 pub(crate) fn stars(dice: &mut Dice, count: usize) -> Vec<Corners> {
     let star = |_| {
-        let mut some = || DVec3::from_array([0; 3].map(|_| dice.around_zero(8)));
+        let mut some = || dice.whole_point(8);
         let (middle, u, v) = (some() * 2.0, some(), some());
         let around = [[4, 0], [1, 1], [0, 4], [-1, 1], [-4, 0], [-1, -1], [0, -4], [1, -1]];
         around.map(|[a, b]| middle + u * f64::from(a) + v * f64::from(b)).to_vec()

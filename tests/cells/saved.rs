@@ -9,12 +9,8 @@ use testkit::dice::Dice;
 use testkit::divided::Divided;
 use testkit::saved::{bytes, seal, use_all};
 use testkit::snapshot::Snapshot;
-
-fn written(partition: &Partition) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    partition.write(&mut bytes).unwrap();
-    bytes
-}
+use testkit::targets;
+use testkit::targets::cells::{try_file, written};
 
 fn divided(seed: u64, cells: usize) -> Divided {
     let mut dice = Dice(seed);
@@ -67,25 +63,7 @@ fn forged_partitions_are_errors_or_partitions() {
             let mut forged = file.clone();
             forged[at] = value;
             seal(&mut forged);
-            let Ok(partition) = Partition::read(&forged[..]) else {
-                read[0] += 1;
-                continue;
-            };
-            read[1] += 1;
-            assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);
-            let mut reached = Vec::new();
-            let mut given = vec![vec![]; partition.cells()];
-            for polygon in &scene.polygons {
-                partition.reached_by(polygon, &mut reached);
-                reached.iter().for_each(|&cell| given[cell].push(polygon));
-            }
-            for (cell, polygons) in given.into_iter().enumerate() {
-                // The grid may be another, and the polygons beyond it.
-                if let Ok(tree) = BuildOptions::DEFAULT.build_cell(&partition, cell, polygons) {
-                    tree.validate().unwrap();
-                }
-                partition.bounds(cell);
-            }
+            read[usize::from(try_file(&forged, &scene.polygons))] += 1;
         }
     }
     enough!(read[0] > 50, read[1] > 50; "{read:?}");
@@ -122,13 +100,7 @@ fn forged_trees_of_cells_can_be_used() {
             let at = 16 + dice.below(file.len() - 20);
             forged[at] = if dice.below(2) == 0 { dice.below(256) as u8 } else { forged[at] ^ 1 };
             seal(&mut forged);
-            match BspTree::read(&forged[..]) {
-                Ok(tree) => {
-                    use_all(&tree).unwrap();
-                    read[1] += 1;
-                }
-                Err(_) => read[0] += 1,
-            }
+            read[usize::from(targets::saved::try_file(&forged))] += 1;
         }
     }
     enough!(read[0] > 300, read[1] > 50; "{read:?}");

@@ -4,15 +4,16 @@ use super::scenes::cameras;
 use binspace::BspTree;
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::Scene;
+use testkit::dice::Dice;
 use testkit::effort::times;
+use testkit::scenes::triangles;
 
 /// Six walls around some triangles.
 fn room() -> Scene {
     let mut scene = Scene::new("room", DVec3::Z);
-    let mut random = SplitMix64::new(4);
+    let mut dice = Dice(4);
     for axis in 0..3 {
         for side in [-1.0, 1.0] {
             let corner = |u: f64, v: f64| {
@@ -26,10 +27,8 @@ fn room() -> Scene {
             );
         }
     }
-    for _ in 0..times(300) {
-        let centre = random.point(-4.0, 4.0);
-        scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0)), 0);
-    }
+    let triangles = triangles(&mut dice, times(300), [-4.0, 4.0], 1.0);
+    triangles.into_iter().for_each(|triangle| scene.push(triangle, 0));
     scene
 }
 

@@ -1,16 +1,16 @@
 //! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project};
-use super::sightlines::{Origin, Sightlines};
+use super::overlay::{between, place_in};
+use super::sightlines::Sightlines;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::{DVec2, DVec3};
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use testkit::dice::Dice;
 use testkit::enough;
 use testkit::model::Face;
 use testkit::rational::{self, Point, Rational};
@@ -65,26 +65,26 @@ fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
 }
 
 /// A number of so many 256ths.
-fn number(random: &mut SplitMix64, most: f64) -> f64 {
-    (random.range(-most, most) * 256.0).round() / 256.0
+fn number(dice: &mut Dice, most: f64) -> f64 {
+    (dice.range(-most, most) * 256.0).round() / 256.0
 }
 
-fn vector(random: &mut SplitMix64, most: f64) -> DVec3 {
-    DVec3::from_array([(); 3].map(|()| number(random, most)))
+fn vector(dice: &mut Dice, most: f64) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| number(dice, most)))
 }
 
 /// Pairs of polygons around lines: at least one of each pair is bent along its line.
-fn pairs(random: &mut SplitMix64, count: usize) -> Vec<Vec<DVec3>> {
+fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons = vec![];
     for i in 0..count {
         // Quarters and eighths of it are numbers of few bits.
-        let (from, along) = (vector(random, 1.0), vector(random, 0.25) * 2.0);
+        let (from, along) = (vector(dice, 1.0), vector(dice, 0.25) * 2.0);
         let at = |share: f64| from + along * share;
         // On either side of the line, further apart than it is long: it is the shorter diagonal.
         let mut sides = || {
-            let away = vector(random, 0.5);
+            let away = vector(dice, 0.5);
             let away = away + away.signum() * 0.25;
-            [at(0.5) + away, at(0.5) - away + vector(random, 0.375)]
+            [at(0.5) + away, at(0.5) - away + vector(dice, 0.375)]
         };
         let ([a, b], [c, d]) = (sides(), sides());
         polygons.push(vec![at(0.0), a, at(1.0), b]);
@@ -194,38 +194,23 @@ pub(crate) fn at(
 }
 
 fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
-    let (faces, lattice) = (tree.faces(), *tree.faces().lattice());
-    let Some(origin) = origin(tree, camera) else { return };
-    let sightlines = Sightlines::new(faces, origin);
+    let faces = tree.faces();
+    let Some(sightlines) = Sightlines::of(tree, camera) else { return };
     let rays = Rays::new(camera, faces).unwrap();
     let map = VisibilityMap::with_opacities(tree, rays, |_| opacity).unwrap();
     let (runs, shown) = (map.crossings_in_layers().unwrap(), map.crossings().unwrap());
-    let models: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
-    let of = |polygon: usize| {
-        let own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == polygon);
-        own.map(|face| &models[face as usize]).collect::<Vec<_>>()
-    };
     for face in 0..faces.len() as u32 {
         let Some(k) = (0..3).find(|&k| faces.outline_edge(face, k).is_none()) else { continue };
         let polygon = faces.polygon(face);
         let other = polygon ^ 1;
-        let corners = &models[face as usize].corners;
+        let corners = &sightlines.faces[face as usize].1.corners;
         let ends = [corners[k as usize].clone(), corners[(k as usize + 1) % 3].clone()];
         let along = rational::difference(&ends[1], &ends[0]);
         for i in 0..5 {
             let point = between(&ends, 0.061 + 0.19 * f64::from(i));
-            if let Origin::Eye(eye) = &sightlines.origin {
-                let arm = rational::difference(&point, eye);
-                if !rational::scalar(&arm, &rational::point(camera.forward())).is_positive() {
-                    continue;
-                }
-            }
-            let Some(place) = project(camera, &lattice, &point) else { continue };
-            let [x, y] = place;
-            if !(0.0 < x && x < 319.0 && 0.0 < y && y < 239.0) {
-                continue;
-            }
-            let sides = [polygon, other].map(|polygon| sides_at(&of(polygon), &along, &point));
+            let Some(place) = sightlines.place_of(&point) else { continue };
+            let sides = [polygon, other]
+                .map(|polygon| sides_at(&sightlines.faces_of(polygon), &along, &point));
             let Some(is_crossed) = do_cross(&along, &sides) else { continue };
             let here: Vec<(&EdgeRun, bool)> = at(&runs, [polygon, other], place).collect();
             if !is_crossed {
@@ -247,23 +232,22 @@ fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
             let is_shown = at(&shown, [polygon, other], place).any(|(_, is_inside)| is_inside);
             assert_eq!(is_shown, before == 0, "{place:?} {camera:?}");
             score.crossed[before.min(2)] += 1;
-            score.both += usize::from(of(other).len() > 1);
+            score.both += usize::from(sightlines.faces_of(other).len() > 1);
         }
     }
 }
 
 #[test]
 fn crossings_along_bends_are_those_that_rays_meet() {
-    let (mut random, mut score) = (SplitMix64::new(14), Score::default());
+    let (mut dice, mut score) = (Dice(14), Score::default());
     let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
     for (count, rounds, options) in
         [(1, 24, exact), (8, 4, exact), (8, 4, BuildOptions::DEFAULT), (30, 1, exact)]
     {
         for round in 0..rounds {
-            let tree = options.build(pairs(&mut random, count)).unwrap();
+            let tree = options.build(pairs(&mut dice, count)).unwrap();
             let lattice = *tree.faces().lattice();
-            let place =
-                random.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };
+            let place = dice.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };
             let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
             let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]);
             let parallel = Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 3.0, [320, 240]);
@@ -292,12 +276,12 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
 /// Whatever the tolerance leaves open at the ends of polygons and along their bends.
 #[test]
 fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
-    let (mut random, mut compared) = (SplitMix64::new(15), 0);
+    let (mut dice, mut compared) = (Dice(15), 0);
     for tolerance in [0.0, 0.01, 0.05, 0.2] {
         for _ in 0..12 {
             let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
-            let tree = options.build(pairs(&mut random, 8)).unwrap();
-            let eye = random.point(-1.0, 1.0).normalize() * 4.0;
+            let tree = options.build(pairs(&mut dice, 8)).unwrap();
+            let eye = dice.point(-1.0, 1.0).normalize() * 4.0;
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
             let rays = Rays::new(&camera, tree.faces()).unwrap();
             let map = VisibilityMap::of(&tree, rays).unwrap();

@@ -1,6 +1,6 @@
 //! Lines and points between translucent polygons, against rays in rationals.
 
-use super::overlay::{between, for_each_crowd, hard_shapes, origin, place_in, project, square};
+use super::overlay::{between, for_each_crowd, hard_shapes, place_in};
 use super::sightlines::Sightlines;
 use binspace::drawing::{DisplayItem, Drawing, LineRun, Path, VisibilityMap};
 use binspace::glam::DVec3;
@@ -9,12 +9,12 @@ use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
-use proptest::test_runner::TestCaseError;
 use testkit::dice::Dice;
 use testkit::enough;
 use testkit::hard;
 use testkit::rational::{self, Point};
-use testkit::tally::tally;
+use testkit::shapes::rectangle;
+use testkit::tally::{fail, tally};
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -74,25 +74,20 @@ fn check(
     let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
     overlay.replace_with(tree, shapes).map_err(text)?;
     let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
-    let Some(origin) = origin(tree, camera) else { return Ok(()) };
-    let sightlines = Sightlines::new(tree.faces(), origin);
+    let Some(sightlines) = Sightlines::of(tree, camera) else { return Ok(()) };
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
     let drawing = Drawing::translucent_with_overlay(tree, rays.clone(), &overlay).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
-    let mut faces_of =
-        vec![
-            0;
-            1 + (0..tree.faces().len()).map(|f| tree.faces().polygon(f as u32)).max().unwrap_or(0)
-        ];
-    (0..tree.faces().len()).for_each(|face| faces_of[tree.faces().polygon(face as u32)] += 1);
     // How many paths there have to be before a point, and not before it.
     let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
         let before = sightlines.polygons_before(point);
         let mut judged = [0; 2];
         for (number, path) in paths.iter().enumerate() {
             // Those of bent polygons may be behind a line with one face and in front with another.
-            if faces_of[path.polygon()] > 1 || covers(path, at, through) != Some(true) {
+            if covers(path, at, through) != Some(true)
+                || sightlines.faces_of(path.polygon()).len() > 1
+            {
                 continue;
             }
             let is_before = before.contains(&path.polygon());
@@ -117,7 +112,7 @@ fn check(
                 for _ in 0..each {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
                     let point: Point = between(&ends, share);
-                    let Some(at) = project(camera, &lattice, &point) else { continue };
+                    let Some(at) = sightlines.project(&point) else { continue };
                     if place_in(run.ends, at) == Some(true) {
                         let judged = judge(&point, at, below)?;
                         score.below += judged[0];
@@ -160,7 +155,7 @@ fn check(
 /// behind all it is in one, also where some do not reach.
 #[test]
 fn a_line_is_cut_only_where_it_goes_through() {
-    let walls = [-1.0, 0.0, 1.0].map(|z| square([-2.0, -2.0], [2.0, 2.0], z));
+    let walls = [-1.0, 0.0, 1.0].map(|z| rectangle([-2.0, -2.0], [2.0, 2.0], z));
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
     let tree = options.build(walls).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
@@ -208,8 +203,8 @@ fn lines_and_points_come_between_polygons_that_touch() {
     let wall: Vec<DVec3> = wall.map(DVec3::from).to_vec();
     let (mut score, mut dice) = (Score::default(), Dice(1));
     for [left, right] in [[-1.0, 1.0], [1.0, -1.0]] {
-        let left = square([-2.0, -2.0], [0.0, 2.0], left);
-        let right = square([0.0, -2.0], [2.0, 2.0], right);
+        let left = rectangle([-2.0, -2.0], [0.0, 2.0], left);
+        let right = rectangle([0.0, -2.0], [2.0, 2.0], right);
         let squares = [wall.clone(), left, right];
         for (heuristic, y) in
             Heuristic::ALL.iter().zip([[-2.0, 2.0], [-1.0, 1.0], [1.5, -3.0]].iter().cycle())
@@ -254,11 +249,7 @@ fn lines_come_between_hard_polygons() {
     let cases = (hard::scene(), any::<u64>());
     let score = tally(file!(), 128, cases, |score: &mut Score, (scene, seed)| {
         let mut dice = Dice(seed);
-        let corners = || scene.polygons.iter().flatten().copied();
-        let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
-        else {
-            return Ok(());
-        };
+        let Some([low, high]) = scene.bounds() else { return Ok(()) };
         let (middle, reach) = ((low + high) * 0.5, (high - low).max_element() * 4.0);
         let options = BuildOptions::DEFAULT.with_tolerance(0.0);
         let options = options.with_bounds(middle - reach, middle + reach);
@@ -274,7 +265,7 @@ fn lines_come_between_hard_polygons() {
         let along = Camera::parallel(direction, up, middle, reach, [96, 72]);
         for camera in [at, along].into_iter().flatten() {
             let result = check(&tree, &camera, &lines, &points, (&mut dice, 3, UNTOLD), score);
-            result.map_err(TestCaseError::fail)?;
+            result.map_err(fail)?;
         }
         Ok(())
     });

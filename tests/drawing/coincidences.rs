@@ -3,24 +3,22 @@
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::{BspTree, Heuristic};
 use proptest::prelude::*;
-use proptest::test_runner::TestCaseError;
 use testkit::enough;
 use testkit::fill::{Score, check};
 use testkit::hard::{self, HardScene};
 use testkit::layered::{Layers, check_layers, check_mixed};
-use testkit::tally::tally;
+use testkit::tally::{fail, tally};
 
 #[test]
 fn hard_scenes_are_drawn_as_rays_meet_them() {
-    let heuristic = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), heuristic, any::<u64>());
+    let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let score = tally(file!(), 256, cases, |score: &mut Score, (scene, heuristic, seed)| {
         for_each_view(&scene, heuristic, seed, |tree, camera, rays| {
             check(tree, camera, rays, score)
         })
-        .map_err(TestCaseError::fail)
+        .map_err(fail)
     });
     enough!(score.pictures > 400, score.pixels > 500_000; "{score:?}");
     enough!(score.paths > 1000, score.clipped > 10; "{score:?}");
@@ -28,13 +26,12 @@ fn hard_scenes_are_drawn_as_rays_meet_them() {
 
 #[test]
 fn layers_of_hard_scenes_are_those_of_the_tree() {
-    let heuristic = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), heuristic, any::<u64>());
+    let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let score = tally(file!(), 256, cases, |score: &mut Layers, (scene, heuristic, seed)| {
         for_each_view(&scene, heuristic, seed, |tree, camera, rays| {
             check_layers(tree, camera, rays, score)
         })
-        .map_err(TestCaseError::fail)
+        .map_err(fail)
     });
     enough!(score.pixels > 500_000, score.layers > 100_000; "{score:?}");
     assert!(
@@ -45,14 +42,13 @@ fn layers_of_hard_scenes_are_those_of_the_tree() {
 
 #[test]
 fn layers_of_hard_scenes_end_at_what_is_opaque() {
-    let heuristic = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), heuristic, any::<u64>());
+    let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let score = tally(file!(), 256, cases, |score: &mut Layers, (scene, heuristic, seed)| {
         let opacity = |polygon: usize| [1.0, 0.5, 0.25, 1.0, 0.0][polygon * 7 % 11 % 5];
         for_each_view(&scene, heuristic, seed, |tree, camera, rays| {
             check_mixed(tree, camera, rays, &opacity, score)
         })
-        .map_err(TestCaseError::fail)
+        .map_err(fail)
     });
     enough!(score.pixels > 500_000, score.layers > 50_000; "{score:?}");
     enough!(score.hidden > 100, score.small > 10, score.regions > 1_000; "{score:?}");
@@ -64,18 +60,9 @@ fn for_each_view(
     seed: u64,
     mut check: impl FnMut(&BspTree, &Camera, Rays) -> Result<(), String>,
 ) -> Result<(), String> {
-    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-    let options = match scene.tolerance() {
-        Some(tolerance) => options.with_tolerance(tolerance),
-        None => options,
-    };
-    let tree = options.build(&scene.polygons).map_err(|error| error.to_string())?;
-    let corners = || scene.polygons.iter().flatten().copied();
-    let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
-    else {
-        return Ok(());
-    };
-    for camera in views([low, high], DVec3::Z, 3, [48, 36], seed).into_iter().flatten() {
+    let tree = scene.build(heuristic)?;
+    let Some(bounds) = scene.bounds() else { return Ok(()) };
+    for camera in views(bounds, DVec3::Z, 3, [48, 36], seed).into_iter().flatten() {
         // Some scenes are flat: a camera inside is too near for pixels to be told apart.
         let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
         check(&tree, &camera, rays)?;

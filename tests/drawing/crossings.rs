@@ -2,12 +2,13 @@
 
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
+use testkit::dice::Dice;
 use testkit::enough;
 use testkit::fill::ray;
+use testkit::scenes::triangles;
 
 fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
@@ -287,13 +288,11 @@ fn check(triangles: &[[DVec3; 3]], camera: &Camera, score: &mut Score) {
 
 #[test]
 fn rays_agree_with_crossings() {
-    let (mut score, mut random) = (Score::default(), SplitMix64::new(5));
+    let (mut score, mut dice) = (Score::default(), Dice(5));
     for (count, edge) in [(60, 0.8), (150, 0.4), (300, 0.2)] {
-        let triangles: Vec<[DVec3; 3]> = (0..count)
-            .map(|_| {
-                let centre = random.point(0.0, 1.0);
-                [(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge)
-            })
+        let triangles: Vec<[DVec3; 3]> = triangles(&mut dice, count, [0.0, 1.0], edge)
+            .into_iter()
+            .map(|triangle| triangle.try_into().expect("three corners"))
             .collect();
         let bounds = [-DVec3::splat(edge), DVec3::splat(1.0 + edge)];
         for camera in views(bounds, DVec3::Z, 4, [320, 240], 7).unwrap() {

@@ -8,11 +8,10 @@ use binspace::view::Camera;
 use testkit::effort::times;
 use testkit::enough;
 use testkit::layered::{Layers, check_mixed};
+use testkit::shapes::rectangle;
 
 fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-        .map(|[u, v]| DVec3::new(x + u * half, y + v * half, z))
-        .to_vec()
+    rectangle([x - half, y - half], [x + half, y + half], z)
 }
 
 /// A hundred thousand squares behind a wall of ten; a million with an effort of ten, in some 20 seconds.

@@ -6,14 +6,15 @@ use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use testkit::fill::{Score, check};
+use testkit::shapes::rectangle;
 
 fn shown(tree: &BspTree, camera: &Camera) -> Vec<usize> {
     let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
     map.polygons().map(|shown| shown.polygon).collect()
 }
 
-fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], z: f64) -> Vec<DVec3> {
-    [[x, y], [x + w, y], [x + w, y + h], [x, y + h]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()
+fn sized([x, y]: [f64; 2], [w, h]: [f64; 2], z: f64) -> Vec<DVec3> {
+    rectangle([x, y], [x + w, y + h], z)
 }
 
 /// A checkerboard, its other squares further back and larger so that they fill the gaps exactly as
@@ -27,11 +28,11 @@ fn what_a_checkerboard_hides_is_hidden_until_a_square_is_missing() {
         for j in -4..4 {
             // Twice as far from the eye is twice as large.
             let (z, scale) = if (i + j) % 2 == 0 { (8.0, 0.5) } else { (0.0, 1.0) };
-            squares.push(rectangle([i, j].map(|c| f64::from(c) * scale), [scale; 2], z));
+            squares.push(sized([i, j].map(|c| f64::from(c) * scale), [scale; 2], z));
         }
     }
     let hidden = squares.len();
-    squares.push(rectangle([-3.0, -3.0], [6.0; 2], -1.0));
+    squares.push(sized([-3.0, -3.0], [6.0; 2], -1.0));
     let tree = BspTree::build(&squares).unwrap();
     let all: Vec<usize> = (0..hidden).collect();
     assert_eq!(shown(&tree, &camera), all);
@@ -53,9 +54,9 @@ fn the_narrowest_gap_shows_what_is_behind() {
     let eye = DVec3::new(0.0, 0.0, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [64, 64]).unwrap();
     for (gap, expected) in [(0.0, vec![0, 1]), (2f64.powi(-40), vec![0, 1, 2])] {
-        let left = rectangle([-4.0, -4.0], [4.0, 8.0], 0.0);
-        let right = rectangle([gap, -4.0], [4.0, 8.0], 0.0);
-        let behind = rectangle([-1.0, -1.0], [2.0; 2], -1.0);
+        let left = sized([-4.0, -4.0], [4.0, 8.0], 0.0);
+        let right = sized([gap, -4.0], [4.0, 8.0], 0.0);
+        let behind = sized([-1.0, -1.0], [2.0; 2], -1.0);
         let tree = BspTree::build([left, right, behind]).unwrap();
         assert_eq!(shown(&tree, &camera), expected, "{gap}");
     }
@@ -64,7 +65,7 @@ fn the_narrowest_gap_shows_what_is_behind() {
 /// A wall cut into many pieces by what stands before it hides what is behind all of it.
 #[test]
 fn a_wall_in_pieces_hides_all_behind_it() {
-    let mut polygons = vec![rectangle([-50.0, -50.0], [100.0; 2], 0.0)];
+    let mut polygons = vec![sized([-50.0, -50.0], [100.0; 2], 0.0)];
     for i in 0..40 {
         let at = f64::from(i) - 20.0;
         // Planes of fins cut the wall.
@@ -79,7 +80,7 @@ fn a_wall_in_pieces_hides_all_behind_it() {
     let visible = polygons.len();
     for i in 0..200 {
         let (x, y) = (f64::from(i % 20) - 10.0, f64::from(i / 20) - 5.0);
-        polygons.push(rectangle([x, y], [0.7, 0.7], -1.0 - f64::from(i)));
+        polygons.push(sized([x, y], [0.7, 0.7], -1.0 - f64::from(i)));
     }
     let tree = BspTree::build(&polygons).unwrap();
     assert!(tree.len() > polygons.len(), "the wall is cut");
@@ -91,7 +92,7 @@ fn a_wall_in_pieces_hides_all_behind_it() {
 /// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing.
 #[test]
 fn eyes_on_polygons_and_away_from_all() {
-    let square = rectangle([-1.0, -1.0], [2.0; 2], 0.0);
+    let square = sized([-1.0, -1.0], [2.0; 2], 0.0);
     let floor: Vec<DVec3> =
         [[-9.0, -2.0, 9.0], [9.0, -2.0, 9.0], [9.0, -2.0, -9.0], [-9.0, -2.0, -9.0]]
             .map(DVec3::from)

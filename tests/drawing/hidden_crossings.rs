@@ -1,20 +1,30 @@
 //! Where polygons go through one another, shown or hidden, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project, square, triangles};
-use super::sightlines::{Origin, Sightlines};
+use super::overlay::{between, place_in};
+use super::sightlines::{Sightlines, common};
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
+use binspace::glam::{DVec2, DVec3};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
-use num_traits::Signed;
+use testkit::dice::Dice;
+use testkit::hard::bounds;
 use testkit::model::Face;
-use testkit::rational::{self, Point};
+use testkit::rational::Point;
+use testkit::scenes::triangles;
+use testkit::shapes::rectangle;
 
 fn length(run: &EdgeRun) -> f64 {
     let [[ax, ay], [bx, by]] = run.ends;
     (bx - ax).hypot(by - ay)
+}
+
+/// Whether a run's middle is on a segment, but for a hundred thousandth of a pixel.
+fn is_between([p, q]: [[f64; 2]; 2], [from, to]: [[f64; 2]; 2]) -> bool {
+    let [from, to] = [from, to].map(DVec2::from);
+    let arm = (DVec2::from(p) + DVec2::from(q)) * 0.5 - from;
+    let share = (arm.dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+    (arm - (to - from) * share).length() < 1e-5
 }
 
 /// Two cards that cross, behind bars: the runs between their ends, each with its layers.
@@ -26,10 +36,10 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     ];
     let mut polygons: Vec<Vec<DVec3>> =
         cards.iter().map(|card| card.map(DVec3::from).to_vec()).collect();
-    polygons.push(square([-3.0, -1.5], [3.0, 1.0], 3.0));
-    polygons.push(square([-3.0, -0.5], [3.0, 0.5], 4.0));
+    polygons.push(rectangle([-3.0, -1.5], [3.0, 1.0], 3.0));
+    polygons.push(rectangle([-3.0, -0.5], [3.0, 0.5], 4.0));
     // Behind all, and one of the cards goes through nothing of it.
-    polygons.push(square([-3.0, -3.0], [3.0, 3.0], -3.0));
+    polygons.push(rectangle([-3.0, -3.0], [3.0, 3.0], -3.0));
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let tree = BspTree::build(&polygons).unwrap();
     let rays = Rays::new(&camera, tree.faces()).unwrap();
@@ -53,54 +63,22 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     assert!((runs.iter().map(length).sum::<f64>() - 40.0).abs() < 1e-6, "{runs:?}");
 }
 
-fn bounds(corners: &[DVec3]) -> [DVec3; 2] {
-    let all = || corners.iter().copied();
-    [all().reduce(DVec3::min).unwrap(), all().reduce(DVec3::max).unwrap()]
-}
-
-/// The segment that two triangles have in common, if they go through one another.
-fn common(a: &Face, b: &Face) -> Option<[Point; 2]> {
-    let mut ends: Vec<Point> = vec![];
-    for (one, other) in [(a, b), (b, a)] {
-        for k in 0..one.corners.len() {
-            let (p, q) = (&one.corners[k], &one.corners[(k + 1) % one.corners.len()]);
-            let (at_p, at_q) = (other.plane.at(p), other.plane.at(q));
-            if (&at_p * &at_q).is_negative() {
-                let share = &at_p / (&at_p - &at_q);
-                let point: Point = std::array::from_fn(|i| &p[i] + (&q[i] - &p[i]) * &share);
-                if is_inside(other, &point) {
-                    ends.push(point);
-                }
-            }
-        }
-    }
-    <[Point; 2]>::try_from(ends).ok()
-}
-
-fn is_inside(face: &Face, point: &Point) -> bool {
-    let n = face.corners.len();
-    (0..n).all(|k| {
-        let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
-        let turn = rational::product(&rational::difference(b, a), &rational::difference(point, a));
-        rational::scalar(&turn, &face.plane.normal).is_positive()
-    })
-}
-
 #[test]
 fn crossings_have_as_many_layers_as_rays_meet() {
-    let mut random = SplitMix64::new(8);
-    let (mut judged, mut most, mut pairs, mut unsure) = ([0; 4], 0, 0, 0);
+    let mut dice = Dice(8);
+    let (mut judged, mut most, mut pairs, mut unsure, mut on_lines) = ([0; 4], 0, 0, 0, 0);
     for (count, edge, is_parallel) in
         [(40, 0.8, false), (40, 0.8, true), (120, 0.5, false), (250, 0.25, true)]
     {
-        let polygons = triangles(&mut random, count, edge);
+        let polygons = triangles(&mut dice, count, [-1.0, 1.0], edge);
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap();
-        let lattice = *tree.faces().lattice();
+        let lattice = tree.faces().lattice();
         let faces: Vec<Face> =
             (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
         assert_eq!(faces.len(), polygons.len());
         // Rationals are slow: only for triangles whose boxes have points in common.
-        let boxes: Vec<[DVec3; 2]> = polygons.iter().map(|corners| bounds(corners)).collect();
+        let boxes: Vec<[DVec3; 2]> =
+            polygons.chunks(1).map(|corners| bounds(corners).expect("corners")).collect();
         let mut crossing: Vec<(usize, usize, [Point; 2])> = vec![];
         for i in 0..faces.len() {
             for j in i + 1..faces.len() {
@@ -112,41 +90,37 @@ fn crossings_have_as_many_layers_as_rays_meet() {
         }
         pairs += crossing.len();
         for far in [3.0, 0.4] {
-            let place = random.point(-1.0, 1.0).normalize() * far;
+            let place = dice.point(-1.0, 1.0).normalize() * far;
             let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
             let camera = match is_parallel {
                 true => Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 1.5 * far, [320, 240]),
                 false => Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]),
             };
             let camera = camera.unwrap();
-            let Some(origin) = origin(&tree, &camera) else { continue };
-            let sightlines = Sightlines::new(tree.faces(), origin);
-            let is_ahead = |point: &Point| match &sightlines.origin {
-                Origin::Eye(eye) => {
-                    let arm = rational::difference(point, eye);
-                    let forward = rational::point(camera.forward());
-                    rational::scalar(&arm, &forward).is_positive()
-                }
-                Origin::Along(_) => true,
-            };
-            let shows = |at: [f64; 2]| 0.0 < at[0] && at[0] < 319.0 && 0.0 < at[1] && at[1] < 239.0;
+            let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
             let runs = map.crossings_in_layers().unwrap();
-            let visible: f64 = map.crossings().unwrap().iter().map(length).sum();
+            let mut judged_runs = 0;
+            let shown = map.crossings().unwrap();
+            let visible: f64 = shown.iter().map(length).sum();
             let same: f64 = runs.iter().filter(|run| run.is_visible).map(length).sum();
             assert!((visible - same).abs() < 1e-3, "{visible} {same}");
             for &(i, j, ref ends) in &crossing {
                 let own = |run: &&EdgeRun| (run.polygon, run.kind) == (i, EdgeKind::Crossing(j));
-                let runs: Vec<&EdgeRun> = runs.iter().filter(own).collect();
+                let [runs, shown] = [&runs, &shown].map(|runs| runs.iter().filter(own));
+                let (runs, shown): (Vec<_>, Vec<_>) = (runs.collect(), shown.collect());
+                judged_runs += runs.len();
+                // Runs are on the line where they cross.
+                if let [Some(from), Some(to)] = ends.each_ref().map(|end| sightlines.place_of(end))
+                {
+                    for run in &runs {
+                        assert!(is_between(run.ends, [from, to]), "{run:?} {from:?} {to:?}");
+                        on_lines += 1;
+                    }
+                }
                 for k in 0..6 {
                     let point = between(ends, 0.071 + 0.16 * f64::from(k));
-                    if !is_ahead(&point) {
-                        continue;
-                    }
-                    let Some(at) = project(&camera, &lattice, &point) else { continue };
-                    if !shows(at) {
-                        continue;
-                    }
+                    let Some(at) = sightlines.place_of(&point) else { continue };
                     let mut here = runs.iter().filter(|run| place_in(run.ends, at).is_some());
                     let run = here.next().unwrap_or_else(|| panic!("{i} {j} {at:?}"));
                     if place_in(run.ends, at) != Some(true) {
@@ -156,12 +130,16 @@ fn crossings_have_as_many_layers_as_rays_meet() {
                     let layers = sightlines.polygons_before(&point).len();
                     assert_eq!(run.layers, Some(layers as u32), "{run:?} {at:?} {camera:?}");
                     assert_eq!(run.is_visible, layers == 0);
+                    let is_shown = shown.iter().any(|run| place_in(run.ends, at).is_some());
+                    assert_eq!(is_shown, run.is_visible, "{run:?} {at:?} {camera:?}");
                     judged[layers.min(3)] += 1;
                     most = most.max(layers);
                 }
             }
+            assert_eq!(judged_runs, runs.len(), "of polygons that cross");
         }
     }
     assert!(judged.iter().all(|&count| count > 50) && most > 4, "{judged:?} {most}");
-    assert!(pairs > 200 && unsure * 20 < judged.iter().sum(), "{pairs} {unsure} {judged:?}");
+    assert!(pairs > 200 && on_lines > 100, "{pairs} {on_lines}");
+    assert!(unsure * 20 < judged.iter().sum::<usize>(), "{unsure} {judged:?}");
 }

@@ -1,10 +1,9 @@
 //! How many polygons lie in front of hidden edges, against rays in rationals.
 
-use super::overlay::{between, origin, place_in, project, square, triangles};
+use super::overlay::{between, place_in};
 use super::sightlines::Sightlines;
 use binspace::drawing::{EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::Builtin;
 use binspace::view::Camera;
@@ -12,7 +11,10 @@ use binspace::{BspTree, BuildOptions};
 use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
+use testkit::hard::bounds;
 use testkit::rational::{self, Point};
+use testkit::scenes::{polygons, triangles};
+use testkit::shapes::rectangle;
 
 fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
@@ -42,9 +44,9 @@ fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
 fn squares_before_one_another_are_counted() {
     let side = |k: u32| f64::from(5 - k);
     let squares: Vec<Vec<DVec3>> =
-        (0..4).map(|k| square([-side(k), -0.5], [side(k), 0.5], f64::from(k))).collect();
+        (0..4).map(|k| rectangle([-side(k), -0.5], [side(k), 0.5], f64::from(k))).collect();
     // Behind all of them.
-    let bar = square([-6.0, -0.25], [6.0, 0.25], -1.0);
+    let bar = rectangle([-6.0, -0.25], [6.0, 0.25], -1.0);
     let tree = BspTree::build(squares.iter().chain([&bar])).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 16.0, [160, 160]).unwrap();
     let runs = in_layers(&tree, &camera);
@@ -63,28 +65,24 @@ fn squares_before_one_another_are_counted() {
 
 #[test]
 fn edges_have_as_many_layers_as_rays_meet() {
-    let (mut random, mut dice) = (SplitMix64::new(8), Dice(8));
+    let (mut random, mut dice) = (Dice(8), Dice(8));
     let mut scenes: Vec<Vec<Vec<DVec3>>> = [(40, 0.8), (120, 0.3), (200, 0.1)]
-        .map(|(count, edge)| triangles(&mut random, count, edge))
+        .map(|(count, edge)| triangles(&mut random, count, [-1.0, 1.0], edge))
         .to_vec();
     for builtin in [Builtin::City, Builtin::Sphere] {
-        let scene = builtin.build(Some(100), 2);
-        scenes.push((0..scene.len()).map(|i| scene.polygon(i).to_vec()).collect());
+        scenes.push(polygons(&builtin.build(Some(100), 2)));
     }
     let (mut judged, mut most, mut on_walls) = ([0; 4], 0, 0);
     for polygons in &scenes {
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(polygons).unwrap();
-        let corners = || polygons.iter().flatten().copied();
-        let (low, high) =
-            (corners().reduce(DVec3::min).unwrap(), corners().reduce(DVec3::max).unwrap());
+        let [low, high] = bounds(polygons).unwrap();
         let lattice = *tree.faces().lattice();
         for far in [2.0, 0.2] {
             let (middle, size) = ((low + high) * 0.5, high - low);
             let eye = middle + random.point(-1.0, 1.0).normalize() * size * far;
             let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
             let camera = Camera::perspective(eye, middle, DVec3::Z, 0.8, [320, 240]).unwrap();
-            let Some(origin) = origin(&tree, &camera) else { continue };
-            let sightlines = Sightlines::new(tree.faces(), origin);
+            let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             for run in in_layers(&tree, &camera) {
                 let edge = run.edge.unwrap() as usize;
                 let corners = &polygons[run.polygon];
@@ -93,7 +91,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
                 for _ in 0..3 {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
                     let point: Point = between(&ends, share);
-                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    let Some(at) = sightlines.project(&point) else { continue };
                     if place_in(run.ends, at) != Some(true) {
                         continue;
                     }
@@ -117,7 +115,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
 /// one end to the other, in its direction.
 #[test]
 fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
-    let (mut random, mut dice) = (SplitMix64::new(3), Dice(3));
+    let (mut random, mut dice) = (Dice(3), Dice(3));
     let outlines: Vec<Vec<[f64; 2]>> = vec![
         // A comb, with corners on its back.
         vec![
@@ -177,8 +175,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
             let eye = random.point(-1.0, 1.0).normalize() * far;
             let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [320, 240]).unwrap();
-            let Some(origin) = origin(&tree, &camera) else { continue };
-            let sightlines = Sightlines::new(tree.faces(), origin);
+            let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             let runs = in_layers(&tree, &camera);
             for edge in runs.chunk_by(|a, b| (a.polygon, a.edge) == (b.polygon, b.edge)) {
                 let corners = &polygons[edge[0].polygon];
@@ -186,7 +183,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
                 let ends = [number, (number + 1) % corners.len()]
                     .map(|k| rational::point(lattice.snap(corners[k])));
                 // Runs go from the beginning of the edge to its end.
-                let projected = ends.each_ref().map(|end| project(&camera, &lattice, end));
+                let projected = ends.each_ref().map(|end| sightlines.project(end));
                 if let [Some(a), Some(b)] = projected {
                     let way = [b[0] - a[0], b[1] - a[1]];
                     for run in edge {
@@ -201,7 +198,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
                 for _ in 0..4 {
                     let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
                     let point: Point = between(&ends, share);
-                    let Some(at) = project(&camera, &lattice, &point) else { continue };
+                    let Some(at) = sightlines.project(&point) else { continue };
                     let Some(run) = edge.iter().find(|run| place_in(run.ends, at) == Some(true))
                     else {
                         continue;

@@ -2,7 +2,7 @@
 
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::{SplitMix64, cuboid};
+use binspace::internals::cuboid;
 use binspace::raster::Rays;
 use binspace::scene::Builtin;
 use binspace::view::{Camera, views};
@@ -11,6 +11,8 @@ use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
 use testkit::fill::ray;
+use testkit::hard::bounds;
+use testkit::scenes::{polygons, triangles};
 
 fn edges(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
@@ -198,27 +200,18 @@ fn nearest(ray: binspace::Ray, a: DVec3, b: DVec3) -> f64 {
 #[test]
 fn rays_agree_with_runs() {
     let (mut score, mut dice) = (Score::default(), Dice(1));
-    let mut random = SplitMix64::new(3);
-    let triangles = |random: &mut SplitMix64, count: usize, edge: f64| {
-        let triangle = |_| {
-            let centre = random.point(0.0, 1.0);
-            (0..3).map(|_| centre + random.point(-1.0, 1.0) * edge).collect()
-        };
-        (0..count).map(triangle).collect()
-    };
+    let mut random = Dice(3);
     let mut scenes: Vec<(Vec<Vec<DVec3>>, DVec3)> = vec![
-        (triangles(&mut random, 120, 0.3), DVec3::Z),
-        (triangles(&mut random, 300, 0.05), DVec3::Z),
+        (triangles(&mut random, 120, [0.0, 1.0], 0.3), DVec3::Z),
+        (triangles(&mut random, 300, [0.0, 1.0], 0.05), DVec3::Z),
     ];
     for (builtin, size) in [(Builtin::City, 200), (Builtin::Sphere, 200), (Builtin::Terrain, 200)] {
         let scene = builtin.build(Some(size), 2);
-        let polygons = (0..scene.len()).map(|i| scene.polygon(i).to_vec());
-        scenes.push((polygons.collect(), scene.up()));
+        scenes.push((polygons(&scene), scene.up()));
     }
     for (polygons, up) in &scenes {
         let tree = BspTree::build(polygons).unwrap();
-        let corners = || polygons.iter().flatten().copied();
-        let bounds = [corners().reduce(DVec3::min).unwrap(), corners().reduce(DVec3::max).unwrap()];
+        let bounds = bounds(polygons).unwrap();
         for camera in views(bounds, *up, 4, [320, 240], 7).unwrap() {
             assert!(matches!(camera.viewpoint(), Viewpoint::Eye(_)));
             check_runs(&tree, polygons, &camera, (&mut dice, times(40)), &mut score);

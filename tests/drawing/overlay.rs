@@ -1,20 +1,20 @@
 //! Lines and points of an overlay in a picture, by hand and against rays in rationals.
 
-use super::sightlines::{Origin, Sightlines};
+use super::sightlines::Sightlines;
 use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::overlay::{Overlay, Shapes};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
 use proptest::prelude::*;
-use proptest::test_runner::TestCaseError;
 use testkit::dice::Dice;
 use testkit::enough;
 use testkit::hard;
 use testkit::rational::{self, Point};
-use testkit::tally::tally;
+use testkit::scenes::triangles;
+use testkit::shapes::rectangle;
+use testkit::tally::{fail, tally};
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -50,8 +50,7 @@ fn check(
     let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
     overlay.replace_with(tree, shapes).map_err(text)?;
     let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
-    let Some(origin) = origin(tree, camera) else { return Ok(()) };
-    let sightlines = Sightlines::new(tree.faces(), origin);
+    let Some(sightlines) = Sightlines::of(tree, camera) else { return Ok(()) };
     let map = VisibilityMap::of(tree, rays).map_err(text)?;
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
@@ -62,7 +61,7 @@ fn check(
         for _ in 0..each {
             let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
             let point: Point = between(&ends, share);
-            let Some(at) = project(camera, &lattice, &point) else { continue };
+            let Some(at) = sightlines.project(&point) else { continue };
             match place_in(run.ends, at) {
                 Some(true) => {}
                 Some(false) => {
@@ -83,7 +82,7 @@ fn check(
     check_tiling(&runs)?;
     for MarkerView { point, at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
         let exact = snap(points[point]);
-        let projected = project(camera, &lattice, &exact).expect("ahead of the eye");
+        let projected = sightlines.project(&exact).expect("ahead of the eye");
         if (0..2).any(|i| (projected[i] - at[i]).abs() > 1.1e-3) {
             return Err(format!("point {point}: {at:?}, not {projected:?}, {camera:?}"));
         }
@@ -111,35 +110,9 @@ fn check_tiling(runs: &[LineRun]) -> Result<(), String> {
     Ok(())
 }
 
-/// Where rays come from in a scene's lattice; `None` if that is rounded.
-pub(crate) fn origin(tree: &BspTree, camera: &Camera) -> Option<Origin> {
-    let lattice = tree.faces().lattice();
-    match camera.viewpoint() {
-        binspace::Viewpoint::Eye(eye) => {
-            let place = lattice.to_lattice(eye);
-            let is_exact = place.iter().all(|c| c.fract() == 0.0);
-            is_exact.then(|| Origin::Eye(rational::point(place)))
-        }
-        binspace::Viewpoint::Direction(direction) => {
-            Some(Origin::Along(rational::point(direction)))
-        }
-    }
-}
-
 pub(crate) fn between([a, b]: &[Point; 2], share: f64) -> Point {
     let share = rational::exact(share);
     std::array::from_fn(|i| &a[i] + (&b[i] - &a[i]) * &share)
-}
-
-pub(crate) fn project(
-    camera: &Camera,
-    lattice: &binspace::internals::Lattice,
-    point: &Point,
-) -> Option<[f64; 2]> {
-    use num_traits::ToPrimitive;
-    let rounded = point.each_ref().map(|c| c.to_f64().expect("in range"));
-    // Pixels of cameras begin at the picture's corner.
-    camera.project(lattice.to_world(rounded)).map(|at| at.map(|c| c - 0.5))
 }
 
 /// Whether a point is well inside of a run; `None` if it is not in it at all.
@@ -150,11 +123,6 @@ pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     let place = (arm[0] * way[0] + arm[1] * way[1]) / length;
     let inside = place.min(length - place);
     (inside > -NEAR).then_some(inside > NEAR)
-}
-
-pub(crate) fn square(low: [f64; 2], high: [f64; 2], z: f64) -> Vec<DVec3> {
-    let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
-    corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec()
 }
 
 /// The runs of one line over polygons, as seen from above, ten pixels a unit: how far each goes along x,
@@ -175,7 +143,7 @@ fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
 
 #[test]
 fn lines_are_seen_on_polygons_and_hidden_behind_them() {
-    let wall = square([-1.0, -1.0], [1.0, 1.0], 0.0);
+    let wall = rectangle([-1.0, -1.0], [1.0, 1.0], 0.0);
     let one = |line: &[[f64; 3]]| from_above(std::slice::from_ref(&wall), line);
     // On it, above it, below it.
     assert_eq!(one(&[[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [(4.0, true)]);
@@ -207,7 +175,8 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
 /// Where two walls meet there is no crack, and what lies along the corner of a room is seen: on both.
 #[test]
 fn lines_in_cracks_and_corners() {
-    let halves = [square([-1.0, -1.0], [1.0, 0.0], 0.0), square([-1.0, 0.0], [1.0, 1.0], 0.0)];
+    let halves =
+        [rectangle([-1.0, -1.0], [1.0, 0.0], 0.0), rectangle([-1.0, 0.0], [1.0, 1.0], 0.0)];
     let line = [[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]];
     assert_eq!(from_above(&halves, &line), [(1.0, true), (2.0, false), (1.0, true)]);
     // A valley, all of it further back than its rims, in every order of its sides and a wall through it.
@@ -217,7 +186,7 @@ fn lines_in_cracks_and_corners() {
     });
     let wall = [[-1.0, 0.0, -3.0], [1.0, 0.0, -3.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
     let wall = wall.map(DVec3::from).to_vec();
-    let floor = square([-3.0, -3.0], [3.0, 3.0], 0.0);
+    let floor = rectangle([-3.0, -3.0], [3.0, 3.0], 0.0);
     let all = [left, right, wall, floor];
     for first in 0..4 {
         for second in 0..4 {
@@ -235,7 +204,7 @@ fn lines_in_cracks_and_corners() {
 /// A line from far behind the eye, close by it, to far ahead is straight where it shows.
 #[test]
 fn lines_across_the_eye_end_with_the_picture() {
-    let wall = square([-9.0, -9.0], [9.0, 9.0], -90.0);
+    let wall = rectangle([-9.0, -9.0], [9.0, 9.0], -90.0);
     let bounded = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1e6), DVec3::splat(1e6));
     let tree = bounded.build([wall]).unwrap();
     let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.6, [200, 100]).unwrap();
@@ -258,7 +227,7 @@ fn lines_across_the_eye_end_with_the_picture() {
 
 #[test]
 fn overlays_of_other_trees_and_polygons_are_refused() {
-    let tree = BspTree::build([square([-1.0, -1.0], [1.0, 1.0], 0.0)]).unwrap();
+    let tree = BspTree::build([rectangle([-1.0, -1.0], [1.0, 1.0], 0.0)]).unwrap();
     let other = BspTree::build([[DVec3::ZERO, DVec3::X, DVec3::Y]]).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
@@ -312,11 +281,7 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
     let cases = (hard::scene(), any::<u64>());
     let score = tally(file!(), 128, cases, |score: &mut Score, (scene, seed)| {
         let mut dice = Dice(seed);
-        let corners = || scene.polygons.iter().flatten().copied();
-        let (Some(low), Some(high)) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max))
-        else {
-            return Ok(());
-        };
+        let Some([low, high]) = scene.bounds() else { return Ok(()) };
         let (middle, size) = ((low + high) * 0.5, high - low);
         let reach = DVec3::splat(size.max_element() * 4.0);
         let options = BuildOptions::DEFAULT.with_tolerance(0.0);
@@ -336,7 +301,7 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
             let (lines, points) = hard_shapes(&scene.polygons, eye, &mut dice);
             for camera in [at, along].into_iter().flatten() {
                 let result = check(&tree, &camera, &lines, &points, (&mut dice, 2), score);
-                result.map_err(TestCaseError::fail)?;
+                result.map_err(fail)?;
             }
         }
         Ok(())
@@ -345,23 +310,15 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
     enough!(score.shown_points > 2000, score.hidden_points > 600; "{score:?}");
 }
 
-pub(crate) fn triangles(random: &mut SplitMix64, count: usize, edge: f64) -> Vec<Vec<DVec3>> {
-    let triangle = |_| {
-        let centre = random.point(-1.0, 1.0);
-        (0..3).map(|_| centre + random.point(-1.0, 1.0) * edge).collect()
-    };
-    (0..count).map(triangle).collect()
-}
-
 /// Calls a function with trees of random triangles, a camera before and one among these, and lines and
 /// points, half of them hard ones.
 pub(crate) fn for_each_crowd(
     seed: u64,
     mut check: impl FnMut(&BspTree, &Camera, &[Vec<DVec3>], &[DVec3], &mut Dice),
 ) {
-    let (mut random, mut dice) = (SplitMix64::new(seed), Dice(seed));
+    let (mut random, mut dice) = (Dice(seed), Dice(seed));
     for (count, edge) in [(40, 0.8), (150, 0.3), (300, 0.1)] {
-        let triangles = triangles(&mut random, count, edge);
+        let triangles = triangles(&mut random, count, [-1.0, 1.0], edge);
         let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
         let bounded = exact.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
         let tree = bounded.build(&triangles).unwrap();

@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use testkit::dice::Dice;
 use testkit::enough;
 
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::overlay::{Overlay, Shapes};
 use binspace::raster::Rays;
 use binspace::scene::Builtin;
@@ -27,8 +27,8 @@ fn view(triangles: u32) -> View {
     let (low, high) = scene.bounds().unwrap();
     let camera = Camera::looking_at_all([low, high], scene.up(), [400, 300]).unwrap();
     let rays = Rays::new(&camera, tree.faces()).unwrap();
-    let mut random = SplitMix64::new(5);
-    let mut point = || low + random.point(0.0, 1.0) * (high - low);
+    let mut dice = Dice(5);
+    let mut point = || low + dice.point(0.0, 1.0) * (high - low);
     let lines: Vec<Vec<DVec3>> = (0..3 * triangles).map(|_| vec![point(), point()]).collect();
     let points: Vec<DVec3> = (0..8 * triangles).map(|_| point()).collect();
     let mut overlay = Overlay::new(&tree);

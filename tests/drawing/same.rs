@@ -6,6 +6,7 @@ use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::Camera;
+use std::ops::Range;
 use testkit::enough;
 
 /// Every third polygon is translucent.
@@ -93,31 +94,36 @@ fn pictures_of_all_sizes_show_the_same_polygons() {
     enough!(compared > 3_000; "{compared}");
 }
 
-/// A picture row by row: lists of pieces, and the tiles in which they are cut, are all others.
+/// A picture row by row, and in three parts: lists of pieces, and the tiles in which they are cut, are all others.
 #[test]
-fn rows_show_what_the_picture_shows() {
-    let scene = Builtin::Random.build(Some(300), 3);
-    let tree = BspTree::build(scene.polygons()).unwrap();
+fn parts_of_a_picture_show_what_the_picture_shows() {
     let mut compared = 0;
-    for camera in cameras(&scene, 2, [60, 45]) {
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let areas = |rays: Rays| {
-            let map = VisibilityMap::with_opacities(&tree, rays, mixed).unwrap();
-            map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
-        };
-        let whole = areas(rays.clone());
-        let mut rows: Vec<(usize, f64)> =
-            (0..45).flat_map(|row| areas(rays.rows(row..row + 1))).collect();
-        rows.sort_by_key(|&(polygon, _)| polygon);
-        let sums: Vec<(usize, f64)> = rows
-            .chunk_by(|a, b| a.0 == b.0)
-            .map(|same| (same[0].0, same.iter().map(|row| row.1).sum()))
-            .collect();
-        assert_eq!(sums.len(), whole.len());
-        for (sum, whole) in sums.iter().zip(&whole) {
-            assert!(sum.0 == whole.0 && (sum.1 - whole.1).abs() < 1e-6, "{sum:?} {whole:?}");
-            compared += 1;
+    let rows: Vec<Range<u32>> = (0..45).map(|row| row..row + 1).collect();
+    for (scene, size, parts, opacity) in [
+        (Builtin::Random.build(Some(300), 3), [60, 45], rows, mixed as fn(usize) -> f64),
+        (Builtin::City.build(Some(1000), 3), [240, 180], vec![0..50, 50..51, 51..180], |_| 1.0),
+    ] {
+        let tree = BspTree::build(scene.polygons()).unwrap();
+        for camera in cameras(&scene, 4, size) {
+            let rays = Rays::new(&camera, tree.faces()).unwrap();
+            let areas = |rays: Rays| {
+                let map = VisibilityMap::with_opacities(&tree, rays, opacity).unwrap();
+                map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
+            };
+            let whole = areas(rays.clone());
+            let mut found: Vec<(usize, f64)> =
+                parts.iter().flat_map(|rows| areas(rays.rows(rows.clone()))).collect();
+            found.sort_by_key(|&(polygon, _)| polygon);
+            let sums: Vec<(usize, f64)> = found
+                .chunk_by(|a, b| a.0 == b.0)
+                .map(|same| (same[0].0, same.iter().map(|part| part.1).sum()))
+                .collect();
+            assert_eq!(sums.len(), whole.len());
+            for (sum, whole) in sums.iter().zip(&whole) {
+                assert!(sum.0 == whole.0 && (sum.1 - whole.1).abs() < 1e-6, "{sum:?} {whole:?}");
+                compared += 1;
+            }
         }
     }
-    enough!(compared > 500; "{compared}");
+    enough!(compared > 1_000; "{compared}");
 }

@@ -2,13 +2,14 @@
 
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions};
+use testkit::dice::Dice;
 use testkit::enough;
 use testkit::fill::{Score, check, check_rays};
+use testkit::scenes::{scene_of, triangles};
 
 const SIZE: [u32; 2] = [240, 180];
 
@@ -50,15 +51,11 @@ fn drawings_of_whole_scenes_are_what_rays_meet() {
 /// Fewer and fewer pixels for each polygon: tiles are halved down to a few pixels and below.
 #[test]
 fn many_small_triangles() {
-    let mut random = SplitMix64::new(1);
+    let mut dice = Dice(1);
     let mut score = Score::default();
     for (count, edge) in [(3000, 0.03), (1000, 0.3), (200, 1.0)] {
-        let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
-        for _ in 0..count {
-            let centre = random.point(0.0, 1.0);
-            scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge), 0);
-        }
-        check_scene(&scene, &mut score);
+        let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
+        check_scene(&scene_of(format!("{count} triangles"), triangles), &mut score);
     }
     enough!(score.pixels > 1_000_000, score.clipped > 500; "{score:?}");
 }
@@ -75,32 +72,4 @@ fn nothing_is_clipped_of_scans() {
             assert!(drawing.paths().all(|path| !path.is_clipped()), "{builtin:?}");
         }
     }
-}
-
-/// Polygons that show in the upper or in the lower rows are those that show in all.
-#[test]
-fn parts_of_a_picture_show_the_same_polygons() {
-    let scene = Builtin::City.build(Some(1000), 3);
-    let tree = BspTree::build(scene.polygons()).unwrap();
-    let mut compared = 0;
-    for camera in cameras(&scene, 4, SIZE) {
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let shown = |rays: Rays| {
-            let map = VisibilityMap::of(&tree, rays).unwrap();
-            map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
-        };
-        let whole = shown(rays.clone());
-        let mut parts = [0..50, 50..51, 51..180].map(|rows| shown(rays.rows(rows))).concat();
-        parts.sort_by_key(|&(polygon, _)| polygon);
-        let together: Vec<(usize, f64)> = parts
-            .chunk_by(|a, b| a.0 == b.0)
-            .map(|same| (same[0].0, same.iter().map(|part| part.1).sum()))
-            .collect();
-        assert_eq!(whole.len(), together.len());
-        for (whole, parts) in whole.iter().zip(&together) {
-            assert!(whole.0 == parts.0 && (whole.1 - parts.1).abs() < 1e-6, "{whole:?} {parts:?}");
-            compared += 1;
-        }
-    }
-    enough!(compared > 500; "{compared}");
 }

@@ -1,7 +1,9 @@
 //! What hides a point, in rationals: faces, with their edges, between it and the eye.
 
 use binspace::glam::DVec3;
-use binspace::internals::Faces;
+use binspace::internals::Lattice;
+use binspace::view::Camera;
+use binspace::{BspTree, Viewpoint};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 use testkit::model::Face;
@@ -23,27 +25,69 @@ pub(crate) enum Cover {
     Unsure,
 }
 
-/// The faces of a scene.
+/// The faces of a scene, and a camera.
 pub(crate) struct Sightlines {
-    faces: Vec<(usize, Face)>,
+    pub(crate) faces: Vec<(usize, Face)>,
     /// The corners of each, rounded.
     rounded: Vec<Vec<DVec3>>,
     pub(crate) origin: Origin,
+    /// The eye or the direction, rounded.
+    from: DVec3,
+    camera: Camera,
+    lattice: Lattice,
 }
 
 impl Sightlines {
-    pub(crate) fn new(faces: &Faces, origin: Origin) -> Self {
+    /// The rays of a camera; `None` if the eye is no point of the lattice.
+    pub(crate) fn of(tree: &BspTree, camera: &Camera) -> Option<Self> {
+        let faces = tree.faces();
+        let origin = match camera.viewpoint() {
+            Viewpoint::Eye(eye) => {
+                let place = faces.lattice().to_lattice(eye);
+                let is_exact = place.iter().all(|c| c.fract() == 0.0);
+                is_exact.then(|| Origin::Eye(rational::point(place)))?
+            }
+            Viewpoint::Direction(direction) => Origin::Along(rational::point(direction)),
+        };
         let all = (0..faces.len() as u32).map(|face| (faces.polygon(face), Face::new(faces, face)));
         let all: Vec<(usize, Face)> = all.collect();
         let rounded = all.iter().map(|(_, face)| face.corners.iter().map(to_f64).collect());
-        Self { rounded: rounded.collect(), faces: all, origin }
+        let (Origin::Eye(from) | Origin::Along(from)) = &origin;
+        let (from, camera, lattice) = (to_f64(from), *camera, *faces.lattice());
+        Some(Self { rounded: rounded.collect(), faces: all, origin, from, camera, lattice })
+    }
+
+    /// Where in the picture a point is, if it is ahead of the eye and in the picture.
+    pub(crate) fn place_of(&self, point: &Point) -> Option<[f64; 2]> {
+        if let Origin::Eye(eye) = &self.origin {
+            let arm = rational::difference(point, eye);
+            if !rational::scalar(&arm, &rational::point(self.camera.forward())).is_positive() {
+                return None;
+            }
+        }
+        let at = self.project(point)?;
+        let last = self.camera.size().map(|side| f64::from(side) - 1.0);
+        (0..2).all(|i| 0.0 < at[i] && at[i] < last[i]).then_some(at)
+    }
+
+    /// Where the line of sight of a point meets the picture's plane.
+    pub(crate) fn project(&self, point: &Point) -> Option<[f64; 2]> {
+        // Pixels of cameras begin at the picture's corner.
+        let rounded = self.lattice.to_world(to_f64(point).to_array());
+        self.camera.project(rounded).map(|at| at.map(|c| c - 0.5))
+    }
+
+    /// The faces of a polygon.
+    pub(crate) fn faces_of(&self, polygon: usize) -> Vec<&Face> {
+        let own = self.faces.iter().filter(|(other, _)| *other == polygon);
+        own.map(|(_, face)| face).collect()
     }
 
     /// The polygons that hide a point of the scene, each once.
     pub(crate) fn polygons_before(&self, point: &Point) -> Vec<usize> {
-        let all = self.faces.iter().zip(&self.rounded);
+        let (all, rounded) = (self.faces.iter().zip(&self.rounded), to_f64(point));
         let mut polygons: Vec<usize> = all
-            .filter(|(_, corners)| self.may_be_before(corners, to_f64(point)))
+            .filter(|(_, corners)| self.may_be_before(corners, rounded))
             .filter(|((_, face), _)| self.is_before(face, point))
             .map(|((polygon, _), _)| *polygon)
             .collect();
@@ -55,8 +99,8 @@ impl Sightlines {
     /// Whether the line of sight of a point may go through a face, if floats tell: only to save time.
     fn may_be_before(&self, corners: &[DVec3], point: DVec3) -> bool {
         let (from, way) = match &self.origin {
-            Origin::Eye(eye) => (to_f64(eye), point - to_f64(eye)),
-            Origin::Along(direction) => (point, to_f64(direction)),
+            Origin::Eye(_) => (self.from, point - self.from),
+            Origin::Along(_) => (point, self.from),
         };
         let arms = || corners.iter().map(|corner| *corner - from);
         let turns: Vec<f64> = arms()
@@ -68,13 +112,13 @@ impl Sightlines {
 
     /// What lies between a point and the eye, without the faces that it is on.
     pub(crate) fn cover(&self, point: &Point, own: [usize; 2]) -> Cover {
-        let mut cover = Cover::None;
+        let (mut cover, rounded) = (Cover::None, to_f64(point));
         for ((polygon, face), corners) in self.faces.iter().zip(&self.rounded) {
             let is_on = face.plane.at(point).is_zero();
-            if is_on && own.contains(polygon) || !self.may_be_before(corners, to_f64(point)) {
+            if is_on && own.contains(polygon) || !self.may_be_before(corners, rounded) {
                 continue;
             }
-            match if is_on { self.place(face, point) } else { self.before(face, point) } {
+            match if is_on { Some(face.place(point)) } else { self.before(face, point) } {
                 Some(Ordering::Greater) if !is_on => return Cover::Hidden,
                 Some(Ordering::Less) | None => {}
                 Some(_) => cover = Cover::Unsure,
@@ -87,7 +131,8 @@ impl Sightlines {
         self.before(face, point).is_some_and(Ordering::is_ge)
     }
 
-    /// Whether the line of sight of a point goes through a face before the point, as in [`place`](Self::place).
+    /// Whether the line of sight of a point goes through a face before the point, and whether with its inside
+    /// or with its border.
     fn before(&self, face: &Face, point: &Point) -> Option<Ordering> {
         let at = face.plane.at(point);
         let (from, share) = match &self.origin {
@@ -113,22 +158,32 @@ impl Sightlines {
             return None;
         }
         let hit: Point = std::array::from_fn(|i| &point[i] + &from[i] * &share);
-        self.place(face, &hit)
-    }
-
-    /// Whether a point of a face's plane is inside the face, on its border, or outside.
-    fn place(&self, face: &Face, point: &Point) -> Option<Ordering> {
-        let n = face.corners.len();
-        let turns = (0..n).map(|k| {
-            let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
-            let (edge, arm) = (rational::difference(b, a), rational::difference(point, a));
-            let turn = rational::product(&edge, &arm);
-            rational::sign(&rational::scalar(&turn, &face.plane.normal))
-        });
-        turns.min()
+        Some(face.place(&hit))
     }
 }
 
 fn to_f64(point: &Point) -> DVec3 {
     DVec3::from_array(point.each_ref().map(|c| c.to_f64().expect("in range")))
+}
+
+/// The segment that two faces have in common, if they are not in one plane.
+pub(crate) fn common(a: &Face, b: &Face) -> Option<[Point; 2]> {
+    let along = rational::product(&a.plane.normal, &b.plane.normal);
+    let mut found: Vec<Point> = vec![];
+    for (one, other) in [(a, b), (b, a)] {
+        for k in 0..one.corners.len() {
+            let ends = [&one.corners[k], &one.corners[(k + 1) % one.corners.len()]];
+            let values = ends.map(|end| other.plane.at(end));
+            if values[0].is_zero() {
+                found.push(ends[0].clone());
+            } else if (&values[0] * &values[1]).is_negative() {
+                found.push(rational::crossing(ends, [&values[0], &values[1]]));
+            }
+        }
+    }
+    found.retain(|point| a.place(point).is_ge() && b.place(point).is_ge());
+    let place = |point: &Point| rational::scalar(&along, point);
+    let low = found.iter().min_by_key(|point| place(point))?.clone();
+    let high = found.iter().max_by_key(|point| place(point))?.clone();
+    (low != high && along.iter().any(|c| !c.is_zero())).then_some([low, high])
 }

@@ -1,12 +1,12 @@
 //! Silhouettes of closed bodies are closed: at each corner as many of their edges begin as end.
 
 use std::collections::{BTreeMap, BTreeSet};
+use testkit::dice::Dice;
 use testkit::enough;
 
 use binspace::BspTree;
 use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
 use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
@@ -35,12 +35,12 @@ fn triangles(quads: Corners) -> Corners {
 
 #[test]
 fn silhouettes_of_closed_bodies_are_closed() {
-    let mut random = SplitMix64::new(9);
+    let mut dice = Dice(9);
     let (mut edges, mut hidden) = (0, 0);
     for polygons in [torus(24, 12), torus(60, 30)].map(triangles) {
         let tree = BspTree::build(&polygons).unwrap();
         for _ in 0..12 {
-            let eye = random.point(-1.0, 1.0).normalize() * 30.0;
+            let eye = dice.point(-1.0, 1.0).normalize() * 30.0;
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
             let rays = Rays::new(&camera, tree.faces()).unwrap();
@@ -72,12 +72,12 @@ fn silhouettes_of_closed_bodies_are_closed() {
 /// silhouette goes along the diagonal.
 #[test]
 fn silhouettes_of_quads_that_are_not_planar_are_closed() {
-    let mut random = SplitMix64::new(9);
+    let mut dice = Dice(9);
     let (mut runs_in_all, mut inside) = (0, 0);
     for quads in [torus(24, 12), torus(60, 30)] {
         let tree = BspTree::build(&quads).unwrap();
         for _ in 0..12 {
-            let eye = random.point(-1.0, 1.0).normalize() * 30.0;
+            let eye = dice.point(-1.0, 1.0).normalize() * 30.0;
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
             let rays = Rays::new(&camera, tree.faces()).unwrap();

@@ -2,12 +2,12 @@
 
 use super::scenes::cameras;
 use binspace::BuildOptions;
-use binspace::glam::DVec3;
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
+use testkit::dice::Dice;
 use testkit::enough;
 use testkit::layered::{Layers, check_layers};
+use testkit::scenes::{scene_of, triangles};
 
 fn check_scene(scene: &Scene, score: &mut Layers) {
     let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
@@ -33,14 +33,10 @@ fn layers_of_whole_scenes_are_those_of_the_tree() {
 
 /// Scenes of random triangles that cross: small ones, large ones, and few that are larger still.
 pub(crate) fn crossing_triangles() -> impl Iterator<Item = Scene> {
-    let mut random = SplitMix64::new(1);
+    let mut dice = Dice(1);
     [(300, 0.1), (150, 0.5), (50, 1.0)].into_iter().map(move |(count, edge)| {
-        let mut scene = Scene::new(format!("{count} triangles"), DVec3::Z);
-        for _ in 0..count {
-            let centre = random.point(0.0, 1.0);
-            scene.push([(); 3].map(|()| centre + random.point(-1.0, 1.0) * edge), 0);
-        }
-        scene
+        let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
+        scene_of(format!("{count} triangles"), triangles)
     })
 }
 

@@ -21,7 +21,6 @@ mod exact;
 mod heaps;
 mod layers;
 mod long;
-mod not_cut;
 mod order;
 mod planes_through_lines;
 mod ray;

@@ -8,10 +8,6 @@ use super::all_scenes::{self, KINDS};
 use super::trees_by_rays::Score;
 use super::trial::Trial;
 
-fn total(scores: &[(String, Score)]) -> Score {
-    scores.iter().map(|(_, score)| *score).fold(Score::default(), Score::add)
-}
-
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
     let trial = Trial { heuristics: Heuristic::ALL, views: times(10), rays: 8, most: 100 };
@@ -19,7 +15,7 @@ fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
     for (name, score) in &scores {
         enough!(score.trees >= 6, score.pairs > 40; "{name}: {score:?}");
     }
-    let all = total(&scores);
+    let all = Score::total(&scores);
     assert!(all.trees + all.given_up == KINDS * Heuristic::ALL.len(), "{all:?}");
     assert!(all.given_up <= 20, "{all:?}");
     enough!(all.rays > 15_000, all.pairs > 600_000; "{all:?}");
@@ -44,7 +40,7 @@ fn large_scenes_of_every_kind_are_in_order() {
     for (name, score) in &scores {
         enough!(score.trees >= 1, score.pairs > 20; "{name}: {score:?}");
     }
-    let all = total(&scores);
+    let all = Score::total(&scores);
     enough!(all.rays > 1600, all.pairs > 40_000; "{all:?}");
 }
 
@@ -52,7 +48,7 @@ fn large_scenes_of_every_kind_are_in_order() {
 fn noisy_scenes_are_in_order_but_for_the_tolerance() {
     let trial = Trial { heuristics: Heuristic::ALL, views: times(10), rays: 20, most: 30 };
     let scores = trial.hold_all(6, 3, |kind, dice| all_scenes::noisy(kind, dice, 600));
-    let all = total(&scores);
+    let all = Score::total(&scores);
     enough!(all.trees >= 40, all.pairs > 30_000; "{all:?}");
     assert!(all.borders < all.pairs / 100, "{all:?}");
     assert!(all.excused > 0 && all.excused < all.pairs / 5, "{all:?}");

@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use binspace::Heuristic;
 use binspace::glam::DVec3;
 
 use super::scene::{Point, Scene, add, between, each, tilt, times};
@@ -118,4 +119,14 @@ pub(crate) fn pipe(dice: &mut Dice, n: usize) -> Scene {
         polygons.push(disc.into_iter().map(|p| add(p, [0, 0, height])).collect());
     }
     Scene::new("pipe", each(polygons, tilt)).shuffled(dice)
+}
+
+#[test]
+fn convex_bodies_are_not_cut_by_auto() {
+    for count in [450, 2000, 5000] {
+        let sphere = sphere(&mut Dice(1), count);
+        let tree = sphere.build(Heuristic::Auto, 100 * count).expect("within budget");
+        assert_eq!(tree.len(), sphere.len());
+        assert!(tree.len() > count * 9 / 10);
+    }
 }

@@ -69,9 +69,7 @@ impl Scene {
                 polygon.reverse();
             }
         }
-        for i in (1..self.polygons.len()).rev() {
-            self.polygons.swap(i, dice.below(i + 1));
-        }
+        dice.shuffle(&mut self.polygons);
         self
     }
 }

@@ -52,7 +52,7 @@ const TRIAL: Trial<'static> = Trial { heuristics: Heuristic::ALL, views: 10, ray
 #[test]
 fn scenes_with_slivers_are_in_order_but_for_the_default_tolerance() {
     let scores = TRIAL.hold_all(KINDS, 4, |kind, dice| scene(kind, dice, 80));
-    let all = scores.iter().map(|(_, score)| *score).fold(Score::default(), Score::add);
+    let all = Score::total(&scores);
     assert!(all.given_up == 0 && all.pairs > 200_000, "{all:?}");
     assert!(all.excused > 0 && all.excused < all.pairs / 20, "{all:?}");
 }

@@ -37,6 +37,10 @@ pub(crate) struct Score {
 }
 
 impl Score {
+    pub(crate) fn total(scores: &[(String, Self)]) -> Self {
+        scores.iter().map(|(_, score)| *score).fold(Self::default(), Self::add)
+    }
+
     pub(crate) fn add(mut self, other: Self) -> Self {
         self.trees += other.trees;
         self.given_up += other.given_up;

@@ -216,7 +216,7 @@ fn neighbours_cut_their_common_edge_in_the_same_bits() {
 #[test]
 fn a_vertex_on_an_axis_plane_is_on_it_to_the_last_bit() {
     let vertices = tally(file!(), 300, hard::scene(), |vertices: &mut usize, scene| {
-        let (faces, _) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
+        let faces = scene.faces();
         for face in 0..faces.len() as u32 {
             let exact = Face::new(&faces, face);
             for corner in 0..faces.corner_range(faces.len() as u32 - 1).end.min(16) as u32 {

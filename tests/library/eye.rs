@@ -56,7 +56,7 @@ proptest! {
         scene in hard::scene(),
         offsets in prop::collection::vec(eye_offsets(), 6),
     ) {
-        let (faces, _) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
+        let faces = scene.faces();
         let extent = hard::extent(&scene.polygons);
         let corners = scene.polygons.concat();
         for (corner, direction, distance) in offsets {
@@ -87,7 +87,7 @@ proptest! {
         small in prop::array::uniform3(-4..=4i32),
         scale in -300..=300i32,
     ) {
-        let (faces, _) = Faces::new(&scene.polygons, scene.tolerance()).expect("finite");
+        let faces = scene.faces();
         let scale = 2f64.powi(scale);
         for plane in planes(&faces) {
             let exact = model::plane(&faces, plane);

@@ -4,61 +4,35 @@ use std::path::Path;
 use testkit::enough;
 use testkit::targets;
 
-/// Runs a target on every file of its folder; the file's name says what it is about.
-fn replay(target: &str, run: fn(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/regressions").join(target);
-    let mut count = 0;
-    for entry in std::fs::read_dir(&folder).expect("the folder of regressions") {
-        let path = entry.expect("an entry").path();
-        let bytes = std::fs::read(&path).expect("a readable file");
-        let outcome = std::panic::catch_unwind(|| run(&bytes));
-        assert!(outcome.is_ok(), "fails on {}", path.display());
-        count += 1;
+type Target = (&'static str, fn(&[u8]));
+
+const TARGETS: [Target; 9] = [
+    ("split", targets::split::run),
+    ("tree", targets::tree::run),
+    ("cells", targets::cells::run),
+    ("faces", targets::faces::run),
+    ("large", targets::large::run),
+    ("saved", targets::saved::run),
+    ("query", targets::query::run),
+    ("drawing", targets::drawing::run),
+    ("obj", targets::obj::run),
+];
+
+/// Runs each target on every file of its folder; the file's name says what it is about.
+#[test]
+fn regressions_of_every_target_pass() {
+    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/regressions");
+    let entries = |folder: &Path| std::fs::read_dir(folder).expect("a folder of regressions");
+    assert_eq!(entries(&folders).count(), TARGETS.len(), "a folder of each target");
+    for (target, run) in TARGETS {
+        let mut count = 0;
+        for entry in entries(&folders.join(target)) {
+            let path = entry.expect("an entry").path();
+            let bytes = std::fs::read(&path).expect("a readable file");
+            let outcome = std::panic::catch_unwind(|| run(&bytes));
+            assert!(outcome.is_ok(), "fails on {}", path.display());
+            count += 1;
+        }
+        enough!(count > 0; "nothing for {target}");
     }
-    enough!(count > 0; "nothing in {}", folder.display());
-}
-
-#[test]
-fn split_regressions_pass() {
-    replay("split", targets::split::run);
-}
-
-#[test]
-fn tree_regressions_pass() {
-    replay("tree", targets::tree::run);
-}
-
-#[test]
-fn cells_regressions_pass() {
-    replay("cells", targets::cells::run);
-}
-
-#[test]
-fn faces_regressions_pass() {
-    replay("faces", targets::faces::run);
-}
-
-#[test]
-fn large_regressions_pass() {
-    replay("large", targets::large::run);
-}
-
-#[test]
-fn saved_regressions_pass() {
-    replay("saved", targets::saved::run);
-}
-
-#[test]
-fn query_regressions_pass() {
-    replay("query", targets::query::run);
-}
-
-#[test]
-fn drawing_regressions_pass() {
-    replay("drawing", targets::drawing::run);
-}
-
-#[test]
-fn obj_regressions_pass() {
-    replay("obj", targets::obj::run);
 }

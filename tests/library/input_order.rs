@@ -2,7 +2,8 @@
 //! them.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Fragment, FrameBuilder, Heuristic, Viewpoint};
+use binspace::{BspTree, BuildOptions, Fragment, Viewpoint};
+use testkit::scenes;
 
 type Quad = [[f64; 3]; 4];
 
@@ -17,13 +18,7 @@ fn scene(rise: f64, overlap: f64) -> [Quad; 3] {
 }
 
 fn trees(scene: &[Quad; 3], tolerance: f64) -> Vec<(String, BspTree)> {
-    let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
-    let frame = FrameBuilder::new(options).build(scene).unwrap().clone();
-    let tree = |&heuristic: &Heuristic| {
-        let tree = options.with_heuristic(heuristic).build(scene).unwrap();
-        (heuristic.to_string(), tree)
-    };
-    Heuristic::ALL.iter().map(tree).chain([("a frame".into(), frame)]).collect()
+    scenes::trees(scene, BuildOptions::DEFAULT.with_tolerance(tolerance))
 }
 
 /// Whether the second of the two in one plane comes last, from both sides, at a place where they overlap.

@@ -2,7 +2,6 @@
 
 mod bent_counts;
 mod bounds;
-mod boxes_of_cuts;
 mod cancel;
 mod cuts;
 mod dropped;

@@ -1,7 +1,7 @@
 //! Rays of narrow views are where the camera says, or there are none.
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, SplitMix64};
+use binspace::internals::Faces;
 use binspace::raster::Rays;
 use binspace::view::{Camera, Projection};
 use num_bigint::BigInt;
@@ -55,7 +55,7 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
 
 #[test]
 fn rays_are_less_than_a_thousandth_of_a_pixel_off() {
-    let (mut random, mut dice) = (SplitMix64::new(3), Dice(3));
+    let (mut random, mut dice) = (Dice(3), Dice(3));
     let cube = [[DVec3::ZERO, DVec3::X, DVec3::ONE], [DVec3::Y, DVec3::Z, DVec3::ONE]];
     let (faces, _) = Faces::new(cube, Some(0.0)).unwrap();
     let (mut worst, mut refused, mut accepted) = (0.0_f64, 0, 0);

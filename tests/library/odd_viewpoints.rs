@@ -2,13 +2,10 @@
 
 use binspace::glam::{DVec3, dvec3};
 use binspace::{BspTree, Viewpoint};
+use testkit::snapshot::polygons;
 
 fn square(z: f64) -> [DVec3; 4] {
     [(2.0, 4.0), (4.0, 4.0), (4.0, 6.0), (2.0, 6.0)].map(|(x, y)| dvec3(x, y, z))
-}
-
-fn polygons(tree: &BspTree, viewpoint: Viewpoint) -> Vec<usize> {
-    tree.back_to_front(viewpoint).map(|fragment| fragment.polygon()).collect()
 }
 
 /// Two squares above each other and four upright ones side by side, around (3, 5, 1).
@@ -40,6 +37,7 @@ fn an_infinite_eye_looks_along_its_infinite_coordinates() {
         let eye = |x, y, z| polygons(&tree, Viewpoint::eye([x, y, z]));
         let towards = |x, y, z| polygons(&tree, Viewpoint::direction([x, y, z]));
         assert_eq!(eye(-7.0, 5.0, infinite), towards(0.0, 0.0, -sign));
+        assert_eq!(eye(-7.0, 5.0, sign * f64::MAX), towards(0.0, 0.0, -sign));
         assert_eq!(eye(infinite, 5.0, 1e200), towards(-sign, 0.0, 0.0));
         assert_eq!(eye(infinite, 5.0, infinite), towards(-sign, 0.0, -sign));
         assert_eq!(towards(infinite, 5.0, infinite), towards(sign, 0.0, sign));

@@ -8,6 +8,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use testkit::effort::effort;
+use testkit::scenes::polygons;
 
 type Polygons = Vec<Vec<DVec3>>;
 
@@ -17,12 +18,8 @@ const CASE: &str = "BINSPACE_OUT_OF_MEMORY";
 const CASES: [&str; 9] =
     ["heap", "sphere", "layers", "outline", "sampled", "extend", "frame", "read", "mesh"];
 
-fn owned(scene: &scene::Scene) -> Polygons {
-    scene.polygons().map(|polygon| polygon.to_vec()).collect()
-}
-
 fn heap() -> Polygons {
-    owned(&scene::random_triangles(1500, 1))
+    polygons(&scene::random_triangles(1500, 1))
 }
 
 /// A spiral of many corners, and another outline three times.
@@ -57,8 +54,8 @@ fn status(name: &str) -> usize {
 
 /// Runs a case, and tells whether memory ran out.
 fn run(case: &str) -> bool {
-    let polygons = match case {
-        "sphere" => owned(&scene::sphere(20_000)),
+    let polygons: Polygons = match case {
+        "sphere" => polygons(&scene::sphere(20_000)),
         "layers" => (0..30_000).map(|k| square(f64::from(k % 3), f64::from(k / 3))).collect(),
         "outline" => outlines(),
         "heap" | "sampled" | "extend" | "frame" => heap(),

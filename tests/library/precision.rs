@@ -2,8 +2,8 @@
 //! tells apart.
 
 use binspace::glam::{DVec3, Mat4, Quat, Vec3, vec3};
-use binspace::internals::SplitMix64;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Polygon, Tolerance, Viewpoint};
+use testkit::dice::Dice;
 use testkit::enough;
 
 /// How many turns of the cards are tried.
@@ -61,16 +61,16 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
 /// lies, and whichever comes first, the page's plane tells that they are one.
 #[test]
 fn a_page_and_a_small_card_keep_their_order() {
-    let mut random = SplitMix64::new(4);
+    let mut dice = Dice(4);
     for number in 0..400 {
         let turn = turn(number);
-        let place = random.point(-0.95, 0.95);
+        let place = dice.point(-0.95, 0.95);
         let card = |[x, y]: [f64; 2], size: f64| {
             let corners = [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]];
             corners.map(|[u, v]| turn.transform_point3(vec3((x + u) as f32, (y + v) as f32, 0.0)))
         };
         let page = card([-1.0, -1.0], 2.0);
-        let small = card([place.x, place.y], 0.04 * (1.0 + random.point(0.0, 1.0).x) / 2.0);
+        let small = card([place.x, place.y], 0.04 * (1.0 + dice.point(0.0, 1.0).x) / 2.0);
         let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
         for both in [[page, small], [small, page]] {
             let tree = BspTree::build(both).unwrap();
@@ -83,11 +83,11 @@ fn a_page_and_a_small_card_keep_their_order() {
 /// Most cards are far smaller than the page, the first one too: the plane of any of these would cut others.
 #[test]
 fn a_page_of_cards_of_every_size_is_not_cut() {
-    let mut random = SplitMix64::new(2);
+    let mut dice = Dice(2);
     for number in 0..20 {
         let turn = turn(number);
         let card = |_| {
-            let mut some = |low: f64, high: f64| random.range(low, high) as f32;
+            let mut some = |low: f64, high: f64| dice.range(low, high) as f32;
             let (x, y, size) = (some(-1.0, 1.0), some(-1.0, 1.0), some(-8.0, -1.0).exp());
             let corners = [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
             corners.map(|[x, y]| turn.transform_point3(vec3(x, y, 0.0)))
@@ -104,10 +104,10 @@ fn a_page_of_cards_of_every_size_is_not_cut() {
 /// Builds a page of cards, none of them thin, half of them upon the one before, and gives the pairs of overlapping cards
 /// that were found in input order.
 fn pairs_in_order(number: u64, size: f64) -> usize {
-    let (turn, mut random) = (turn(number), SplitMix64::new(number));
+    let (turn, mut dice) = (turn(number), Dice(number));
     let mut low = Vec3::ZERO;
     let mut rectangle = |i: usize| {
-        let mut some = |low: f64, high: f64| random.range(low, high) as f32;
+        let mut some = |low: f64, high: f64| dice.range(low, high) as f32;
         low = match i % 2 {
             0 => vec3(some(-1.0, 1.0), some(-1.0, 1.0), 0.0),
             _ => low + Vec3::splat(0.05 * size as f32).with_z(0.0),

@@ -64,28 +64,6 @@ fn tilts() -> [DMat3; 4] {
     ]
 }
 
-#[test]
-fn a_coordinate_that_is_not_finite_names_its_polygon() {
-    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        for axis in 0..3 {
-            let mut polygons = vec![l_shape(), star(), spiral()];
-            polygons[1][2][axis] = bad;
-            let error = Faces::new(&polygons, None).expect_err("not finite");
-            assert_eq!(error.polygon(), Some(1));
-        }
-    }
-}
-
-#[test]
-fn a_tolerance_that_is_no_length_is_an_error() {
-    for bad in [f64::NAN, -1.0, f64::NEG_INFINITY] {
-        assert!(Faces::new([l_shape()], Some(bad)).is_err());
-    }
-    for good in [0.0, -0.0, 1e300, f64::INFINITY, f64::from_bits(1)] {
-        assert!(Faces::new([l_shape()], Some(good)).is_ok());
-    }
-}
-
 /// Not of the diagonal of the bounding box.
 #[test]
 fn the_default_tolerance_is_a_share_of_the_longest_side() {
@@ -96,36 +74,6 @@ fn the_default_tolerance_is_a_share_of_the_longest_side() {
         let (_, report) = prepare(&[quad.map(DVec3::from).into(), long.map(DVec3::from).into()]);
         assert_eq!(report.triangulated, triangulated, "{share}");
     }
-}
-
-#[test]
-fn polygons_without_area_are_dropped_and_counted() {
-    let [a, b, c] = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(3.0, 6.0, 9.0)];
-    let polygons = [
-        vec![],
-        vec![a],
-        vec![a, b],
-        vec![a, a, a],
-        vec![b; 7],
-        vec![a, b, a],
-        vec![a, a, b],
-        vec![a, b, c],
-        vec![a, b, a, b],
-        vec![a, b, c, b],
-        vec![c, a, b, c, a, b],
-        vec![a, b, c, (a + b) * 0.5, (b + c) * 0.5],
-        vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::X, DVec3::new(1.0, 2.0, 3.0)],
-    ];
-    for polygon in &polygons {
-        // Alone, and beside one that has an area.
-        let (faces, report) = prepare(std::slice::from_ref(polygon));
-        assert_eq!((faces.len(), report.dropped, report.polygons), (0, 1, 1), "{polygon:?}");
-        let (faces, report) = prepare(&[polygon.clone(), l_shape()]);
-        assert_eq!(report.dropped, 1, "{polygon:?}");
-        assert!(!faces.is_empty() && (0..faces.len()).all(|f| faces.polygon(f as u32) == 1));
-    }
-    assert_eq!(prepare(&polygons).1.dropped, polygons.len());
-    assert!(prepare(&[]).0.is_empty());
 }
 
 #[test]

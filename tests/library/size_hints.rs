@@ -4,10 +4,9 @@
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::scene::{Material, Scene};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Frustum, Polygon};
+use binspace::{BspTree, BuildOptions, FrameBuilder, Frustum};
 use std::ops::ControlFlow;
-
-type Hint = (usize, Option<usize>);
+use testkit::hinted::{Hint, Hinted};
 
 const MOST: usize = usize::MAX;
 
@@ -27,38 +26,6 @@ const HINTS: [Hint; 13] = [
     (MOST, Some(0)),
     (9, Some(2)),
 ];
-
-/// An iterator with a hint that may be wrong.
-#[derive(Clone)]
-struct Hinted<I> {
-    items: I,
-    hint: Hint,
-}
-
-impl<I: Iterator> Iterator for Hinted<I> {
-    type Item = I::Item;
-
-    fn next(&mut self) -> Option<I::Item> {
-        self.items.next()
-    }
-
-    fn size_hint(&self) -> Hint {
-        self.hint
-    }
-}
-
-/// A polygon whose corners come with such a hint.
-#[derive(Clone)]
-struct Outline {
-    corners: Vec<DVec3>,
-    hint: Hint,
-}
-
-impl Polygon for Outline {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        Hinted { items: self.corners.iter().copied(), hint: self.hint }
-    }
-}
 
 /// Convex polygons of 3 to 70 corners, one above the other and each turned, and one that cuts some.
 fn outlines() -> Vec<Vec<DVec3>> {
@@ -96,9 +63,11 @@ fn iterators_that_are_wrong_about_their_size_are_read_all_the_same() {
     for of_polygons in HINTS {
         for of_corners in HINTS {
             let hinted = |outlines: &[Vec<DVec3>]| {
-                let outline =
-                    |corners: &Vec<DVec3>| Outline { corners: corners.clone(), hint: of_corners };
-                let items: Vec<Outline> = outlines.iter().map(outline).collect();
+                let outline = |corners: &Vec<DVec3>| Hinted {
+                    items: corners.clone().into_iter(),
+                    hint: of_corners,
+                };
+                let items: Vec<_> = outlines.iter().map(outline).collect();
                 Hinted { items: items.into_iter(), hint: of_polygons }
             };
             let name = format!("{of_polygons:?} polygons of {of_corners:?} corners");

@@ -6,11 +6,12 @@ use std::fmt::Write;
 
 use binspace::glam::{DVec3, Vec3};
 use binspace::scene::Scene;
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Ray, Viewpoint};
+use binspace::{BspTree, BuildOptions, Heuristic, Ray, Viewpoint};
 use num_traits::ToPrimitive;
 use testkit::dice::Dice;
 use testkit::model;
 use testkit::rational::{self, Rational};
+use testkit::scenes::trees;
 use testkit::slivers::{Point, Sliver, along, whole};
 
 fn square(half: f64, z: f64) -> Vec<[f64; 3]> {
@@ -147,9 +148,7 @@ fn scene(dice: &mut Dice, size: i64, near: i64) -> Vec<Vec<Point>> {
     for _ in 0..4 {
         polygons.push((0..3).map(|_| [0; 3].map(|_| whole(dice, size))).collect());
     }
-    for i in (1..polygons.len()).rev() {
-        polygons.swap(i, dice.below(i + 1));
-    }
+    dice.shuffle(&mut polygons);
     polygons
 }
 
@@ -161,8 +160,7 @@ fn doubles(polygons: &[Vec<Point>]) -> Vec<Vec<[f64; 3]>> {
 /// middle of its long side, of far smaller numbers.
 fn singles(dice: &mut Dice) -> Vec<[Vec3; 3]> {
     const SIZE: f64 = (1 << 22) as f64;
-    let mut point =
-        |size: f64| DVec3::from_array([0; 3].map(|_| (2.0 * dice.share() - 1.0) * size));
+    let mut point = |size: f64| dice.point(-1.0, 1.0) * size;
     let long = point(SIZE).as_vec3();
     let middle = long * (point(1e-5).x as f32);
     let (axis, off) = (long.as_dvec3(), middle.as_dvec3());
@@ -196,13 +194,9 @@ fn file(polygons: &[Vec<Point>]) -> Scene {
 
 /// All heuristics, and frames: each tree of the polygons, as they are given.
 fn judge_all<P: binspace::Polygon>(polygons: &[P], name: &str, score: &mut Score) {
-    for &heuristic in Heuristic::ALL {
-        let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(polygons).unwrap();
-        judge(&tree, score).unwrap_or_else(|what| panic!("{name}, {heuristic}: {what}"));
+    for (by, tree) in &trees(polygons, BuildOptions::DEFAULT) {
+        judge(tree, score).unwrap_or_else(|what| panic!("{name}, {by}: {what}"));
     }
-    let mut frames = FrameBuilder::new(BuildOptions::DEFAULT);
-    let tree = frames.build(polygons).unwrap();
-    judge(tree, score).unwrap_or_else(|what| panic!("{name}, a frame: {what}"));
 }
 
 #[test]

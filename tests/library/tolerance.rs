@@ -120,8 +120,4 @@ fn a_tolerance_beyond_a_share_of_the_extent_counts_as_that() {
     }
     let largest = on_grid(1.0 / 128.0);
     assert_eq!(largest.lattice().length_to_world(largest.tolerance()), 1.0 / 128.0);
-    for bad in [-1.0, -5e-324, f64::NEG_INFINITY, f64::NAN] {
-        let error = BuildOptions::DEFAULT.with_tolerance(bad).build([layer(0.0)]).unwrap_err();
-        assert!(error.to_string().contains("tolerance"), "{error}");
-    }
 }

@@ -7,45 +7,22 @@ use super::{counted, most_bytes};
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, MAX_CORNERS};
 use binspace::{BspTree, BuildOptions, Error, Polygon};
+use testkit::hinted::Hinted;
 
 const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Corners that come round again, up to a number.
-struct Round<'a> {
-    len: usize,
-    read: &'a Cell<usize>,
-    /// How many the iterator says that there are, instead.
-    claim: Option<usize>,
+/// Corners that come round again, up to a number, with a hint of how many there are.
+fn round(len: usize, claim: usize, read: &Cell<usize>) -> impl Polygon {
+    let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+    let items = (0..len).map(move |k| {
+        read.set(read.get() + 1);
+        square[k % 4]
+    });
+    claimed(items, claim)
 }
 
-impl Polygon for Round<'_> {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
-        let polygons = (0..self.len).map(move |k| {
-            self.read.set(self.read.get() + 1);
-            square[k % 4]
-        });
-        let claim = self.claim.unwrap_or(self.len);
-        Claim { polygons, claim }
-    }
-}
-
-/// An iterator that claims more than it has.
-struct Claim<I> {
-    polygons: I,
-    claim: usize,
-}
-
-impl<I: Iterator> Iterator for Claim<I> {
-    type Item = I::Item;
-
-    fn next(&mut self) -> Option<I::Item> {
-        self.polygons.next()
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.claim, Some(self.claim))
-    }
+fn claimed<I>(items: I, claim: usize) -> Hinted<I> {
+    Hinted { items, hint: (claim, Some(claim)) }
 }
 
 /// A result, and the most memory that was in use at once until then.
@@ -58,7 +35,7 @@ fn unlimited() -> BuildOptions {
 }
 
 fn endless_with_hint(claim: usize) -> impl Iterator<Item = [[f64; 3]; 3]> {
-    Claim { polygons: iter::repeat(TRIANGLE), claim }
+    claimed(iter::repeat(TRIANGLE), claim)
 }
 
 #[test]
@@ -85,29 +62,18 @@ fn read_too_much() {
 
     // Claims within the limits are not believed: no memory is asked for what may not come.
     for claim in [1 << 25, 1 << 28] {
-        let polygons = Claim { polygons: iter::repeat_n(TRIANGLE, 3), claim };
+        let polygons = claimed(iter::repeat_n(TRIANGLE, 3), claim);
         let (tree, bytes) = peak(|| unlimited().build(polygons));
         assert_eq!(tree.expect("three triangles").len(), 3);
         assert!(bytes < 100 << 20, "{bytes} bytes for {claim} polygons");
     }
 
-    // Polygons without end are read up to the limit.
-    let read = Cell::new(0);
-    let polygons = iter::from_fn(|| {
-        read.set(read.get() + 1);
-        Some(TRIANGLE)
-    });
-    let error = BuildOptions::DEFAULT.with_max_fragments(1000).build(polygons).err();
-    assert!(error.expect("a limit").is_over_budget());
-    assert_eq!(read.get(), 1001);
-
-    // So are the corners of one polygon.
-    let few = [0, 3, 64].map(|claim| (20_000_000, Some(claim)));
-    let right = [MAX_CORNERS + 1, 20_000_000, usize::MAX].map(|len| (len, None));
+    // Corners of one polygon are read up to the limit.
+    let few = [0, 3, 64].map(|claim| (20_000_000, claim));
+    let right = [MAX_CORNERS + 1, 20_000_000, usize::MAX].map(|len| (len, len));
     for (len, claim) in few.into_iter().chain(right) {
         let read = Cell::new(0);
-        let polygons =
-            [(3, None), (len, claim)].map(|(len, claim)| Round { len, read: &read, claim });
+        let polygons = [(3, 3), (len, claim)].map(|(len, claim)| round(len, claim, &read));
         let (error, bytes) = peak(|| BspTree::build(polygons).err());
         let error = error.expect("a limit");
         assert_eq!(error.polygon(), Some(1));
@@ -118,7 +84,7 @@ fn read_too_much() {
 
     // The limit is no invitation: half a million corners take some hundred bytes each.
     let (read, len) = (Cell::new(0), 1 << 19);
-    let (faces, bytes) = peak(|| Faces::new([Round { len, read: &read, claim: None }], None));
+    let (faces, bytes) = peak(|| Faces::new([round(len, len, &read)], None));
     assert_eq!(faces.expect("a square").0.len(), 2);
     assert!(bytes < len * 512, "{bytes} bytes");
 }

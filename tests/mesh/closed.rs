@@ -7,11 +7,8 @@ use binspace::{BspTree, BuildOptions, Heuristic, Tolerance};
 use std::ops::Range;
 use testkit::enough;
 use testkit::real_scenes;
+use testkit::scenes::polygons;
 use testkit::shapes::{cuboid, rotation};
-
-fn polygons(scene: &Scene) -> Vec<Vec<DVec3>> {
-    scene.polygons().map(|polygon| polygon.to_vec()).collect()
-}
 
 /// Boxes that cross each other, turned so that their quads are bent by rounding.
 fn boxes(count: usize) -> Vec<Vec<DVec3>> {

@@ -1,10 +1,10 @@
 //! Points, triangles and weights against exact rationals.
 
 use super::open_edges;
+use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::{LATTICE_LIMIT, Line};
 use binspace::mesh::Mesh;
-use binspace::{BspTree, BuildOptions, Heuristic};
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
@@ -224,12 +224,10 @@ fn is_on_outline(tree: &BspTree, mesh: &Mesh, face: u32, ends: [u32; 2], slack: 
 
 #[test]
 fn triangles_fill_fragments_exactly() {
-    let cases = (hard::scene(), prop::sample::select(Heuristic::ALL));
+    let cases = (hard::scene(), hard::heuristic());
     let seen: Seen = tally(file!(), 128, cases, |seen: &mut Seen, (scene, by)| {
         let scene = scene.with_tolerance(Tolerance::Share(0.0));
-        let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-        options.tolerance = scene.tolerance().into();
-        check(&options.build(&scene.polygons).unwrap(), &scene.polygons, seen)
+        check(&scene.build(by).unwrap(), &scene.polygons, seen)
     });
     enough!(seen.triangles > 3000, seen.inserted > 150; "{seen:?}");
     assert!(3 * seen.skipped < seen.fragments, "{seen:?}");
@@ -241,12 +239,10 @@ fn triangles_fill_fragments_of_moved_faces() {
         Just(Tolerance::Default),
         (-12.0..-4.0f64).prop_map(|exponent| Tolerance::Share(10f64.powf(exponent))),
     ];
-    let cases = (hard::scene(), shares, prop::sample::select(Heuristic::ALL));
+    let cases = (hard::scene(), shares, hard::heuristic());
     let seen: Seen = tally(file!(), 128, cases, |seen: &mut Seen, (scene, share, by)| {
         let scene = scene.with_tolerance(share);
-        let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-        options.tolerance = scene.tolerance().into();
-        check_moved(&options.build(&scene.polygons).unwrap(), &scene.polygons, seen)
+        check_moved(&scene.build(by).unwrap(), &scene.polygons, seen)
     });
     enough!(seen.triangles > 2000, seen.inserted > 100, seen.moved > 70; "{seen:?}");
 }

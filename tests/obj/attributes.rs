@@ -54,14 +54,6 @@ fn what_is_malformed_or_not_there_is_left_out_and_counted() {
 }
 
 #[test]
-fn a_vertex_number_beyond_32_bits_is_an_error_like_any_that_is_not_there() {
-    for number in ["4294967296", "4294967297", "9223372036854775807"] {
-        let error = read(with_corners(&format!("f 1 2 {number}"))).unwrap_err();
-        assert!(error.to_string().contains("does not exist"), "{error}");
-    }
-}
-
-#[test]
 #[should_panic(expected = "corner 3 of a polygon of 3 corners")]
 fn a_corner_that_is_not_there_is_a_mistake() {
     let (scene, _) = read(with_corners("vt 1 1\nf 1/1 2/1 3/1\nf 1/1 2/1 3/1")).unwrap();

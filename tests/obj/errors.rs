@@ -72,6 +72,7 @@ fn bad_corners_are_refused_with_line_and_face() {
         ("6", "vertex 6 does not exist; there are 5"),
         ("-6", "vertex -6 does not exist"),
         ("0", "the first is 1"),
+        ("4294967296", "does not exist"),
         ("4294967297", "does not exist"),
         ("99999999999999999999", "does not exist"),
         ("-99999999999999999999", "does not exist"),

@@ -1,16 +1,10 @@
 //! Faces that name vertices far beyond those of the file: an error, before any memory is asked for.
 
 use std::fs;
-use std::path::PathBuf;
 
 use binspace::scene::{ObjStream, Scene};
 
-fn file(test: &str, text: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("s.obj"), text).unwrap();
-    folder.join("s.obj")
-}
+use super::file;
 
 #[test]
 fn a_vertex_number_beyond_the_file_asks_for_no_memory() {

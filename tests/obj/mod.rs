@@ -14,7 +14,8 @@ mod real_scenes;
 mod stream;
 
 use binspace::scene::{ObjError, ObjReport, Scene};
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 fn read(text: impl AsRef<[u8]>) -> Result<(Scene, ObjReport), ObjError> {
     Scene::from_obj("test.obj", text.as_ref(), |_| None)
@@ -26,6 +27,21 @@ fn read_with(text: &str, libraries: &[(&str, &str)]) -> (Scene, ObjReport) {
         found.map(|(_, content)| content.as_bytes().to_vec())
     };
     Scene::from_obj("test.obj", text.as_bytes(), find).expect(text)
+}
+
+/// An empty folder of a test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// A file in such a folder.
+fn file(test: &str, text: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder(test).join("s.obj");
+    fs::write(&path, text).unwrap();
+    path
 }
 
 fn sides(scene: &Scene) -> Vec<usize> {

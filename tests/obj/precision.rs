@@ -98,7 +98,7 @@ fn layers_some_units_apart_keep_their_order() {
 /// that overlap come in the file's order.
 #[test]
 fn cards_of_one_plane_keep_their_order() {
-    let mut random = binspace::internals::SplitMix64::new(5);
+    let mut random = testkit::dice::Dice(5);
     let mut compared = 0;
     for page in 0..60 {
         let normal = (random.point(-1.0, 1.0) + DVec3::splat(1e-3)).normalize();

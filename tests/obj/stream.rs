@@ -7,13 +7,12 @@ use std::path::PathBuf;
 use binspace::glam::DVec3;
 use binspace::scene::{ObjStream, Scene};
 
-/// A file with a material library, in a folder of the test's own.
+/// A file with a material library.
 fn file(test: &str, text: impl AsRef<[u8]>) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("m.mtl"), "newmtl a\nKd 1 0 0\nd 0.5\nnewmtl b c\nKd 0 1 0\n").unwrap();
-    fs::write(folder.join("s.obj"), text).unwrap();
-    folder.join("s.obj")
+    let path = super::file(test, text);
+    let library = "newmtl a\nKd 1 0 0\nd 0.5\nnewmtl b c\nKd 0 1 0\n";
+    fs::write(path.with_file_name("m.mtl"), library).unwrap();
+    path
 }
 
 fn same(test: &str, text: impl AsRef<[u8]>) {

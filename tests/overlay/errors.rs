@@ -75,16 +75,30 @@ fn bounds_must_be_finite() {
     }
 }
 
+/// Trees of other sizes, and trees that differ in nothing that is counted: in the grid alone, or in the
+/// tolerance alone.
 #[test]
 fn another_tree_is_refused() {
-    let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
-    let other = BspTree::build(scene::city(150, 1).polygons()).expect("within budget");
-    let moved = scene::city(100, 1);
-    let moved = moved.polygons().map(|p| p.corners().map(|c| c * 3.0).collect::<Vec<_>>());
-    let moved = BspTree::build(moved).expect("within budget");
+    let scene = scene::city(100, 1);
+    let scaled = |by: f64| {
+        let polygons = scene.polygons().map(|p| p.iter().map(|&c| c * by).collect::<Vec<_>>());
+        BspTree::build(polygons).expect("within budget")
+    };
+    // Twice as large, its grid is as fine for its size, and its tolerance as many steps.
+    let (tree, twice, thrice) = (scaled(1.0), scaled(2.0), scaled(3.0));
+    assert_eq!(tree.faces().tolerance(), twice.faces().tolerance());
+    let tolerance = scene.bounds().map(|(low, high)| (high - low).max_element() * 2e-9);
+    let options = BuildOptions::DEFAULT.with_tolerance(tolerance.expect("corners"));
+    let coarse = options.build(scene.polygons()).expect("within budget");
+    assert_eq!(tree.faces().lattice(), coarse.faces().lattice());
+    let counts = |tree: &BspTree| (tree.len(), tree.nodes().len(), tree.faces().corner_count());
+    for same in [&twice, &coarse] {
+        assert_eq!(counts(&tree), counts(same), "they would be refused anyway");
+    }
+    let larger = BspTree::build(scene::city(150, 1).polygons()).expect("within budget");
     let mut overlay = Overlay::new(&tree);
     let (eye, mut order) = (Viewpoint::eye([1.0, 2.0, 3.0]), Vec::new());
-    for other in [&other, &moved] {
+    for other in [&larger, &twice, &thrice, &coarse] {
         overlay.replace(&tree, [triangle(DVec3::ONE)]).expect("on the grid");
         assert!(overlay.back_to_front_into(other, eye, &mut order).is_err());
         assert!(overlay.front_to_back_into(other, eye, &mut order).is_err());
@@ -95,33 +109,6 @@ fn another_tree_is_refused() {
         check_empty(&overlay, &tree);
     }
     overlay.replace(&tree.clone(), [triangle(DVec3::ONE)]).expect("a copy is the same");
-}
-
-/// Trees that differ in nothing that is counted: in the grid alone, or in the tolerance alone.
-#[test]
-fn a_tree_of_another_grid_or_tolerance_is_refused() {
-    let scene = scene::city(100, 1);
-    let scaled = |by: f64| {
-        let polygons = scene.polygons().map(|p| p.iter().map(|&c| c * by).collect::<Vec<_>>());
-        BspTree::build(polygons).expect("within budget")
-    };
-    // Twice as large, its grid is as fine for its size, and its tolerance as many steps.
-    let (tree, twice) = (scaled(1.0), scaled(2.0));
-    assert_eq!(tree.faces().tolerance(), twice.faces().tolerance());
-    let tolerance = scene.bounds().map(|(low, high)| (high - low).max_element() * 2e-9);
-    let options = BuildOptions::DEFAULT.with_tolerance(tolerance.expect("corners"));
-    let coarse = options.build(scene.polygons()).expect("within budget");
-    assert_eq!(tree.faces().lattice(), coarse.faces().lattice());
-    let (eye, mut order) = (Viewpoint::eye([1.0, 2.0, 3.0]), Vec::new());
-    for other in [&twice, &coarse] {
-        let counts = |tree: &BspTree| (tree.len(), tree.nodes().len(), tree.faces().corner_count());
-        assert_eq!(counts(&tree), counts(other), "they would be refused anyway");
-        let mut overlay = Overlay::new(&tree);
-        overlay.replace(&tree, [triangle(DVec3::ONE)]).expect("on the grid");
-        assert!(overlay.back_to_front_into(other, eye, &mut order).is_err());
-        assert!(overlay.replace(other, [triangle(DVec3::ONE)]).is_err());
-        check_empty(&overlay, &tree);
-    }
 }
 
 #[test]
@@ -210,7 +197,7 @@ fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
         let mut left = at;
         let replace = || {
             overlay.replace_with_progress(&tree, shapes(), |_| {
-                enough!(left > 0; "the caller's fault");
+                assert!(left > 0, "the caller's fault");
                 left -= 1;
                 ControlFlow::Continue(())
             })

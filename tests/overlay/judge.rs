@@ -4,19 +4,15 @@
 use std::collections::HashMap;
 
 use binspace::BspTree;
-use binspace::internals::{Faces, Line};
+use binspace::internals::Faces;
 use binspace::overlay::{Overlay, Shape};
 use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
 use binspace::view::Camera;
 
+use testkit::fragment_pixels::with_piece;
+use testkit::judge::{Verdict, ensure};
 use testkit::model::Face;
 use testkit::rational::{self, Point};
-
-type Verdict = Result<(), String>;
-
-fn ensure(condition: bool, what: impl FnOnce() -> String) -> Verdict {
-    if condition { Ok(()) } else { Err(what()) }
-}
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -51,22 +47,16 @@ impl Judged {
             let shape = overlay.shape(number);
             let shape = shape.unwrap_or_else(|| Shape::Fragment(tree.fragment(number)));
             let Some(fragment) = shape.fragment() else { continue };
-            let lines: Vec<Line> = fragment.lines().collect();
-            let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-            let outline = if fragment.is_whole() {
-                Outline::Whole
-            } else {
-                Outline::Lines { lines: &lines, vertices: &vertices }
-            };
-            let piece = Piece { face: fragment.face(), outline };
-            painter.draw(piece);
-            if number as usize >= tree.len() {
-                for_each_run(&rays, faces, piece, |y, columns| {
-                    for x in columns {
-                        *painted.entry((piece.face, x, y)).or_default() += 1;
-                    }
-                });
-            }
+            with_piece(&fragment, |piece| {
+                painter.draw(piece);
+                if number as usize >= tree.len() {
+                    for_each_run(&rays, faces, piece, |y, columns| {
+                        for x in columns {
+                            *painted.entry((piece.face, x, y)).or_default() += 1;
+                        }
+                    });
+                }
+            });
         }
         let truth = zbuffer(&rays, faces);
         let result = compare(&rays, faces, &painter.finish(), truth.image());

@@ -25,7 +25,7 @@ struct Scene {
 
 fn whole(dice: &mut Dice) -> DVec3 {
     // Multiples of four, so that the middle of a middle is whole.
-    DVec3::from_array([0; 3].map(|_| 4.0 * dice.around_zero(3)))
+    dice.whole_point(3) * 4.0
 }
 
 fn polygon(dice: &mut Dice) -> Corners {
@@ -170,7 +170,7 @@ fn lines_and_points_come_in_the_exact_order_where_much_coincides() {
 
 /// Numbers of many digits: nothing coincides, and much is rounded.
 fn tangle(polygons: usize, lines: usize, points: usize, dice: &mut Dice) -> Scene {
-    let mut any = |size: f64| DVec3::from_array([0; 3].map(|_| (dice.share() - 0.5) * size));
+    let mut any = |size: f64| dice.point(-0.5, 0.5) * size;
     let mut scene = Scene::default();
     for _ in 0..polygons {
         let at = any(40.0);

@@ -32,7 +32,7 @@ impl Curve {
     /// Corners that have nothing in common; `most` is how many times each may be repeated in a row. A
     /// closed curve has its first corner at its end as well.
     fn new(dice: &mut Dice, is_closed: bool, most: usize) -> Self {
-        let mut any = |size: f64| DVec3::from_array([0; 3].map(|_| (dice.share() - 0.5) * size));
+        let mut any = |size: f64| dice.point(-0.5, 0.5) * size;
         let middle = any(60.0);
         let distinct: Vec<DVec3> = (0..CORNERS).map(|_| middle + any(40.0)).collect();
         let (mut corners, mut numbers) = (Vec::new(), Vec::new());
@@ -127,7 +127,7 @@ fn points_where_many_segments_meet_take_no_square_of_the_work() {
     let mut overlay = Overlay::new(&tree);
     let many = 4000;
     let mut dice = Dice(7);
-    let mut any = |size: f64| DVec3::from_array([0; 3].map(|_| (dice.share() - 0.5) * size));
+    let mut any = |size: f64| dice.point(-0.5, 0.5) * size;
     let at = dvec3(1.0, 2.0, 3.0);
     let rays: Vec<[DVec3; 2]> = (0..many).map(|_| [at, any(60.0)]).collect();
     let reversed: Vec<[DVec3; 2]> = rays.iter().map(|&[from, to]| [to, from]).collect();

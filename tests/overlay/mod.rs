@@ -18,13 +18,13 @@ mod walks;
 use binspace::glam::DVec3;
 use binspace::overlay::Overlay;
 use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::{BspTree, Heuristic};
 use judge::Judged;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use testkit::dice::Dice;
 use testkit::hard::{self, HardScene, Tolerance};
-use testkit::tally::tally;
+use testkit::tally::{fail, tally};
 
 type Corners = Vec<DVec3>;
 
@@ -44,33 +44,26 @@ fn divide(scene: &HardScene, bits: u64, by: Heuristic) -> Result<Divided, TestCa
         polygons.filter(|&(i, _)| is_moving(i) == moving).map(|(_, p)| p.clone()).collect()
     };
     let (still, moving) = (part(false), part(true));
-    let [low, high] = bounds(&scene.polygons);
-    let mut options = BuildOptions::DEFAULT.with_heuristic(by).with_bounds(low, high);
-    options.tolerance = scene.tolerance().into();
-    let tree = options.build(&still).map_err(|error| TestCaseError::reject(error.to_string()))?;
+    let [low, high] = scene.bounds().expect("corners");
+    let tree = scene.options(by).with_bounds(low, high).build(&still).map_err(fail)?;
     let all = still.iter().chain(&moving).cloned().collect();
     Ok(Divided { tree, moving, all })
 }
 
-fn bounds(polygons: &[Corners]) -> [DVec3; 2] {
-    let corners = || polygons.iter().flatten().copied();
-    [corners().reduce(DVec3::min), corners().reduce(DVec3::max)].map(Option::unwrap_or_default)
-}
-
 #[test]
 fn the_painter_shows_what_the_depth_buffer_sees() {
-    let by = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), any::<u64>(), by, any::<u64>());
+    let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());
     let judged: Judged = tally(file!(), 256, cases, |judged: &mut Judged, case| {
         let (scene, bits, by, seed) = case;
         let scene = scene.with_tolerance(Tolerance::Share(0.0));
         let Divided { tree, moving, all } = divide(&scene, bits, by)?;
         let mut overlay = Overlay::new(&tree);
         // Something else before, so that what is left of it would show.
-        overlay.replace(&tree, &all).map_err(|error| TestCaseError::fail(error.to_string()))?;
-        overlay.replace(&tree, &moving).map_err(|error| TestCaseError::fail(error.to_string()))?;
-        for camera in views(bounds(&all), DVec3::Z, 4, [40, 30], seed).unwrap_or_default() {
-            judged.look(&tree, &overlay, &camera).map_err(TestCaseError::fail)?;
+        overlay.replace(&tree, &all).map_err(fail)?;
+        overlay.replace(&tree, &moving).map_err(fail)?;
+        let bounds = hard::bounds(&all).expect("corners");
+        for camera in views(bounds, DVec3::Z, 4, [40, 30], seed).unwrap_or_default() {
+            judged.look(&tree, &overlay, &camera).map_err(fail)?;
         }
         Ok(())
     });
@@ -99,16 +92,15 @@ fn awkward_cameras(overlay: &Overlay, dice: &mut Dice) -> Vec<Camera> {
 
 #[test]
 fn the_painter_is_right_from_eyes_in_planes_and_corners() {
-    let by = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), any::<u64>(), by, any::<u64>());
+    let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());
     let judged: Judged = tally(file!(), 256, cases, |judged: &mut Judged, case| {
         let (scene, bits, by, seed) = case;
         let Divided { tree, moving, .. } =
             divide(&scene.with_tolerance(Tolerance::Share(0.0)), bits, by)?;
         let mut overlay = Overlay::new(&tree);
-        overlay.replace(&tree, &moving).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        overlay.replace(&tree, &moving).map_err(fail)?;
         for camera in awkward_cameras(&overlay, &mut Dice(seed)) {
-            judged.look(&tree, &overlay, &camera).map_err(TestCaseError::fail)?;
+            judged.look(&tree, &overlay, &camera).map_err(fail)?;
         }
         Ok(())
     });
@@ -117,17 +109,15 @@ fn the_painter_is_right_from_eyes_in_planes_and_corners() {
 
 #[test]
 fn pieces_tile_their_polygons() {
-    let by = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), any::<u64>(), by);
+    let cases = (hard::scene(), any::<u64>(), hard::heuristic());
     let counts = tally(file!(), 256, cases, |counts: &mut [usize; 2], (scene, bits, by)| {
         let Divided { tree, moving, all } = divide(&scene, bits, by)?;
         let [mut overlay, mut fresh] = [Overlay::new(&tree), Overlay::new(&tree)];
-        let refused = |error: binspace::Error| TestCaseError::fail(error.to_string());
-        overlay.replace(&tree, &all).map_err(refused)?;
-        overlay.replace(&tree, &moving).map_err(refused)?;
-        fresh.replace(&tree, &moving).map_err(refused)?;
-        judge::same(&tree, [&overlay, &fresh]).map_err(TestCaseError::fail)?;
-        counts[0] += judge::areas(&tree, &overlay).map_err(TestCaseError::fail)?;
+        overlay.replace(&tree, &all).map_err(fail)?;
+        overlay.replace(&tree, &moving).map_err(fail)?;
+        fresh.replace(&tree, &moving).map_err(fail)?;
+        judge::same(&tree, [&overlay, &fresh]).map_err(fail)?;
+        counts[0] += judge::areas(&tree, &overlay).map_err(fail)?;
         counts[1] += overlay.len();
         Ok(())
     });

@@ -72,13 +72,7 @@ pub(crate) fn hit(eye: &Point, through: &Point, face: &Face) -> Option<Rational>
         return None;
     }
     let at = between(&[eye.clone(), through.clone()], &ratio);
-    let n = face.corners.len();
-    let is_inside = (0..n).all(|k| {
-        let (a, b) = (&face.corners[k], &face.corners[(k + 1) % n]);
-        let turn = rational::product(&rational::difference(b, a), &rational::difference(&at, a));
-        rational::scalar(&turn, &face.plane.normal).is_positive()
-    });
-    is_inside.then_some(ratio)
+    face.place(&at).is_gt().then_some(ratio)
 }
 
 /// The share of a segment, which may be a point, that the line through the eye and a point goes

@@ -37,7 +37,7 @@ impl Mover {
     }
 
     fn step(&mut self, low: DVec3, high: DVec3, dice: &mut Dice) {
-        let any = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+        let any = |dice: &mut Dice| dice.point(-0.5, 0.5);
         let length = 0.03 * (high - low).max_element();
         self.at = (self.at + any(dice) * length).clamp(low, high);
         self.turn *= DMat3::from_axis_angle((any(dice) + DVec3::Z).normalize(), dice.share());

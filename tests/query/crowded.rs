@@ -42,9 +42,7 @@ fn a_ray_through_the_apex_of_a_fan_hits_all_of_it() {
     };
     let mut blades: Vec<[[f64; 3]; 3]> = (0..n).map(|k| [[0.0; 3], rim(k), rim(k + 1)]).collect();
     let mut dice = Dice(5);
-    for k in (1..n).rev() {
-        blades.swap(k, dice.below(k + 1));
-    }
+    dice.shuffle(&mut blades);
     let tree = BspTree::build(&blades).unwrap();
     assert_eq!(tree.len(), n);
     let ray = Ray::new([0.5, 0.25, 1.0], [-0.5, -0.25, -1.0]);

@@ -9,6 +9,7 @@ use testkit::dice::Dice;
 use testkit::enough;
 use testkit::hits::Oracle;
 use testkit::shots::Shots;
+use testkit::views::in_lattice;
 use testkit::{model, rational};
 
 #[test]
@@ -71,7 +72,7 @@ struct Found {
 fn check(oracle: &Oracle<'_>, is_twig: &[bool], point: DVec3) -> Found {
     let tree = oracle.tree();
     let location = tree.locate(point).expect("a point within reach");
-    let exact = oracle.to_lattice(point);
+    let exact = in_lattice(oracle.faces().lattice(), point);
     let (mut last, mut is_in_front, mut planes) = (None, false, Vec::new());
     let mut part = tree.root().map_or(Child::Leaf(0..tree.len() as u32), Child::Node);
     while let Child::Node(node) = part {
@@ -97,7 +98,8 @@ fn check(oracle: &Oracle<'_>, is_twig: &[bool], point: DVec3) -> Found {
     }
     // All of them, by every fragment's plane.
     let faces = 0..tree.faces().len() as u32;
-    let is_on: Vec<bool> = faces.map(|face| oracle.face_plane(face).at(&exact).is_zero()).collect();
+    let is_on: Vec<bool> =
+        faces.map(|face| oracle.model(face).plane.at(&exact).is_zero()).collect();
     let face = |fragment: u32| tree.fragment(fragment).face() as usize;
     let truth: Vec<u32> =
         (0..tree.len() as u32).filter(|&fragment| is_on[face(fragment)]).collect();

@@ -1,7 +1,7 @@
 //! From what the library says in public, everything about a hit can be computed exactly.
 
 use binspace::glam::DVec3;
-use binspace::{BspTree, Child, Grid, Ray, scene};
+use binspace::{BspTree, Grid, Ray, scene};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use testkit::dice::Dice;
 use testkit::enough;
@@ -89,14 +89,17 @@ fn hits_can_be_computed_again_from_points_of_the_grid() {
 fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
     let (mut checked, mut axes) = (0, 0);
     for (scene, far) in [
-        (scene::random_triangles(60, 2), DVec3::ZERO),
+        (scene::random_triangles(80, 2), DVec3::ZERO),
         (scene::city(300, 1), DVec3::new(1e6, -3.0, 7e4)),
         (scene::teapot(3), DVec3::splat(-5.0)),
+        (scene::crossing(9), DVec3::new(1e3, -2e3, 5e2)),
     ] {
         let moved = scene.polygons().map(|p| p.iter().map(|&c| c + far).collect::<Vec<_>>());
         let polygons: Vec<Vec<DVec3>> = moved.collect();
         let tree = BspTree::build(&polygons).unwrap();
         let grid = tree.grid();
+        let (low, high) = scene.bounds().unwrap();
+        let slack = 1e-8 * (high - low).max_element();
         for fragment in tree.fragments() {
             // The corners as given, but for the rounding to the grid.
             for point in fragment.grid_points().map(|point| world(grid, point)) {
@@ -117,16 +120,23 @@ fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
                 let unit = rational::exact(normal.length());
                 assert_eq!(&exact.offset / unit, rational::exact(node.offset()));
             }
-            for (child, side) in [(node.front(), 1), (node.back(), -1)] {
-                let Child::Leaf(fragments) = child else { continue };
+            // All fragments are where it says, and where its rounded form says.
+            let unit = rational::exact(normal.length());
+            for (fragments, sides) in
+                [(node.on(), &[1, -1][..]), (node.in_front(), &[1]), (node.behind(), &[-1])]
+            {
                 for corner in fragments.flat_map(|f| tree.fragment(f).vertices()) {
-                    let at = exact.at(&rational::point(corner)) * rational::exact(f64::from(side));
-                    let slack = rational::exact(normal.length() * 1e-6);
-                    assert!(!(at + slack).is_negative());
-                    checked += 1;
+                    let at = exact.at(&rational::point(corner)) / &unit;
+                    let rounded = node.normal().dot(corner) - node.offset();
+                    for &side in sides {
+                        let at = &at * rational::exact(f64::from(side));
+                        assert!(!(at + rational::exact(1e-6)).is_negative());
+                        assert!(rounded * f64::from(side) > -slack, "{rounded}: {node:?}");
+                        checked += 1;
+                    }
                 }
             }
         }
     }
-    enough!(checked > 500, axes > 50; "{checked} {axes}");
+    enough!(checked > 10_000, axes > 50; "{checked} {axes}");
 }

@@ -11,9 +11,7 @@ use binspace::scene::Scene;
 use rayon::prelude::*;
 use testkit::dice::Dice;
 use testkit::effort::effort;
-use testkit::enough;
 use testkit::hits::{Oracle, Score};
-use testkit::quick_hits::QuickOracle;
 use testkit::real_scenes;
 use testkit::shots::Shots;
 
@@ -27,25 +25,8 @@ const SCENES: [&str; 7] = [
     "teapot_quads_2k.obj",
 ];
 
-/// Shoots rays from many seeds.
-fn shoot(
-    (name, tree): (&str, &BspTree),
-    rays: usize,
-    check: impl Fn(binspace::Ray, &mut Score) -> Result<(), String> + Sync,
-) -> Score {
-    let (shots, parts) = (Shots::new(tree.faces()), 64);
-    (0..parts)
-        .into_par_iter()
-        .map(|part| {
-            let (mut dice, mut score) = (Dice(part), Score::default());
-            for _ in 0..rays / parts as usize + 1 {
-                check(shots.ray(&mut dice), &mut score)
-                    .unwrap_or_else(|what| panic!("{name}: {what}"));
-            }
-            score
-        })
-        .reduce(Score::default, Score::plus)
-}
+/// Each shoots rays from a seed of its own.
+const PARTS: usize = 64;
 
 #[test]
 #[ignore = "needs the real scenes: BINSPACE_SCENES"]
@@ -56,28 +37,22 @@ fn rays_at_real_scenes_hit_what_integers_say() {
     for name in SCENES {
         let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
         let tree = BspTree::build(scene.polygons()).expect("within budget");
-        let oracle = QuickOracle::new(&tree);
+        let oracle = Oracle::new(&tree);
         let begin = std::time::Instant::now();
-        let check = |ray, score: &mut Score| oracle.check(ray, score);
-        let score = shoot((name, &tree), rays / SCENES.len(), check);
+        let shots = Shots::new(tree.faces());
+        let shoot = |part: usize| {
+            let (mut dice, mut score) = (Dice(part as u64), Score::default());
+            for _ in 0..=rays / SCENES.len() / PARTS {
+                let judged = oracle.check(shots.ray(&mut dice), &mut score);
+                judged.unwrap_or_else(|what| panic!("{name}: {what}"));
+            }
+            score
+        };
+        let score = (0..PARTS).into_par_iter().map(shoot).reduce(Score::default, Score::plus);
         eprintln!("{name}: {score:?}, {:.1} s", begin.elapsed().as_secs_f64());
         all = all.plus(score);
     }
     eprintln!("all: {all:?}");
     assert!(all.rays >= rays && all.hits > rays && all.ties > rays / 4, "{all:?}");
     assert!(all.blocked.min(all.clear) > rays / 10 && all.in_plane > rays / 10, "{all:?}");
-}
-
-/// A few, by the other oracle.
-#[test]
-#[ignore = "needs the real scenes: BINSPACE_SCENES"]
-fn rays_at_real_scenes_hit_what_rationals_say() {
-    let folder = real_scenes::folder();
-    for name in ["forklift_1k.obj", "spider_1k.obj"] {
-        let (scene, _) = Scene::read_obj(folder.join(name)).expect("a scene");
-        let tree = BspTree::build(scene.polygons()).expect("within budget");
-        let oracle = Oracle::new(&tree);
-        let score = shoot((name, &tree), 500, |ray, score| oracle.check(ray, score));
-        enough!(score.rays >= 500, score.hits > 500; "{score:?}");
-    }
 }

@@ -2,9 +2,8 @@
 
 use binspace::glam::DVec3;
 use binspace::scene;
-use binspace::{Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Viewpoint};
+use binspace::{Bounds, BspTree, BuildOptions, Culling, Frustum, Viewpoint};
 use proptest::prelude::*;
-use proptest::test_runner::TestCaseError;
 use std::cmp::Ordering;
 use testkit::dice::Dice;
 use testkit::effort::times;
@@ -12,8 +11,9 @@ use testkit::enough;
 use testkit::hard;
 use testkit::hits::Oracle;
 use testkit::rational::{self, Plane, Point};
+use testkit::shapes::sheet;
 use testkit::shots::Shots;
-use testkit::tally::tally;
+use testkit::tally::{fail, tally};
 
 /// What was compared: of all pairs of a fragment and a region.
 #[derive(Clone, Copy, Debug, Default)]
@@ -98,7 +98,7 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
 
 /// A region of some kind that is hard for a scene.
 fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
-    let normal = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));
+    let normal = |dice: &mut Dice| dice.whole_point(2);
     let through = |normal: DVec3, point: DVec3| (normal, normal.dot(point));
     match dice.below(8) {
         // Boxes with sides through corners, some of them flat.
@@ -187,13 +187,9 @@ fn check(
 
 #[test]
 fn fragments_in_regions_are_those_of_rationals() {
-    let heuristic = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), heuristic, any::<u64>());
-    let score = tally(file!(), 96, cases, |score: &mut Score, (scene, heuristic, seed)| {
-        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-        let options = scene.tolerance().map_or(options, |t| options.with_tolerance(t));
-        let fail = |error: binspace::Error| TestCaseError::fail(error.to_string());
-        let tree = options.build(&scene.polygons).map_err(fail)?;
+    let cases = (hard::scene(), hard::heuristic(), any::<u64>());
+    let score = tally(file!(), 96, cases, |score: &mut Score, (scene, by, seed)| {
+        let tree = scene.build(by).map_err(fail)?;
         if tree.is_empty() {
             return Ok(());
         }
@@ -201,7 +197,7 @@ fn fragments_in_regions_are_those_of_rationals() {
         let (bounds, mut dice) = (tree.bounds().map_err(fail)?, Dice(seed));
         for _ in 0..1 + 150 / tree.len().max(10) {
             let region = region(&tree, &shots, &mut dice);
-            check(&oracle, &bounds, &region, score).map_err(TestCaseError::fail)?;
+            check(&oracle, &bounds, &region, score).map_err(fail)?;
         }
         Ok(())
     });
@@ -235,10 +231,8 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
 
 #[test]
 fn planes_of_odd_numbers_keep_everything_or_nothing() {
-    let square = |z: f64| [[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 4.0, z], [0.0, 4.0, z]];
     for scale in [0, -660, 660, -1015].map(|exponent| 2f64.powi(exponent)) {
-        let tree =
-            BspTree::build([0.0, 1.0].map(|z| square(z).map(|p| p.map(|c| c * scale)))).unwrap();
+        let tree = BspTree::build([0.0, 1.0].map(|z| sheet(2, z * scale, 4.0 * scale))).unwrap();
         let bounds = tree.bounds().unwrap();
         let count = |normal: DVec3, offset: f64| {
             bounds.fragments_in(&tree, &Frustum::new([(normal, offset)])).count()

@@ -1,8 +1,9 @@
 //! Rays among slivers, at the default tolerance.
 
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
+use binspace::BuildOptions;
 use testkit::dice::Dice;
 use testkit::hits::{Oracle, Score};
+use testkit::scenes::trees;
 use testkit::shots::Shots;
 use testkit::slivers::{Point, Sliver, along, whole};
 
@@ -30,22 +31,16 @@ fn scene(dice: &mut Dice) -> Vec<Vec<[f64; 3]>> {
 }
 
 #[test]
-fn rays_among_slivers_hit_what_rationals_say() {
+fn rays_among_slivers_hit_what_integers_say() {
     let mut score = Score::default();
     for seed in 0..40 {
         let mut dice = Dice(seed);
         let polygons = scene(&mut dice);
-        let mut frames = FrameBuilder::new(BuildOptions::DEFAULT);
-        let frame = frames.build(&polygons).unwrap().clone();
-        let tree = |&heuristic: &Heuristic| {
-            BuildOptions::DEFAULT.with_heuristic(heuristic).build(&polygons).unwrap()
-        };
-        let trees: Vec<BspTree> = Heuristic::ALL.iter().map(tree).chain([frame]).collect();
-        for tree in &trees {
+        for (name, tree) in &trees(&polygons, BuildOptions::DEFAULT) {
             let (oracle, shots) = (Oracle::new(tree), Shots::new(tree.faces()));
             for _ in 0..12 {
                 let judged = oracle.check(shots.ray(&mut dice), &mut score);
-                judged.unwrap_or_else(|what| panic!("seed {seed}: {what}"));
+                judged.unwrap_or_else(|what| panic!("seed {seed}, {name}: {what}"));
             }
         }
     }

@@ -49,11 +49,9 @@ proptest! {
 
     #[test]
     fn trees_of_hard_scenes_come_back(
-        scene in hard::scene(), heuristic in 0..Heuristic::ALL.len(), seed: u64,
+        scene in hard::scene(), by in hard::heuristic(), seed: u64,
     ) {
-        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::ALL[heuristic]);
-        let options = scene.tolerance().map_or(options, |length| options.with_tolerance(length));
-        let tree = options.build(&scene.polygons).unwrap();
+        let tree = scene.build(by).unwrap();
         let mut eyes = EYES.to_vec();
         if !tree.is_empty() {
             // Eyes on corners and planes as well.
@@ -62,7 +60,7 @@ proptest! {
         }
         assert_same(&tree, &eyes);
         assert_eq!(use_all(&tree), Ok(()));
-        let mut builder = FrameBuilder::new(options);
+        let mut builder = FrameBuilder::new(scene.options(by));
         assert_same(builder.build(&scene.polygons).unwrap(), &eyes);
     }
 }

@@ -3,15 +3,17 @@
 use binspace::BspTree;
 use binspace::scene;
 use testkit::enough;
-use testkit::saved::{bytes, seal};
+use testkit::saved::bytes;
+
+use super::File;
 
 /// Where the faces begin; each is 12 bytes.
 const FACES: usize = 88;
 
 /// What reading says on some threads: the fault, or the file of the same tree.
-fn read(file: &[u8], threads: usize) -> Result<Vec<u8>, String> {
+fn read(file: &File, threads: usize) -> Result<Vec<u8>, String> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    let read = || BspTree::read(file).map(|tree| bytes(&tree)).map_err(|error| error.to_string());
+    let read = || file.read().map(|tree| bytes(&tree));
     let inside = pool.install(read);
     assert_eq!(inside, read(), "the calling thread");
     inside
@@ -20,15 +22,14 @@ fn read(file: &[u8], threads: usize) -> Result<Vec<u8>, String> {
 #[test]
 fn the_same_is_read_by_any_number_of_threads() {
     let tree = BspTree::build(scene::terrain(30_000, 3).polygons()).expect("a tree");
-    let file = bytes(&tree);
-    let len = |at: usize| u64::from_le_bytes(file[at..at + 8].try_into().expect("eight")) as usize;
-    let faces = len(FACES - 8);
+    let file = File::of(&tree);
+    let faces = file.len(FACES - 8);
     // Faces of several parts, and nodes beside them.
     enough!(faces > 20_000; "{faces}");
     let corners = FACES + 12 * faces;
     // Triangles, with neither numbers nor moved corners, and none dropped.
     let nodes = corners + 72 * faces + 3 * 8 + 7 * 8 + 8 + 8;
-    assert_eq!(len(nodes - 8), tree.nodes().count());
+    assert_eq!(file.len(nodes - 8), tree.nodes().count());
     let far = (1_u64 << 52).to_le_bytes();
     let faults = [
         (corners + 72 * (faces - 1) + 16, "outside the grid"),
@@ -37,13 +38,11 @@ fn the_same_is_read_by_any_number_of_threads() {
     ];
     // From the last to the first: what comes first is told, whatever is behind it.
     let mut forged = file.clone();
-    forged[nodes + 4] |= 3;
-    seal(&mut forged);
-    let mut cases = vec![(file.clone(), Ok(file.clone()))];
+    forged.0[nodes + 4] |= 3;
+    let mut cases = vec![(file.clone(), Ok(file.0.clone()))];
     cases.push((forged.clone(), Err("node 0 has a side of an unknown kind")));
     for (at, fault) in faults {
-        forged[at..at + 8].copy_from_slice(&far);
-        seal(&mut forged);
+        forged.put_bytes(at, &far);
         cases.push((forged.clone(), Err(fault)));
     }
     for (file, expected) in cases {

@@ -2,7 +2,9 @@
 
 use binspace::partition::Extent;
 use binspace::{BspTree, BuildOptions};
-use testkit::saved::{bytes, seal};
+use testkit::shapes::sheet;
+
+use super::File;
 
 /// Where the number of faces is; `BspTree::write` describes the layout.
 const FACES: usize = 80;
@@ -11,10 +13,6 @@ const FLAGS: usize = 16;
 /// Steps from the middle of the grid to its border, and to the side of a cell without a plane.
 const LIMIT: i64 = 1 << 51;
 const OPEN: i64 = LIMIT + (1 << 44);
-
-/// A tree's file, which is changed.
-#[derive(Clone)]
-struct File(Vec<u8>);
 
 /// Where the parts of a file are.
 struct Places {
@@ -25,25 +23,9 @@ struct Places {
 }
 
 impl File {
-    fn of(tree: &BspTree) -> Self {
-        Self(bytes(tree))
-    }
-
-    fn u32(&self, at: usize) -> u32 {
-        u32::from_le_bytes(self.0[at..at + 4].try_into().expect("four"))
-    }
-
-    fn len(&self, at: usize) -> usize {
-        u64::from_le_bytes(self.0[at..at + 8].try_into().expect("eight")) as usize
-    }
-
-    fn put(&mut self, at: usize, bytes: &[u8]) {
-        self.0[at..at + bytes.len()].copy_from_slice(bytes);
-    }
-
     /// A coordinate of a point.
     fn put_step(&mut self, point: usize, axis: usize, step: i64) {
-        self.put(point + 8 * axis, &step.to_le_bytes());
+        self.put_bytes(point + 8 * axis, &step.to_le_bytes());
     }
 
     fn step(&self, point: usize, axis: usize) -> i64 {
@@ -53,35 +35,22 @@ impl File {
 
     fn places(&self) -> Places {
         let faces = self.len(FACES);
-        let sides = |face: usize| self.u32(FACES + 8 + 12 * face + 4) as usize;
+        let sides = |face: usize| self.get(FACES + 8 + 12 * face + 4) as usize;
         let corners = FACES + 8 + 12 * faces;
-        let of_cell = if self.u32(FLAGS) & 2 == 0 { 0 } else { 2 };
+        let of_cell = if self.get(FLAGS) & 2 == 0 { 0 } else { 2 };
         let count = of_cell + (0..faces).map(sides).sum::<usize>();
         let numbered = corners + 24 * count;
-        let with_numbers = (0..self.len(numbered)).map(|k| self.u32(numbered + 8 + 4 * k) as usize);
+        let with_numbers = (0..self.len(numbered)).map(|k| self.get(numbered + 8 + 4 * k) as usize);
         let numbers = with_numbers.map(sides).sum::<usize>();
         let moved = numbered + 8 + 4 * self.len(numbered) + 4 * numbers;
         let dropped = moved + 8 + 28 * self.len(moved);
         let lengths = dropped + 8 + 4 * self.len(dropped) + 5 * 8;
         Places { corners, moved, lengths, nodes: lengths + 2 * 8 + 8 }
     }
-
-    /// What reading says; nothing if it is a tree.
-    fn message(&self) -> String {
-        let mut bytes = self.0.clone();
-        seal(&mut bytes);
-        BspTree::read(&bytes[..]).map_or_else(|error| error.to_string(), |_| String::new())
-    }
-
-    #[track_caller]
-    fn refused(&self, says: &str) {
-        let message = self.message();
-        assert!(message.contains(says), "{message:?}, not {says:?}");
-    }
 }
 
 fn square(z: f64) -> [[f64; 3]; 4] {
-    [[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 4.0, z], [0.0, 4.0, z]]
+    sheet(2, z, 4.0)
 }
 
 /// Without a node, nothing says where the fragment comes in an order.
@@ -90,7 +59,7 @@ fn a_fragment_without_a_node_is_refused() {
     let mut file = File::of(&BspTree::build([square(0.0)]).expect("a tree"));
     let nodes = file.places().nodes;
     assert_eq!((file.len(nodes), file.message()), (1, String::new()));
-    file.put(nodes, &0_u64.to_le_bytes());
+    file.put_bytes(nodes, &0_u64.to_le_bytes());
     file.0.drain(nodes + 8..nodes + 16);
     file.refused("its nodes are not those of its fragments");
     // Nothing at all has neither.
@@ -101,10 +70,10 @@ fn a_fragment_without_a_node_is_refused() {
 #[test]
 fn unknown_flags_are_refused() {
     let file = File::of(&BspTree::build([square(0.0)]).expect("a tree"));
-    assert_eq!(file.u32(FLAGS), 0);
+    assert_eq!(file.get(FLAGS), 0);
     for bit in 0..32 {
         let mut file = file.clone();
-        file.put(FLAGS, &(1_u32 << bit).to_le_bytes());
+        file.put(FLAGS, 1 << bit);
         match bit {
             // It is read as the tree of one view.
             0 => assert_eq!(file.message(), ""),
@@ -129,7 +98,7 @@ fn lengths_that_are_none_are_refused() {
             (f64::NEG_INFINITY, false),
         ] {
             let mut file = file.clone();
-            file.put(at, &f64::to_le_bytes(length));
+            file.put_bytes(at, &f64::to_le_bytes(length));
             if is_one {
                 assert_eq!(file.message(), "", "{length}");
             } else {
@@ -203,7 +172,7 @@ fn a_corner_is_moved_along_its_faces_axis_and_from_the_grid() {
         let file = bent(axis);
         let moved = file.places().moved;
         assert_eq!((file.len(moved), file.message()), (1, String::new()));
-        let (corner, given) = (file.u32(moved + 8), moved + 12);
+        let (corner, given) = (file.get(moved + 8), moved + 12);
         for other in 0..3 {
             for by in [1, -1, 1 << 30] {
                 let mut file = file.clone();
@@ -229,18 +198,18 @@ fn a_corner_is_moved_along_its_faces_axis_and_from_the_grid() {
         let mut flat = file.clone();
         let corners = file.places().corners;
         let first = flat.0[corners..corners + 24].to_vec();
-        flat.put(moved + 8, &0_u32.to_le_bytes());
-        flat.put(given, &first);
+        flat.put(moved + 8, 0);
+        flat.put_bytes(given, &first);
         flat.refused("moved corner 0 was not moved along its face's axis");
         for number in [8, u32::MAX] {
             let mut file = file.clone();
-            file.put(moved + 8, &u32::to_le_bytes(number));
+            file.put(moved + 8, number);
             file.refused(&format!("moved corner {number} is unknown or out of order"));
         }
         // The same corner twice.
         let mut twice = file.clone();
         let entry = twice.0[moved + 8..moved + 36].to_vec();
-        twice.put(moved, &2_u64.to_le_bytes());
+        twice.put_bytes(moved, &2_u64.to_le_bytes());
         twice.0.splice(moved + 8..moved + 8, entry);
         twice.refused(&format!("moved corner {corner} is unknown or out of order"));
     }

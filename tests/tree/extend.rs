@@ -8,13 +8,9 @@ use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use testkit::dice::Dice;
+use testkit::scenes::polygons;
+use testkit::shapes::Corners;
 use testkit::snapshot::Snapshot;
-
-type Corners = Vec<DVec3>;
-
-fn corners(scene: &Scene) -> Vec<Corners> {
-    scene.polygons().map(|polygon| polygon.iter().copied().collect()).collect()
-}
 
 /// Options under which a part of a scene has the grid and the tolerance of all of it.
 fn options(scene: &Scene, by: Heuristic) -> BuildOptions {
@@ -25,7 +21,7 @@ fn options(scene: &Scene, by: Heuristic) -> BuildOptions {
 #[test]
 fn an_extended_tree_is_that_of_all_polygons() {
     for scene in [scene::random_triangles(120, 3), scene::city(400, 2), scene::crossing(9)] {
-        let all = corners(&scene);
+        let all = polygons(&scene);
         for &by in Heuristic::ALL {
             let options = options(&scene, by);
             let expected = options.build(&all).expect("within budget");
@@ -88,7 +84,6 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
     let mut dice = Dice(3);
     let (mut counted, mut triangulated) = (0, 0);
     for round in seeds(60) {
-        let point = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| dice.around_zero(3)));
         let mut all: Vec<Corners> = Vec::new();
         for _ in 0..30 {
             let count = 3 + dice.below(4);
@@ -103,13 +98,13 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
                 }
                 // Flat ones, moved by less than the tolerance.
                 1 => {
-                    let at = point(&mut dice);
+                    let at = dice.whole_point(3);
                     let lift = DVec3::Z * dice.share() * 5e-7;
                     vec![at, at + DVec3::X, at + DVec3::ONE - DVec3::Z + lift, at + DVec3::Y]
                 }
                 // An arrow.
                 2 => {
-                    let at = point(&mut dice);
+                    let at = dice.whole_point(3);
                     let corners = [[0.0, 0.0], [4.0, 1.0], [0.0, 2.0], [1.0, 1.0]];
                     corners.map(|[x, y]| at + DVec3::new(x, y, 0.0)).to_vec()
                 }

@@ -6,11 +6,12 @@ use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Polygon, Vi
 use proptest::prelude::*;
 use testkit::enough;
 
-use crate::tree::{fail, heuristic, options, shoot};
+use crate::tree::{heuristic, shoot};
 use testkit::dice::Dice;
 use testkit::hard;
 use testkit::rays::Rays;
-use testkit::tally::tally;
+use testkit::snapshot::order;
+use testkit::tally::{fail, tally};
 use testkit::{orders, views};
 
 fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {
@@ -22,21 +23,15 @@ fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {
 fn assert_same(one: &BspTree, other: &BspTree, viewpoint: Viewpoint) {
     assert_eq!(one.len(), other.len());
     assert!(one.fragments().map(|f| of(&f)).eq(other.fragments().map(|f| of(&f))));
-    let order = |tree: &BspTree| {
-        let mut order = vec![7; 3];
-        tree.back_to_front_into(viewpoint, &mut order);
-        order
-    };
-    assert_eq!(order(one), order(other));
+    assert_eq!(order(one, viewpoint), order(other, viewpoint));
 }
 
 /// The tree of a frame, built alone and to stay.
 fn alone<P: Polygon>(
     options: &BuildOptions,
-    tolerance: Option<f64>,
     polygons: impl IntoIterator<Item = P>,
 ) -> Result<BspTree, Error> {
-    let (faces, preparation) = Faces::new(polygons, tolerance)?;
+    let (faces, preparation) = Faces::new(polygons, options.tolerance)?;
     tree_of(options, &Tuning::FRAMES, faces, preparation)
 }
 
@@ -47,14 +42,12 @@ fn a_frame_has_the_tree_that_is_built_alone() {
         tally(file!(), 128, scenes, |counts: &mut [usize; 2], (scenes, by, seed)| {
             let mut dice = Dice(seed);
             // Options belong to the builder, so its scenes have one tolerance.
-            let options = options(&scenes[0], by);
+            let options = scenes[0].options(by);
             let mut builder = FrameBuilder::new(options);
             for scene in &scenes {
-                let alone = alone(&options, scenes[0].tolerance(), &scene.polygons)
-                    .map_err(|error| fail(error.to_string()))?;
-                let tree =
-                    builder.build(&scene.polygons).map_err(|error| fail(error.to_string()))?;
-                tree.validate().map_err(|invalid| fail(invalid.to_string()))?;
+                let alone = alone(&options, &scene.polygons).map_err(fail)?;
+                let tree = builder.build(&scene.polygons).map_err(fail)?;
+                tree.validate().map_err(fail)?;
                 prop_assert_eq!(tree.preparation(), alone.preparation());
                 if !tree.is_empty() {
                     let view = views::some_view(tree.faces(), &Rays::new(tree), &mut dice);
@@ -96,7 +89,7 @@ fn after_an_error_the_tree_is_empty_and_the_builder_goes_on() -> Result<(), Erro
 fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     for scene in [binspace::scene::terrain(9000, 1), binspace::scene::random_triangles(300, 2)] {
-        let alone = alone(&BuildOptions::DEFAULT, None, scene.polygons())?;
+        let alone = alone(&BuildOptions::DEFAULT, scene.polygons())?;
         let tree = builder.build(scene.polygons())?;
         assert_same(tree, &alone, Viewpoint::eye([0.3, 0.2, 4.0]));
         tree.validate()?;

@@ -14,34 +14,19 @@ mod same;
 mod scale;
 mod tilted;
 
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::{BspTree, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use testkit::dice::Dice;
 use testkit::enough;
-use testkit::hard::{self, HardScene};
+use testkit::hard;
 use testkit::rays::Rays;
-use testkit::tally::tally;
+use testkit::tally::{fail, tally};
 use testkit::{judge, orders, views};
-
-fn options(scene: &HardScene, heuristic: Heuristic) -> BuildOptions {
-    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-    scene.tolerance().map_or(options, |tolerance| options.with_tolerance(tolerance))
-}
-
-fn build(scene: &HardScene, heuristic: Heuristic) -> Result<BspTree, TestCaseError> {
-    options(scene, heuristic)
-        .build(&scene.polygons)
-        .map_err(|error| TestCaseError::fail(error.to_string()))
-}
-
-fn fail(what: String) -> TestCaseError {
-    TestCaseError::fail(what)
-}
 
 fn heuristic() -> impl Strategy<Value = Heuristic> {
     prop_oneof![
-        4 => prop::sample::select(Heuristic::ALL),
+        4 => hard::heuristic(),
         1 => any::<u64>().prop_map(|seed| Heuristic::Random { seed }),
         1 => (0.0..32.0f64, -1.0..4.0f64, -1.0..8.0f64)
             .prop_map(|(splits, balance, axial)| Heuristic::Weighted { splits, balance, axial }),
@@ -65,7 +50,7 @@ fn shoot(tree: &BspTree, seed: u64) -> Result<[usize; 2], TestCaseError> {
 fn fragments_are_exact_pieces_on_their_sides() {
     let scenes = (hard::scene(), heuristic());
     let [trees, cut] = tally(file!(), 256, scenes, |[trees, cut]: &mut [usize; 2], (scene, by)| {
-        let tree = build(&scene, by)?;
+        let tree = scene.build(by).map_err(fail)?;
         *trees += usize::from(!tree.is_empty());
         *cut += usize::from(tree.len() > tree.faces().len());
         judge::judge(&tree, &scene.polygons).map_err(fail)
@@ -77,7 +62,7 @@ fn fragments_are_exact_pieces_on_their_sides() {
 fn nearer_fragments_are_painted_later() {
     let scenes = (hard::scene(), heuristic(), any::<u64>());
     let counts = tally(file!(), 256, scenes, |counts: &mut [usize; 2], (scene, by, seed)| {
-        let [pairs, contested] = shoot(&build(&scene, by)?, seed)?;
+        let [pairs, contested] = shoot(&scene.build(by).map_err(fail)?, seed)?;
         counts[0] += pairs;
         counts[1] += contested;
         Ok(())

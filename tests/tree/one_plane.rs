@@ -10,6 +10,7 @@ use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use testkit::dice::Dice;
 use testkit::model;
 use testkit::rational::{Rational, exact, scalar};
+use testkit::scenes::trees;
 
 /// About four steps of `f32`.
 const TOLERANCE: f64 = 4.8e-7;
@@ -59,18 +60,6 @@ fn cards(dice: &mut Dice, others: usize) -> Cards {
         all.push(signs.map(|[x, y]| middle + turn * DVec3::new(x, y, 0.0) * size));
     }
     Cards { all, level, axes: [plane * DVec3::X, plane * DVec3::Y, plane * DVec3::Z] }
-}
-
-/// A tree of each heuristic, and one of a frame.
-fn trees(cards: &[Card]) -> Vec<(String, BspTree)> {
-    let options = BuildOptions::DEFAULT.with_tolerance(TOLERANCE);
-    let tree = |&heuristic: &Heuristic| {
-        let tree = options.with_heuristic(heuristic).build(cards).unwrap();
-        (heuristic.to_string(), tree)
-    };
-    let mut frames = FrameBuilder::new(options);
-    let frame = frames.build(cards).unwrap().clone();
-    Heuristic::ALL.iter().map(tree).chain([("frame".to_owned(), frame)]).collect()
 }
 
 /// Whether all corners of a face clearly are within the tolerance of another's plane.
@@ -149,7 +138,7 @@ fn a_polygon_is_not_cut_by_the_plane_of_one_that_lies_on_its_own() {
     let (mut cuts, mut pairs) = (0, 0);
     for round in 0..60 {
         let cards = cards(&mut dice, round % 4 * 2);
-        for (name, tree) in trees(&cards.all) {
+        for (name, tree) in trees(&cards.all, BuildOptions::DEFAULT.with_tolerance(TOLERANCE)) {
             let faces = tree.faces();
             let mut known = HashMap::new();
             let mut is_on = |face, other| {
@@ -182,7 +171,7 @@ fn cards_of_one_plane_stay_whole_by_every_heuristic() {
         let numbers = || 0..cards.level as u32;
         let pairs = numbers().flat_map(|a| numbers().take(a as usize).map(move |b| [a, b]));
         let is_flat = pairs.clone().all(|[a, b]| is_on(&faces, a, b) || is_on(&faces, b, a));
-        for (name, tree) in trees(&cards.all) {
+        for (name, tree) in trees(&cards.all, BuildOptions::DEFAULT.with_tolerance(TOLERANCE)) {
             if !is_flat {
                 continue;
             }

@@ -1,6 +1,5 @@
 //! Orders against the tree's planes, of which exact rationals say on which side the eye is.
 
-use crate::tree::{build, fail};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::scene;
@@ -13,6 +12,7 @@ use testkit::effort::cases;
 use testkit::hard;
 use testkit::judge::{Verdict, ensure};
 use testkit::rational::Plane;
+use testkit::tally::fail;
 use testkit::views::View;
 use testkit::{model, orders};
 
@@ -94,7 +94,7 @@ fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
         eyes.push(p + (q - p) * dice.around_zero(3) + (r - p) * dice.around_zero(3));
     }
     for axis in 0..3 {
-        let mut level = DVec3::from_array([0; 3].map(|_| dice.around_zero(1 << 30) * 1e6));
+        let mut level = dice.whole_point(1 << 30) * 1e6;
         level[axis] = r[axis];
         eyes.push(level);
     }
@@ -108,7 +108,7 @@ fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
 fn eyes_far_from(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let axis = DVec3::AXES[dice.below(3)];
-    let any = DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+    let any = dice.point(-0.5, 0.5);
     let ways = [axis, -axis, q - p, (q - p) * dice.around_zero(5) + (r - p), any];
     let mut eyes = Vec::new();
     for way in ways {
@@ -184,7 +184,7 @@ proptest! {
     fn awkward_eyes_are_on_the_sides_that_rationals_say(
         scene in hard::scene(), by in crate::tree::heuristic(), seed in any::<u64>(),
     ) {
-        let tree = build(&scene, by)?;
+        let tree = scene.build(by).map_err(fail)?;
         let views = awkward_views(tree.faces(), 2, &mut Dice(seed));
         Sides::new(&tree).check_all(&views).map_err(fail)?;
     }

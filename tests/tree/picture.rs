@@ -1,10 +1,10 @@
 //! The painter's picture of a hard scene against the depth buffer's, which knows no tree.
 
+use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::raster::Verdict;
 use binspace::verify::{Verification, verify};
 use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use testkit::enough;
@@ -12,23 +12,15 @@ use testkit::enough;
 use testkit::dice::Dice;
 use testkit::hard::{self, HardScene, Tolerance};
 use testkit::rays::Rays;
-use testkit::tally::tally;
+use testkit::tally::{fail, tally};
 use testkit::views::some_view;
 
 const SIZE: [u32; 2] = [40, 30];
 
-fn build(scene: &HardScene, by: Heuristic) -> Result<BspTree, TestCaseError> {
-    let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-    options.tolerance = scene.tolerance().into();
-    options.build(&scene.polygons).map_err(|error| TestCaseError::reject(error.to_string()))
-}
-
 /// Cameras around the scene and inside it.
 fn cameras(scene: &HardScene, count: usize, seed: u64) -> Vec<Camera> {
-    let corners = || scene.polygons.iter().flatten().copied();
-    let bounds = corners().reduce(DVec3::min).zip(corners().reduce(DVec3::max));
-    let (min, max) = bounds.expect("a corner");
-    views([min, max], DVec3::Z, count, SIZE, seed).unwrap_or_default()
+    let bounds = scene.bounds().expect("a corner");
+    views(bounds, DVec3::Z, count, SIZE, seed).unwrap_or_default()
 }
 
 /// A camera at one of the eyes where planes and corners are, looking at a fragment.
@@ -87,13 +79,12 @@ impl Compared {
 
 #[test]
 fn the_painter_shows_what_the_depth_buffer_sees() {
-    let by = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), by, any::<u64>(), any::<bool>());
+    let cases = (hard::scene(), hard::heuristic(), any::<u64>(), any::<bool>());
     let compared: Compared = tally(file!(), 96, cases, |compared: &mut Compared, case| {
         let (scene, by, seed, exactly) = case;
         let tolerance = if exactly { Tolerance::Share(0.0) } else { Tolerance::Default };
         let scene = scene.with_tolerance(tolerance);
-        let tree = build(&scene, by)?;
+        let tree = scene.build(by).map_err(fail)?;
         for camera in cameras(&scene, 4, seed) {
             compared.add(check(&tree, &camera)?.as_ref());
         }
@@ -104,11 +95,10 @@ fn the_painter_shows_what_the_depth_buffer_sees() {
 
 #[test]
 fn the_painter_is_right_from_eyes_in_planes_and_corners() {
-    let by = prop::sample::select(Heuristic::ALL);
-    let cases = (hard::scene(), by, any::<u64>());
+    let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let compared: Compared = tally(file!(), 96, cases, |compared: &mut Compared, case| {
         let (scene, by, seed) = case;
-        let tree = build(&scene.with_tolerance(Tolerance::Share(0.0)), by)?;
+        let tree = scene.with_tolerance(Tolerance::Share(0.0)).build(by).map_err(fail)?;
         let mut dice = Dice(seed);
         for _ in 0..if tree.is_empty() { 0 } else { 4 } {
             if let Some(camera) = awkward_camera(&tree, &mut dice) {
@@ -127,13 +117,12 @@ fn shuffled_polygons_give_the_same_picture() {
         let indices: Vec<usize> = (0..scene.polygons.len()).collect();
         (Just(scene), Just(indices).prop_shuffle())
     });
-    let by = prop::sample::select(Heuristic::ALL);
-    let cases = (shuffled, by, any::<u64>());
+    let cases = (shuffled, hard::heuristic(), any::<u64>());
     let same = tally(file!(), 96, cases, |same: &mut usize, ((scene, shuffle), by, seed)| {
         let scene = scene.with_tolerance(Tolerance::Share(0.0));
         let mut other = scene.clone();
         other.polygons = shuffle.iter().map(|&i| scene.polygons[i].clone()).collect();
-        let trees = (build(&scene, by)?, build(&other, by)?);
+        let trees = (scene.build(by).map_err(fail)?, other.build(by).map_err(fail)?);
         for camera in cameras(&scene, 2, seed) {
             let (Some(a), Some(b)) = (check(&trees.0, &camera)?, check(&trees.1, &camera)?) else {
                 continue;
@@ -158,10 +147,7 @@ fn shuffled_polygons_give_the_same_picture() {
 
 /// Whether two polygons may be equally far in a pixel: they have a point, to rounding, in common.
 fn is_tie(scene: &HardScene, a: usize, b: usize) -> bool {
-    let bounds = |k: usize| {
-        let corners = || scene.polygons[k].iter().copied();
-        corners().reduce(DVec3::min).zip(corners().reduce(DVec3::max))
-    };
-    let (Some((a_min, a_max)), Some((b_min, b_max))) = (bounds(a), bounds(b)) else { return false };
+    let bounds = |k: usize| hard::bounds(std::slice::from_ref(&scene.polygons[k]));
+    let (Some([a_min, a_max]), Some([b_min, b_max])) = (bounds(a), bounds(b)) else { return false };
     a_min.cmple(b_max).all() && b_min.cmple(a_max).all()
 }

@@ -116,8 +116,11 @@ fn nothing_to_build_is_done_at_once() {
 fn more_polygons_than_fragments_allowed_are_noticed_before_they_are_all_read() {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let options = BuildOptions::DEFAULT.with_max_fragments(1000);
-    let error = options.build(std::iter::repeat(square)).expect_err("endless");
+    let mut read = 0;
+    let endless = std::iter::repeat(square).inspect(|_| read += 1);
+    let error = options.build(endless).expect_err("endless");
     assert!(error.is_over_budget() && error.to_string().contains("1000 polygons"), "{error}");
+    assert_eq!(read, 1001);
     assert_eq!(options.build(std::iter::repeat_n(square, 1000)).unwrap().len(), 1000);
 }
 

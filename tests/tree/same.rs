@@ -42,19 +42,17 @@ proptest! {
 
     #[test]
     fn building_again_gives_the_same_tree(
-        scene in hard::scene(), by in prop::sample::select(Heuristic::ALL),
+        scene in hard::scene(), by in hard::heuristic(),
     ) {
-        let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-        options.tolerance = scene.tolerance().into();
-        let build = || options.build(&scene.polygons).unwrap();
-        prop_assert_eq!(Snapshot::of(&build()), Snapshot::of(&build()));
+        let build = || Snapshot::of(&scene.build(by).unwrap());
+        prop_assert_eq!(build(), build());
     }
 
     /// Each f64 operation on the lattice, and the lattice itself, scales without rounding.
     #[test]
     fn scaling_by_a_power_of_two_changes_nothing(
         scene in hard::scene(),
-        by in prop::sample::select(Heuristic::ALL),
+        by in hard::heuristic(),
         exponent in -200..200i32,
         eye in prop::array::uniform3(-3.0..3.0f64),
     ) {
@@ -67,9 +65,7 @@ proptest! {
         // Numbers near the least of all have no room to be scaled.
         let back = scaled.iter().flatten().map(|&corner| corner / factor);
         prop_assume!(back.eq(scene.polygons.iter().flatten().copied()));
-        let mut options = BuildOptions::DEFAULT.with_heuristic(by);
-        options.tolerance = scene.tolerance().into();
-        let tree = options.build(&scene.polygons).unwrap();
+        let (tree, mut options) = (scene.build(by).unwrap(), scene.options(by));
         options.tolerance = scene.tolerance().map(|tolerance| tolerance * factor).into();
         let other = options.build(&scaled).unwrap();
         prop_assert_eq!(Snapshot::of(&tree), Snapshot::of(&other));

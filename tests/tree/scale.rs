@@ -4,9 +4,9 @@ use binspace::glam::DVec3;
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Error, Heuristic, Viewpoint};
 use std::thread;
-use testkit::enough;
-
-use testkit::orders;
+use testkit::dice::Dice;
+use testkit::scenes::scene_of;
+use testkit::{enough, orders};
 
 const LARGE: u32 = 100_000;
 
@@ -107,25 +107,47 @@ fn nested(count: u32) -> Scene {
     scene
 }
 
-fn assert_input_order(scene: &Scene, heuristic: Heuristic) {
-    let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).unwrap();
-    assert_eq!(tree.len(), scene.len(), "{heuristic}");
+/// Squares that overlap, or triangles, at random in a tilted plane that all corners are in exactly.
+fn tilted(count: usize, are_squares: bool) -> Scene {
+    let mut dice = Dice(count as u64);
+    let mut place = |most: u32| [0; 2].map(|_| dice.around_zero(most));
+    let tilt = |[x, y]: [f64; 2]| DVec3::new(x, y, x + 2.0 * y);
+    let polygon = || {
+        if !are_squares {
+            return [0; 3].map(|_| tilt(place(40))).to_vec();
+        }
+        let [x, y] = place(1500);
+        [[x, y], [x + 40.0, y], [x + 40.0, y + 40.0], [x, y + 40.0]].map(tilt).to_vec()
+    };
+    let has_area = |p: &Vec<DVec3>| (p[1] - p[0]).cross(p[2] - p[0]) != DVec3::ZERO;
+    scene_of("tilted", std::iter::repeat_with(polygon).filter(has_area).take(count))
+}
+
+fn assert_input_order(scene: &Scene, options: BuildOptions) {
+    let tree = options.build(scene.polygons()).unwrap();
+    assert_eq!((tree.len(), tree.stats().nodes), (scene.len(), 1), "{options:?}");
     assert_eq!(tree.validate(), Ok(()));
     for z in [9.0, -9.0] {
         let order = tree.back_to_front(Viewpoint::eye([0.3, 0.2, z])).map(|f| f.polygon());
-        assert!(order.eq(0..scene.len()), "{heuristic}");
+        assert!(order.eq(0..scene.len()), "{options:?}");
     }
 }
 
 #[test]
 fn coplanar_polygons_share_one_node() {
     for &heuristic in Heuristic::ALL {
-        assert_input_order(&nested(10_000), heuristic);
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        assert_input_order(&nested(10_000), options);
+        for (count, are_squares) in
+            [(3, false), (30, false), (300, false), (450, true), (500, true), (5000, true)]
+        {
+            assert_input_order(&tilted(count, are_squares), options.with_tolerance(0.0));
+        }
     }
     let mosaic = mosaic(200);
     assert_eq!(BspTree::build(mosaic.polygons()).unwrap().validate(), Ok(()));
     for heuristic in [Heuristic::First, Heuristic::Sampled { candidates: 16 }] {
-        assert_input_order(&mosaic, heuristic);
+        assert_input_order(&mosaic, BuildOptions::DEFAULT.with_heuristic(heuristic));
     }
 }
 
@@ -138,8 +160,10 @@ fn a_hundred_thousand_duplicates_share_one_node() {
     for &heuristic in Heuristic::ALL {
         let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).unwrap();
         assert_eq!((tree.len(), tree.stats().nodes), (LARGE as usize, 1), "{heuristic}");
-        let order = tree.back_to_front(Viewpoint::direction([0.0, 0.0, -1.0])).map(|f| f.polygon());
-        assert!(order.eq(0..LARGE as usize), "{heuristic}");
+        for viewpoint in [Viewpoint::eye([0.3, 0.2, 4.0]), Viewpoint::direction([0.0, 0.1, 1.0])] {
+            let order = tree.back_to_front(viewpoint).map(|f| f.polygon());
+            assert!(order.eq(0..LARGE as usize), "{heuristic}");
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use binspace::{BspTree, BuildOptions, Viewpoint};
 
 use super::scale::{mosaic, with_a_small_stack};
 use testkit::orders;
+use testkit::scenes::scene_of;
 
 /// The same turned away from all axes, where every free plane cuts.
 fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {
@@ -49,20 +50,17 @@ fn globe(slices: u32, rings: u32, radius: f64) -> Vec<[DVec3; 3]> {
     faces
 }
 
-fn scene_of(polygons: impl IntoIterator<Item = impl Into<Vec<DVec3>>>) -> Scene {
-    let mut scene = Scene::new("polygons", DVec3::Z);
-    polygons.into_iter().for_each(|polygon| scene.push(polygon.into(), 0));
-    scene
-}
-
 /// Each with the fragments a face that it may become.
 #[test]
 fn scenes_turned_off_the_axes_are_cut_little() {
     let stack = |gap: f64| {
-        scene_of((0..5000).map(|i| {
-            let corner = |x, y| DVec3::new(x, y, f64::from(i) * gap);
-            [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]
-        }))
+        scene_of(
+            "polygons",
+            (0..5000).map(|i| {
+                let corner = |x, y| DVec3::new(x, y, f64::from(i) * gap);
+                [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]
+            }),
+        )
     };
     let shells = (1..=10).flat_map(|radius| globe(40, 20, radius.into()));
     for (name, scene, most) in [
@@ -71,10 +69,10 @@ fn scenes_turned_off_the_axes_are_cut_little() {
         ("stack", stack(0.01), 1.2),
         ("loose stack", stack(0.1), 1.1),
         ("mosaic", mosaic(100), 1.2),
-        ("prism", scene_of(prism(10_000)), 1.0),
-        ("slim globe", scene_of(globe(1000, 4, 1.0)), 1.0),
-        ("globe", scene_of(globe(100, 50, 1.0)), 1.1),
-        ("shells", scene_of(shells), 1.6),
+        ("prism", scene_of("polygons", prism(10_000)), 1.0),
+        ("slim globe", scene_of("polygons", globe(1000, 4, 1.0)), 1.0),
+        ("globe", scene_of("polygons", globe(100, 50, 1.0)), 1.1),
+        ("shells", scene_of("polygons", shells), 1.6),
         ("city", scene::city(3000, 1), 1.4),
     ] {
         let stats = with_a_small_stack(|| BspTree::build(tilted(&scene)).expect("finite").stats());
@@ -97,7 +95,7 @@ fn a_disc_within_a_prism_does_not_keep_it_whole() {
     };
     let mut polygons = vec![vec![DVec3::X * 0.3, DVec3::Y * 0.3, DVec3::new(-0.3, -0.3, 0.0)]];
     polygons.extend(prism(3000));
-    let polygons = tilted(&scene_of(polygons));
+    let polygons = tilted(&scene_of("polygons", polygons));
     let (whole, empty) = (calls(&polygons), calls(&polygons[1..]));
     assert!(whole <= 2 * empty, "{whole} calls, and {empty} without the disc");
 }
@@ -105,7 +103,7 @@ fn a_disc_within_a_prism_does_not_keep_it_whole() {
 /// A prism with some polygons inside: what is convex comes off at once, and the rest is divided.
 #[test]
 fn a_convex_set_with_things_inside_is_taken_apart_around_them() {
-    let mut polygons = tilted(&scene_of(globe(600, 4, 2.0)));
+    let mut polygons = tilted(&scene_of("polygons", globe(600, 4, 2.0)));
     polygons.extend(tilted(&scene::crossing(20)));
     let tree = BspTree::build(&polygons).expect("finite");
     assert_eq!(tree.validate(), Ok(()));

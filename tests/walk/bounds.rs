@@ -2,9 +2,8 @@
 
 use crate::walk::trees;
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Culling, Ray, Viewpoint, scene};
+use binspace::{BspTree, BuildOptions, Heuristic};
 use num_traits::ToPrimitive;
-use std::panic::{RefUnwindSafe, catch_unwind};
 use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
@@ -80,7 +79,7 @@ fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
     let mut dice = Dice(8);
     let [mut moved, mut cut, mut beyond] = [0; 3];
     for _ in 0..times(60) {
-        let mut share = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
+        let mut share = || dice.point(-0.5, 0.5);
         // Planar but for a rounding that counts, and through each other.
         let quad = |_| {
             let (at, u, v) = (share() * 0.25, share(), share());
@@ -112,27 +111,22 @@ fn a_tree_of_nothing_has_no_box() {
     assert_eq!(bounds.all(), None);
 }
 
-/// Bounds of a smaller or a larger tree are refused, by a message that says what to do.
+/// A triangle with an edge that leans by 2⁻⁵⁰ over its height of 1, cut by a floor at 2⁻¹² of it: the cut is
+/// at x = ½ + 2⁻⁶², which an `f64` cannot hold.
 #[test]
-fn bounds_of_another_tree_are_refused() {
-    let trees = [30, 300].map(|n| BspTree::build(scene::city(n, 1).polygons()).expect("built"));
-    let bounds = trees.each_ref().map(|tree| tree.bounds().expect("memory"));
-    let ray = Ray::new([0.5, 0.5, 9.0], [0.1, 0.2, -1.0]);
-    let mut refused = 0;
-    for (tree, bounds) in [(&trees[0], &bounds[1]), (&trees[1], &bounds[0])] {
-        let cull = || {
-            let culling = Culling::new(bounds);
-            tree.culled_back_to_front_into(Viewpoint::eye([1.0; 3]), &culling, &mut Vec::new());
-        };
-        let hits = || assert!(bounds.hits(tree, ray).count() < 9);
-        let is_blocked = || assert!(bounds.is_blocked(tree, ray) || !tree.is_blocked(ray));
-        let asks: [&(dyn Fn() + RefUnwindSafe); 3] = [&cull, &hits, &is_blocked];
-        for ask in asks {
-            let panic = catch_unwind(ask).expect_err("they are stale");
-            let message = panic.downcast_ref::<&str>().expect("a message");
-            assert!(message.contains("BspTree::bounds"), "{message}");
-            refused += 1;
-        }
-    }
-    assert_eq!(refused, 6);
+fn a_box_has_room_for_the_rounding_of_a_cut() {
+    let foot = 2f64.powi(-12);
+    let floor = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let triangle = [[0.5, 0.0, -foot], [0.5 + 2f64.powi(-50), 0.0, 1.0 - foot], [-0.5, 0.25, -0.5]];
+    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_tolerance(0.0);
+    let tree = options.build([floor.to_vec(), triangle.to_vec()]).unwrap();
+    let bounds = tree.bounds().unwrap();
+    let mut lower =
+        tree.fragments().filter(|f| f.polygon() == 1 && f.vertices().all(|p| p.z < 0.5));
+    let fragment = lower.next().expect("the part below the floor");
+    assert_eq!(fragment.vertices().map(|p| p.x).fold(-1.0, f64::max), 0.5);
+    let [_, high] = bounds.of_fragment(fragment.index());
+    assert!(high.x > 0.5, "{high} leaves out the cut");
+    let root = tree.root().expect("the floor's node");
+    assert!(bounds.of(root)[1].x > 0.5 && bounds.all().unwrap()[1].x > 0.5);
 }

@@ -18,6 +18,7 @@ use testkit::effort::cases;
 use testkit::enough;
 use testkit::model;
 use testkit::rational::{self, Plane, Rational};
+use testkit::scenes::cells;
 use testkit::shapes;
 use testkit::views::View;
 
@@ -69,7 +70,7 @@ fn must_be_kept(bounds: &Bounds, fragment: u32, frustum: &Frustum) -> Option<boo
 fn frusta(bounds: &Bounds, dice: &mut Dice) -> Vec<Frustum> {
     let Some([low, high]) = bounds.all() else { return vec![] };
     let size = (high - low).max(DVec3::splat((high - low).max_element() * 1e-3));
-    let mut share = || DVec3::from_array([0; 3].map(|_| dice.share()));
+    let mut share = || dice.point(0.0, 1.0);
     let mut frusta = vec![Frustum::default()];
     for count in [1, 2, 4, 4, 5, 6, 40] {
         let apex = low + size * share();
@@ -252,14 +253,13 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
     assert!(pictures > 300 && left_out * 3 > all, "{pictures} {left_out} of {all}");
 }
 
-/// On a level, few fragments are looked at that are not seen; and floors, which lie in one plane
+/// Within walls, few fragments are looked at that are not seen; and floors, which lie in one plane
 /// with many others, are left out too.
 #[test]
 fn indices_of_what_is_in_view_are_those_of_the_list() {
-    let level = testkit::interior::rooms(12);
-    let tree = BspTree::build(&level).unwrap();
+    let tree = BspTree::build(cells(12, &mut Dice(12))).unwrap();
     let (bounds, mesh) = (tree.bounds().unwrap(), tree.mesh().unwrap());
-    let eye = DVec3::new(20.0, 20.0, 1.7);
+    let eye = DVec3::new(2.5, 2.5, 0.4);
     let camera = Camera::perspective(eye, eye + DVec3::X, DVec3::Z, 0.5, [160, 90]).unwrap();
     let culling = Culling::new(&bounds).with_frustum(camera.frustum());
     let found = culled(&tree, camera.viewpoint(), &culling);
@@ -313,7 +313,7 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
         (1e30, 1e-9),
     ] {
         for count in (1..=40).step_by(3) {
-            let mut share = || DVec3::from_array([0; 3].map(|_| dice.share()));
+            let mut share = || dice.point(0.0, 1.0);
             let triangle = |_| {
                 let at = share();
                 [at, at + share() * 0.2, at + share() * 0.2].map(|p| p * size + DVec3::splat(shift))
@@ -356,7 +356,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
     let mut dice = Dice(31);
     let [mut kept, mut inexact] = [0; 2];
     for far in [1e3, 1e6, 1e9] {
-        let mut share = || DVec3::from_array([0; 3].map(|_| dice.share()));
+        let mut share = || dice.point(0.0, 1.0);
         let shift = DVec3::new(far, -far, 0.7 * far) + share();
         let corners: Vec<[DVec3; 3]> =
             (0..40).map(|_| [shift + share(), shift + share(), shift + share()]).collect();

@@ -8,14 +8,13 @@ mod order;
 mod sides;
 
 use binspace::glam::DVec3;
-use binspace::scene::{self, Scene};
+use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use testkit::dice::Dice;
-use testkit::interior;
+use testkit::scenes::{cells, polygons};
 
-/// Polygons with area of many kinds: cut, moved by the tolerance, far out, in one plane, a level.
+/// Polygons with area of many kinds: cut, moved by the tolerance, far out, in one plane, walls of cells.
 fn scenes() -> Vec<Vec<Vec<DVec3>>> {
-    let polygons = |scene: Scene| scene.polygons().map(|p| p.to_vec()).collect::<Vec<_>>();
     let mut scenes: Vec<Vec<Vec<DVec3>>> = [
         scene::random_triangles(70, 3),
         scene::city(120, 1),
@@ -24,7 +23,7 @@ fn scenes() -> Vec<Vec<Vec<DVec3>>> {
         scene::newell_bars(),
         scene::chain(40),
     ]
-    .map(polygons)
+    .map(|scene| polygons(&scene))
     .into();
     // Off a grid and off the origin, so that every corner is rounded, and most are moved.
     for (scale, shift) in [(1e-9, 1.0), (0.3, 1e6), (1e120, -1e121)] {
@@ -34,7 +33,7 @@ fn scenes() -> Vec<Vec<Vec<DVec3>>> {
         let moved = source.iter().map(|polygon| polygon.iter().map(place).collect());
         scenes.push(moved.collect());
     }
-    scenes.push(interior::rooms(4).into_iter().map(|quad| quad.to_vec()).collect());
+    scenes.push(cells(4, &mut Dice(4)));
     scenes
 }
 

@@ -179,28 +179,6 @@ fn nodes_of_two_trees_are_never_equal() {
 }
 
 #[test]
-fn nodes_come_backwards_from_the_back() {
-    let mut mixed = 0;
-    for tree in trees() {
-        let forwards: Vec<Node<'_>> = tree.nodes().collect();
-        let mut backwards: Vec<Node<'_>> = tree.nodes().rev().collect();
-        backwards.reverse();
-        assert_eq!(forwards, backwards);
-        // From both ends in turn.
-        let (mut nodes, mut first, mut last) = (tree.nodes(), vec![], vec![]);
-        while let Some(node) = nodes.next() {
-            assert_eq!(nodes.len() + first.len() + last.len() + 1, forwards.len());
-            first.push(node);
-            last.extend(nodes.next_back());
-        }
-        mixed += last.len();
-        first.extend(last.into_iter().rev());
-        assert_eq!(first, forwards);
-    }
-    enough!(mixed > 500; "{mixed}");
-}
-
-#[test]
 fn a_node_tells_on_which_side_of_it_a_viewpoint_is() {
     use binspace::Viewpoint;
     use std::cmp::Ordering::{Equal, Greater, Less};

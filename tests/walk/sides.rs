@@ -27,7 +27,7 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
     let mut dice = Dice(41);
     let (mut edge_on, mut misleading) = (0, 0);
     for _ in 0..times(60) {
-        let normal = DVec3::from_array([0; 3].map(|_| dice.share() - 0.5)).normalize();
+        let normal = dice.point(-0.5, 0.5).normalize();
         let tree = BspTree::build(tiles(normal)).unwrap();
         let (bounds, faces) = (tree.bounds().unwrap(), tree.faces());
         let planes: Vec<Plane> =

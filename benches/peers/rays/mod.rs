@@ -3,7 +3,6 @@
 //! second table has rays through corners and edges, and how many answers are wrong.
 
 mod peers;
-mod truth;
 
 use binspace::glam::DVec3;
 use binspace::{Bounds, BspTree, Ray};
@@ -11,7 +10,8 @@ use peers::{Bvh, Parry32, Parry64, Peer};
 use std::hint::black_box;
 use std::time::Instant;
 use support::{Table, Target, against, check, scene, triangulated};
-use truth::Truth;
+use testkit::dice::Dice;
+use testkit::hits::Oracle;
 
 const SCENES: [&str; 10] = [
     "random:1000",
@@ -69,26 +69,26 @@ impl Case {
     }
 }
 
-/// Points of a box from a seed: SplitMix64.
+/// Points of a box from a seed.
 struct Points {
-    random: binspace::internals::SplitMix64,
+    dice: Dice,
     bounds: [DVec3; 2],
 }
 
 impl Points {
     fn new(bounds: [DVec3; 2]) -> Self {
-        Self { random: binspace::internals::SplitMix64::new(support::SEED), bounds }
+        Self { dice: Dice(support::SEED), bounds }
     }
 
     /// A point of the box, enlarged.
     fn next(&mut self, by: f64) -> DVec3 {
         let [low, high] = self.bounds;
-        let share = self.random.point(0.5 - 0.5 * by, 0.5 + 0.5 * by);
+        let share = self.dice.point(0.5 - 0.5 * by, 0.5 + 0.5 * by);
         low + (high - low) * share
     }
 
     fn below(&mut self, n: usize) -> usize {
-        (self.random.next() % n as u64) as usize
+        self.dice.below(n)
     }
 }
 
@@ -193,7 +193,7 @@ fn errors(cases: &[Case]) {
     ];
     let table = Table::new("Nearest hits of rays through corners and edges", &columns);
     for case in cases.iter().filter(|case| case.triangles.len() < 30_000) {
-        let truth = Truth::new(&case.triangles);
+        let oracle = Oracle::new(&case.tree);
         let mut points = Points::new(case.extent());
         let peers: [Box<dyn Peer>; 3] = [
             Box::new(Parry64::new(&case.triangles)),
@@ -212,7 +212,7 @@ fn errors(cases: &[Case]) {
             let from =
                 if k % 3 == 0 { target.with_z(points.next(2.0).z) } else { points.next(2.0) };
             let ray = [from, target - from];
-            let expected = truth.nearest(ray);
+            let expected = oracle.nearest(Ray::new(ray[0], ray[1]));
             hits += usize::from(expected.is_some());
             let found = [
                 case.nearest(ray),

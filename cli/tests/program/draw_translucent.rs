@@ -4,23 +4,22 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::fs;
 
-use binspace::internals::SplitMix64;
-
 use crate::draw::figures;
 use crate::png_picture::Picture;
 use crate::run::Folder;
 use crate::svg_picture::Svg;
+use testkit::dice::Dice;
 
 /// Triangles that go through one another, of glass, of smoke and of wood.
 pub(crate) fn write_scene(folder: &Folder, count: usize) {
     let materials = "newmtl glass\nKd .1 .3 .9\nd 0.25\nnewmtl smoke\nKd .4 .4 .4\nd 0.625\n\
                      newmtl wood\nKd .8 .5 .2\n";
     folder.write("m.mtl", materials);
-    let (mut random, mut text) = (SplitMix64::new(7), "mtllib m.mtl\n".to_owned());
+    let (mut dice, mut text) = (Dice(7), "mtllib m.mtl\n".to_owned());
     for _ in 0..count {
-        let centre = random.point(0.0, 1.0);
+        let centre = dice.point(0.0, 1.0);
         for _ in 0..3 {
-            let corner = centre + random.point(-1.0, 1.0) * 0.4;
+            let corner = centre + dice.point(-1.0, 1.0) * 0.4;
             writeln!(text, "v {:.6} {:.6} {:.6}", corner.x, corner.y, corner.z).unwrap();
         }
     }

@@ -1,5 +1,7 @@
 //! Choices from a seed, the same on every machine.
 
+use binspace::glam::DVec3;
+
 /// A stream of numbers (SplitMix64: Steele, Lea and Flood, 2014).
 #[derive(Clone, Debug)]
 pub struct Dice(pub u64);
@@ -25,5 +27,27 @@ impl Dice {
     /// A number from 0 to 1.
     pub fn share(&mut self) -> f64 {
         (self.roll() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A number between two others.
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + self.share() * (high - low)
+    }
+
+    /// A point with coordinates between two numbers.
+    pub fn point(&mut self, low: f64, high: f64) -> DVec3 {
+        DVec3::from_array([0; 3].map(|_| self.range(low, high)))
+    }
+
+    /// A point with integer coordinates from −n to n.
+    pub fn whole_point(&mut self, n: u32) -> DVec3 {
+        DVec3::from_array([0; 3].map(|_| self.around_zero(n)))
+    }
+
+    /// A list in another order.
+    pub fn shuffle<T>(&mut self, list: &mut [T]) {
+        for i in (1..list.len()).rev() {
+            list.swap(i, self.below(i + 1));
+        }
     }
 }

@@ -4,6 +4,17 @@ use binspace::internals::Line;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 use binspace::{BspTree, Fragment};
 
+/// Calls a function with what a painter draws of a fragment.
+pub fn with_piece(fragment: &Fragment<'_>, draw: impl FnOnce(Piece<'_>)) {
+    let lines: Vec<Line> = fragment.lines().collect();
+    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
+    let outline = match fragment.is_whole() {
+        true => Outline::Whole,
+        false => Outline::Lines { lines: &lines, vertices: &vertices },
+    };
+    draw(Piece { face: fragment.face(), outline });
+}
+
 /// Calls a function with the number of each pixel whose centre a fragment covers: by integers.
 pub fn for_each_pixel(
     tree: &BspTree,
@@ -12,14 +23,9 @@ pub fn for_each_pixel(
     mut see: impl FnMut(usize),
 ) {
     let width = rays.size()[0] as usize;
-    let lines: Vec<Line> = fragment.lines().collect();
-    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-    let outline = match fragment.is_whole() {
-        true => Outline::Whole,
-        false => Outline::Lines { lines: &lines, vertices: &vertices },
-    };
-    let piece = Piece { face: fragment.face(), outline };
-    for_each_run(rays, tree.faces(), piece, |y, columns| {
-        columns.for_each(|x| see(y as usize * width + x as usize));
+    with_piece(fragment, |piece| {
+        for_each_run(rays, tree.faces(), piece, |y, columns| {
+            columns.for_each(|x| see(y as usize * width + x as usize));
+        });
     });
 }

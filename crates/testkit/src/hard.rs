@@ -4,6 +4,8 @@
 
 use super::shapes::{self, Corners};
 use binspace::glam::{DMat3, DVec3};
+use binspace::internals::Faces;
+use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
@@ -36,13 +38,42 @@ impl HardScene {
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance, ..self }
     }
+
+    /// The options that its tolerance and a heuristic make.
+    pub fn options(&self, by: Heuristic) -> BuildOptions {
+        let mut options = BuildOptions::DEFAULT.with_heuristic(by);
+        options.tolerance = self.tolerance().into();
+        options
+    }
+
+    pub fn build(&self, by: Heuristic) -> Result<BspTree, String> {
+        self.options(by).build(&self.polygons).map_err(|error| error.to_string())
+    }
+
+    pub fn faces(&self) -> Faces {
+        Faces::new(&self.polygons, self.tolerance()).expect("finite").0
+    }
+
+    /// Its bounding box, if it has a corner.
+    pub fn bounds(&self) -> Option<[DVec3; 2]> {
+        bounds(&self.polygons)
+    }
+}
+
+/// The bounding box, if there is a corner.
+pub fn bounds(polygons: &[Corners]) -> Option<[DVec3; 2]> {
+    let corners = || polygons.iter().flatten().copied();
+    Some([corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?])
 }
 
 /// The longest side of the bounding box.
 pub fn extent(polygons: &[Corners]) -> f64 {
-    let corners = || polygons.iter().flatten().copied();
-    let (min, max) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max));
-    min.zip(max).map_or(0.0, |(min, max)| (max - min).max_element())
+    bounds(polygons).map_or(0.0, |[low, high]| (high - low).max_element())
+}
+
+/// One of all heuristics.
+pub fn heuristic() -> impl Strategy<Value = Heuristic> {
+    prop::sample::select(Heuristic::ALL)
 }
 
 /// A scene of a few polygons: one or two families, perhaps with duplicates, with coordinates

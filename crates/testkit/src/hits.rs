@@ -1,56 +1,75 @@
-//! What a ray hits, found from the faces alone, in rationals.
+//! What a ray hits, found from the faces alone, exactly: in integers over one denominator, which are never
+//! reduced, and with balls around runs of faces, to pass over most of them.
 
-use super::model::{self, Face};
+use super::model;
 use super::rational::{self, Point, Rational};
+use super::rays::{Vector, vector};
+use super::vector::{Plane, main_axis, scalar, sign};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{Bounds, BspTree, Hit, Ray};
+use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
+use std::sync::OnceLock;
+
+/// How many faces in a row have a ball.
+const RUN: usize = 16;
 
 /// A tree's faces, made ready for rays.
 pub struct Oracle<'t> {
     tree: &'t BspTree,
     bounds: Bounds,
     faces: Vec<Face>,
+    /// The same in rationals, as far as they were asked for.
+    models: Vec<OnceLock<model::Face>>,
     /// The same in floats, with balls around them, to pass over what is far from a ray.
     rough: Vec<Rough>,
-    /// The length of a lattice step, and the world coordinates of the lattice's origin.
-    step: Rational,
-    origin: Point,
+    balls: Vec<Rough>,
+    /// Where the lattice's origin is, and the exponent of the length of its steps.
+    origin: DVec3,
+    step: i32,
+    middle: DVec3,
 }
 
 /// A face in floats, or all that is in a ball.
-pub struct Rough {
+struct Rough {
     corners: Vec<DVec3>,
-    pub centre: DVec3,
-    pub radius: f64,
+    centre: DVec3,
+    radius: f64,
 }
 
-/// A ray in lattice units: from a point, along a direction, up to a parameter.
+struct Face {
+    normal: Vector,
+    offset: BigInt,
+    corners: Vec<Vector>,
+    /// The two axes along which it is looked at.
+    seen: [usize; 2],
+    polygon: usize,
+}
+
+/// A number over another that is above 0.
 #[derive(Clone, Debug)]
+struct Fraction {
+    over: BigInt,
+    under: BigInt,
+}
+
+/// A ray: its points are (from + u · direction) / 2^bits in lattice units, and its parameter is u · 2^up.
 struct Line {
-    from: Point,
-    direction: Point,
-    end: Option<Rational>,
+    from: Vector,
+    direction: Vector,
+    bits: u32,
+    up: i32,
+    end: Option<Fraction>,
 }
 
-/// What a ray and a face have in common.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Chord {
-    face: u32,
-    enter: Rational,
-    leave: Rational,
+    face: usize,
+    enter: Fraction,
+    leave: Fraction,
     facing: Ordering,
-}
-
-/// A hit as it should be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
-    pub polygon: usize,
-    pub face: u32,
-    pub t: Rational,
-    pub facing: Ordering,
 }
 
 /// What was compared.
@@ -82,18 +101,183 @@ impl Score {
     }
 }
 
+impl Fraction {
+    fn new(over: BigInt, under: BigInt) -> Self {
+        if under.is_negative() { Self { over: -over, under: -under } } else { Self { over, under } }
+    }
+
+    fn whole(number: i32) -> Self {
+        Self { over: number.into(), under: BigInt::one() }
+    }
+}
+
+impl PartialEq for Fraction {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Fraction {}
+
+impl PartialOrd for Fraction {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Fraction {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (&self.over * &other.under).cmp(&(&other.over * &self.under))
+    }
+}
+
+/// A number as a whole number times a power of two.
+fn parts(value: f64) -> (i64, i32) {
+    let bits = value.abs().to_bits();
+    let (exponent, digits) = ((bits >> 52) as i32, (bits & ((1 << 52) - 1)) as i64);
+    let (digits, exponent) =
+        if exponent == 0 { (digits, -1074) } else { (digits | 1 << 52, exponent - 1075) };
+    (if value < 0.0 { -digits } else { digits }, exponent)
+}
+
+/// The least exponent of some numbers; of zeros, a large one.
+fn least(values: impl IntoIterator<Item = f64>) -> i32 {
+    let exponent = |value: f64| {
+        let (digits, exponent) = parts(value);
+        if digits == 0 { 2000 } else { exponent + digits.trailing_zeros() as i32 }
+    };
+    values.into_iter().map(exponent).min().expect("numbers")
+}
+
+/// A number in units of a power of two that divides it.
+fn whole(value: f64, unit: i32) -> BigInt {
+    let (digits, exponent) = parts(value);
+    if digits == 0 {
+        return BigInt::zero();
+    }
+    let zeros = digits.trailing_zeros();
+    BigInt::from(digits >> zeros)
+        << u32::try_from(exponent + zeros as i32 - unit).expect("a multiple")
+}
+
+impl Face {
+    fn new(faces: &Faces, face: u32) -> Self {
+        let [p, q, r] = faces.reference_triangle(face).map(|corner| vector(faces.corner(corner)));
+        let Plane { normal, offset } = Plane::through([&p, &q, &r]);
+        let axis = main_axis(&normal);
+        Self {
+            offset,
+            normal,
+            corners: faces.corners(face).iter().map(|&corner| vector(corner)).collect(),
+            seen: [(axis + 1) % 3, (axis + 2) % 3],
+            polygon: faces.polygon(face),
+        }
+    }
+
+    /// Which way the border turns from a corner to the next around a point `at` / `under`, for all.
+    fn turns(&self, at: [&BigInt; 2], under: &BigInt) -> Vec<Ordering> {
+        let [i, j] = self.seen;
+        let next = self.corners.iter().cycle().skip(1);
+        let turn = |(a, b): (&Vector, &Vector)| {
+            let [x, y] = [at[0] - &a[i] * under, at[1] - &a[j] * under];
+            sign(&((&b[i] - &a[i]) * y - (&b[j] - &a[j]) * x))
+        };
+        self.corners.iter().zip(next).map(turn).collect()
+    }
+
+    fn has(&self, at: [&BigInt; 2], under: &BigInt) -> bool {
+        let turns = self.turns(at, under);
+        !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
+    }
+
+    /// What a line has in common with the face, ends left aside.
+    fn chord(&self, line: &Line) -> Option<([Fraction; 2], Ordering)> {
+        let slope = scalar(&self.normal, &line.direction);
+        let start = scalar(&self.normal, &line.from) - (&self.offset << line.bits);
+        let facing = sign(&slope).reverse();
+        if slope.is_zero() {
+            return if start.is_zero() { Some((self.along(line)?, facing)) } else { None };
+        }
+        let u = Fraction::new(-start, slope);
+        let at = self.seen.map(|i| &line.from[i] * &u.under + &line.direction[i] * &u.over);
+        let under = &u.under << line.bits;
+        self.has([&at[0], &at[1]], &under).then(|| ([u.clone(), u], facing))
+    }
+
+    /// The same of a line in the plane: from the least to the largest of where it meets the border.
+    fn along(&self, line: &Line) -> Option<[Fraction; 2]> {
+        let [i, j] = self.seen;
+        let [dx, dy] = [&line.direction[i], &line.direction[j]];
+        if dx.is_zero() && dy.is_zero() {
+            let one = BigInt::one() << line.bits;
+            let inside = self.has([&line.from[i], &line.from[j]], &one);
+            return inside.then(|| [Fraction::whole(0), Fraction::whole(0)]);
+        }
+        // Corners relative to the beginning, and on which side of the line they are.
+        let arms: Vec<[BigInt; 2]> = self
+            .corners
+            .iter()
+            .map(|c| self.seen.map(|axis| (&c[axis] << line.bits) - &line.from[axis]))
+            .collect();
+        let sides: Vec<BigInt> = arms.iter().map(|[x, y]| dx * y - dy * x).collect();
+        let (k, d) = if dx.is_zero() { (1, dy) } else { (0, dx) };
+        let mut met = Vec::new();
+        for a in 0..arms.len() {
+            let b = (a + 1) % arms.len();
+            if sides[a].is_zero() {
+                met.push(Fraction::new(arms[a][k].clone(), d.clone()));
+            } else if sign(&sides[a]) == sign(&sides[b]).reverse() {
+                let over = &sides[a] * &arms[b][k] - &sides[b] * &arms[a][k];
+                met.push(Fraction::new(over, (&sides[a] - &sides[b]) * d));
+            }
+        }
+        Some([met.iter().min()?.clone(), met.iter().max()?.clone()])
+    }
+}
+
+impl Line {
+    /// A point of it, in lattice units.
+    fn at(&self, u: &Fraction) -> Point {
+        let under = &u.under << self.bits;
+        std::array::from_fn(|i| {
+            let over = &self.from[i] * &u.under + &self.direction[i] * &u.over;
+            Rational::new(over, under.clone())
+        })
+    }
+
+    /// The ray's own parameter there.
+    fn parameter(&self, u: &Fraction) -> f64 {
+        let bits = self.up.unsigned_abs();
+        let t = match self.up >= 0 {
+            true => Rational::new(&u.over << bits, u.under.clone()),
+            false => Rational::new(u.over.clone(), &u.under << bits),
+        };
+        t.to_f64().expect("in range")
+    }
+}
+
 impl<'t> Oracle<'t> {
     pub fn new(tree: &'t BspTree) -> Self {
+        /// The length of this many steps is a number, however small the scene is.
+        const MANY: i32 = 100;
         let faces = tree.faces();
-        let lattice = faces.lattice();
-        let rough = |face: u32| Rough::new(faces, face);
+        let all = || 0..faces.len() as u32;
+        let rough: Vec<Rough> = all().map(|face| Rough::new(faces, face)).collect();
+        let balls: Vec<Rough> = rough.chunks(RUN).map(Rough::around).collect();
+        let length = |exponent: i32| parts(faces.lattice().length_to_world(2f64.powi(exponent)));
+        let many = if faces.lattice().length_to_world(1.0) < 1.0 { MANY } else { 0 };
+        let (digits, exponent) = length(many);
+        assert_eq!(digits.count_ones(), 1, "a power of two");
         Self {
             tree,
             bounds: tree.bounds().expect("memory"),
-            faces: (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect(),
-            rough: (0..faces.len() as u32).map(rough).collect(),
-            step: rational::step(lattice),
-            origin: rational::point(lattice.to_world([0.0; 3])),
+            faces: all().map(|face| Face::new(faces, face)).collect(),
+            models: all().map(|_| OnceLock::new()).collect(),
+            middle: Rough::around(&balls).centre,
+            rough,
+            balls,
+            origin: faces.lattice().to_world([0.0; 3]),
+            step: exponent + digits.trailing_zeros() as i32 - many,
         }
     }
 
@@ -105,192 +289,210 @@ impl<'t> Oracle<'t> {
         self.tree.faces()
     }
 
-    /// A point of the world in lattice units.
-    pub fn to_lattice(&self, point: DVec3) -> Point {
-        let offset = rational::difference(&rational::point(point), &self.origin);
-        offset.map(|c| c / &self.step)
+    /// A face in rationals.
+    pub fn model(&self, face: u32) -> &model::Face {
+        self.models[face as usize].get_or_init(|| model::Face::new(self.faces(), face))
     }
 
     /// The plane of the points p of the world with `normal.dot(p) == offset`, in lattice units.
     pub fn plane(&self, normal: DVec3, offset: f64) -> rational::Plane {
-        let normal = rational::point(normal);
-        let offset = rational::exact(offset) - rational::scalar(&normal, &self.origin);
-        rational::Plane { normal: normal.map(|c| c * &self.step), offset }
+        let (normal, step) = (rational::point(normal), rational::step(self.faces().lattice()));
+        let origin = rational::point(self.origin);
+        let offset = rational::exact(offset) - rational::scalar(&normal, &origin);
+        rational::Plane { normal: normal.map(|c| c * &step), offset }
     }
 
     /// The exact vertices of a fragment.
     pub fn vertices(&self, fragment: u32) -> Vec<Point> {
         let fragment = self.tree.fragment(fragment);
-        let face = &self.faces[fragment.face() as usize];
+        let face = self.model(fragment.face());
         fragment.symbols().map(|symbol| face.resolve(self.faces(), symbol)).collect()
     }
 
     fn line(&self, ray: Ray) -> Line {
+        let origin = self.origin.to_array();
+        let place = |point: DVec3, unit: i32| -> Vector {
+            std::array::from_fn(|i| whole(point[i], unit) - whole(origin[i], unit))
+        };
         match ray {
             Ray::Segment { from, to } => {
-                let [from, to] = [from, to].map(|point| self.to_lattice(point));
-                let direction = rational::difference(&to, &from);
-                Line { from, direction, end: Some(Rational::one()) }
+                let numbers = [from, to].map(|point| point.to_array()).into_iter().flatten();
+                let unit = least(numbers.chain(origin)).min(self.step);
+                let [from, to] = [from, to].map(|point| place(point, unit));
+                let direction = std::array::from_fn(|i| &to[i] - &from[i]);
+                let bits = (self.step - unit) as u32;
+                Line { from, direction, bits, up: 0, end: Some(Fraction::whole(1)) }
             }
-            Ray::Endless { from, direction } => Line {
-                from: self.to_lattice(from),
-                direction: rational::point(direction).map(|c| c / &self.step),
-                end: None,
-            },
+            Ray::Endless { from, direction } => {
+                let unit = least(from.to_array().into_iter().chain(origin)).min(self.step);
+                let own = least(direction.to_array());
+                let direction = direction.to_array().map(|c| whole(c, own));
+                let bits = (self.step - unit) as u32;
+                Line { from: place(from, unit), direction, bits, up: unit - own, end: None }
+            }
         }
     }
 
-    /// What a ray should hit, in order, and whether it should be blocked.
-    pub fn truth(&self, ray: Ray) -> (Vec<Truth>, bool) {
-        let line = self.line(ray);
-        let chords = self.chords(&line);
-        let is_inside =
-            |t: &Rational| t.is_positive() && line.end.as_ref().is_none_or(|end| t < end);
-        let is_blocked =
-            chords.iter().any(|chord| chord.enter < chord.leave || is_inside(&chord.enter));
-        (self.merged(chords), is_blocked)
+    /// The faces that a line may meet: looked for from where it is nearest to the scene, so that floats lose
+    /// little.
+    fn near(&self, line: &Line) -> Vec<usize> {
+        let number = |c: &BigInt| c.to_f64().unwrap_or(f64::NAN);
+        let unit = 2f64.powi(-(line.bits as i32));
+        let [from, direction] =
+            [&line.from, &line.direction].map(|v| DVec3::from_array(v.each_ref().map(number)));
+        let square = direction.length_squared();
+        let way = direction.dot(self.middle / unit - from) / square;
+        let is_told = way.is_finite() && square.is_normal() || direction == DVec3::ZERO;
+        if !is_told || unit == 0.0 {
+            return (0..self.faces.len()).collect();
+        }
+        let (digits, exponent) = parts(if way.is_finite() { way } else { 0.0 });
+        let at = |i: usize| {
+            let step = &line.direction[i] * digits;
+            if exponent >= 0 {
+                number(&(&line.from[i] + (step << exponent as u32))) * unit
+            } else {
+                number(&(&line.from[i] + (step >> -exponent as u32))) * unit
+            }
+        };
+        let (from, direction) =
+            (DVec3::from_array([at(0), at(1), at(2)]), direction.normalize_or_zero());
+        if !from.is_finite() {
+            return (0..self.faces.len()).collect();
+        }
+        let balls = self.balls.iter().enumerate().filter(|(_, ball)| ball.is_near(from, direction));
+        let faces = balls.flat_map(|(k, _)| k * RUN..self.faces.len().min((k + 1) * RUN));
+        faces.filter(|&face| self.rough[face].is_near(from, direction)).collect()
     }
 
     fn chords(&self, line: &Line) -> Vec<Chord> {
-        let float =
-            |p: &Point| DVec3::from_array(p.each_ref().map(|c| c.to_f64().expect("in range")));
-        let (from, direction) = (float(&line.from), float(&line.direction));
-        let near = (0..self.faces.len()).filter(|&face| self.rough[face].is_near(from, direction));
-        near.filter_map(|face| self.chord(line, face as u32)).collect()
-    }
-
-    /// The exact plane of a face.
-    pub fn face_plane(&self, face: u32) -> &rational::Plane {
-        &self.faces[face as usize].plane
-    }
-
-    fn chord(&self, line: &Line, face: u32) -> Option<Chord> {
-        let Face { plane, corners, .. } = &self.faces[face as usize];
-        let slope = rational::scalar(&plane.normal, &line.direction);
-        let start = plane.at(&line.from);
-        let facing = rational::sign(&slope).reverse();
-        let axis = model::main_axis(plane);
-        let [enter, leave] = if !slope.is_zero() {
-            let t = -start / slope;
-            contains(corners, &line.at(&t), axis).then(|| [t.clone(), t])?
-        } else if start.is_zero() {
-            through(corners, line, axis)?
-        } else {
-            return None;
-        };
-        let enter = enter.max(Rational::zero());
-        let leave = line.end.as_ref().map_or(leave.clone(), |end| leave.min(end.clone()));
-        (enter <= leave).then_some(Chord { face, enter, leave, facing })
-    }
-
-    /// One hit for each connected part of what the ray has in common with a polygon.
-    fn merged(&self, mut chords: Vec<Chord>) -> Vec<Truth> {
-        let polygon = |chord: &Chord| self.faces().polygon(chord.face);
-        chords.sort_by(|a, b| (polygon(a), &a.enter, a.face).cmp(&(polygon(b), &b.enter, b.face)));
-        let mut hits: Vec<Truth> = Vec::new();
-        let mut end = Rational::zero();
-        for chord in chords {
-            let polygon = polygon(&chord);
-            let goes_on =
-                hits.last().is_some_and(|hit| hit.polygon == polygon) && chord.enter <= end;
-            if goes_on {
-                end = end.max(chord.leave);
-            } else {
-                let Chord { face, enter, leave, facing } = chord;
-                hits.push(Truth { polygon, face, t: enter, facing });
-                end = leave;
+        let zero = Fraction::whole(0);
+        let mut chords = Vec::new();
+        for face in self.near(line) {
+            let Some(([enter, leave], facing)) = self.faces[face].chord(line) else { continue };
+            let enter = enter.max(zero.clone());
+            let leave = match &line.end {
+                Some(end) => leave.min(end.clone()),
+                None => leave,
+            };
+            if enter <= leave {
+                chords.push(Chord { face, enter, leave, facing });
             }
         }
-        hits.sort_by(|a, b| (&a.t, a.polygon).cmp(&(&b.t, b.polygon)));
+        chords
+    }
+
+    /// One for each connected part of a polygon, the nearest first.
+    fn hits(&self, mut chords: Vec<Chord>) -> Vec<Chord> {
+        let polygon = |chord: &Chord| self.faces[chord.face].polygon;
+        chords.sort_by(|a, b| {
+            let by_place = || a.enter.cmp(&b.enter).then(a.face.cmp(&b.face));
+            polygon(a).cmp(&polygon(b)).then_with(by_place)
+        });
+        let mut hits: Vec<Chord> = Vec::new();
+        for chord in chords {
+            match hits.last_mut() {
+                Some(hit) if polygon(hit) == polygon(&chord) && chord.enter <= hit.leave => {
+                    if chord.leave > hit.leave {
+                        hit.leave = chord.leave;
+                    }
+                }
+                _ => hits.push(chord),
+            }
+        }
+        hits.sort_by(|a, b| a.enter.cmp(&b.enter).then_with(|| polygon(a).cmp(&polygon(b))));
         hits
+    }
+
+    /// The parameter of the nearest hit.
+    pub fn nearest(&self, ray: Ray) -> Option<f64> {
+        let line = self.line(ray);
+        let first = self.chords(&line).into_iter().map(|chord| chord.enter).min()?;
+        Some(line.parameter(&first))
     }
 
     /// Compares what the tree says of a ray with what it should.
     pub fn check(&self, ray: Ray, score: &mut Score) -> Result<(), String> {
-        let (truth, is_blocked) = self.truth(ray);
-        let hits: Vec<Hit<'_>> = self.tree.hits(ray).take(2 * truth.len() + 9).collect();
+        let line = self.line(ray);
+        let chords = self.chords(&line);
+        let is_inside =
+            |u: &Fraction| u.over.is_positive() && line.end.as_ref().is_none_or(|end| u < end);
+        let is_blocked =
+            chords.iter().any(|chord| chord.enter < chord.leave || is_inside(&chord.enter));
+        let truth = self.hits(chords);
+        let most = 2 * truth.len() + 9;
+        let hits: Vec<Hit<'_>> = self.tree.hits(ray).take(most).collect();
         let fault = |what: &str| format!("{what}: {ray:?}\nfound {hits:#?}\nin truth {truth:#?}");
-        let polygons = |hit: &Hit<'_>| (hit.polygon(), hit.fragment().face(), hit.facing());
-        let expected = truth.iter().map(|hit| (hit.polygon, hit.face, hit.facing));
-        if !hits.iter().map(polygons).eq(expected) {
+        let said = |hit: &Hit<'_>| (hit.polygon(), hit.fragment().face() as usize, hit.facing());
+        let expected = truth.iter().map(|hit| (self.faces[hit.face].polygon, hit.face, hit.facing));
+        if !hits.iter().map(said).eq(expected) {
             return Err(fault("wrong hits"));
         }
         // By boxes, the same.
         let same = |hit: &Hit<'_>| (hit.fragment().index(), hit.facing(), hit.spot());
-        let by_boxes = self.bounds.hits(self.tree, ray).take(2 * truth.len() + 9);
+        let by_boxes = self.bounds.hits(self.tree, ray).take(most);
         if !by_boxes.map(|hit| same(&hit)).eq(hits.iter().map(same)) {
             return Err(fault("wrong hits by boxes"));
         }
-        if self.bounds.is_blocked(self.tree, ray) != is_blocked {
-            return Err(fault("wrongly blocked by boxes, or not"));
+        if [self.tree.is_blocked(ray), self.bounds.is_blocked(self.tree, ray)] != [is_blocked; 2] {
+            return Err(fault("wrongly blocked, or not"));
         }
-        if self.tree.is_blocked(ray) != is_blocked {
-            return Err(fault(if is_blocked { "not blocked" } else { "blocked" }));
-        }
-        let line = self.line(ray);
         for (hit, truth) in hits.iter().zip(&truth) {
-            self.check_place(&line, hit, truth).map_err(|what| fault(&what))?;
+            self.check_place(&line, hit, &truth.enter).map_err(|what| fault(&what))?;
             // Rationals of a fragment's vertices are large, so only some are looked at.
-            if score.rays.is_multiple_of(8) {
-                self.check_fragment(&line, hit, truth).map_err(|what| fault(&what))?;
+            let has_point = || {
+                let axis = main_axis(&self.faces[truth.face].normal);
+                let vertices = self.vertices(hit.fragment().index());
+                contains(&vertices, &line.at(&truth.enter), axis)
+            };
+            if score.rays.is_multiple_of(8) && !has_point() {
+                return Err(fault("the fragment does not have the point"));
             }
         }
         for (pair, truths) in hits.windows(2).zip(truth.windows(2)) {
-            if pair[0].compare(&pair[1]) != truths[0].t.cmp(&truths[1].t) {
+            let order = truths[0].enter.cmp(&truths[1].enter);
+            if pair[0].compare(&pair[1]) != order {
                 return Err(fault("wrong comparison"));
             }
+            score.ties += usize::from(order.is_eq());
         }
         score.rays += 1;
         score.hits += hits.len();
         score.in_plane += hits.iter().filter(|hit| hit.facing().is_eq()).count();
-        score.ties += truth.windows(2).filter(|pair| pair[0].t == pair[1].t).count();
-        let is_end = |hit: &&Truth| hit.t.is_zero() || line.end.as_ref() == Some(&hit.t);
+        let is_end =
+            |hit: &&Chord| hit.enter.over.is_zero() || line.end.as_ref() == Some(&hit.enter);
         score.at_ends += truth.iter().filter(is_end).count();
         score.blocked += usize::from(is_blocked);
         score.clear += usize::from(!is_blocked);
         Ok(())
     }
 
-    /// The parameter and the point are as near as is promised, and the fragment has the point.
-    fn check_place(&self, line: &Line, hit: &Hit<'_>, truth: &Truth) -> Result<(), String> {
-        let exact = truth.t.to_f64().expect("in range");
-        let rounded = hit.parameter();
+    /// The parameter and the point are as near as is promised.
+    fn check_place(&self, line: &Line, hit: &Hit<'_>, u: &Fraction) -> Result<(), String> {
+        let (exact, rounded) = (line.parameter(u), hit.parameter());
         if (rounded - exact).abs() > exact.abs() * 2f64.powi(-52) && exact.is_normal() {
             return Err(format!("the parameter is {rounded:e}, not {exact:e}"));
         }
-        let place = line.at(&truth.t);
-        let found = hit.point().to_array();
-        for axis in 0..3 {
-            let world = &place[axis] * &self.step + &self.origin[axis];
-            let off = (rational::exact(found[axis]) - &world).abs();
-            let ulp = rational::exact(found[axis].abs().next_up() - found[axis].abs());
+        let own = self.step - line.bits as i32;
+        for (axis, found) in hit.point().to_array().into_iter().enumerate() {
+            let ulp = found.abs().next_up() - found.abs();
+            // All in units of a power of two, times the parameter's denominator.
+            let unit = own.min(least([found, ulp]));
+            let from = &line.from[axis] + whole(self.origin[axis], own);
+            let place = (from * &u.under + &line.direction[axis] * &u.over) << (own - unit) as u32;
+            let off = (whole(found, unit) * &u.under - place).abs();
             // A step of the lattice is at most 2⁻⁵¹ of the extent.
-            if off > &self.step + ulp {
-                return Err(format!("the point is off by {off} along axis {axis}"));
+            let step = BigInt::one() << (self.step - unit) as u32;
+            if off > (step + whole(ulp, unit)) * &u.under {
+                return Err(format!("the point is off along axis {axis}"));
             }
         }
         Ok(())
     }
-
-    /// The fragment has the point.
-    fn check_fragment(&self, line: &Line, hit: &Hit<'_>, truth: &Truth) -> Result<(), String> {
-        let face = &self.faces[truth.face as usize];
-        let vertices = self.vertices(hit.fragment().index());
-        if !contains(&vertices, &line.at(&truth.t), model::main_axis(&face.plane)) {
-            return Err("the fragment does not have the point".into());
-        }
-        Ok(())
-    }
-}
-
-impl Line {
-    fn at(&self, t: &Rational) -> Point {
-        std::array::from_fn(|i| &self.from[i] + &self.direction[i] * t)
-    }
 }
 
 impl Rough {
-    pub fn new(faces: &Faces, face: u32) -> Self {
+    fn new(faces: &Faces, face: u32) -> Self {
         let corners: Vec<DVec3> = faces.corners(face).iter().map(|&c| DVec3::from(c)).collect();
         let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
@@ -298,7 +500,7 @@ impl Rough {
     }
 
     /// A ball around others.
-    pub fn around(others: &[Self]) -> Self {
+    fn around(others: &[Self]) -> Self {
         let centre = others.iter().map(|other| other.centre).sum::<DVec3>() / others.len() as f64;
         let reach = |other: &Self| other.centre.distance(centre) + other.radius;
         let radius = others.iter().map(reach).fold(0.0, f64::max);
@@ -306,7 +508,7 @@ impl Rough {
     }
 
     /// Whether a line may meet the face: generous.
-    pub fn is_near(&self, from: DVec3, direction: DVec3) -> bool {
+    fn is_near(&self, from: DVec3, direction: DVec3) -> bool {
         let size = from.abs().max_element() + self.centre.abs().max_element() + self.radius;
         let slack = 1e-9 * size;
         let length = direction.length();
@@ -334,46 +536,13 @@ impl Rough {
     }
 }
 
-/// The coordinates behind an axis.
-fn flat(p: &Point, axis: usize) -> [&Rational; 2] {
-    [&p[(axis + 1) % 3], &p[(axis + 2) % 3]]
-}
-
-/// Twice the area of a triangle, seen along an axis.
-fn turn([a, b, c]: [&Point; 3], axis: usize) -> Rational {
-    let [a, b, c] = [a, b, c].map(|p| flat(p, axis));
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// Whether a convex outline has a point of its plane.
+/// Whether a convex outline has a point of its plane, seen along an axis.
 fn contains(outline: &[Point], point: &Point, axis: usize) -> bool {
-    let next = outline.iter().cycle().skip(1);
+    let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+    let turn = |(a, b): (&Point, &Point)| {
+        sign(&((&b[i] - &a[i]) * (&point[j] - &a[j]) - (&b[j] - &a[j]) * (&point[i] - &a[i])))
+    };
     let turns: Vec<Ordering> =
-        outline.iter().zip(next).map(|(a, b)| rational::sign(&turn([a, b, point], axis))).collect();
+        outline.iter().zip(outline.iter().cycle().skip(1)).map(turn).collect();
     !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
-}
-
-/// Between which parameters a line in the plane of a convex outline is inside: the least and the largest
-/// of where it meets the edges. A line without direction is a point.
-fn through(outline: &[Point], line: &Line, axis: usize) -> Option<[Rational; 2]> {
-    if line.direction.iter().all(Zero::is_zero) {
-        return contains(outline, &line.from, axis).then(|| [Rational::zero(), Rational::zero()]);
-    }
-    let beyond = rational::sum(&line.from, &line.direction);
-    let i = (0..3).find(|&i| !line.direction[i].is_zero()).expect("a direction");
-    let parameter = |p: &Point| (&p[i] - &line.from[i]) / &line.direction[i];
-    let mut met: Vec<Rational> = Vec::new();
-    let next = outline.iter().cycle().skip(1);
-    for (a, b) in outline.iter().zip(next) {
-        let [at_a, at_b] = [a, b].map(|p| turn([&line.from, &beyond, p], axis));
-        let (side_a, side_b) = (rational::sign(&at_a), rational::sign(&at_b));
-        if side_a.is_eq() {
-            met.push(parameter(a));
-        }
-        if side_a.is_ne() && side_a == side_b.reverse() {
-            met.push(parameter(&rational::crossing([a, b], [&at_a, &at_b])));
-        }
-    }
-    let (least, most) = (met.iter().min()?.clone(), met.iter().max()?.clone());
-    Some([least, most])
 }

@@ -16,7 +16,7 @@ pub type Verdict = Result<(), String>;
 
 /// What a library vertex may be off by, in lattice units, as its documentation says: three
 /// roundings of a coordinate a little beyond 2⁵¹.
-const POSITION_ERROR: f64 = 0.77;
+pub const POSITION_ERROR: f64 = 0.77;
 
 /// A fragment in rationals.
 struct Piece {

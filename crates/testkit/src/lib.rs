@@ -1,9 +1,11 @@
 //! The test kit: exact oracles to judge the library by, scenes that are hard to decide, choices from
 //! a seed, and the bodies of the fuzz targets. Tests, benches and fuzzing share it.
 
+pub mod browser;
 pub mod cell_cover;
 pub mod cell_orders;
 pub mod checks;
+pub mod cut_walk;
 pub mod decode;
 pub mod dice;
 pub mod divided;
@@ -11,19 +13,19 @@ pub mod effort;
 pub mod fill;
 pub mod fragment_pixels;
 pub mod hard;
+pub mod hinted;
 pub mod hits;
 pub mod homogeneous;
-pub mod interior;
 pub mod judge;
 pub mod layered;
 pub mod model;
 pub mod orders;
 pub mod pages;
-pub mod quick_hits;
 pub mod rational;
 pub mod rays;
 pub mod real_scenes;
 pub mod saved;
+pub mod scenes;
 pub mod shapes;
 pub mod shots;
 pub mod slivers;

@@ -61,6 +61,17 @@ impl Face {
         }
     }
 
+    /// Whether a point of the plane is inside the outline, on it, or outside.
+    pub fn place(&self, point: &Point) -> Ordering {
+        let next = self.corners.iter().cycle().skip(1);
+        let turn = |(a, b): (&Point, &Point)| {
+            let turn =
+                rational::product(&rational::difference(b, a), &rational::difference(point, a));
+            rational::sign(&rational::scalar(&turn, &self.plane.normal))
+        };
+        self.corners.iter().zip(next).map(turn).min().expect("corners")
+    }
+
     /// Every answer that the rules of the exact kernel allow: one, but where a corner is as far
     /// from the plane as the tolerance, to within the rounding of the tolerance.
     pub fn classify(

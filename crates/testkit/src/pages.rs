@@ -4,8 +4,8 @@
 //! around its own origin; its matrix places it on a screen of [`SCREEN`] pixels and holds the
 //! page's perspective. No layer reaches behind the eye.
 
+use super::dice::Dice;
 use binspace::glam::{DMat4, DVec3, dvec3};
-use binspace::internals::SplitMix64;
 use std::f64::consts::{PI, TAU};
 
 /// The size of the screen.
@@ -42,13 +42,13 @@ impl Page {
 
     /// So many layers, the same for the same seed.
     pub fn layers(self, count: usize, seed: u64) -> Vec<PageLayer> {
-        let mut random = SplitMix64::new(seed);
+        let mut dice = Dice(seed);
         let camera = camera();
         let places = match self {
-            Self::Carousel => carousel(count, &mut random),
-            Self::Stack => stack(count, &mut random),
-            Self::Cubes => cubes(count, &mut random),
-            Self::Crossing => crossing(count, &mut random),
+            Self::Carousel => carousel(count, &mut dice),
+            Self::Stack => stack(count, &mut dice),
+            Self::Cubes => cubes(count, &mut dice),
+            Self::Crossing => crossing(count, &mut dice),
         };
         let layer = |(half, place)| PageLayer { half, matrix: camera * place };
         places.into_iter().map(layer).collect()
@@ -86,14 +86,14 @@ pub fn camera() -> DMat4 {
 /// Half the size of a layer, and where it is in space.
 type Placed = ([f64; 2], DMat4);
 
-fn carousel(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
+fn carousel(count: usize, dice: &mut Dice) -> Vec<Placed> {
     let radius = 500.0;
     let step = TAU / count as f64;
     // Half as wide again as in a ring whose cards just meet.
     let half = 1.5 * radius * (step / 2.0).tan().min(0.6);
-    let start = random.range(0.0, step);
+    let start = dice.range(0.0, step);
     let ring = DMat4::from_translation(dvec3(0.0, 0.0, -300.0))
-        * DMat4::from_rotation_x(random.range(-0.4, 0.4));
+        * DMat4::from_rotation_x(dice.range(-0.4, 0.4));
     let place = |k: usize| {
         let around = DMat4::from_rotation_y(start + step * k as f64);
         ([half, 140.0], ring * around * DMat4::from_translation(dvec3(0.0, 0.0, radius)))
@@ -101,16 +101,16 @@ fn carousel(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
     (0..count).map(place).collect()
 }
 
-fn stack(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
-    let tilt = DMat4::from_rotation_x(random.range(-0.7, 0.7))
-        * DMat4::from_rotation_y(random.range(-0.7, 0.7));
+fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
+    let tilt = DMat4::from_rotation_x(dice.range(-0.7, 0.7))
+        * DMat4::from_rotation_y(dice.range(-0.7, 0.7));
     let planes = count.div_ceil(3);
     let place = |k: usize| {
         // Planes in a scattered order: a step that has no divisor in common with their number.
         let plane = (k % planes) * scatter(planes) % planes;
         let z = 400.0 * (plane as f64 / planes as f64 - 0.7);
-        let at = dvec3(random.range(-250.0, 250.0), random.range(-150.0, 150.0), z);
-        let half = [random.range(60.0, 220.0), random.range(40.0, 140.0)];
+        let at = dvec3(dice.range(-250.0, 250.0), dice.range(-150.0, 150.0), z);
+        let half = [dice.range(60.0, 220.0), dice.range(40.0, 140.0)];
         (half, tilt * DMat4::from_translation(at))
     };
     (0..count).map(place).collect()
@@ -128,7 +128,7 @@ fn scatter(count: usize) -> usize {
     (count * 61 / 100 + 1..).find(shares_none).expect("the next prime at the latest")
 }
 
-fn cubes(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
+fn cubes(count: usize, dice: &mut Dice) -> Vec<Placed> {
     let number = count.div_ceil(6);
     let columns = ((number as f64 * 16.0 / 9.0).sqrt().ceil() as usize).max(1);
     let cell = 1200.0 / columns as f64;
@@ -141,9 +141,9 @@ fn cubes(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
         let at = dvec3(
             (column - (columns as f64 - 1.0) / 2.0) * cell,
             (row - (rows as f64 - 1.0) / 2.0) * cell,
-            random.range(-300.0, 0.0),
+            dice.range(-300.0, 0.0),
         );
-        let turn = DMat4::from_translation(at) * any_turn(random);
+        let turn = DMat4::from_translation(at) * any_turn(dice);
         for face in 0..6.min(count - places.len()) {
             let side = match face {
                 0..4 => DMat4::from_rotation_y(face as f64 * PI / 2.0),
@@ -157,17 +157,17 @@ fn cubes(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
     places
 }
 
-fn crossing(count: usize, random: &mut SplitMix64) -> Vec<Placed> {
+fn crossing(count: usize, dice: &mut Dice) -> Vec<Placed> {
     let place = |_| {
-        let at = random.point(-200.0, 200.0) - DVec3::Z * 300.0;
-        let half = [random.range(120.0, 350.0), random.range(80.0, 240.0)];
-        (half, DMat4::from_translation(at) * any_turn(random))
+        let at = dice.point(-200.0, 200.0) - DVec3::Z * 300.0;
+        let half = [dice.range(120.0, 350.0), dice.range(80.0, 240.0)];
+        (half, DMat4::from_translation(at) * any_turn(dice))
     };
     (0..count).map(place).collect()
 }
 
-fn any_turn(random: &mut SplitMix64) -> DMat4 {
-    DMat4::from_rotation_z(random.range(0.0, TAU))
-        * DMat4::from_rotation_y(random.range(0.0, TAU))
-        * DMat4::from_rotation_x(random.range(0.0, TAU))
+fn any_turn(dice: &mut Dice) -> DMat4 {
+    DMat4::from_rotation_z(dice.range(0.0, TAU))
+        * DMat4::from_rotation_y(dice.range(0.0, TAU))
+        * DMat4::from_rotation_x(dice.range(0.0, TAU))
 }

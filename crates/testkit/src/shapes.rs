@@ -16,6 +16,21 @@ pub fn square(turn: DMat3, centre: DVec3) -> Corners {
         .to_vec()
 }
 
+/// A square from 0 to `side` along two axes, perpendicular to the third.
+pub fn sheet(axis: usize, at: f64, side: f64) -> [[f64; 3]; 4] {
+    [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]].map(|[u, v]| {
+        let mut corner = [at, u, v];
+        corner.rotate_right(axis);
+        corner
+    })
+}
+
+/// A rectangle along x and y.
+pub fn rectangle(low: [f64; 2], high: [f64; 2], z: f64) -> Corners {
+    let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
+    corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec()
+}
+
 /// Two triangles with a common edge and a very small angle between them.
 pub fn near_coplanar_pair(turn: DMat3, angle: f64, shift: DVec3) -> Vec<Corners> {
     let base = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 0.25, 0.0), DVec3::new(0.0, 1.0, 0.0)];

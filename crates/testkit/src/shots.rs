@@ -150,7 +150,7 @@ impl<'t> Shots<'t> {
     fn arm(&self, dice: &mut Dice) -> DVec3 {
         let size = (self.high - self.low).max_element();
         let unit = if size > 0.0 { 2f64.powi(size.log2().floor() as i32 - 3) } else { 1.0 };
-        DVec3::from_array([0; 3].map(|_| dice.around_zero(6))) * unit
+        dice.whole_point(6) * unit
     }
 }
 

@@ -21,6 +21,11 @@ pub fn tally<S: Strategy, T: Default>(
     total.into_inner()
 }
 
+/// A case that fails, for whatever reason.
+pub fn fail(why: impl ToString) -> TestCaseError {
+    TestCaseError::fail(why.to_string())
+}
+
 /// Asserts that enough was compared. Panics with the conditions that fail, and with the message.
 #[macro_export]
 macro_rules! enough {

@@ -95,7 +95,7 @@ pub fn power_of_two(exponent: u32) -> Rational {
 pub fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
     let corner =
         |dice: &mut Dice| DVec3::from(faces.corner(dice.below(faces.corner_count()) as u32));
-    let cube = |dice: &mut Dice| DVec3::from_array([0; 3].map(|_| 2.0 * dice.share() - 1.0));
+    let cube = |dice: &mut Dice| dice.point(-1.0, 1.0);
     let extent = (1u64 << 51) as f64;
     match dice.below(9) {
         0 => View::eye(faces, cube(dice) * extent * 4.0),
@@ -122,7 +122,7 @@ pub fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
             View::direction(if direction == DVec3::ZERO { DVec3::X } else { direction })
         }
         _ => {
-            let small = DVec3::from_array([0; 3].map(|_| dice.around_zero(2)));
+            let small = dice.whole_point(2);
             View::direction(if small == DVec3::ZERO { DVec3::NEG_Z } else { small })
         }
     }

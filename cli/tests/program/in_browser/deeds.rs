@@ -1,7 +1,8 @@
 //! What people do with a page.
 
-use super::{browser, page_and_tree, said};
+use super::page_and_tree;
 use crate::run::Folder;
+use testkit::browser::{browser, said};
 
 /// Does what people do, and says what came of it: a line for each that went wrong.
 const DEEDS: &str = "
@@ -98,7 +99,7 @@ fn people_can_turn_it_by_mouse_touch_and_keys() {
     let browser = browser();
     let folder = Folder::new("page_deeds");
     let (page, _) = page_and_tree(&folder, "random:60");
-    assert_eq!(said(browser, &folder, &page, DEEDS), "");
+    assert_eq!(said(browser, &folder.path(""), &page, DEEDS), "");
 }
 
 #[test]
@@ -121,5 +122,5 @@ fn translucent_polygons_show_what_is_behind_them() {
             return [0, 8, 16].map(shift => (pixel >> shift) & 255);
         };
         return [...middle(1), ...middle(-1)].join(' ');";
-    assert_eq!(said(browser, &folder, &page, script), "64 0 191 0 0 255");
+    assert_eq!(said(browser, &folder.path(""), &page, script), "64 0 191 0 0 255");
 }

@@ -1,30 +1,25 @@
 //! The script of a page orders as the library does.
 
-use binspace::glam::DVec3;
-use binspace::internals::{LATTICE_LIMIT, SplitMix64};
+use binspace::internals::LATTICE_LIMIT;
 use binspace::{BspTree, Viewpoint};
 
-use super::{browser, page_and_tree, said};
+use super::page_and_tree;
 use crate::run::{CROSSING, Folder};
+use testkit::browser::{browser, eye_at, hash, hash_in_script, said};
+use testkit::dice::Dice;
 
 /// An eye at a point of the grid, or a direction to look in, of components that are kept as they are.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Eye {
+enum Eye {
     At([f64; 3]),
     Towards([f64; 3]),
 }
 
 impl Eye {
     /// The eye as the library takes it; `None` if its position cannot be expressed.
-    pub(crate) fn viewpoint(self, tree: &BspTree) -> Option<Viewpoint> {
-        let grid = tree.grid();
+    fn viewpoint(self, tree: &BspTree) -> Option<Viewpoint> {
         match self {
-            Self::At(point) => {
-                let step = 2f64.powi(grid.exponent);
-                let away = DVec3::from(point) * step;
-                let at = grid.base + away;
-                (at - away == grid.base && at - grid.base == away).then_some(Viewpoint::Eye(at))
-            }
+            Self::At(point) => eye_at(tree, point),
             Self::Towards(direction) => Some(Viewpoint::Direction(direction.into())),
         }
     }
@@ -40,13 +35,13 @@ impl Eye {
 /// Eyes around and inside a scene and far from it; on planes, on their lines and on vertices; and directions,
 /// also along planes.
 fn eyes(tree: &BspTree, count: usize, seed: u64) -> Vec<Eye> {
-    let mut random = SplitMix64::new(seed);
+    let mut dice = Dice(seed);
     let nodes: Vec<_> = tree.nodes().map(|node| node.grid_points()).collect();
     let mut eyes = Vec::new();
     for k in 0..count {
         let [p, q, r] =
-            nodes[random.next() as usize % nodes.len()].map(|point| point.map(|c| c as f64));
-        let mut point = |reach: f64| [(); 3].map(|()| (random.range(-reach, reach)).round());
+            nodes[dice.roll() as usize % nodes.len()].map(|point| point.map(|c| c as f64));
+        let mut point = |reach: f64| [(); 3].map(|()| (dice.range(-reach, reach)).round());
         let along =
             |a: f64, b: f64| std::array::from_fn(|i| p[i] + a * (q[i] - p[i]) + b * (r[i] - p[i]));
         eyes.push(match k % 10 {
@@ -69,18 +64,6 @@ fn eyes(tree: &BspTree, count: usize, seed: u64) -> Vec<Eye> {
     eyes
 }
 
-/// A number of a list, by the hash of Fowler, Noll and Vo over its words.
-pub(crate) fn hash(order: &[u32]) -> u32 {
-    order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
-}
-
-/// The same of a list of the script's.
-pub(crate) fn hash_in_script(list: &str) -> String {
-    format!(
-        "({list}.reduce((hash, number) => Math.imul(hash ^ number, 16777619), 2166136261 | 0) >>> 0)"
-    )
-}
-
 /// How many planes were decided by integers, and the orders of a page, hashed.
 fn orders_of_page(browser: &str, folder: &Folder, page: &str, eyes: &[Eye]) -> Vec<u32> {
     let eyes: Vec<String> = eyes.iter().map(|eye| eye.script()).collect();
@@ -93,7 +76,7 @@ fn orders_of_page(browser: &str, folder: &Folder, page: &str, eyes: &[Eye]) -> V
         eyes.join(",\n"),
         hash_in_script("backToFront(TREE, eye)"),
     );
-    let said = said(browser, folder, page, &script);
+    let said = said(browser, &folder.path(""), page, &script);
     said.split(' ').map(|number| number.parse().unwrap()).collect()
 }
 

@@ -7,8 +7,9 @@ use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
 use binspace::view::{Camera, Projection, views};
 
-use super::{browser, page_and_tree, said};
+use super::page_and_tree;
 use crate::run::Folder;
+use testkit::browser::{browser, said};
 
 /// Cameras around a tree and inside it, and a parallel one twice; each with whether backs are left out.
 fn cameras(tree: &BspTree) -> Vec<(Camera, bool)> {
@@ -90,7 +91,7 @@ fn pictures_are_those_of_the_library() {
             .collect();
         let script = format!("return [{}].join(';');", scripts.join(", "));
         let differences = |page: &str| -> usize {
-            let said = said(browser, &folder, page, &script);
+            let said = said(browser, &folder.path(""), page, &script);
             let found =
                 said.split(';').map(|picture| picture.split(' ').map(|id| id.parse().unwrap()));
             let found: Vec<Vec<u32>> = found.map(Iterator::collect).collect();

@@ -16,6 +16,7 @@ use testkit::hard;
 use testkit::homogeneous::Homogeneous;
 use testkit::model::{self, Face};
 use testkit::rational::{self, Plane, Point, Rational};
+use testkit::scenes::polygons;
 
 /// The figures of a tree.
 #[derive(Debug, Default)]
@@ -230,8 +231,6 @@ fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), St
 }
 
 fn scenes() -> Vec<(String, Vec<Vec<DVec3>>)> {
-    let polygons =
-        |scene: &scene::Scene| scene.polygons().map(|polygon| polygon.to_vec()).collect();
     let mut scenes: Vec<(String, Vec<Vec<DVec3>>)> = [
         scene::crossing(12),
         scene::random_triangles(150, 4),
@@ -296,8 +295,7 @@ fn the_errors_of_rounded_trees_of_hard_scenes_are_those_that_rationals_count() {
     let mut tally = Tally::default();
     for _ in 0..times(200) {
         let scene = hard::scene().new_tree(&mut runner).expect("a scene").current();
-        let options = BuildOptions::DEFAULT;
-        let options = scene.tolerance().map_or(options, |t| options.with_tolerance(t));
+        let options = scene.options(Heuristic::default());
         assert_exact(options, &scene.polygons).unwrap_or_else(|e| panic!("{scene:?}: {e}"));
         tally.compare_all(options, &scene.polygons).unwrap_or_else(|e| panic!("{scene:?}: {e}"));
     }

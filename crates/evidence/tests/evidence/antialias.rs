@@ -1,12 +1,12 @@
 //! Areas in pixels against rational numbers, and what is known of sums.
 
 use std::array::from_fn;
+use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
 
 use binspace::drawing::VisibilityMap;
 use binspace::glam::{DVec3, dvec3};
-use binspace::internals::SplitMix64;
 use binspace::raster::Rays;
 use binspace::scene::{self, Scene};
 use binspace::view::{Camera, views};
@@ -61,9 +61,9 @@ fn area(polygon: &[Point]) -> BigRational {
 }
 
 /// A counter-clockwise triangle with corners in eighths of pixels.
-fn triangle(random: &mut SplitMix64) -> [[i64; 2]; 3] {
+fn triangle(dice: &mut Dice) -> [[i64; 2]; 3] {
     loop {
-        let [p, q, r]: [[i64; 2]; 3] = from_fn(|_| from_fn(|_| (random.next() % 65) as i64));
+        let [p, q, r]: [[i64; 2]; 3] = from_fn(|_| from_fn(|_| (dice.roll() % 65) as i64));
         let turn = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
         if turn > 0 {
             return [p, q, r];
@@ -82,9 +82,9 @@ fn owned(pixel: &[Point], [a, b, c]: &[Vec<Point>; 3]) -> [f64; 3] {
 
 #[test]
 fn areas_in_pixels_are_those_of_rationals() {
-    let (mut random, mut parts) = (SplitMix64::new(5), 0);
+    let (mut dice, mut parts) = (Dice(5), 0);
     for _ in 0..times(40) {
-        let triangles: [[[i64; 2]; 3]; 3] = from_fn(|_| triangle(&mut random));
+        let triangles: [[[i64; 2]; 3]; 3] = from_fn(|_| triangle(&mut dice));
         let mut scene = Scene::new("three", DVec3::Y);
         for (depth, corners) in (0..).zip(&triangles) {
             let at = |p: &[i64; 2]| dvec3(p[0] as f64 / 8.0, p[1] as f64 / 8.0, -f64::from(depth));

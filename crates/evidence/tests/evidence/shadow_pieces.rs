@@ -1,15 +1,16 @@
 //! Lit and shadowed pieces of polygons, against sight lines in rational numbers.
 
 use binspace::glam::{DVec3, dvec3};
-use binspace::internals::{Eye, Faces, SplitMix64};
+use binspace::internals::{Eye, Faces};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Viewpoint};
 use binspace_evidence::shadows::{Piece, Zone, courtyard, lamp, pieces};
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::Zero;
+use testkit::dice::Dice;
 use testkit::enough;
-use testkit::vector::{difference, product, scalar};
+use testkit::vector::{Plane, scalar};
 
 type Point = [BigInt; 3];
 
@@ -20,29 +21,17 @@ fn whole(point: [f64; 3]) -> Point {
     })
 }
 
-/// A plane by a normal and a point on it.
-struct Through(Point, BigInt);
-
-impl Through {
-    fn new(a: &Point, b: &Point, c: &Point) -> Self {
-        let normal = product(&difference(b, a), &difference(c, a));
-        let offset = scalar(&normal, a);
-        Self(normal, offset)
-    }
-
-    /// The side of a point given by multiples of its coordinates, and the factor.
-    fn side(&self, [x, y, z, w]: &[BigInt; 4]) -> Sign {
-        let Self([a, b, c], offset) = self;
-        (a * x + b * y + c * z - offset * w).sign()
-    }
+/// The side of a point given by multiples of its coordinates, and the factor.
+fn side(plane: &Plane<BigInt>, [point @ .., factor]: &[BigInt; 4]) -> Sign {
+    (scalar(&plane.normal, point) - &plane.offset * factor).sign()
 }
 
 /// A face, as seen from a point of the lamp: its plane, the lamp's side of it, and the planes through
 /// the lamp and its edges.
 struct Screen {
-    plane: Through,
+    plane: Plane<BigInt>,
     lamp: Sign,
-    rims: Vec<Through>,
+    rims: Vec<Plane<BigInt>>,
 }
 
 /// What may hide a point of the lamp.
@@ -54,12 +43,12 @@ impl Judge {
         let lamp = whole(at.0);
         let screen = |face: u32| {
             let corners: Vec<Point> = faces.corners(face).iter().map(|&p| whole(p)).collect();
-            let plane = Through::new(&corners[0], &corners[1], &corners[2]);
+            let plane = Plane::through([&corners[0], &corners[1], &corners[2]]);
             let next = corners.iter().cycle().skip(1);
-            let rims = corners.iter().zip(next).map(|(a, b)| Through::new(&lamp, a, b)).collect();
-            let [x, y, z] = lamp.clone();
-            let side = plane.side(&[x, y, z, BigInt::from(1)]);
-            Screen { plane, lamp: side, rims }
+            let edges = corners.iter().zip(next);
+            let rims = edges.map(|(a, b)| Plane::through([&lamp, a, b])).collect();
+            let lamp = plane.at(&lamp).sign();
+            Screen { plane, lamp, rims }
         };
         Self((0..faces.len() as u32).map(screen).collect())
     }
@@ -71,21 +60,21 @@ impl Judge {
     /// Whether a face has a point between this one and the lamp.
     fn hides(&self, point: &[BigInt; 4]) -> bool {
         self.0.iter().any(|Screen { plane, lamp, rims }| {
-            if *lamp == Sign::NoSign || plane.side(point) != -*lamp {
+            if *lamp == Sign::NoSign || side(plane, point) != -*lamp {
                 return false;
             }
-            let sides: Vec<Sign> = rims.iter().map(|rim| rim.side(point)).collect();
+            let sides: Vec<Sign> = rims.iter().map(|rim| side(rim, point)).collect();
             !(sides.contains(&Sign::Plus) && sides.contains(&Sign::Minus))
         })
     }
 }
 
 /// A random point within a piece: a mean of its corners, all with weights above 0.
-fn within(corners: &[[BigInt; 4]], random: &mut SplitMix64) -> [BigInt; 4] {
+fn within(corners: &[[BigInt; 4]], dice: &mut Dice) -> [BigInt; 4] {
     let most = corners.iter().map(|corner| &corner[3]).max().unwrap();
     let mut sum: [BigInt; 4] = Default::default();
     for corner in corners {
-        let weight = most / &corner[3] * BigInt::from(1 + random.next() % 1000);
+        let weight = most / &corner[3] * BigInt::from(1 + dice.roll() % 1000);
         sum.iter_mut().zip(corner).for_each(|(sum, c)| *sum += &weight * c);
     }
     sum
@@ -96,11 +85,11 @@ fn compare(scene: &Scene, lamp: &[DVec3], pieces: &[Piece], count: usize) -> [us
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
     let judges: Vec<Judge> = lamp.iter().map(|&at| Judge::new(&faces, at)).collect();
     let corners: Vec<Vec<_>> = pieces.iter().map(|piece| piece.exact_corners().collect()).collect();
-    let mut random = SplitMix64::new(11);
+    let mut dice = Dice(11);
     let [mut compared, mut hidden, mut wrong] = [0; 3];
     while compared < count {
-        let number = (random.next() % pieces.len() as u64) as usize;
-        let (piece, point) = (&pieces[number], within(&corners[number], &mut random));
+        let number = (dice.roll() % pieces.len() as u64) as usize;
+        let (piece, point) = (&pieces[number], within(&corners[number], &mut dice));
         for (judge, sees) in judges.iter().zip(&piece.sees) {
             // What is in the plane of the lamp sees nothing of it.
             if judge.is_edge_on(piece.face) {
@@ -189,8 +178,8 @@ fn area(corners: &[[BigInt; 4]], axis: usize) -> BigRational {
 
 #[test]
 fn the_pieces_of_a_face_have_its_area() {
-    let (random, over_it) = triangles();
-    for (scene, lamp) in [(courtyard(), lamp(2)), (random, over_it)] {
+    let (dice, over_it) = triangles();
+    for (scene, lamp) in [(courtyard(), lamp(2)), (dice, over_it)] {
         let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
         let pieces = cut(&scene, &lamp);
         assert!(pieces.len() > 3 * faces.len(), "{}", pieces.len());
@@ -224,7 +213,7 @@ fn umbra(scene: &Scene) -> [usize; 2] {
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
     let pieces = cut(scene, &lamp(2));
     let judges: Vec<Judge> = lamp(9).iter().map(|&at| Judge::new(&faces, at)).collect();
-    let mut random = SplitMix64::new(2);
+    let mut dice = Dice(2);
     let [mut certain, mut by_several, mut zones] = [0; 3];
     for piece in &pieces {
         zones |= 1 << piece.zone() as u32;
@@ -233,7 +222,7 @@ fn umbra(scene: &Scene) -> [usize; 2] {
             assert_eq!(piece.zone(), Zone::Umbra);
             let corners: Vec<_> = piece.exact_corners().collect();
             for _ in 0..8 {
-                let point = within(&corners, &mut random);
+                let point = within(&corners, &mut dice);
                 assert!(judges.iter().all(|judge| judge.hides(&point)), "{}", scene.name());
             }
             certain += 1;

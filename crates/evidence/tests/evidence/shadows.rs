@@ -2,11 +2,12 @@
 
 use binspace::BuildOptions;
 use binspace::glam::{DVec3, dvec3};
-use binspace::internals::SplitMix64;
 use binspace::scene::Scene;
 use binspace::{BspTree, Ray};
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
+use testkit::dice::Dice;
 use testkit::effort::times;
+use testkit::vector::{Plane, difference, product, scalar};
 
 type Point = [i128; 3];
 
@@ -15,22 +16,10 @@ fn whole(p: DVec3) -> Point {
     p.to_array().map(|c| c as i128)
 }
 
-fn minus(p: Point, q: Point) -> Point {
-    std::array::from_fn(|i| p[i] - q[i])
-}
-
-fn dot(p: Point, q: Point) -> i128 {
-    (0..3).map(|i| p[i] * q[i]).sum()
-}
-
-fn cross(p: Point, q: Point) -> Point {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| p[i] * q[j] - p[j] * q[i])
-}
-
 /// Whether a convex polygon has a point between two that are not both in its plane.
 fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
-    let normal = cross(minus(polygon[1], polygon[0]), minus(polygon[2], polygon[0]));
-    let [at_a, at_b] = [a, b].map(|p| dot(normal, minus(p, polygon[0])));
+    let plane = Plane::through([&polygon[0], &polygon[1], &polygon[2]]);
+    let [at_a, at_b] = [a, b].map(|p| plane.at(&p));
     assert!(at_a != 0 || at_b != 0, "no sight line is in a plane");
     if at_a.signum() * at_b.signum() >= 0 {
         return false;
@@ -40,8 +29,8 @@ fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
     let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
     (0..polygon.len()).all(|k| {
         let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
-        let arm = minus(met, p.map(|c| c * by));
-        sign * dot(normal, cross(minus(q, p), arm)) >= 0
+        let arm = difference(&met, &p.map(|c| c * by));
+        sign * scalar(&plane.normal, &product(&difference(&q, &p), &arm)) >= 0
     })
 }
 
@@ -54,16 +43,16 @@ fn setting() -> (Scene, BspTree, Vec<Vec<Point>>) {
 }
 
 /// A point of a surface in whole numbers; often on a rim or in line with one.
-fn point(scene: &Scene, random: &mut SplitMix64) -> DVec3 {
+fn point(scene: &Scene, dice: &mut Dice) -> DVec3 {
     // The floor is the first polygon, and half of the points are on it.
-    let polygon = match random.next() % 2 {
+    let polygon = match dice.roll() % 2 {
         0 => 0,
-        _ => (random.next() % scene.len() as u64) as usize,
+        _ => (dice.roll() % scene.len() as u64) as usize,
     };
     let [a, b, _, d] = std::array::from_fn(|k| scene.polygon(polygon)[k]);
-    let [u, v] = [0, 1].map(|_| match random.next() % 8 {
-        0 => (random.next() % 2) as f64,
-        _ => (random.next() % 4097) as f64 / 4096.0,
+    let [u, v] = [0, 1].map(|_| match dice.roll() % 8 {
+        0 => (dice.roll() % 2) as f64,
+        _ => (dice.roll() % 4097) as f64 / 4096.0,
     });
     (a + u * (b - a) + v * (d - a)).round()
 }
@@ -82,10 +71,10 @@ fn a_million_sight_lines_are_those_of_whole_numbers() {
 fn compare_sight_lines(count: usize) {
     let (scene, tree, polygons) = setting();
     let bounds = tree.bounds().unwrap();
-    let (mut random, lamp) = (SplitMix64::new(9), lamp(9));
+    let (mut dice, lamp) = (Dice(9), lamp(9));
     let (mut blocked, mut wrong) = (0, 0);
     for k in 0..count {
-        let (point, at) = (point(&scene, &mut random), lamp[k % lamp.len()]);
+        let (point, at) = (point(&scene, &mut dice), lamp[k % lamp.len()]);
         let found = bounds.is_blocked(&tree, Ray::between(point, at));
         let truth = polygons.iter().any(|polygon| blocks(polygon, whole(point), whole(at)));
         wrong += usize::from(found != truth);
@@ -108,11 +97,11 @@ fn a_shadow_that_breaks_the_rule_is_noticed() {
 fn zones_are_those_of_many_more_points_but_for_a_rim() {
     let (scene, tree, polygons) = setting();
     let bounds = tree.bounds().unwrap();
-    let mut random = SplitMix64::new(4);
+    let mut dice = Dice(4);
     let (corners, some, many) = (lamp(2), lamp(5), lamp(25));
     let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
     for _ in 0..times(1500) {
-        let point = point(&scene, &mut random);
+        let point = point(&scene, &mut dice);
         let hidden = |at: &DVec3| polygons.iter().any(|p| blocks(p, whole(point), whole(*at)));
         let truth = match many.iter().filter(|at| hidden(at)).count() {
             0 => Zone::Lit,

@@ -21,7 +21,7 @@ pub fn run(data: &[u8]) {
         0 => {
             let mut file = rest.to_vec();
             seal(&mut file);
-            use_file(&file, &[]);
+            try_file(&file, &[]);
             Ok(())
         }
         1 => forge(&mut Unstructured::new(rest)),
@@ -64,7 +64,8 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-fn written(partition: &Partition) -> Vec<u8> {
+/// A partition's file.
+pub fn written(partition: &Partition) -> Vec<u8> {
     let mut bytes = Vec::new();
     partition.write(&mut bytes).expect("a list takes all");
     bytes
@@ -92,14 +93,14 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
             }
         }
         seal(&mut file);
-        use_file(&file, &polygons);
+        try_file(&file, &polygons);
     }
     Ok(())
 }
 
 /// Whatever is read can be used: all cells are in the order, bounded, and have each point once.
-fn use_file(file: &[u8], polygons: &[Vec<DVec3>]) {
-    let Ok(partition) = Partition::read(file) else { return };
+pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
+    let Ok(partition) = Partition::read(file) else { return false };
     assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);
     for viewpoint in [Viewpoint::eye([0.5, 2.0, -1.0]), Viewpoint::direction([1.0, 0.0, -0.5])] {
         let mut order = partition.back_to_front(viewpoint);
@@ -126,4 +127,5 @@ fn use_file(file: &[u8], polygons: &[Vec<DVec3>]) {
         assert!(partition.is_tree_of(cell, &tree));
         assert_eq!(tree.len(), all.len());
     }
+    true
 }

@@ -1,0 +1,168 @@
+//! A face cut by one plane after the other, each sign and each part against exact rationals.
+
+use super::judge::{POSITION_ERROR, Verdict, ensure};
+use super::model::{self, Face};
+use super::rational::{self, Point, Rational};
+use binspace::internals::{
+    Exact, Faces, Kernel, Piece, PlaneId, PlaneKind, Side, SymbolKind, Vertex, split,
+};
+use num_traits::Signed;
+
+type ExactVertex = <Exact as Kernel>::Vertex;
+
+/// What a run of tests went through.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    /// Vertices held against planes.
+    pub signs: usize,
+    /// Those that the filter left to the integers.
+    pub undecided: usize,
+    /// Those exactly on the plane.
+    pub on_plane: usize,
+    /// Pieces held against planes, and those cut.
+    pub pieces: usize,
+    pub cuts: usize,
+    /// Vertices made by two cuts.
+    pub inside: usize,
+    /// Pieces of faces that are planar by definition only.
+    pub moved: usize,
+    /// Pieces for which the tolerance alone decided.
+    pub tolerated: usize,
+    /// Pieces as far from a plane as the tolerance to within its rounding.
+    pub ambiguous: usize,
+    /// Those that a rounded distance alone would put on the wrong side.
+    pub wrong: usize,
+    /// The largest error of a coordinate, in lattice units.
+    pub worst_position: f64,
+}
+
+/// One face, cut by one plane after the other; one of the two parts is followed.
+pub struct Walk<'a> {
+    faces: &'a Faces,
+    face: u32,
+    exact: Face,
+    piece: Vec<ExactVertex>,
+    outline: Vec<model::Vertex>,
+    whole: bool,
+    tally: &'a mut Tally,
+}
+
+impl<'a> Walk<'a> {
+    pub fn new(faces: &'a Faces, face: u32, tally: &'a mut Tally) -> Self {
+        let exact = Face::new(faces, face);
+        let corners = 0..faces.corners(face).len() as u32;
+        let piece = corners.map(|k| Exact.corner(faces, face, k)).collect();
+        let outline = exact.outline();
+        Self { faces, face, exact, piece, outline, whole: true, tally }
+    }
+
+    /// Holds the piece against a plane, and cuts it if the plane does.
+    pub fn step(&mut self, plane: PlaneId, keep_back: bool) -> Verdict {
+        let splitter = Exact.splitter(self.faces, plane);
+        let by = model::plane(self.faces, plane);
+        let values: Vec<Rational> = self.outline.iter().map(|v| by.at(&v.point)).collect();
+        for (vertex, value) in self.piece.clone().iter().zip(&values) {
+            let side = Exact.side(self.faces, &splitter, self.face, vertex);
+            let is_right = side == rational::sign(value);
+            ensure(is_right, || format!("{vertex:?} is {side:?} of {plane:?}"))?;
+            self.check_distance(plane, &splitter, vertex, value)?;
+        }
+        let cut = (!self.whole).then_some(&*self.piece);
+        let side = Exact.classify(self.faces, &splitter, Piece { face: self.face, cut });
+        let allowed = self.exact.classify((self.faces, self.face), (plane, &by), &values);
+        ensure(allowed.contains(&side), || format!("{side:?} and not {allowed:?} of {plane:?}"))?;
+        self.tally.pieces += 1;
+        self.tally.moved += usize::from(self.exact.moved);
+        self.tally.ambiguous += usize::from(allowed.iter().any(|other| other != &side));
+        let spans =
+            values.iter().any(Signed::is_positive) && values.iter().any(Signed::is_negative);
+        self.tally.tolerated += usize::from(spans && side != Side::Spanning);
+        if side == Side::Spanning {
+            self.cut(plane, &splitter, &values, keep_back)?;
+        }
+        Ok(())
+    }
+
+    fn cut(
+        &mut self,
+        plane: PlaneId,
+        splitter: &<Exact as Kernel>::Splitter,
+        values: &[Rational],
+        keep_back: bool,
+    ) -> Verdict {
+        self.tally.cuts += 1;
+        let (mut front, mut back) = (Vec::new(), Vec::new());
+        split(&Exact, self.faces, splitter, self.face, &self.piece, &mut front, &mut back);
+        let parts = [false, true].map(|behind| model::clip(&self.outline, values, plane, behind));
+        self.check_part(&front, &parts[0])?;
+        self.check_part(&back, &parts[1])?;
+        let areas = [&front, &back, &self.piece].map(|piece| rational::area(&self.resolve(piece)));
+        let sum = rational::sum(&areas[0], &areas[1]);
+        ensure(sum == areas[2], || "area is lost".into())?;
+        let [exact_front, exact_back] = parts;
+        (self.piece, self.outline) =
+            if keep_back { (back, exact_back) } else { (front, exact_front) };
+        self.whole = false;
+        Ok(())
+    }
+
+    fn resolve(&self, piece: &[ExactVertex]) -> Vec<Point> {
+        piece.iter().map(|v| self.exact.resolve(self.faces, v.symbol())).collect()
+    }
+
+    fn check_part(&mut self, part: &[ExactVertex], expected: &[model::Vertex]) -> Verdict {
+        let is_proper = part.len() >= 3 && part.len() == expected.len();
+        ensure(is_proper, || format!("{part:?}, not {expected:?}"))?;
+        for ((vertex, point), expected) in part.iter().zip(self.resolve(part)).zip(expected) {
+            let is_same = vertex.line() == expected.line && point == expected.point;
+            ensure(is_same, || format!("{vertex:?}, not {expected:?}"))?;
+            let error = rational::distance_to_rounded(&point, vertex.position());
+            self.tally.worst_position = self.tally.worst_position.max(error);
+            ensure(error <= POSITION_ERROR, || format!("{vertex:?} is {error} off"))?;
+            let stored = Exact.store(vertex);
+            let restored = Exact.restore(self.faces, self.face, &stored);
+            let parts = |v: &ExactVertex| (v.position(), v.symbol(), v.line());
+            ensure(parts(&restored) == parts(vertex), || format!("{vertex:?} is not stored"))?;
+            let by_two_cuts = matches!(vertex.symbol().kind(), SymbolKind::Inside(..));
+            self.tally.inside += usize::from(by_two_cuts);
+        }
+        Ok(())
+    }
+
+    fn check_distance(
+        &mut self,
+        plane: PlaneId,
+        splitter: &<Exact as Kernel>::Splitter,
+        vertex: &ExactVertex,
+        exact: &Rational,
+    ) -> Verdict {
+        let rounded = splitter.distance(vertex.position());
+        let bound = stated_bound(self.faces, plane);
+        if self.faces.tolerance() == 0.0 {
+            // Without a tolerance the slack is the bound that the filter goes by.
+            let is_enough = splitter.slack() >= bound * (1.0 - 1e-12);
+            ensure(is_enough, || format!("the slack at {plane:?}"))?;
+        }
+        if rounded != 0.0 && rational::sign(&rational::exact(rounded)) != rational::sign(exact) {
+            let error = rounded.abs() / bound;
+            ensure(error <= 1.0, || format!("{error} of the bound for {vertex:?} at {plane:?}"))?;
+            self.tally.wrong += 1;
+        }
+        self.tally.signs += 1;
+        self.tally.undecided += usize::from(rounded.abs() <= bound);
+        self.tally.on_plane += usize::from(rational::sign(exact).is_eq());
+        Ok(())
+    }
+}
+
+/// The bound of a distance of the wrong sign: 9.2 επm, π the sum of the magnitudes of the products
+/// that the normal is made of; for an axis 3.05 εm.
+fn stated_bound(faces: &Faces, plane: PlaneId) -> f64 {
+    let unit = 2f64.powi(-53) * 2f64.powi(51);
+    let PlaneKind::Face(face) = plane.kind() else { return 3.05 * unit };
+    let [p, q, r] = faces.reference_triangle(face).map(|c| faces.corner(c));
+    let product = |i: usize, j: usize| ((q[i] - p[i]) * (r[j] - p[j])).abs();
+    let pairs = [(0, 1), (1, 0), (1, 2), (2, 1), (2, 0), (0, 2)];
+    let size: f64 = pairs.into_iter().map(|(i, j)| product(i, j)).sum();
+    9.2 * unit * size
+}
