@@ -27,7 +27,7 @@ fn room() -> Scene {
             );
         }
     }
-    let triangles = triangles(&mut dice, times(300), [-4.0, 4.0], 1.0);
+    let triangles = triangles(&mut dice, times(150), [-4.0, 4.0], 1.0);
     triangles.into_iter().for_each(|triangle| scene.push(triangle, 0));
     scene
 }
