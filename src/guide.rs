@@ -78,7 +78,7 @@ pub mod files {}
 pub mod cells {}
 
 #[doc = links!()]
-/// What is exact, and what the tolerance allows: [`Tolerance`](crate::Tolerance).
+/// Exactness and the coplanar [`Tolerance`](crate::Tolerance).
 #[doc = ""]
 #[doc = include_str!("../docs/guide/exact.md")]
 pub mod exact {}

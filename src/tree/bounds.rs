@@ -167,8 +167,8 @@ impl PartialEq for Bounds {
 }
 
 impl Bounds {
-    /// Panics if these are the bounds of another tree: a stale box would leave out what is to be seen or
-    /// hit.
+    /// Panics if the bounds belong to another tree: stale boxes would leave out fragments that are visible
+    /// or hit.
     pub(crate) fn expect(&self, tree: &BspTree) {
         assert!(
             self.generation == tree.generation,

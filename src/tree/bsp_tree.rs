@@ -250,7 +250,7 @@ pub struct BspTree {
     pub(super) positions: Vec<[f64; 3]>,
     /// How many times the builder cut a piece in two.
     pub(super) cuts: usize,
-    /// Which tree it is, so that what was made from another one is refused. Clones have the same.
+    /// Identifies the tree, so that overlays, bounds and meshes of other trees are refused. Clones share it.
     pub(crate) generation: u64,
 }
 

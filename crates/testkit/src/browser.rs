@@ -69,9 +69,9 @@ pub fn eye_at(tree: &BspTree, point: [f64; 3]) -> Option<Viewpoint> {
     (at - away == grid.base && at - grid.base == away).then_some(Viewpoint::Eye(at))
 }
 
-/// Turns the camera of a page once around its scene, without edges and then with all, in so many pictures each.
-/// Each picture is painted, it is another one than before, and its order is the library's; the middle times of a
-/// picture in milliseconds.
+/// Turns the camera of a page around its scene twice: first without edges, then with all edges.
+/// Asserts that each picture is painted, differs from the last, and has the library's order. Returns the median time
+/// of a picture in milliseconds, without and with edges.
 pub fn turn(browser: &str, folder: &Path, page: &str, tree: &BspTree, pictures: u32) -> [f64; 2] {
     let script = format!(
         "[CANVAS.width, CANVAS.height] = [1280, 720];

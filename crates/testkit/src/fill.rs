@@ -104,7 +104,7 @@ impl Picture {
     }
 }
 
-/// What was compared.
+/// Counts of compared pictures, pixels, paths and rays.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Score {
     pub pictures: usize,

@@ -23,8 +23,9 @@ pub struct Oracle<'t> {
     faces: Vec<Face>,
     /// The same in rationals, as far as they were asked for.
     models: Vec<OnceLock<model::Face>>,
-    /// The same in floats, with balls around them, to pass over what is far from a ray.
+    /// Each face in floats, with a bounding ball.
     rough: Vec<Rough>,
+    /// Bounding balls of [`RUN`] faces in a row.
     balls: Vec<Rough>,
     /// Where the lattice's origin is, and the exponent of the length of its steps.
     origin: DVec3,

@@ -11,7 +11,7 @@ use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
-/// What was compared.
+/// Counts of compared pixels, their layers, polygons, paths, regions and rays.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Layers {
     pub pixels: usize,

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// How many bytes are read at once of what is no regular file.
+/// Bytes read at once from a device or a pipe.
 const CHUNK: u64 = 1 << 16;
 
 /// The bytes of a file; of a device or a pipe, at most up to the first zero byte and the chunk that it is
@@ -44,8 +44,7 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// Whether a path leads to a pipe that has a name. (What is behind `/dev/stdin`, or passed by a shell, has
-/// none, and somebody who writes to it.)
+/// Whether a path leads to a named pipe. (Pipes without a name, as behind `/dev/stdin`, have a writer.)
 #[cfg(unix)]
 fn is_named_pipe(path: &Path) -> bool {
     use std::os::unix::fs::FileTypeExt;

@@ -16,7 +16,7 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
     let polygons = decode::polygons(bytes, 8)?;
     let Ok((faces, _)) = Faces::new(&polygons, tolerance) else {
         let refused = polygons.iter().flatten().any(|corner| !corner.is_finite());
-        // Without ear clipping, what is not convex is refused.
+        // Only coordinates that are not finite are refused.
         assert!(refused, "{polygons:?}");
         return Ok(());
     };
