@@ -1,11 +1,12 @@
 //! Decides which pixels a piece of a face covers.
 //!
 //! A pixel is covered if its ray meets the piece, which is so if it passes inside all lines that
-//! bound the piece. A ray that meets an edge of a face exactly counts as moved a little (see
-//! [`Seen::tie`]), so that of two faces that share the edge it meets just one. A ray that meets a
-//! cut exactly belongs to the piece in front. So the pieces of a face tile it, and the faces of a
-//! closed surface tile its picture: no pixel is left out, none is covered twice. Faces seen exactly
-//! edge-on cover nothing.
+//! bound the piece. A ray that meets a line exactly is treated as moved by an infinitesimal step, the
+//! same for all lines (see [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So
+//! the pieces of a face tile it, and the faces of a closed surface tile its picture: no pixel is left
+//! out, none is covered twice. The moved ray lies in no partition plane, not even in one that
+//! contains the eye, so the piece that is nearer at the pixel is also later in a back-to-front order.
+//! Faces seen exactly edge-on cover nothing.
 //!
 //! The functions of lines are in homogeneous coordinates, so that nothing is clipped at the eye:
 //! Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
@@ -26,9 +27,6 @@ pub(super) struct Coverage<'a> {
     pub(super) seen: Seen<'a>,
     pub(super) lines: SmallVec<[Boundary; 8]>,
     pub(super) window: Window,
-    /// Whether some edges of the face are not among the lines. Then a pixel exactly on a line must
-    /// also be tested against the whole face.
-    partial: bool,
 }
 
 impl<'a> Coverage<'a> {
@@ -71,8 +69,7 @@ impl<'a> Coverage<'a> {
         if rays.is_perspective() && !cone {
             add(Source::Ahead);
         }
-        let partial = matches!(outline, Outline::Lines { .. });
-        Some(Self { seen, lines, window, partial })
+        Some(Self { seen, lines, window })
     }
 
     /// Whether a pixel is covered.
@@ -94,34 +91,9 @@ impl<'a> Coverage<'a> {
 
     #[cold]
     fn covers_exactly(&self, x: u32, y: u32) -> bool {
-        let mut on_a_line = false;
-        for line in &self.lines {
+        self.lines.iter().all(|line| {
             let side = self.seen.exact(line.source, x, y);
-            on_a_line |= side.is_eq();
-            // A ray exactly on a line: of the two pieces along a cut the one in front covers the
-            // pixel; of the faces along an edge the one that a ray moved a little would meet.
-            let inside = side.is_gt()
-                || side.is_eq()
-                    && match line.source {
-                        Source::Edge(_) | Source::Upright(..) => self.seen.tie(line.source).is_gt(),
-                        Source::Cut(cut) => !cut.is_behind(),
-                        Source::Ahead => false,
-                    };
-            if !inside {
-                return false;
-            }
-        }
-        // The ray may meet a vertex where cuts meet on an edge of the face that is not among the
-        // piece's lines: that edge's tie must be respected too.
-        !(on_a_line && self.partial) || self.face_covers(x, y)
-    }
-
-    /// Whether the whole face covers a pixel.
-    fn face_covers(&self, x: u32, y: u32) -> bool {
-        (0..self.seen.faces.corners(self.seen.face).len()).all(|k| {
-            let edge = self.seen.edge_source(k);
-            let side = self.seen.exact(edge, x, y);
-            side.is_gt() || side.is_eq() && self.seen.tie(edge).is_gt()
+            side.is_gt() || side.is_eq() && self.seen.tie(line.source).is_gt()
         })
     }
 }

@@ -80,9 +80,8 @@ impl Seen<'_> {
         self.oriented(source, self.rays.pixel(x, y))
     }
 
-    /// On which side of an edge a ray counts that meets it exactly, so that of two faces that share
-    /// the edge it meets just one: the ray counts as moved a little to the right, and by much less
-    /// downwards, which matters if the edge runs to the right.
+    /// The side of a line for a ray that meets it exactly. The ray is treated as moved a little to the
+    /// right, and by much less downwards, which matters if the line runs to the right.
     pub(super) fn tie(&self, source: Source) -> Ordering {
         let right = self.oriented(source, Given::Step(self.rays.right));
         if right.is_ne() { right } else { self.oriented(source, Given::Step(self.rays.down)) }

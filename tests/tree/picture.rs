@@ -1,10 +1,11 @@
 //! The painter's picture of a hard scene against the depth buffer's, which knows no tree.
 
-use binspace::BspTree;
 use binspace::glam::DVec3;
-use binspace::raster::Verdict;
+use binspace::paint::paint_tree;
+use binspace::raster::{Image, Verdict, zbuffer};
 use binspace::verify::{Verification, verify};
 use binspace::view::{Camera, views};
+use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use testkit::enough;
@@ -108,6 +109,42 @@ fn the_painter_is_right_from_eyes_in_planes_and_corners() {
         Ok(())
     });
     compared.assert_floor(150);
+}
+
+/// The eye and the ray lie in the plane of the last polygon, which cuts the polygon nearest to the ray and
+/// which another one touches there: the two were assigned to different sides of the plane.
+#[test]
+fn the_painter_is_right_along_a_partition_plane() {
+    let points = |corners: &[[f64; 3]]| -> Vec<DVec3> {
+        corners.iter().map(|&corner| DVec3::from_array(corner)).collect()
+    };
+    let polygons = [
+        points(&[[0., 0., 1.], [0., 0., 0.], [0., 2., 0.]]),
+        points(&[[3., 0., 2.999997], [-2., -1., 0.], [2., 0., -1.], [0., 2., 3.], [0., 0., 3.]]),
+        points(&[
+            [0., 4., 3.],
+            [0., 0., -2.],
+            [0., -0.059, 1.],
+            [0., 4., 3.],
+            [3., 0., 0.],
+            [0., 1., 1.],
+            [0., -1., 0.],
+        ]),
+        points(&[[0., 0., 0.], [-5., 5., 2.], [3., 0., 0.]]),
+    ];
+    let eye = DVec3::new(-4.0, 0.0, 0.0);
+    let camera = Camera::perspective_by_slope(eye, DVec3::ZERO, DVec3::Y, 0.5, [1, 1]).unwrap();
+    for seed in 0..100 {
+        let tree = BuildOptions::default()
+            .with_heuristic(Heuristic::Random { seed })
+            .build(&polygons)
+            .unwrap();
+        check(&tree, &camera).unwrap();
+        let rays = binspace::raster::Rays::new(&camera, tree.faces()).unwrap();
+        let painted = paint_tree(&tree, camera.viewpoint(), &rays);
+        let polygon = |image: &Image| tree.faces().polygon(image.faces()[0]);
+        assert_eq!(polygon(&painted), polygon(zbuffer(&rays, tree.faces()).image()), "{seed}");
+    }
 }
 
 /// Where nothing is tied, the order of the input is no matter.

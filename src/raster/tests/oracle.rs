@@ -128,18 +128,18 @@ pub(crate) fn meets_piece(
     lines: &[Line],
     [x, y]: [u32; 2],
 ) -> bool {
-    if meets(rays, faces, face, x, y).is_none() {
-        return false;
-    }
-    let Some((Point(point, divisor), _)) = hit(rays, faces, face, &ray_of(rays, x, y, false))
-    else {
-        return false;
-    };
-    let cuts = lines.iter().filter_map(|line| Some((line.as_cut()?, line.is_behind())));
-    cuts.into_iter().all(|(cut, behind)| {
+    let side = |moved, cut| {
+        let (Point(point, divisor), _) = hit(rays, faces, face, &ray_of(rays, x, y, moved))?;
         let (n, p) = named(faces, cut);
-        dot(&n, &minus(&point, &times(&p, &divisor))).is_negative() == behind
-    })
+        Some(dot(&n, &minus(&point, &times(&p, &divisor))))
+    };
+    let is_inside = |line: &Line| {
+        let Some(cut) = line.as_cut() else { return true };
+        let Some(value) = side(false, cut) else { return false };
+        let value = if value.is_zero() { side(true, cut).expect("a face met") } else { value };
+        value.is_negative() == line.is_behind()
+    };
+    meets(rays, faces, face, x, y).is_some() && lines.iter().all(is_inside)
 }
 
 /// The normal of any plane and a point on it.
