@@ -237,11 +237,13 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon, from its corner to the next one that is elsewhere on the lattice.
+/// An edge of a polygon, from its corner to the next one that is elsewhere on the lattice; both snapped, as
+/// rounding turns an edge of a few steps.
 fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
-    let a = corners[edge];
-    let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len());
-    [a, *next.find(|&&next| lattice.snap(next) != lattice.snap(a)).unwrap_or(&a)]
+    let snapped = |corner: &DVec3| lattice.snap(*corner);
+    let a = snapped(&corners[edge]);
+    let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len()).map(snapped);
+    [a, next.find(|&next| next != a).unwrap_or(a)].map(|point| lattice.to_world(point))
 }
 
 /// How far along an edge of a face a point on it is: 0 to 1.
