@@ -221,14 +221,15 @@ impl<'t> Judge<'t> {
                     format!("weights {weights:?} are {off:e} off {vertex} in {fragment:?}")
                 })?;
             }
-            let vertices: Vec<_> = fragment.vertices().collect();
+            // In lattice units, in which no length overflows.
+            let vertices: Vec<_> = fragment.lattice_vertices().map(DVec3::from_array).collect();
+            let allowed = 8.0 * (2.0 * faces.tolerance() + 1.0);
             for (i, edge) in fragment.edges().enumerate() {
                 let Some(edge) = edge else { continue };
                 let [a, b] = ends_of_edge(lattice, corners, edge as usize);
+                let arm = (b - a).normalize_or_zero();
                 for vertex in [vertices[i], vertices[(i + 1) % vertices.len()]] {
-                    let arm = (b - a) / (b - a).length().max(f64::MIN_POSITIVE);
-                    let offset = vertex - a;
-                    let off = (offset - arm * offset.dot(arm)).length();
+                    let off = (vertex - a - arm * (vertex - a).dot(arm)).length();
                     ensure(off <= allowed, || format!("{vertex} is {off:e} off edge {edge}"))?;
                 }
             }
@@ -237,13 +238,12 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon, from its corner to the next one that is elsewhere on the lattice; both snapped, as
-/// rounding turns an edge of a few steps.
+/// An edge of a polygon on the lattice, from its corner to the next one that is elsewhere.
 fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
-    let snapped = |corner: &DVec3| lattice.snap(*corner);
+    let snapped = |corner: &DVec3| DVec3::from_array(lattice.snap(*corner));
     let a = snapped(&corners[edge]);
     let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len()).map(snapped);
-    [a, next.find(|&next| next != a).unwrap_or(a)].map(|point| lattice.to_world(point))
+    [a, next.find(|&next| next != a).unwrap_or(a)]
 }
 
 /// How far along an edge of a face a point on it is: 0 to 1.
