@@ -135,7 +135,7 @@ fn flat(along: &Point, way: &Point) -> [Rational; 2] {
     // Any direction that is not the line's spans the plane across it.
     let axis = (0..3).find(|&i| !along[i].is_zero()).unwrap();
     let mut other = [(); 3].map(|()| Rational::zero());
-    other[(axis + 1) % 3] = Rational::from_integer(1.into());
+    other[(axis + 1) % 3] = Rational::from(1);
     let x = rational::product(along, &other);
     let y = rational::product(along, &x);
     [rational::scalar(&x, way), rational::scalar(&y, way)]

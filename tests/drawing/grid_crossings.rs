@@ -9,7 +9,6 @@ use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Ray};
-use num_traits::{ToPrimitive, Zero};
 use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
@@ -61,8 +60,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
         Origin::Eye(eye) => face.plane.at(eye).is_zero(),
         Origin::Along(way) => rational::scalar(&face.plane.normal, way).is_zero(),
     };
-    let world =
-        |point: &Point| lattice.to_world(point.each_ref().map(|c| c.to_f64().expect("in range")));
+    let world = |point: &Point| lattice.to_world(point.each_ref().map(|c| c.to_f64().value()));
     // Where polygons cross, or may do so.
     let mut lines: Vec<([usize; 2], [DVec3; 2])> = vec![];
     for (i, (p, a)) in sightlines.faces.iter().enumerate() {

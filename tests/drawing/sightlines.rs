@@ -4,7 +4,7 @@ use binspace::glam::DVec3;
 use binspace::internals::Lattice;
 use binspace::view::Camera;
 use binspace::{BspTree, Viewpoint};
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
 use testkit::model::Face;
 use testkit::rational::{self, Point, Rational};
@@ -163,7 +163,7 @@ impl Sightlines {
 }
 
 fn to_f64(point: &Point) -> DVec3 {
-    DVec3::from_array(point.each_ref().map(|c| c.to_f64().expect("in range")))
+    DVec3::from_array(point.each_ref().map(|c| c.to_f64().value()))
 }
 
 /// The segment that two faces have in common, if they are not in one plane.

@@ -1,7 +1,7 @@
 //! Planes and signs in big integers.
 
-use num_bigint::BigInt;
-use num_traits::{ToPrimitive, Zero};
+use dashu_int::IBig;
+use num_traits::Zero;
 use std::cmp::Ordering;
 use testkit::vector::main_axis;
 
@@ -12,18 +12,18 @@ use super::scene::{Point, minus};
 /// A vector of whole numbers below 2¹²⁰.
 pub(crate) type Vector = [i128; 3];
 
-pub(crate) type Big = [BigInt; 3];
+pub(crate) type Big = [IBig; 3];
 
 pub(crate) fn big(v: Vector) -> Big {
-    v.map(BigInt::from)
+    v.map(IBig::from)
 }
 
 pub(crate) fn wide(p: Point) -> Vector {
     p.map(i128::from)
 }
 
-pub(crate) fn float(value: &BigInt) -> f64 {
-    value.to_f64().expect("a number in range")
+pub(crate) fn float(value: &IBig) -> f64 {
+    value.to_f64().value()
 }
 
 /// Rounding in `f64` is believed beyond this share of the sum of magnitudes: a hundred times what
@@ -51,7 +51,7 @@ pub(crate) fn turn(rows: [&Vector; 3]) -> Ordering {
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     pub(crate) normal: Big,
-    pub(crate) offset: BigInt,
+    pub(crate) offset: IBig,
     /// The same, rounded.
     pub(crate) rounded: [f64; 4],
 }
@@ -68,7 +68,7 @@ impl Plane {
     pub(crate) fn of(polygon: &[Point]) -> Self {
         let first = polygon[0];
         let from_first = |p: Point| big(wide(minus(p, first)));
-        let mut normal = [0, 0, 0].map(BigInt::from);
+        let mut normal = [0, 0, 0].map(IBig::from);
         for pair in polygon[1..].windows(2) {
             let part = product(&from_first(pair[0]), &from_first(pair[1]));
             normal.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
@@ -77,7 +77,7 @@ impl Plane {
     }
 
     pub(crate) fn across(axis: usize, at: i64) -> Self {
-        let mut normal = [0, 0, 0].map(BigInt::from);
+        let mut normal = [0, 0, 0].map(IBig::from);
         normal[axis] = 1.into();
         Self::new(normal, [at; 3])
     }
@@ -87,7 +87,7 @@ impl Plane {
         self.normal.iter().any(|c| !c.is_zero())
     }
 
-    pub(crate) fn at(&self, p: Point) -> BigInt {
+    pub(crate) fn at(&self, p: Point) -> IBig {
         scalar(&self.normal, &big(wide(p))) - &self.offset
     }
 
@@ -129,12 +129,12 @@ impl Plane {
 #[derive(Clone, Debug)]
 pub(crate) struct Spot {
     pub(crate) numerators: Big,
-    pub(crate) denominator: BigInt,
+    pub(crate) denominator: IBig,
     pub(crate) rounded: [f64; 3],
 }
 
 impl Spot {
-    pub(crate) fn new(numerators: Big, denominator: BigInt) -> Self {
+    pub(crate) fn new(numerators: Big, denominator: IBig) -> Self {
         let below = float(&denominator);
         let rounded = numerators.each_ref().map(|c| float(c) / below);
         Self { numerators, denominator, rounded }

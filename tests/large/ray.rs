@@ -1,6 +1,6 @@
 //! Rays against the polygons as they were given: what is hit, exactly sorted.
 
-use num_bigint::BigInt;
+use dashu_int::IBig;
 use std::cmp::Ordering;
 
 use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
@@ -24,7 +24,7 @@ pub(crate) struct Hit {
     pub(crate) polygon: usize,
     pub(crate) spot: Spot,
     /// How far along the ray: a fraction, the denominator above 0.
-    depth: [BigInt; 2],
+    depth: [IBig; 2],
     rounded: f64,
 }
 

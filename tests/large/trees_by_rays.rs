@@ -158,7 +158,7 @@ impl<'t> Court<'t> {
         let steps = rational::exact(lattice.length_to_lattice(1.0));
         let exact = |x: f64| rational::exact(x);
         for axis in 0..3 {
-            let eye = rational::Rational::new(eye[axis].into(), (*below).into());
+            let eye = rational::Rational::from_parts_signed(eye[axis].into(), (*below).into());
             let moved = exact(there[axis]) - exact(corner[axis]);
             ensure(moved == (eye - exact(here[axis])) * &steps, || "the eye has moved".into())?;
         }

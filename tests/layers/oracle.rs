@@ -2,7 +2,7 @@
 
 use super::Rect;
 use binspace::glam::{DMat4, DVec2};
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::Signed;
 use testkit::rational::{Rational, exact, sign};
 
 pub(crate) type Point2 = [Rational; 2];
@@ -105,7 +105,11 @@ fn keep(
 /// Twice the area of an outline, positive if it runs from u towards v.
 pub(crate) fn area(outline: &[Point2]) -> Rational {
     let next = outline.iter().cycle().skip(1);
-    outline.iter().zip(next).map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0]).sum()
+    outline
+        .iter()
+        .zip(next)
+        .map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0])
+        .fold(Rational::ZERO, |sum, term| sum + term)
 }
 
 /// Whether a point is inside a convex outline of either orientation, and not on it.
@@ -127,5 +131,5 @@ pub(crate) fn covers(outline: &[DVec2], rounded: DVec2, at: &Point2) -> bool {
 }
 
 pub(crate) fn number(value: &Rational) -> f64 {
-    value.to_f64().expect("in range")
+    value.to_f64().value()
 }

@@ -4,7 +4,7 @@ use super::oracle::{Point2, area, number};
 use super::{Given, VIEWPORT, page_of, pages, wild};
 use binspace::glam::DVec3;
 use binspace::layers::LayerVertex;
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;

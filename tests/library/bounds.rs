@@ -3,7 +3,7 @@
 //! exist, so the bound is hardly larger than necessary.
 
 use binspace::internals::{Exact, ExactVertex, Faces, Kernel, Piece, PlaneId, Side, Vertex};
-use num_bigint::BigInt;
+use dashu_int::IBig;
 use num_traits::{Signed, ToPrimitive, Zero};
 use testkit::dice::Dice;
 use testkit::enough;
@@ -28,27 +28,27 @@ fn faces(triangles: &[Triangle]) -> Faces {
 
 /// What a plane is sought past: a place as numerators over a denominator, and as it is rounded.
 struct Place {
-    over: [BigInt; 3],
-    denominator: BigInt,
+    over: [IBig; 3],
+    denominator: IBig,
     rounded: [f64; 3],
 }
 
 impl Place {
     fn corner(at: [i64; 3]) -> Self {
         let rounded = at.map(|c| c as f64);
-        Self { over: at.map(BigInt::from), denominator: 1.into(), rounded }
+        Self { over: at.map(IBig::from), denominator: 1.into(), rounded }
     }
 
     /// The rounded coordinate less the exact one.
     fn error(&self, axis: usize) -> f64 {
-        let eighths = BigInt::from((self.rounded[axis] * 8.0) as i128) * &self.denominator;
-        let off: BigInt = eighths - &self.over[axis] * 8;
-        off.to_f64().expect("in range") / self.denominator.to_f64().expect("in range") / 8.0
+        let eighths = IBig::from((self.rounded[axis] * 8.0) as i128) * &self.denominator;
+        let off: IBig = eighths - &self.over[axis] * 8;
+        off.to_f64().value() / self.denominator.to_f64().value() / 8.0
     }
 }
 
 /// A triangle's plane at a place, exactly, times the denominator; and its normal.
-fn exactly(triangle: &Triangle, place: &Place) -> (BigInt, [i128; 3]) {
+fn exactly(triangle: &Triangle, place: &Place) -> (IBig, [i128; 3]) {
     let [p, q, r] = triangle;
     let arm = |to: &[i64; 3]| [0, 1, 2].map(|i| i128::from(to[i] - p[i]));
     let (u, w) = (arm(q), arm(r));
@@ -167,7 +167,7 @@ fn vertex(triangle: &Triangle, level: i64, others: &[Triangle]) -> (Faces, Exact
 
 fn cut(triangle: &Triangle, level: i64) -> Place {
     let [a, b, _] = triangle;
-    let [above, below] = [a[1] - level, level - b[1]].map(BigInt::from);
+    let [above, below] = [a[1] - level, level - b[1]].map(IBig::from);
     let over = [0, 1, 2].map(|i| &below * a[i] + &above * b[i]);
     let rounded = vertex(triangle, level, &[]).1.position();
     Place { over, denominator: above + below, rounded }
@@ -196,7 +196,7 @@ fn a_bound_of_three_quarters_would_put_a_cut_vertex_on_the_wrong_side_of_a_plane
     let splitter = Exact.splitter(&faces, PlaneId::face(1));
     assert!(splitter.distance(vertex.position()) > 0.75 * splitter.slack());
     let side = Exact.side(&faces, &splitter, 2, &vertex);
-    assert_eq!(side, exactly(&plane, place).0.cmp(&BigInt::zero()));
+    assert_eq!(side, exactly(&plane, place).0.cmp(&IBig::zero()));
     assert!(side.is_le());
 }
 
@@ -215,7 +215,7 @@ fn a_bound_of_six_tenths_would_put_a_corner_on_the_wrong_side_of_a_plane() {
     let splitter = Exact.splitter(&faces, PlaneId::face(1));
     assert!(splitter.distance(place.rounded) > 0.6 * splitter.slack());
     let side = Exact.side(&faces, &splitter, 2, &Exact.corner(&faces, 2, 0));
-    assert!(side.is_le() && side == exactly(&plane, place).0.cmp(&BigInt::zero()));
+    assert!(side.is_le() && side == exactly(&plane, place).0.cmp(&IBig::zero()));
 }
 
 /// A vertex may be rounded across the integer that a plane perpendicular to an axis stands at.
@@ -235,7 +235,7 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
                 let splitter = Exact.splitter(&faces, PlaneId::axis(axis, corner));
                 assert!(splitter.distance(vertex.position()) >= 0.25);
                 let side = Exact.side(&faces, &splitter, 2, &vertex);
-                assert_eq!(side, at.cmp(&BigInt::zero()));
+                assert_eq!(side, at.cmp(&IBig::zero()));
                 crossed += 1;
             }
         }

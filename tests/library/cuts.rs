@@ -2,7 +2,6 @@
 
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, SymbolKind, Vertex, split};
-use num_traits::Zero;
 use proptest::prelude::*;
 use std::collections::HashMap;
 use testkit::enough;

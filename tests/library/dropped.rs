@@ -3,8 +3,8 @@
 
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Lattice};
-use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
+use dashu_int::IBig;
+use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
@@ -14,12 +14,12 @@ use testkit::shapes::{self, Corners};
 use testkit::tally::tally;
 use testkit::vector::{difference, is_zero, product, scalar};
 
-type Vector = [BigInt; 3];
+type Vector = [IBig; 3];
 
 /// The corners on the lattice, those left out that are where the one before is.
 fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
     let mut corners: Vec<Vector> =
-        polygon.iter().map(|&p| lattice.snap(p).map(|c| BigInt::from(c as i64))).collect();
+        polygon.iter().map(|&p| lattice.snap(p).map(|c| IBig::from(c as i64))).collect();
     corners.dedup();
     while corners.len() > 1 && corners.first() == corners.last() {
         corners.pop();
@@ -42,7 +42,7 @@ fn is_run_through_both_ways(corners: &[Vector]) -> bool {
         let b = &corners[(i + 1) % corners.len()];
         // Parted where other corners lie on it.
         let arm = difference(b, a);
-        let mut along: Vec<(BigInt, &Vector)> = corners
+        let mut along: Vec<(IBig, &Vector)> = corners
             .iter()
             .filter(|corner| is_zero(&product(&arm, &difference(corner, a))))
             .map(|corner| (scalar(&arm, &difference(corner, a)), corner))
@@ -62,7 +62,7 @@ fn is_run_through_both_ways(corners: &[Vector]) -> bool {
 /// Twice the vector area.
 fn area(corners: &[Vector]) -> Vector {
     let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).fold([0, 0, 0].map(BigInt::from), |sum, (a, b)| {
+    corners.iter().zip(next).fold([0, 0, 0].map(IBig::from), |sum, (a, b)| {
         let part = product(a, b);
         std::array::from_fn(|i| &sum[i] + &part[i])
     })
@@ -76,8 +76,8 @@ fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
         return false;
     }
     let n = corners.len();
-    let count = BigInt::from(n);
-    let sum = corners.iter().fold([0, 0, 0].map(BigInt::from), |sum, corner| {
+    let count = IBig::from(n);
+    let sum = corners.iter().fold([0, 0, 0].map(IBig::from), |sum, corner| {
         std::array::from_fn(|i| &sum[i] + &corner[i])
     });
     let arms: Vec<Vector> =

@@ -28,7 +28,7 @@ fn planes(faces: &Faces) -> impl Iterator<Item = PlaneId> {
 fn side_of_direction(plane: &Plane, towards: &Point) -> Option<Ordering> {
     let value = rational::scalar(&plane.normal, towards);
     let size = |v: &Point| v.iter().map(Signed::abs).max().expect("three");
-    let doubt = size(&plane.normal) * size(towards) * Rational::from_integer(3.into());
+    let doubt = size(&plane.normal) * size(towards) * Rational::from(3);
     (value.abs() * power_of_two(50) > doubt).then(|| rational::sign(&value))
 }
 

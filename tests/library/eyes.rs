@@ -6,7 +6,6 @@ use std::cmp::Ordering;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Lattice};
 use binspace::{BuildOptions, Viewpoint};
-use num_traits::ToPrimitive;
 use testkit::dice::Dice;
 use testkit::rational::{self, Plane, Rational};
 use testkit::views::in_lattice;
@@ -73,8 +72,8 @@ fn triangle_beside(
 ) -> Option<([[f64; 3]; 3], Rational)> {
     const REACH: i128 = 1 << 49;
     let exact = in_lattice(lattice, eye);
-    let at = exact.each_ref().map(|c| c.to_integer().to_i128().expect("near enough"));
-    assert!(exact.iter().all(|c| c.is_integer()), "on the grid");
+    let at = exact.each_ref().map(|c| i128::try_from(c.numerator().clone()).expect("near enough"));
+    assert!(exact.iter().all(|c| c.is_int()), "on the grid");
     let mut any = |most: i128| i128::from(dice.roll() >> 8) % (2 * most + 1) - most;
     let p = [0; 3].map(|_| any(REACH));
     let way: [i128; 3] = std::array::from_fn(|i| at[i] - p[i]);

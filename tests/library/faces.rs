@@ -2,7 +2,7 @@
 
 use binspace::glam::DVec3;
 use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestCaseError;
@@ -31,7 +31,7 @@ fn assert_corners_are_the_input_s(
     }
     // Of a corner moved onto the plane, the nearest lattice point is kept.
     let exact = Face::new(faces, face);
-    let half = Rational::new(1.into(), 2.into());
+    let half = Rational::from_parts_signed(1.into(), 2.into());
     for (kept, exact) in faces.corners(face).iter().zip(&exact.corners) {
         let off = rational::difference(exact, &rational::point(*kept));
         prop_assert!(off.iter().all(|off| off.abs() <= half), "{exact:?} kept as {kept:?}");

@@ -4,9 +4,8 @@ use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::raster::Rays;
 use binspace::view::{Camera, Projection};
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use testkit::dice::Dice;
 use testkit::rational::{Point, exact, point, product, scalar};
 
@@ -28,7 +27,7 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     let rays = Rays::sampled(camera, faces, samples).ok()?;
     let axes = [camera.forward(), camera.right(), -camera.up()].map(point);
     let axes = axes.each_ref();
-    let rational = |v: [i128; 3]| v.map(|c| BigRational::from(BigInt::from(c)));
+    let rational = |v: [i128; 3]| v.map(|c| RBig::from(IBig::from(c)));
     let [width, height] = rays.size();
     let mut most = 0.0_f64;
     for [x, y] in [[0, 0], [width - 1, 0], [0, height - 1], [width - 1, height - 1]] {
@@ -47,7 +46,7 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
         let place =
             |at: u32, side: u32| (f64::from(at) - 0.5 * f64::from(side - 1)) / f64::from(samples);
         let expected = [place(x, width), place(y, height)].map(exact);
-        let off = [0, 1].map(|i: usize| (&found[i + 1] - &expected[i]).to_f64().unwrap());
+        let off = [0, 1].map(|i: usize| (&found[i + 1] - &expected[i]).to_f64().value());
         most = most.max(off[0].hypot(off[1]));
     }
     Some(most)

@@ -7,7 +7,6 @@ use std::fmt::Write;
 use binspace::glam::{DVec3, Vec3};
 use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, Heuristic, Ray, Viewpoint};
-use num_traits::ToPrimitive;
 use testkit::dice::Dice;
 use testkit::model;
 use testkit::rational::{self, Rational};
@@ -83,8 +82,7 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
         score.lost += usize::from(is_lost(tree, node.plane(), &square));
         // Beyond a limit on a side: by squares, as lengths are no rationals.
         let beyond = |corner: [f64; 3], limit: &Rational, side: i32| {
-            let value =
-                plane.at(&corner.map(rational::exact)) * Rational::from_integer(side.into());
+            let value = plane.at(&corner.map(rational::exact)) * Rational::from(side);
             rational::sign(&value).is_gt() && &value * &value > limit * limit * &square
         };
         for id in node.on() {
@@ -92,14 +90,14 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
             score.on += 1;
             for &corner in faces.corners(face) {
                 let is_off = [-1, 1].iter().any(|&side| beyond(corner, &limits[1], side));
-                let off = || plane.at(&corner.map(rational::exact)).to_f64().unwrap().abs();
+                let off = || plane.at(&corner.map(rational::exact)).to_f64().value().abs();
                 if is_off {
-                    let length = square.to_f64().unwrap().sqrt();
+                    let length = square.to_f64().value().sqrt();
                     let off = off() / length / faces.tolerance();
                     return Err(format!("face {face} is on {:?}, {off} τ off", node.plane()));
                 }
             }
-            let is_off = |corner: &[f64; 3]| beyond(*corner, &Rational::from_integer(0.into()), 1);
+            let is_off = |corner: &[f64; 3]| beyond(*corner, &Rational::from(0), 1);
             score.nearly_on += usize::from(faces.corners(face).iter().any(is_off));
         }
         for (range, side) in [(node.in_front(), 1), (node.behind(), -1)] {
@@ -123,7 +121,7 @@ fn is_lost(tree: &BspTree, plane: binspace::internals::PlaneId, square: &Rationa
     let binspace::internals::PlaneKind::Face(face) = plane.kind() else { return false };
     let triangle = tree.faces().reference_triangle(face);
     let [p, q, r] = triangle.map(|corner| DVec3::from(tree.faces().corner(corner)));
-    let length = square.to_f64().unwrap().sqrt();
+    let length = square.to_f64().value().sqrt();
     ((q - p).cross(r - p).length() - length).abs() > 1e-9 * length
 }
 

@@ -5,7 +5,6 @@ use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::{LATTICE_LIMIT, Line};
 use binspace::mesh::Mesh;
-use num_traits::ToPrimitive;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
@@ -137,11 +136,11 @@ pub(crate) fn check_moved(
         let facing = if rational::sign(&face.plane.normal[axis]).is_gt() { 1.0 } else { -1.0 };
         let outline: Vec<Point> =
             fragment.symbols().map(|symbol| face.resolve(faces, symbol)).collect();
-        let whole = facing * rational::area(&outline)[axis].to_f64().unwrap();
+        let whole = facing * rational::area(&outline)[axis].to_f64().value();
         let corners: HashMap<u32, DVec3> = (0..)
             .zip(&face.corners)
             .map(|(k, corner)| {
-                let at = corner.each_ref().map(|coordinate| coordinate.to_f64().unwrap());
+                let at = corner.each_ref().map(|coordinate| coordinate.to_f64().value());
                 (faces.corner_number(fragment.face(), k), DVec3::from_array(at))
             })
             .collect();

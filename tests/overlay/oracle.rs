@@ -5,7 +5,7 @@
 use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shape};
 use binspace::{BspTree, Viewpoint};
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed};
 use std::cmp::Ordering;
 
 use crate::overlay::sight::{
@@ -154,7 +154,7 @@ impl Judge<'_> {
                     continue;
                 }
                 let Some((shares, ratio)) = crossing(&self.eye, a, b) else { continue };
-                let [of_a, of_b] = shares.map(|share| share.to_f64().expect("in range"));
+                let [of_a, of_b] = shares.map(|share| share.to_f64().value());
                 let pieces = (self.painted.piece_at(i, of_a), self.painted.piece_at(j, of_b));
                 let (Some(a), Some(b)) = pieces else { continue };
                 let (far, near) = match ratio.cmp(&Rational::one()) {
@@ -252,7 +252,7 @@ impl Judge<'_> {
                     continue;
                 }
                 let Some(share) = share_in_line(&self.eye, x, ends) else { continue };
-                let share = share.to_f64().expect("in range");
+                let share = share.to_f64().value();
                 let [from, to] = piece.shares;
                 if from + NEAR < share && share < to - NEAR {
                     let [off, on] = self.in_line(overlay, (x, place), (ends, piece.place))?;

@@ -1,7 +1,7 @@
 //! Rays from an eye through segments and faces, in rationals.
 
 use binspace::glam::DVec3;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 
 use testkit::model::Face;
 use testkit::rational::{self, Plane, Point, Rational};
@@ -10,7 +10,7 @@ use testkit::rational::{self, Plane, Point, Rational};
 pub(crate) const GRID: f64 = (1u64 << 51) as f64;
 
 pub(crate) fn to_f64(point: &Point) -> DVec3 {
-    DVec3::from_array(point.each_ref().map(|c| c.to_f64().expect("in range")))
+    DVec3::from_array(point.each_ref().map(|c| c.to_f64().value()))
 }
 
 pub(crate) fn between([p, q]: &[Point; 2], share: &Rational) -> Point {

@@ -3,7 +3,6 @@
 use binspace::glam::DVec3;
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, Child, Heuristic, Ray};
-use num_traits::Zero;
 use std::cmp::Ordering;
 use testkit::dice::Dice;
 use testkit::enough;

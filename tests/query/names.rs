@@ -2,21 +2,21 @@
 
 use binspace::glam::DVec3;
 use binspace::{BspTree, Grid, Ray, scene};
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 use testkit::dice::Dice;
 use testkit::enough;
 use testkit::rational::{self, Plane, Point, Rational};
 use testkit::shots::Shots;
 
 fn world(grid: Grid, point: [i64; 3]) -> Point {
-    let two = Rational::from_integer(2.into());
+    let two = Rational::from(2);
     let step = if grid.exponent >= 0 {
         num_traits::pow(two, grid.exponent as usize)
     } else {
-        num_traits::pow(two, -grid.exponent as usize).recip()
+        Rational::ONE / num_traits::pow(two, -grid.exponent as usize)
     };
     let base = rational::point(grid.base);
-    std::array::from_fn(|i| &base[i] + &step * Rational::from_integer(point[i].into()))
+    std::array::from_fn(|i| &base[i] + &step * Rational::from(point[i]))
 }
 
 fn plane(grid: Grid, points: [[i64; 3]; 3]) -> Plane {
@@ -73,7 +73,7 @@ fn hits_can_be_computed_again_from_points_of_the_grid() {
                 assert_eq!(hit.facing(), slope.reverse());
                 in_plane += usize::from(slope.is_eq());
                 assert!(t >= last, "{hit:?}");
-                let rounded = t.to_f64().expect("in range");
+                let rounded = t.to_f64().value();
                 assert!((hit.parameter() - rounded).abs() <= rounded.abs() * 2f64.powi(-51));
                 let off = rational::distance_to_rounded(&point, hit.point().to_array());
                 assert!(off <= 1e-12 * (1.0 + hit.point().abs().max_element()), "{off} {hit:?}");
@@ -110,9 +110,9 @@ fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
         }
         for node in tree.nodes() {
             let exact = plane(grid, node.grid_points());
-            let normal = DVec3::from_array(exact.normal.each_ref().map(|c| c.to_f64().unwrap()));
+            let normal = DVec3::from_array(exact.normal.each_ref().map(|c| c.to_f64().value()));
             assert!((normal.normalize() - node.normal()).length() < 1e-14);
-            let offset = exact.offset.to_f64().unwrap() / normal.length();
+            let offset = exact.offset.to_f64().value() / normal.length();
             assert!((offset - node.offset()).abs() <= 1e-9 * (1.0 + offset.abs()));
             axes += usize::from(node.polygon().is_none());
             // A free plane is exactly the one that floats give.

@@ -3,7 +3,6 @@
 use crate::walk::trees;
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Heuristic};
-use num_traits::ToPrimitive;
 use testkit::dice::Dice;
 use testkit::effort::times;
 use testkit::enough;
@@ -49,7 +48,7 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
                 for (outer, inner, sign) in
                     [(low[axis], &least[axis], 1.0), (high[axis], &most[axis], -1.0)]
                 {
-                    let beyond = (inner - rational::exact(outer)).to_f64().unwrap() * sign;
+                    let beyond = (inner - rational::exact(outer)).to_f64().value() * sign;
                     let slack = extent * 2f64.powi(-23) + 3.0 * outer.abs() * f64::EPSILON;
                     assert!((0.0..=slack).contains(&beyond), "{what}: {beyond:e} of {slack:e}");
                     exact += usize::from(beyond == 0.0);

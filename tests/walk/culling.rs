@@ -10,7 +10,7 @@ use binspace::view::{self, Camera};
 use binspace::{
     Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Sides, Viewpoint, scene,
 };
-use num_traits::{ToPrimitive, Zero};
+use num_traits::Zero;
 use proptest::prelude::*;
 use std::cmp::Ordering;
 use testkit::dice::Dice;
@@ -370,7 +370,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
                 let corner = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
                 let [n, c] = [normal, corner].map(rational::point);
                 let exact = rational::scalar(&n, &c);
-                let mut offset = exact.to_f64().unwrap();
+                let mut offset = exact.to_f64().value();
                 if rational::exact(offset) > exact {
                     offset = offset.next_down();
                 }

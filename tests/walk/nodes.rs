@@ -3,7 +3,7 @@
 use crate::walk::{scenes, trees};
 use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Child, Heuristic, Node};
-use num_traits::{Signed, ToPrimitive};
+use num_traits::Signed;
 use testkit::enough;
 use testkit::rational::{self, Plane};
 
@@ -88,7 +88,7 @@ fn planes_are_those_of_the_polygons_that_they_name() {
                 if let [a, b, c] = scene[polygon][..] {
                     let exact = Plane::through([a, b, c].map(rational::point).each_ref());
                     let largest = exact.normal.iter().map(Signed::abs).max().unwrap();
-                    let unit = exact.normal.each_ref().map(|c| (c / &largest).to_f64().unwrap());
+                    let unit = exact.normal.each_ref().map(|c| (c / &largest).to_f64().value());
                     let unit = DVec3::from(unit).normalize();
                     // The grid moves a corner by a step, and a thin triangle turns by more.
                     let [u, v] = [b - a, c - a];
@@ -111,23 +111,22 @@ fn fragments_tell_the_planes_of_their_faces() {
         let grid = tree.grid();
         let two = rational::exact(2.0);
         let step = num_traits::pow(two.clone(), grid.exponent.unsigned_abs() as usize);
-        let step = if grid.exponent < 0 { step.recip() } else { step };
+        let step = if grid.exponent < 0 { rational::Rational::ONE / step } else { step };
         let base = rational::point(grid.base);
         for fragment in tree.fragments() {
             let points = fragment.grid_points().map(|g| -> rational::Point {
-                std::array::from_fn(|i| {
-                    &base[i] + &step * rational::Rational::from_integer(g[i].into())
-                })
+                std::array::from_fn(|i| &base[i] + &step * rational::Rational::from(g[i]))
             });
             let plane = Plane::through(points.each_ref());
             let largest = plane.normal.iter().map(Signed::abs).max().unwrap();
             let scaled = plane.normal.each_ref().map(|c| c / &largest);
-            let unit = DVec3::from(scaled.each_ref().map(|c| c.to_f64().unwrap())).normalize();
+            let unit = DVec3::from(scaled.each_ref().map(|c| c.to_f64().value())).normalize();
             let (normal, offset) = (fragment.normal(), fragment.offset());
             assert!((normal - unit).abs().max_element() <= 3.0 * f64::EPSILON, "{normal} {unit}");
             // The square of the exact offset, as roots are no fractions.
             let square = |x: &rational::Rational| x * x;
-            let length = scaled.iter().map(square).sum::<rational::Rational>();
+            let length =
+                scaled.iter().map(square).fold(rational::Rational::ZERO, |sum, term| sum + term);
             let exact = rational::scalar(&scaled, &points[0]);
             let size = points.iter().flatten().map(Signed::abs).max().unwrap();
             let slack = size * rational::exact(12.0 * f64::EPSILON);

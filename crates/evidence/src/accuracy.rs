@@ -1,6 +1,6 @@
 //! Compares a tree's fragments with their exact definitions.
 
-use num_bigint::BigInt;
+use dashu_int::IBig;
 use num_traits::{FromPrimitive, Zero};
 
 use crate::place::{Place, Plane};
@@ -194,7 +194,7 @@ impl Above {
         }
         let distance = self.plane.at(&vertex.place);
         let distance = if sign < 0.0 { -distance } else { distance };
-        let band = BigInt::from_f64(self.band).unwrap_or_else(BigInt::zero);
+        let band = IBig::from_f64(self.band).unwrap_or_else(IBig::zero);
         distance > band * vertex.place.weight()
     }
 }

@@ -3,7 +3,8 @@
 #[cfg(test)]
 mod tests;
 
-use num_bigint::Sign;
+use dashu_int::IBig;
+use std::cmp::Ordering;
 
 use binspace::Viewpoint;
 use binspace::internals::{Eye, Faces};
@@ -28,10 +29,10 @@ impl Facing {
         let eye = place::eye(&Eye::new(viewpoint, faces.lattice()));
         let mut facing = Self::default();
         for face in 0..faces.len() as u32 {
-            match Plane::of_face(faces, face).at_eye(&eye).sign() {
-                Sign::Plus => facing.front += 1,
-                Sign::Minus => facing.back += 1,
-                Sign::NoSign => facing.edge_on += 1,
+            match Plane::of_face(faces, face).at_eye(&eye).cmp(&IBig::ZERO) {
+                Ordering::Greater => facing.front += 1,
+                Ordering::Less => facing.back += 1,
+                Ordering::Equal => facing.edge_on += 1,
             }
         }
         facing

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
+use dashu_int::IBig;
 use num_traits::Signed;
 
 use binspace::internals::Faces;
@@ -22,29 +22,29 @@ pub struct Layers {
 #[derive(Debug)]
 struct Meeting {
     face: u32,
-    start: BigInt,
-    slope: BigInt,
+    start: IBig,
+    slope: IBig,
 }
 
 /// The plane of a face: normal · point = offset.
 struct Plane {
-    normal: [BigInt; 3],
-    offset: BigInt,
+    normal: [IBig; 3],
+    offset: IBig,
 }
 
 impl Plane {
     fn of(faces: &Faces, face: u32) -> Self {
         let triangle = faces.reference_triangle(face);
         // Lattice points are integers.
-        let [p, q, r] = triangle.map(|k| faces.corner(k).map(|c| BigInt::from(c as i64)));
-        let arm = |to: &[BigInt; 3]| [0, 1, 2].map(|i| &to[i] - &p[i]);
+        let [p, q, r] = triangle.map(|k| faces.corner(k).map(|c| IBig::from(c as i64)));
+        let arm = |to: &[IBig; 3]| [0, 1, 2].map(|i| &to[i] - &p[i]);
         let [u, v] = [arm(&q), arm(&r)];
         let normal = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &u[i] * &v[j] - &u[j] * &v[i]);
         let offset = (0..3).map(|i| &normal[i] * &p[i]).sum();
         Self { normal, offset }
     }
 
-    fn dot(&self, vector: [i128; 3]) -> BigInt {
+    fn dot(&self, vector: [i128; 3]) -> IBig {
         (0..3).map(|i| &self.normal[i] * vector[i]).sum()
     }
 

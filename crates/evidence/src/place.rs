@@ -5,14 +5,14 @@
 //! them define a face's plane, and the names of planes and vertices.
 
 use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
-use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use dashu_int::IBig;
+use num_traits::{One, Signed};
 
 /// The points x with normal · x = offset; in front the left side is larger.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
-    pub(crate) normal: [BigInt; 3],
-    offset: BigInt,
+    pub(crate) normal: [IBig; 3],
+    offset: IBig,
 }
 
 impl Plane {
@@ -20,8 +20,8 @@ impl Plane {
     pub(crate) fn of(faces: &Faces, id: PlaneId) -> Self {
         match id.kind() {
             PlaneKind::Axis(axis, corner) => {
-                let mut normal = [BigInt::ZERO, BigInt::ZERO, BigInt::ZERO];
-                normal[axis] = BigInt::one();
+                let mut normal = [IBig::ZERO, IBig::ZERO, IBig::ZERO];
+                normal[axis] = IBig::one();
                 Self { normal, offset: integer(faces.corner(corner)[axis]) }
             }
             PlaneKind::Face(face) => Self::of_face(faces, face),
@@ -41,16 +41,16 @@ impl Plane {
             let edges = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (points[a], points[b]));
             edges.iter().map(|(a, b)| (a[j] - b[j]) * (a[k] + b[k])).sum()
         });
-        let normal = normal.map(BigInt::from);
-        let offset = dot(&normal, &points[0].map(BigInt::from));
+        let normal = normal.map(IBig::from);
+        let offset = dot(&normal, &points[0].map(IBig::from));
         Self { normal, offset }
     }
 
     /// The plane through three places in homogeneous coordinates, or along them where the weight is 0:
     /// the minors of these three rows.
-    pub(crate) fn joining([p, q, r]: [&[BigInt; 4]; 3]) -> Self {
+    pub(crate) fn joining([p, q, r]: [&[IBig; 4]; 3]) -> Self {
         let minor = |i: usize, j: usize, k: usize| {
-            let of = |a: &BigInt, b: &BigInt, c: &BigInt| {
+            let of = |a: &IBig, b: &IBig, c: &IBig| {
                 a * (&q[j] * &r[k] - &q[k] * &r[j]) - b * (&q[i] * &r[k] - &q[k] * &r[i])
                     + c * (&q[i] * &r[j] - &q[j] * &r[i])
             };
@@ -65,19 +65,19 @@ impl Plane {
     }
 
     /// The direction across it, in homogeneous coordinates.
-    pub(crate) fn direction(&self) -> [BigInt; 4] {
+    pub(crate) fn direction(&self) -> [IBig; 4] {
         let [x, y, z] = self.normal.clone();
-        [x, y, z, BigInt::ZERO]
+        [x, y, z, IBig::ZERO]
     }
 
     /// The distance of a place times the length of the normal and the place's weight.
-    pub(crate) fn at(&self, place: &Place) -> BigInt {
+    pub(crate) fn at(&self, place: &Place) -> IBig {
         dot(&self.normal, &place.coordinates) - &self.offset * &place.weight
     }
 
     /// The side of an eye in homogeneous coordinates, larger in front: Ax + By + Cz + D, or, of a
     /// direction, Ax + By + Cz.
-    pub(crate) fn at_eye(&self, eye: &[BigInt; 4]) -> BigInt {
+    pub(crate) fn at_eye(&self, eye: &[IBig; 4]) -> IBig {
         let [x, y, z, w] = eye;
         let [a, b, c] = &self.normal;
         a * x + b * y + c * z - &self.offset * w
@@ -90,7 +90,7 @@ impl Plane {
 
     /// The first of the axes along which the normal is longest.
     pub(crate) fn main_axis(&self) -> usize {
-        let size = |axis: usize| self.normal[axis].magnitude();
+        let size = |axis: usize| self.normal[axis].abs();
         (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
     }
 }
@@ -98,8 +98,8 @@ impl Plane {
 /// An exact point: coordinates over a weight above 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
-    coordinates: [BigInt; 3],
-    weight: BigInt,
+    coordinates: [IBig; 3],
+    weight: IBig,
 }
 
 impl Place {
@@ -122,7 +122,7 @@ impl Place {
     /// main axis.
     pub(crate) fn corner(faces: &Faces, face: u32, plane: &Plane, k: usize) -> Self {
         let point = faces.corners(face)[k];
-        let mut place = Self { coordinates: point.map(integer), weight: BigInt::one() };
+        let mut place = Self { coordinates: point.map(integer), weight: IBig::one() };
         if faces.reference_triangle(face).iter().any(|&c| faces.corner(c) == point) {
             return place;
         }
@@ -141,7 +141,7 @@ impl Place {
     /// other end.
     fn crossing([a, b]: &[Self; 2], plane: &Plane) -> Option<Self> {
         let (at_a, at_b) = (plane.at(a), plane.at(b));
-        let mean = |of_a: &BigInt, of_b: &BigInt| &at_a * of_b - &at_b * of_a;
+        let mean = |of_a: &IBig, of_b: &IBig| &at_a * of_b - &at_b * of_a;
         let weight = mean(&a.weight, &b.weight);
         let coordinates = std::array::from_fn(|i| mean(&a.coordinates[i], &b.coordinates[i]));
         (!weight.is_zero()).then(|| Self { coordinates, weight }.with_positive_weight())
@@ -169,18 +169,18 @@ impl Place {
     }
 
     /// The coordinates and the weight.
-    pub(crate) fn homogeneous(&self) -> [BigInt; 4] {
+    pub(crate) fn homogeneous(&self) -> [IBig; 4] {
         let [x, y, z] = self.coordinates.clone();
         [x, y, z, self.weight.clone()]
     }
 
     /// What a distance from a plane is multiplied by in [`Plane::at`].
-    pub(crate) fn weight(&self) -> &BigInt {
+    pub(crate) fn weight(&self) -> &IBig {
         &self.weight
     }
 
     /// Two coordinates, those behind an axis, as numerators.
-    pub(crate) fn along(&self, axis: usize) -> [&BigInt; 2] {
+    pub(crate) fn along(&self, axis: usize) -> [&IBig; 2] {
         [&self.coordinates[(axis + 1) % 3], &self.coordinates[(axis + 2) % 3]]
     }
 
@@ -209,8 +209,8 @@ impl Place {
 }
 
 /// An eye in homogeneous coordinates: the point and 1, or the direction towards it and 0.
-pub(crate) fn eye(eye: &Eye) -> [BigInt; 4] {
-    let [x, y, z] = eye.integer().map(|c| BigInt::from(c) << eye.shift().unwrap_or(0));
+pub(crate) fn eye(eye: &Eye) -> [IBig; 4] {
+    let [x, y, z] = eye.integer().map(|c| IBig::from(c) << eye.shift().unwrap_or(0) as usize);
     [x, y, z, u8::from(eye.shift().is_some()).into()]
 }
 
@@ -218,19 +218,19 @@ pub(crate) fn eye(eye: &Eye) -> [BigInt; 4] {
 const REACH: f64 = (1u64 << 59) as f64;
 
 /// A whole number below 2⁶³.
-fn integer(value: f64) -> BigInt {
-    BigInt::from(value as i64)
+fn integer(value: f64) -> IBig {
+    IBig::from(value as i64)
 }
 
-fn float(value: &BigInt) -> f64 {
-    value.to_f64().unwrap_or(f64::NAN)
+fn float(value: &IBig) -> f64 {
+    value.to_f64().value()
 }
 
-fn dot(a: &[BigInt; 3], b: &[BigInt; 3]) -> BigInt {
+fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-fn cross(a: &[BigInt; 3], b: &[BigInt; 3]) -> [BigInt; 3] {
+fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         &a[j] * &b[k] - &a[k] * &b[j]

@@ -1,7 +1,7 @@
 //! Exact equality of fractions too large to be added: by their residues modulo a prime.
 
-use num_bigint::{BigInt, Sign};
-use num_traits::One;
+use dashu_int::IBig;
+use num_traits::Euclid;
 
 use crate::place::Place;
 
@@ -15,11 +15,8 @@ const PRIME: u64 = (1 << 61) - 1;
 impl Residue {
     pub(crate) const ZERO: Self = Self(0);
 
-    fn of(value: &BigInt) -> Self {
-        // 2⁶⁴ leaves 8.
-        let digits = value.iter_u64_digits().rev().map(|digit| Self(digit % PRIME));
-        let size = digits.fold(Self::ZERO, |sum, digit| sum.times(Self(8)).plus(digit));
-        if value.sign() == Sign::Minus { Self::ZERO.minus(size) } else { size }
+    fn of(value: &IBig) -> Self {
+        Self(value.rem_euclid(&PRIME.into()).try_into().expect("below the prime"))
     }
 
     pub(crate) fn plus(self, other: Self) -> Self {
@@ -75,18 +72,18 @@ pub(crate) fn twice_area(outline: &[[Residue; 2]]) -> Residue {
 #[cfg(test)]
 mod tests {
     use super::{PRIME, Residue};
-    use num_bigint::BigInt;
+    use dashu_int::IBig;
 
     #[test]
     fn residues_calculate_as_their_numbers_do() {
         let numbers = [0, 1, -1, 12345, -98765, i64::MAX, i64::MIN + 1];
         for a in numbers {
-            let x = Residue::of(&BigInt::from(a));
+            let x = Residue::of(&IBig::from(a));
             assert_eq!(x.0, i128::from(a).rem_euclid(i128::from(PRIME)) as u64);
             for b in numbers {
                 let product = i128::from(a) * i128::from(b);
-                let y = Residue::of(&BigInt::from(b));
-                assert_eq!(x.times(y), Residue::of(&BigInt::from(product)), "{a} · {b}");
+                let y = Residue::of(&IBig::from(b));
+                assert_eq!(x.times(y), Residue::of(&IBig::from(product)), "{a} · {b}");
                 assert_eq!(x.times(y).0, product.rem_euclid(i128::from(PRIME)) as u64);
                 assert_eq!(x.plus(y).minus(y), x);
             }

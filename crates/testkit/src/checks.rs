@@ -4,7 +4,7 @@ use super::model::Face;
 use super::rational::{self, Point};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 

@@ -8,8 +8,8 @@ use super::vector::{Plane, main_axis, scalar, sign};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::{Bounds, BspTree, Hit, Ray};
-use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use dashu_int::IBig;
+use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
@@ -42,7 +42,7 @@ struct Rough {
 
 struct Face {
     normal: Vector,
-    offset: BigInt,
+    offset: IBig,
     corners: Vec<Vector>,
     /// The two axes along which it is looked at.
     seen: [usize; 2],
@@ -52,15 +52,15 @@ struct Face {
 /// A number over another that is above 0.
 #[derive(Clone, Debug)]
 struct Fraction {
-    over: BigInt,
-    under: BigInt,
+    over: IBig,
+    under: IBig,
 }
 
 /// A ray: its points are (from + u · direction) / 2^bits in lattice units, and its parameter is u · 2^up.
 struct Line {
     from: Vector,
     direction: Vector,
-    bits: u32,
+    bits: usize,
     up: i32,
     end: Option<Fraction>,
 }
@@ -103,12 +103,12 @@ impl Score {
 }
 
 impl Fraction {
-    fn new(over: BigInt, under: BigInt) -> Self {
+    fn new(over: IBig, under: IBig) -> Self {
         if under.is_negative() { Self { over: -over, under: -under } } else { Self { over, under } }
     }
 
     fn whole(number: i32) -> Self {
-        Self { over: number.into(), under: BigInt::one() }
+        Self { over: number.into(), under: IBig::one() }
     }
 }
 
@@ -151,14 +151,14 @@ fn least(values: impl IntoIterator<Item = f64>) -> i32 {
 }
 
 /// A number in units of a power of two that divides it.
-fn whole(value: f64, unit: i32) -> BigInt {
+fn whole(value: f64, unit: i32) -> IBig {
     let (digits, exponent) = parts(value);
     if digits == 0 {
-        return BigInt::zero();
+        return IBig::zero();
     }
     let zeros = digits.trailing_zeros();
-    BigInt::from(digits >> zeros)
-        << u32::try_from(exponent + zeros as i32 - unit).expect("a multiple")
+    IBig::from(digits >> zeros)
+        << usize::try_from(exponent + zeros as i32 - unit).expect("a multiple")
 }
 
 impl Face {
@@ -176,7 +176,7 @@ impl Face {
     }
 
     /// Which way the border turns from a corner to the next around a point `at` / `under`, for all.
-    fn turns(&self, at: [&BigInt; 2], under: &BigInt) -> Vec<Ordering> {
+    fn turns(&self, at: [&IBig; 2], under: &IBig) -> Vec<Ordering> {
         let [i, j] = self.seen;
         let next = self.corners.iter().cycle().skip(1);
         let turn = |(a, b): (&Vector, &Vector)| {
@@ -186,7 +186,7 @@ impl Face {
         self.corners.iter().zip(next).map(turn).collect()
     }
 
-    fn has(&self, at: [&BigInt; 2], under: &BigInt) -> bool {
+    fn has(&self, at: [&IBig; 2], under: &IBig) -> bool {
         let turns = self.turns(at, under);
         !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
     }
@@ -210,17 +210,17 @@ impl Face {
         let [i, j] = self.seen;
         let [dx, dy] = [&line.direction[i], &line.direction[j]];
         if dx.is_zero() && dy.is_zero() {
-            let one = BigInt::one() << line.bits;
+            let one = IBig::one() << line.bits;
             let inside = self.has([&line.from[i], &line.from[j]], &one);
             return inside.then(|| [Fraction::whole(0), Fraction::whole(0)]);
         }
         // Corners relative to the beginning, and on which side of the line they are.
-        let arms: Vec<[BigInt; 2]> = self
+        let arms: Vec<[IBig; 2]> = self
             .corners
             .iter()
             .map(|c| self.seen.map(|axis| (&c[axis] << line.bits) - &line.from[axis]))
             .collect();
-        let sides: Vec<BigInt> = arms.iter().map(|[x, y]| dx * y - dy * x).collect();
+        let sides: Vec<IBig> = arms.iter().map(|[x, y]| dx * y - dy * x).collect();
         let (k, d) = if dx.is_zero() { (1, dy) } else { (0, dx) };
         let mut met = Vec::new();
         for a in 0..arms.len() {
@@ -242,18 +242,18 @@ impl Line {
         let under = &u.under << self.bits;
         std::array::from_fn(|i| {
             let over = &self.from[i] * &u.under + &self.direction[i] * &u.over;
-            Rational::new(over, under.clone())
+            Rational::from_parts_signed(over, under.clone())
         })
     }
 
     /// The ray's own parameter there.
     fn parameter(&self, u: &Fraction) -> f64 {
-        let bits = self.up.unsigned_abs();
+        let bits = self.up.unsigned_abs() as usize;
         let t = match self.up >= 0 {
-            true => Rational::new(&u.over << bits, u.under.clone()),
-            false => Rational::new(u.over.clone(), &u.under << bits),
+            true => Rational::from_parts_signed(&u.over << bits, u.under.clone()),
+            false => Rational::from_parts_signed(u.over.clone(), &u.under << bits),
         };
-        t.to_f64().expect("in range")
+        t.to_f64().value()
     }
 }
 
@@ -321,14 +321,14 @@ impl<'t> Oracle<'t> {
                 let unit = least(numbers.chain(origin)).min(self.step);
                 let [from, to] = [from, to].map(|point| place(point, unit));
                 let direction = std::array::from_fn(|i| &to[i] - &from[i]);
-                let bits = (self.step - unit) as u32;
+                let bits = (self.step - unit) as usize;
                 Line { from, direction, bits, up: 0, end: Some(Fraction::whole(1)) }
             }
             Ray::Endless { from, direction } => {
                 let unit = least(from.to_array().into_iter().chain(origin)).min(self.step);
                 let own = least(direction.to_array());
                 let direction = direction.to_array().map(|c| whole(c, own));
-                let bits = (self.step - unit) as u32;
+                let bits = (self.step - unit) as usize;
                 Line { from: place(from, unit), direction, bits, up: unit - own, end: None }
             }
         }
@@ -337,7 +337,7 @@ impl<'t> Oracle<'t> {
     /// The faces that a line may meet: looked for from where it is nearest to the scene, so that floats lose
     /// little.
     fn near(&self, line: &Line) -> Vec<usize> {
-        let number = |c: &BigInt| c.to_f64().unwrap_or(f64::NAN);
+        let number = |c: &IBig| c.to_f64().value();
         let unit = 2f64.powi(-(line.bits as i32));
         let [from, direction] =
             [&line.from, &line.direction].map(|v| DVec3::from_array(v.each_ref().map(number)));
@@ -351,9 +351,9 @@ impl<'t> Oracle<'t> {
         let at = |i: usize| {
             let step = &line.direction[i] * digits;
             if exponent >= 0 {
-                number(&(&line.from[i] + (step << exponent as u32))) * unit
+                number(&(&line.from[i] + (step << exponent as usize))) * unit
             } else {
-                number(&(&line.from[i] + (step >> -exponent as u32))) * unit
+                number(&(&line.from[i] + (step >> -exponent as usize))) * unit
             }
         };
         let (from, direction) =
@@ -480,10 +480,11 @@ impl<'t> Oracle<'t> {
             // All in units of a power of two, times the parameter's denominator.
             let unit = own.min(least([found, ulp]));
             let from = &line.from[axis] + whole(self.origin[axis], own);
-            let place = (from * &u.under + &line.direction[axis] * &u.over) << (own - unit) as u32;
+            let place =
+                (from * &u.under + &line.direction[axis] * &u.over) << (own - unit) as usize;
             let off = (whole(found, unit) * &u.under - place).abs();
             // A step of the lattice is at most 2⁻⁵¹ of the extent.
-            let step = BigInt::one() << (self.step - unit) as u32;
+            let step = IBig::one() << (self.step - unit) as usize;
             if off > (step + whole(ulp, unit)) * &u.under {
                 return Err(format!("the point is off along axis {axis}"));
             }

@@ -2,7 +2,8 @@
 //! in residues, so that large numbers stay affordable.
 
 use super::rational::{Plane, Point, Rational};
-use num_bigint::{BigInt, BigUint, Sign};
+use dashu_int::IBig;
+use num_traits::{Euclid, Zero};
 use std::cmp::Ordering;
 
 /// A prime: equal numbers have equal residues, and others one in 2⁶¹ times.
@@ -11,26 +12,26 @@ const PRIME: u128 = (1 << 61) - 1;
 /// A point: coordinates over a weight above 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Homogeneous {
-    coordinates: [BigInt; 3],
-    weight: BigInt,
+    coordinates: [IBig; 3],
+    weight: IBig,
 }
 
 impl Homogeneous {
     pub fn new(point: &Point) -> Self {
-        let [x, y, z] = point.each_ref().map(Rational::denom);
-        let weight = x * y * z;
-        let coordinates = point.each_ref().map(|c| c.numer() * (&weight / c.denom()));
+        let [x, y, z] = point.each_ref().map(Rational::denominator);
+        let weight = IBig::from(x * y * z);
+        let coordinates = point.each_ref().map(|c| c.numerator() * (&weight / c.denominator()));
         Self { coordinates, weight }
     }
 
     /// A number of the sign of a plane of integer coefficients here.
-    pub fn side(&self, plane: &Plane) -> BigInt {
-        let term = |i: usize| plane.normal[i].numer() * &self.coordinates[i];
-        term(0) + term(1) + term(2) - plane.offset.numer() * &self.weight
+    pub fn side(&self, plane: &Plane) -> IBig {
+        let term = |i: usize| plane.normal[i].numerator() * &self.coordinates[i];
+        term(0) + term(1) + term(2) - plane.offset.numerator() * &self.weight
     }
 
     /// The coordinates behind an axis, and the weight: the point as seen along the axis.
-    fn along(&self, axis: usize) -> [&BigInt; 3] {
+    fn along(&self, axis: usize) -> [&IBig; 3] {
         let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
         [&self.coordinates[j], &self.coordinates[k], &self.weight]
     }
@@ -41,11 +42,7 @@ pub fn turn(points: [&Homogeneous; 3], axis: usize) -> Ordering {
     let [a, b, c] = points.map(|point| point.along(axis));
     let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
     let value = a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1);
-    match value.sign() {
-        Sign::Minus => Ordering::Less,
-        Sign::NoSign => Ordering::Equal,
-        Sign::Plus => Ordering::Greater,
-    }
+    value.cmp(&IBig::zero())
 }
 
 /// Twice the area of an outline seen along an axis, as a residue.
@@ -68,10 +65,8 @@ pub fn add(a: u128, b: u128) -> u128 {
     (a + b) % PRIME
 }
 
-fn residue(value: &BigInt) -> u128 {
-    let rest = value.magnitude() % BigUint::from(PRIME);
-    let rest: u128 = rest.try_into().expect("below the prime");
-    if value.sign() == Sign::Minus && rest > 0 { PRIME - rest } else { rest }
+fn residue(value: &IBig) -> u128 {
+    value.rem_euclid(&PRIME.into()).try_into().expect("below the prime")
 }
 
 fn power(mut base: u128, mut exponent: u128) -> u128 {

@@ -9,7 +9,7 @@ use super::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
 use binspace::internals::{Lattice, Line, Side, Symbol};
 use binspace::{BspTree, Fragment};
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// What is wrong, in words.
 pub type Verdict = Result<(), String>;
@@ -183,7 +183,7 @@ impl<'t> Judge<'t> {
                 for id in range {
                     let piece = &self.pieces[id as usize];
                     let face = self.tree.fragment(id).face();
-                    let side = |p: &Homogeneous| Rational::from_integer(p.side(&by));
+                    let side = |p: &Homogeneous| Rational::from(p.side(&by));
                     let values: Vec<Rational> = piece.flat.iter().map(side).collect();
                     let exact = &self.faces[face as usize];
                     let allowed = exact.classify((faces, face), (node.plane(), &by), &values);

@@ -5,7 +5,6 @@
 use super::rational::{self, Plane, Point, Rational};
 use super::vector;
 use binspace::internals::{Faces, Line, PlaneId, PlaneKind, Side, Symbol, SymbolKind};
-use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
 /// A vertex of a piece, and what bounds the piece from it to the next.
@@ -86,7 +85,7 @@ impl Face {
         let values: Vec<Rational> = self.corners.iter().map(|corner| by.at(corner)).collect();
         let [low, high] = band(faces.tolerance(), by);
         let beyond = |limit: &Rational, sign: i32| {
-            let sign = Rational::from_integer(sign.into());
+            let sign = Rational::from(sign);
             values.iter().any(|value| &(value * &sign) > limit)
         };
         let either = |sign| {
@@ -122,7 +121,7 @@ fn by_vertices(values: &[Rational]) -> Side {
 /// The tolerance in the unit of a plane's value: rounded down to an integer, and not.
 pub fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
     let square = rational::scalar(&plane.normal, &plane.normal);
-    let length = square.to_f64().expect("in range").sqrt() * tolerance;
+    let length = square.to_f64().value().sqrt() * tolerance;
     let share = 2f64.powi(-49);
     [(length * (1.0 - share)).floor(), length * (1.0 + share)].map(rational::exact)
 }
@@ -146,7 +145,7 @@ pub fn main_axis(plane: &Plane) -> usize {
 }
 
 fn lattice(corner: [f64; 3]) -> Point {
-    corner.map(|c| Rational::from_integer(rational::integer(c)))
+    corner.map(|c| Rational::from(rational::integer(c)))
 }
 
 /// The part of a convex piece in front of a plane, or behind it; `values` are the plane at the

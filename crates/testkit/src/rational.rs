@@ -3,25 +3,25 @@
 use super::vector;
 use binspace::glam::DVec3;
 use binspace::internals::Lattice;
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+use num_traits::{FromPrimitive, Signed, Zero};
 
 pub use super::vector::{difference, product, scalar, sign, sum};
 
-pub type Rational = BigRational;
+pub type Rational = RBig;
 pub type Point = [Rational; 3];
 pub type Plane = vector::Plane<Rational>;
 
 /// The exact value of a finite `f64`.
 pub fn exact(value: f64) -> Rational {
-    Rational::from_float(value).expect("finite")
+    Rational::from_f64(value).expect("finite")
 }
 
 /// The exact value of a lattice coordinate.
-pub fn integer(value: f64) -> BigInt {
+pub fn integer(value: f64) -> IBig {
     assert_eq!(value.fract(), 0.0, "a lattice coordinate");
-    BigInt::from_f64(value).expect("finite")
+    IBig::from_f64(value).expect("finite")
 }
 
 /// The exact value of a point.
@@ -53,13 +53,13 @@ pub fn area(outline: &[Point]) -> Point {
 /// The largest difference between the coordinates of an exact point and a rounded one.
 pub fn distance_to_rounded(exact_point: &Point, rounded: [f64; 3]) -> f64 {
     let offsets = (0..3).map(|i| (&exact_point[i] - exact(rounded[i])).abs());
-    offsets.map(|offset| offset.to_f64().expect("in range")).fold(0.0, f64::max)
+    offsets.map(|offset| offset.to_f64().value()).fold(0.0, f64::max)
 }
 
 /// A plane perpendicular to an axis.
 pub fn perpendicular_to_axis(axis: usize, at: &Point) -> Plane {
     let mut normal = [Rational::zero(), Rational::zero(), Rational::zero()];
-    normal[axis] = Rational::from_integer(1.into());
+    normal[axis] = Rational::from(1);
     Plane { normal, offset: at[axis].clone() }
 }
 

@@ -10,19 +10,19 @@ use super::views::View;
 use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, PlaneId, PlaneKind};
-use num_bigint::{BigInt, Sign};
-use num_traits::{Signed, ToPrimitive, Zero};
+use dashu_int::IBig;
+use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Range;
 
-pub type Vector = vector::Vector<BigInt>;
+pub type Vector = vector::Vector<IBig>;
 
 /// Where a ray has more hits than this, only neighbours in the order are compared: if all of them
 /// come out right, so do the others, but for what the tolerance excuses.
 const MANY: usize = 48;
 
-type Plane = vector::Plane<BigInt>;
+type Plane = vector::Plane<IBig>;
 
 fn named_plane(faces: &Faces, id: PlaneId) -> Plane {
     match id.kind() {
@@ -35,18 +35,18 @@ fn named_plane(faces: &Faces, id: PlaneId) -> Plane {
 }
 
 fn unit(axis: usize) -> Vector {
-    std::array::from_fn(|i| BigInt::from(u8::from(i == axis)))
+    std::array::from_fn(|i| IBig::from(u8::from(i == axis)))
 }
 
 fn length(plane: &Plane) -> f64 {
-    let float = |c: &BigInt| c.to_f64().unwrap_or(f64::INFINITY);
+    let float = |c: &IBig| c.to_f64().value();
     DVec3::from_array(plane.normal.each_ref().map(float)).length()
 }
 
 /// A plane at a ray: its value at the origin, and how that changes along the ray.
 pub struct AtRay {
-    start: BigInt,
-    slope: BigInt,
+    start: IBig,
+    slope: IBig,
 }
 
 /// A ray from a point, or, with `endless`, the whole line.
@@ -66,10 +66,10 @@ impl Ray {
 
     /// Where it meets a hit, rounded, and where it begins, if it has a beginning.
     pub fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
-        let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().unwrap_or(0.0)));
+        let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().value()));
         let at = |i: usize| {
             let sum = &self.origin[i] * &hit.face.slope - &self.direction[i] * &hit.face.start;
-            (sum / &hit.face.slope).to_f64().unwrap_or(f64::INFINITY)
+            (sum / &hit.face.slope).to_f64().value()
         };
         (DVec3::new(at(0), at(1), at(2)), (!self.endless).then(|| float(&self.origin)))
     }
@@ -92,13 +92,13 @@ impl Hit {
     }
 
     /// A plane at the hit, times the (positive) slope.
-    fn value(&self, plane: &AtRay) -> BigInt {
+    fn value(&self, plane: &AtRay) -> IBig {
         &plane.start * &self.face.slope - &plane.slope * &self.face.start
     }
 }
 
 /// The numbers of the plane of a fragment's face, and of those that bound it, with the sign inside.
-type Outline = (usize, Vec<(usize, Sign)>);
+type Outline = (usize, Vec<(usize, Ordering)>);
 
 /// A tree's fragments as bounded by planes.
 pub struct Rays<'t> {
@@ -116,7 +116,7 @@ impl<'t> Rays<'t> {
         let faces = tree.faces();
         let mut planes = Vec::new();
         let mut named: HashMap<PlaneId, usize> = HashMap::new();
-        let mut edges: HashMap<(u32, u32), (usize, Sign)> = HashMap::new();
+        let mut edges: HashMap<(u32, u32), (usize, Ordering)> = HashMap::new();
         let mut fragments = Vec::new();
         for fragment in tree.fragments() {
             let face = fragment.face();
@@ -129,7 +129,7 @@ impl<'t> Rays<'t> {
             let own = name(&mut planes, PlaneId::face(face));
             let bounds = fragment.lines().map(|line| match (line.as_edge(), line.as_cut()) {
                 (_, Some(plane)) => {
-                    let sign = if line.is_behind() { Sign::Minus } else { Sign::Plus };
+                    let sign = if line.is_behind() { Ordering::Less } else { Ordering::Greater };
                     (name(&mut planes, plane), sign)
                 }
                 (edge, None) => {
@@ -185,14 +185,13 @@ impl<'t> Rays<'t> {
         let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
         let hit = |(id, (own, bounds)): (usize, &Outline)| {
             let own = &at[*own];
-            let turn =
-                |value: &BigInt| if own.slope.is_negative() { -value } else { value.clone() };
+            let turn = |value: &IBig| if own.slope.is_negative() { -value } else { value.clone() };
             let face = AtRay { start: turn(&own.start), slope: turn(&own.slope) };
             if face.slope.is_zero() || (!ray.endless && !face.start.is_negative()) {
                 return None;
             }
             let hit = Hit { fragment: id as u32, face };
-            bounds.iter().all(|&(p, sign)| hit.value(&at[p]).sign() == sign).then_some(hit)
+            bounds.iter().all(|&(p, sign)| vector::sign(&hit.value(&at[p])) == sign).then_some(hit)
         };
         self.fragments.iter().enumerate().filter_map(hit).collect()
     }
@@ -235,7 +234,7 @@ impl<'t> Rays<'t> {
         let plane = named_plane(self.tree.faces(), parting.plane());
         let reach = self.tree.faces().tolerance() * (1.0 + 1e-9) * length(&plane);
         let at = ray.plane(&plane);
-        let float = |value: &BigInt| value.abs().to_f64().unwrap_or(f64::INFINITY);
+        let float = |value: &IBig| value.abs().to_f64().value();
         let is_near = |hit: &&Hit| float(&hit.value(&at)) <= reach * float(&hit.face.slope);
         let near = hits.iter().filter(|hit| is_near(hit)).count();
         let nearer = hits.into_iter().min_by(|a, b| a.depth_order(b));
@@ -247,14 +246,14 @@ impl<'t> Rays<'t> {
 
 /// The plane through an edge of a face and along the axis in which its plane is least steep, and
 /// its sign inside.
-fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Sign) {
+fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Ordering) {
     let corners = faces.corners(face);
     let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| vector(corners[k]));
     let axis = vector::main_axis(&plane.normal);
     // The axis, the edge and the way inside run like the axes of a right-handed frame.
-    (Plane::new(product(&unit(axis), &difference(&b, &a)), &a), plane.normal[axis].sign())
+    (Plane::new(product(&unit(axis), &difference(&b, &a)), &a), vector::sign(&plane.normal[axis]))
 }
 
 pub fn vector(p: [f64; 3]) -> Vector {
-    p.map(|c| BigInt::from(c as i128))
+    p.map(|c| IBig::from(c as i128))
 }

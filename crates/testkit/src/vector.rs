@@ -1,8 +1,8 @@
 //! Vectors and planes of exact numbers: big integers, rationals, and integers of 128 bits where these
 //! are large enough.
 
-use num_bigint::{BigInt, Sign};
-use num_rational::BigRational;
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 
@@ -18,7 +18,7 @@ pub trait Number: Sized {
     fn size(&self) -> Self;
 }
 
-macro_rules! whole_number {
+macro_rules! number {
     ($number:ty) => {
         impl Number for $number {
             fn plus(&self, other: &Self) -> Self {
@@ -44,56 +44,9 @@ macro_rules! whole_number {
     };
 }
 
-whole_number!(i128);
-whole_number!(BigInt);
-
-/// Rationals whose denominators are powers of two, as those of all floats are, are reduced by shifts:
-/// a common divisor takes many times as long to find.
-impl Number for BigRational {
-    fn plus(&self, other: &Self) -> Self {
-        let (Some(a), Some(b)) = (binary_places(self), binary_places(other)) else {
-            return self + other;
-        };
-        let places = a.max(b);
-        with_binary_places((self.numer() << (places - a)) + (other.numer() << (places - b)), places)
-    }
-
-    fn minus(&self, other: &Self) -> Self {
-        let (Some(a), Some(b)) = (binary_places(self), binary_places(other)) else {
-            return self - other;
-        };
-        let places = a.max(b);
-        with_binary_places((self.numer() << (places - a)) - (other.numer() << (places - b)), places)
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        match (binary_places(self), binary_places(other)) {
-            (Some(a), Some(b)) => with_binary_places(self.numer() * other.numer(), a + b),
-            _ => self * other,
-        }
-    }
-
-    fn sign(&self) -> Ordering {
-        self.numer().sign().cmp(&Sign::NoSign)
-    }
-
-    fn size(&self) -> Self {
-        self.abs()
-    }
-}
-
-/// How many digits a number has behind the point in binary; `None` if they do not end.
-fn binary_places(number: &BigRational) -> Option<u64> {
-    let denominator = number.denom();
-    let places = denominator.bits() - 1;
-    (denominator.trailing_zeros() == Some(places)).then_some(places)
-}
-
-/// numerator / 2^places, reduced.
-fn with_binary_places(numerator: BigInt, places: u64) -> BigRational {
-    let zeros = numerator.trailing_zeros().unwrap_or(places).min(places);
-    BigRational::new_raw(numerator >> zeros, BigInt::from(1) << (places - zeros))
-}
+number!(i128);
+number!(IBig);
+number!(RBig);
 
 pub fn sum<T: Number>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     std::array::from_fn(|i| a[i].plus(&b[i]))

@@ -6,7 +6,7 @@ use super::rays::{Rays, Vector, vector};
 use binspace::Viewpoint;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, Lattice};
-use num_bigint::BigInt;
+use dashu_int::IBig;
 use num_traits::Signed;
 use std::cmp::Ordering;
 
@@ -87,7 +87,7 @@ pub fn in_lattice(lattice: &Lattice, point: DVec3) -> Point {
 }
 
 pub fn power_of_two(exponent: u32) -> Rational {
-    Rational::from_integer(BigInt::from(1) << exponent)
+    Rational::from(IBig::from(1) << exponent as usize)
 }
 
 /// A viewpoint around, inside, on a plane or a corner of the scene, or in line with two of its

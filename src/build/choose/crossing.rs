@@ -85,9 +85,9 @@ fn is_positive([p, q]: [DVec3; 2], [r, s]: [DVec3; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use dashu_int::IBig;
     use glam::{DQuat, DVec3, EulerRot};
-    use num_bigint::BigInt;
-    use num_traits::{FromPrimitive, Signed, Zero};
+    use num_traits::FromPrimitive;
 
     use super::super::tests::{Fixture, triangles};
     use super::crosses;
@@ -123,20 +123,20 @@ mod tests {
     }
 
     /// The volume that a point spans with three others, in integers.
-    fn volume(point: &[BigInt; 3], triangle: [&[BigInt; 3]; 3]) -> BigInt {
+    fn volume(point: &[IBig; 3], triangle: [&[IBig; 3]; 3]) -> IBig {
         let [a, b, c] = triangle.map(|p| [0, 1, 2].map(|axis: usize| &p[axis] - &point[axis]));
         let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
         &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
     }
 
-    fn goes_through(one: &[[BigInt; 3]], other: &[[BigInt; 3]]) -> bool {
-        let sign = |value: BigInt| value.signum();
+    fn goes_through(one: &[[IBig; 3]], other: &[[IBig; 3]]) -> bool {
+        let sign = |value: IBig| value.signum();
         (0..3).any(|k| {
             let (p, q) = (&one[k], &one[(k + 1) % 3]);
             let plane = [&other[0], &other[1], &other[2]];
             let sides = [p, q].map(|end| sign(volume(end, plane)));
             let turns = [0, 1, 2].map(|e| sign(volume(p, [q, &other[e], &other[(e + 1) % 3]])));
-            &sides[0] * &sides[1] == BigInt::from(-1)
+            &sides[0] * &sides[1] == IBig::from(-1)
                 && !turns[0].is_zero()
                 && turns.iter().all(|turn| *turn == turns[0])
         })
@@ -164,7 +164,7 @@ mod tests {
                 continue;
             }
             let corners = [0, 1].map(|face| {
-                let integer = |c: &f64| BigInt::from_f64(*c).unwrap();
+                let integer = |c: &f64| IBig::from_f64(*c).unwrap();
                 let corners = fixture.faces.corners(face).iter();
                 corners.map(|p| p.each_ref().map(integer)).collect::<Vec<_>>()
             });

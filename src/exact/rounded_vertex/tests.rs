@@ -1,7 +1,7 @@
 //! Leading bits against numbers in full.
 
-use num_bigint::BigInt;
-use num_traits::{Signed, ToPrimitive, Zero};
+use dashu_int::IBig;
+use num_traits::Signed;
 use proptest::prelude::*;
 
 use super::super::{Int, LATTICE_LIMIT};
@@ -37,22 +37,22 @@ fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
 }
 
 /// A plane at a lattice point.
-fn value(plane: &Plane, point: &[f64; 3]) -> BigInt {
+fn value(plane: &Plane, point: &[f64; 3]) -> IBig {
     let through = plane.point();
-    let arm = |i: usize| BigInt::from(point[i] as i64) - BigInt::from(through[i]);
-    (0..3).map(|i| BigInt::from(plane.normal()[i]) * arm(i)).sum()
+    let arm = |i: usize| IBig::from(point[i] as i64) - IBig::from(through[i]);
+    (0..3).map(|i| IBig::from(plane.normal()[i]) * arm(i)).sum()
 }
 
 /// How far a position is from the exact mean, times 2⁵³ by the lattice's size: in roundings.
-fn roundings(position: [f64; 3], points: &[[f64; 3]], weights: &[BigInt]) -> f64 {
-    let total: BigInt = weights.iter().sum();
+fn roundings(position: [f64; 3], points: &[[f64; 3]], weights: &[IBig]) -> f64 {
+    let total: IBig = weights.iter().sum();
     let off = (0..3).map(|axis| {
         let terms = points.iter().zip(weights);
-        let sum: BigInt = terms.map(|(p, w)| BigInt::from(p[axis] as i64) * w).sum();
+        let sum: IBig = terms.map(|(p, w)| IBig::from(p[axis] as i64) * w).sum();
         // The position in 2⁻⁸⁰ths, which holds every bit of it that matters.
-        let scaled = BigInt::from((position[axis] * 2f64.powi(40)) as i128) << 40;
-        let off: BigInt = (scaled * &total - (sum << 80)) / &total;
-        off.abs().to_f64().unwrap_or(f64::INFINITY) / 2f64.powi(80)
+        let scaled = IBig::from((position[axis] * 2f64.powi(40)) as i128) << 40;
+        let off: IBig = (scaled * &total - (sum << 80)) / &total;
+        off.abs().to_f64().value() / 2f64.powi(80)
     });
     off.fold(0.0, f64::max) / LATTICE_LIMIT * 2f64.powi(53)
 }
@@ -83,8 +83,8 @@ proptest! {
         let leading = Leading::of(&plane, points.map(whole));
         for (point, leads) in points.iter().zip(leading.values) {
             // The division of big integers rounds towards 0.
-            let expected = value(&plane, point) / (BigInt::from(1) << leading.dropped);
-            prop_assert_eq!(BigInt::from(leads), expected);
+            let expected = value(&plane, point) / (IBig::from(1) << leading.dropped as usize);
+            prop_assert_eq!(IBig::from(leads), expected);
             prop_assert!(leads.unsigned_abs() <= 1 << KEPT);
         }
     }
@@ -129,13 +129,13 @@ fn positions_inside_are_right_or_not_told() {
         let values = planes.map(|plane| triangle.map(|point| value(&plane, &point)));
         let [g, h] = &values;
         let weights = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| &g[j] * &h[k] - &g[k] * &h[j]);
-        let total: BigInt = weights.iter().sum();
+        let total: IBig = weights.iter().sum();
         // Positions are asked for in the lattice only.
         let is_near = !total.is_zero()
             && (0..3).all(|axis| {
                 let terms = triangle.iter().zip(&weights);
-                let sum: BigInt = terms.map(|(p, w)| BigInt::from(p[axis] as i64) * w).sum();
-                (sum / &total).abs() <= BigInt::from(LATTICE_LIMIT as i64)
+                let sum: IBig = terms.map(|(p, w)| IBig::from(p[axis] as i64) * w).sum();
+                (sum / &total).abs() <= IBig::from(LATTICE_LIMIT as i64)
             });
         let Some(position) = meeting(&triangle, &planes[0], &planes[1]) else {
             untold += 1;
@@ -216,12 +216,12 @@ fn positions_on_moved_edges_are_right_or_not_told() {
         let own = Plane::through(triangle);
         let (axis, [a, b]) = (own.main_axis(), ends);
         let offs = ends.map(|end| value(&own, &end));
-        let slope = BigInt::from(own.normal()[axis]);
-        let is_near = offs.iter().all(|off| off.abs() * BigInt::from(2) <= slope.abs());
+        let slope = IBig::from(own.normal()[axis]);
+        let is_near = offs.iter().all(|off| off.abs() * IBig::from(2) <= slope.abs());
         let is_inside = ends.iter().flatten().all(|c| c.abs() <= LATTICE_LIMIT);
         // Each end times the slope, as it is moved: on the triangle's plane.
         let values = [0, 1].map(|i| {
-            value(&plane, &ends[i]) * &slope - &offs[i] * BigInt::from(plane.normal()[axis])
+            value(&plane, &ends[i]) * &slope - &offs[i] * IBig::from(plane.normal()[axis])
         });
         if !is_near || !is_inside || !(&values[0] * &values[1]).is_negative() {
             continue;

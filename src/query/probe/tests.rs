@@ -1,9 +1,9 @@
 //! How far the floats of a ray are off its integers.
 
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use glam::DVec3;
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, ToPrimitive};
+use num_traits::{FromPrimitive, Signed};
 
 use super::{Probe, SPEED_BITS};
 use crate::exact::Lattice;
@@ -16,14 +16,14 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// The largest difference between floats and integers, in roundings of a size.
 fn off(floats: [f64; 3], integers: [i128; 3], bits: u32, size: f64) -> f64 {
-    let two = BigRational::from_integer(2.into());
+    let two = RBig::from(2);
     let differences = floats.into_iter().zip(integers).map(|(float, integer)| {
-        let exact = BigRational::from_integer(BigInt::from(integer)) * two.pow(-(bits as i32));
-        (BigRational::from_f64(float).unwrap() - exact).abs()
+        let exact = RBig::from(IBig::from(integer)) * two.pow(-(bits as isize));
+        (RBig::from_f64(float).unwrap() - exact).abs()
     });
-    let rounding = BigRational::from_f64(ROUNDING * size).unwrap();
+    let rounding = RBig::from_f64(ROUNDING * size).unwrap();
     let largest = differences.max().unwrap() / rounding;
-    largest.to_f64().unwrap()
+    largest.to_f64().value()
 }
 
 /// A number whose digits all are used, near a power of two.

@@ -8,8 +8,8 @@ mod parts;
 mod signs;
 mod tiling;
 
+use dashu_int::IBig;
 use glam::DVec3;
-use num_bigint::BigInt;
 
 use super::rays::{Pencil, Rays};
 use crate::exact::Faces;
@@ -80,14 +80,12 @@ pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<C
 }
 
 /// The ray of a pixel: where it starts, or any point of it, and its direction.
-pub(super) fn ray(rays: &Rays, x: u32, y: u32) -> [[BigInt; 3]; 2] {
-    let given: [BigInt; 3] = std::array::from_fn(|i| {
-        BigInt::from(rays.base[i])
-            + BigInt::from(rays.right[i]) * x
-            + BigInt::from(rays.down[i]) * y
+pub(super) fn ray(rays: &Rays, x: u32, y: u32) -> [[IBig; 3]; 2] {
+    let given: [IBig; 3] = std::array::from_fn(|i| {
+        IBig::from(rays.base[i]) + IBig::from(rays.right[i]) * x + IBig::from(rays.down[i]) * y
     });
     match rays.pencil {
-        Pencil::From { eye, shift } => [eye.map(|c| BigInt::from(c) << shift), given],
-        Pencil::Along { direction } => [given, direction.map(BigInt::from)],
+        Pencil::From { eye, shift } => [eye.map(|c| IBig::from(c) << shift as usize), given],
+        Pencil::Along { direction } => [given, direction.map(IBig::from)],
     }
 }

@@ -2,17 +2,17 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use num_traits::{FromPrimitive, Signed, Zero};
 
 use super::ray;
 use crate::exact::{Faces, Line, PlaneId, PlaneKind};
 use crate::raster::rays::{Pencil, Rays};
 
-type Vector = [BigInt; 3];
+type Vector = [IBig; 3];
 
-fn dot(a: &Vector, b: &Vector) -> BigInt {
+fn dot(a: &Vector, b: &Vector) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
@@ -20,12 +20,12 @@ fn minus(a: &Vector, b: &Vector) -> Vector {
     std::array::from_fn(|i| &a[i] - &b[i])
 }
 
-fn times(a: &Vector, factor: &BigInt) -> Vector {
+fn times(a: &Vector, factor: &IBig) -> Vector {
     std::array::from_fn(|i| &a[i] * factor)
 }
 
 fn integer(point: [f64; 3]) -> Vector {
-    point.map(|c| BigInt::from_f64(c).unwrap())
+    point.map(|c| IBig::from_f64(c).unwrap())
 }
 
 /// A plane's normal and a point on it.
@@ -40,7 +40,7 @@ fn plane(faces: &Faces, face: u32) -> (Vector, Vector) {
 }
 
 /// A point as a vector over a positive divisor.
-struct Point(Vector, BigInt);
+struct Point(Vector, IBig);
 
 /// A ray's start and direction.
 struct Ray(Point, Vector);
@@ -51,24 +51,24 @@ fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     const SHIFT: usize = 3000;
     let [start, direction] = ray(rays, x, y);
     if !moved {
-        return Ray(Point(start, BigInt::from(1)), direction);
+        return Ray(Point(start, IBig::from(1)), direction);
     }
     let perspective = matches!(rays.pencil, Pencil::From { .. });
     let given = if perspective { &direction } else { &start };
     let given: Vector = std::array::from_fn(|i| {
-        let [right, down] = [rays.right[i], rays.down[i]].map(BigInt::from);
+        let [right, down] = [rays.right[i], rays.down[i]].map(IBig::from);
         (&given[i] << (2 * SHIFT)) + (right << SHIFT) + down
     });
     if perspective {
-        Ray(Point(start, BigInt::from(1)), given)
+        Ray(Point(start, IBig::from(1)), given)
     } else {
-        Ray(Point(given, BigInt::from(1) << (2 * SHIFT)), direction)
+        Ray(Point(given, IBig::from(1) << (2 * SHIFT)), direction)
     }
 }
 
 /// Where a ray meets the plane of a face, and after which multiple of its direction, as a quotient;
 /// `None` if it does not, or only behind the eye.
-fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [BigInt; 2])> {
+fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig; 2])> {
     let (n, p) = plane(faces, face);
     let Ray(Point(start, divisor), direction) = ray;
     let along = dot(&n, direction);
@@ -101,7 +101,7 @@ fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<boo
         let b = &corners[(i + 1) % corners.len()];
         let (arm, to) = (minus(b, a), minus(point, &times(a, divisor)));
         let side = (&arm[j] * &to[k] - &arm[k] * &to[j]) * n[axis].signum();
-        match side.cmp(&BigInt::zero()) {
+        match side.cmp(&IBig::zero()) {
             Ordering::Less => return Some(false),
             Ordering::Equal => on_edge = true,
             Ordering::Greater => {}
@@ -111,13 +111,13 @@ fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<boo
 }
 
 /// Whether the ray of a pixel meets a face, and after which multiple of its direction.
-pub(crate) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<BigRational> {
+pub(crate) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<RBig> {
     let (point, [numerator, denominator]) = hit(rays, faces, face, &ray_of(rays, x, y, false))?;
     let inside = within(faces, face, &point).unwrap_or_else(|| {
         let (point, _) = hit(rays, faces, face, &ray_of(rays, x, y, true)).unwrap();
         within(faces, face, &point).unwrap()
     });
-    inside.then(|| BigRational::new(numerator, denominator))
+    inside.then(|| RBig::from_parts_signed(numerator, denominator))
 }
 
 /// Whether the ray of a pixel meets a piece of a face.
@@ -147,7 +147,7 @@ fn named(faces: &Faces, plane_id: PlaneId) -> (Vector, Vector) {
     match plane_id.kind() {
         PlaneKind::Face(face) => plane(faces, face),
         PlaneKind::Axis(axis, corner) => {
-            let mut normal = [0; 3].map(BigInt::from);
+            let mut normal = [0; 3].map(IBig::from);
             normal[axis] = 1.into();
             (normal, integer(faces.corner(corner)))
         }
@@ -169,27 +169,27 @@ pub(crate) fn height(
     }?;
     let (n, p) = named(faces, plane);
     let value = dot(&n, &minus(&point, &times(&p, &divisor)));
-    let squared = BigRational::new(&value * &value, dot(&n, &n) * &divisor * &divisor);
-    Some(Height { sign: value.cmp(&BigInt::zero()), squared })
+    let squared = RBig::from_parts_signed(&value * &value, dot(&n, &n) * &divisor * &divisor);
+    Some(Height { sign: value.cmp(&IBig::zero()), squared })
 }
 
 /// A height above a plane: its sign, and its square in lattice units.
 pub(crate) struct Height {
     pub(crate) sign: Ordering,
-    squared: BigRational,
+    squared: RBig,
 }
 
 impl Height {
     /// Whether it is some length at most.
     pub(crate) fn is_within(&self, reach: f64) -> bool {
-        let reach = BigRational::from_float(reach).unwrap();
+        let reach = RBig::from_f64(reach).unwrap();
         self.squared <= &reach * &reach
     }
 }
 
 /// The nearest face on the ray of a pixel, the later of two at the same distance.
 pub(super) fn nearest(rays: &Rays, faces: &Faces, x: u32, y: u32) -> Option<u32> {
-    let mut best: Option<(u32, BigRational)> = None;
+    let mut best: Option<(u32, RBig)> = None;
     for face in 0..faces.len() as u32 {
         if let Some(t) = meets(rays, faces, face, x, y)
             && best.as_ref().is_none_or(|(_, nearest)| t <= *nearest)

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use num_rational::BigRational;
+use dashu_ratio::RBig;
 
 use super::cameras;
 use crate::exact::Faces;
@@ -34,7 +34,7 @@ fn paint(over: &mut Colour, polygon: usize) {
 }
 
 /// For each pixel, every face that its ray meets, and how far away.
-type Hits = Vec<HashMap<u32, BigRational>>;
+type Hits = Vec<HashMap<u32, RBig>>;
 
 fn hits(rays: &Rays, faces: &Faces) -> Hits {
     let [width, height] = rays.size();
@@ -49,8 +49,8 @@ fn hits(rays: &Rays, faces: &Faces) -> Hits {
 /// The picture by sorting: what is in front of the nearest opaque polygon, and that. At the same
 /// distance translucent polygons are over opaque ones, and later ones over earlier.
 fn sorted_picture(faces: &Faces, hits: &Hits) -> Vec<Colour> {
-    let of_pixel = |hits: &HashMap<u32, BigRational>| {
-        let mut all: Vec<(&BigRational, bool, usize)> = hits
+    let of_pixel = |hits: &HashMap<u32, RBig>| {
+        let mut all: Vec<(&RBig, bool, usize)> = hits
             .iter()
             .map(|(&face, distance)| {
                 let polygon = faces.polygon(face);
@@ -70,7 +70,7 @@ fn mixed_picture(tree: &BspTree, rays: &Rays, hits: &Hits, translucent: &[u32]) 
     let faces = tree.faces();
     let width = rays.size()[0];
     let mut colours = vec![BACKGROUND; hits.len()];
-    let mut depths: Vec<Option<BigRational>> = vec![None; hits.len()];
+    let mut depths: Vec<Option<RBig>> = vec![None; hits.len()];
     let mut opaque: Vec<u32> = (0..tree.len() as u32).collect();
     opaque.retain(|&fragment| is_opaque(tree.fragment(fragment).polygon()));
     opaque.sort_by_key(|&fragment| tree.fragment(fragment).polygon());

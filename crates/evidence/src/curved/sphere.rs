@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
+use dashu_int::IBig;
 
 use super::{Shared, slopes};
 use crate::plain::{Corner, Depth, PlainView, UNITS};
@@ -45,11 +45,11 @@ impl Sphere {
 
     /// Whether it is nearer than a depth, or further, on a ray that meets it; exactly.
     pub fn compare(&self, view: &PlainView, pixel: [u32; 2], depth: &Depth) -> Ordering {
-        let [a, half, discriminant] = self.equation(view, pixel).map(BigInt::from);
-        let [over, under] = depth.along(view.ray(pixel)).map(BigInt::from);
+        let [a, half, discriminant] = self.equation(view, pixel).map(IBig::from);
+        let [over, under] = depth.along(view.ray(pixel)).map(IBig::from);
         // (half - √discriminant) / a against over / under.
         let left = half * &under - a * over;
-        if left < BigInt::ZERO {
+        if left < IBig::ZERO {
             return Ordering::Less;
         }
         (&left * &left).cmp(&(&under * &under * discriminant))

@@ -1,13 +1,13 @@
 //! What an eye sees of a face: the cone of rays through it.
 
 use binspace::internals::{Faces, PlaneId, Symbol};
-use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
+use dashu_int::IBig;
+use num_traits::Signed;
 
 use crate::place::{Place, Plane};
 
 /// A point over a weight that is not negative, or a plane: what is in front has a positive product.
-type Quad = [BigInt; 4];
+type Quad = [IBig; 4];
 
 /// A face as an eye sees it.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ impl Seen {
             .map(|place| place.homogeneous())
             .collect();
         let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));
-        let [p, q, r] = triangle.map(|[x, y, z]| [x, y, z, 1.0].map(|c| BigInt::from(c as i64)));
+        let [p, q, r] = triangle.map(|[x, y, z]| [x, y, z, 1.0].map(|c| IBig::from(c as i64)));
         let plane = through(&p, &q, &r);
         let side = product(&plane, eye);
         if side.is_zero() {
@@ -60,7 +60,7 @@ impl Seen {
     pub(super) fn within(&self, other: &Self) -> Vec<Quad> {
         let mut part = self.corners.clone();
         for side in &other.sides {
-            let at: Vec<BigInt> = part.iter().map(|vertex| product(side, vertex)).collect();
+            let at: Vec<IBig> = part.iter().map(|vertex| product(side, vertex)).collect();
             // A convex polygon with a corner inside has an area there.
             if !at.iter().any(Signed::is_positive) {
                 return Vec::new();
@@ -74,7 +74,7 @@ impl Seen {
 }
 
 /// The part of a polygon in front of a plane, given the plane's product with each vertex.
-fn front(polygon: &[Quad], at: &[BigInt]) -> Vec<Quad> {
+fn front(polygon: &[Quad], at: &[IBig]) -> Vec<Quad> {
     let mut kept = Vec::new();
     for (i, here) in polygon.iter().enumerate() {
         let k = (i + 1) % polygon.len();
@@ -100,7 +100,7 @@ pub(super) fn through(p: &Quad, q: &Quad, r: &Quad) -> Quad {
     [-minor([1, 2, 3]), minor([0, 2, 3]), -minor([0, 1, 3]), minor([0, 1, 2])]
 }
 
-pub(super) fn product(plane: &Quad, point: &Quad) -> BigInt {
+pub(super) fn product(plane: &Quad, point: &Quad) -> IBig {
     plane.iter().zip(point).map(|(a, b)| a * b).sum()
 }
 

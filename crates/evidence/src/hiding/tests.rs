@@ -6,9 +6,9 @@ use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, zbuffer};
 use binspace::scene::{self, Scene};
 use binspace::view::Camera;
 use binspace::{BspTree, Viewpoint};
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+use num_traits::{One, Signed};
 
 use testkit::vector::{difference, product, scalar};
 
@@ -28,13 +28,12 @@ fn camera(scene: &Scene, from: DVec3) -> Camera {
     Camera::perspective(eye, centre, DVec3::new(0.1, 0.2, 1.0), 0.9, [160, 120]).unwrap()
 }
 
-type Vector = [BigRational; 3];
+type Vector = [RBig; 3];
 
 /// How far along a ray a face is met inside of its edges, in rationals: the plane by the cross
 /// product of two edges, each edge by the point's side of it in the plane.
-fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<BigRational> {
-    let exact =
-        |c: &[f64; 3]| -> Vector { c.map(|c| BigRational::from_integer(BigInt::from(c as i64))) };
+fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> {
+    let exact = |c: &[f64; 3]| -> Vector { c.map(|c| RBig::from(IBig::from(c as i64))) };
     let corners: Vec<Vector> = faces.corners(face).iter().map(exact).collect();
     let triangle = faces.reference_triangle(face).map(|c| exact(&faces.corner(c)));
     let normal =
@@ -58,7 +57,7 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
     let viewpoint = Viewpoint::eye(eye);
     let hiding = Hiding::of(faces, viewpoint);
     let quad = place::eye(&Eye::new(viewpoint, faces.lattice()));
-    let from: Vector = std::array::from_fn(|i| BigRational::from_integer(quad[i].clone()));
+    let from: Vector = std::array::from_fn(|i| RBig::from(quad[i].clone()));
     let mut checked = 0;
     for a in 0..faces.len() as u32 {
         for b in (0..faces.len() as u32).filter(|&b| b != a) {
@@ -72,13 +71,15 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
             // Rays through the middle, and near each vertex: one in 2³⁰ of the way from it.
             let points: Vec<Vector> = part
                 .iter()
-                .map(|v| std::array::from_fn(|i| BigRational::new(v[i].clone(), v[3].clone())))
+                .map(|v| {
+                    std::array::from_fn(|i| RBig::from_parts_signed(v[i].clone(), v[3].clone()))
+                })
                 .collect();
-            let count = BigRational::from_integer(BigInt::from(points.len()));
+            let count = RBig::from(IBig::from(points.len()));
             let middle: Vector = std::array::from_fn(|i| {
-                points.iter().map(|p| p[i].clone()).sum::<BigRational>() / &count
+                points.iter().fold(RBig::ZERO, |sum, p| sum + &p[i]) / &count
             });
-            let share = BigRational::new(BigInt::one(), BigInt::one() << 30);
+            let share = RBig::from_parts_signed(IBig::one(), IBig::one() << 30);
             let near = |p: &Vector| -> Vector {
                 std::array::from_fn(|i| &p[i] + (&middle[i] - &p[i]) * &share)
             };

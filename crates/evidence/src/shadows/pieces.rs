@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use num_bigint::{BigInt, Sign};
+use dashu_int::IBig;
+use std::cmp::Ordering;
 
 use super::Zone;
 use super::casters::casters;
@@ -46,7 +47,7 @@ impl Piece {
     }
 
     /// The corners, exact: coordinates in lattice units, times a weight above 0, and that weight.
-    pub fn exact_corners(&self) -> impl Iterator<Item = [BigInt; 4]> + '_ {
+    pub fn exact_corners(&self) -> impl Iterator<Item = [IBig; 4]> + '_ {
         self.corners.iter().map(|corner| corner.place.homogeneous())
     }
 
@@ -57,32 +58,39 @@ impl Piece {
 
     /// The parts behind a plane and in front of it, where they have an area.
     fn split(self, face: &Plane, by: &Rc<Plane>) -> [Option<Self>; 2] {
-        let sides: Vec<Sign> = self.corners.iter().map(|c| side(by, &c.place)).collect();
-        if !sides.contains(&Sign::Plus) {
+        let sides: Vec<Ordering> = self.corners.iter().map(|c| side(by, &c.place)).collect();
+        if !sides.contains(&Ordering::Greater) {
             return [Some(self), None];
         }
-        if !sides.contains(&Sign::Minus) {
+        if !sides.contains(&Ordering::Less) {
             return [None, Some(self)];
         }
-        let part = |kept: Sign| Self { corners: self.part(face, by, &sides, kept), ..self.clone() };
-        [Some(part(Sign::Minus)), Some(part(Sign::Plus))]
+        let part =
+            |kept: Ordering| Self { corners: self.part(face, by, &sides, kept), ..self.clone() };
+        [Some(part(Ordering::Less)), Some(part(Ordering::Greater))]
     }
 
     /// The corners of the part on one side of a plane that goes through the piece.
-    fn part(&self, face: &Plane, by: &Rc<Plane>, sides: &[Sign], kept: Sign) -> Vec<Corner> {
+    fn part(
+        &self,
+        face: &Plane,
+        by: &Rc<Plane>,
+        sides: &[Ordering],
+        kept: Ordering,
+    ) -> Vec<Corner> {
         let mut corners = Vec::with_capacity(self.corners.len() + 1);
         for (k, corner) in self.corners.iter().enumerate() {
             let (here, next) = (sides[k], sides[(k + 1) % sides.len()]);
-            let leaves = next == -kept;
+            let leaves = next == kept.reverse();
             if here == kept {
                 corners.push(corner.clone());
-            } else if here == Sign::NoSign {
+            } else if here == Ordering::Equal {
                 let edge = if leaves { by } else { &corner.edge };
                 corners.push(Corner { place: corner.place.clone(), edge: Rc::clone(edge) });
             }
             // The edge has ends on both sides, so it meets the plane in one point.
-            if here != Sign::NoSign
-                && next == -here
+            if here != Ordering::Equal
+                && next == here.reverse()
                 && let Some(place) = Place::meeting([face, &corner.edge, by])
             {
                 let edge = if leaves { by } else { &corner.edge };

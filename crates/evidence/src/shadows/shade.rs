@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use num_bigint::{BigInt, Sign};
+use dashu_int::IBig;
+use std::cmp::Ordering;
 
 use crate::place::{self, Place, Plane};
 use binspace::Viewpoint;
@@ -21,12 +22,12 @@ impl Shade {
         (0..faces.len() as u32).map(|face| Self::of(faces, face, &eye)).collect()
     }
 
-    fn of(faces: &Faces, face: u32, eye: &[BigInt; 4]) -> Option<Self> {
+    fn of(faces: &Faces, face: u32, eye: &[IBig; 4]) -> Option<Self> {
         let plane = Plane::of_face(faces, face);
-        let beyond = match plane.at_eye(eye).sign() {
-            Sign::Plus => plane.flipped(),
-            Sign::Minus => plane.clone(),
-            Sign::NoSign => return None,
+        let beyond = match plane.at_eye(eye).cmp(&IBig::ZERO) {
+            Ordering::Greater => plane.flipped(),
+            Ordering::Less => plane.clone(),
+            Ordering::Equal => return None,
         };
         let count = faces.corners(face).len();
         let places: Vec<Place> =
@@ -37,8 +38,8 @@ impl Shade {
             let rim = Plane::joining([eye, &ends[0], &ends[1]]);
             // The face is convex: all of its other corners are on the same side, or in line.
             let sides = places.iter().map(|place| side(&rim, place));
-            match sides.into_iter().find(|&side| side != Sign::NoSign) {
-                Some(Sign::Minus) => planes.push(Rc::new(rim.flipped())),
+            match sides.into_iter().find(|&side| side != Ordering::Equal) {
+                Some(Ordering::Less) => planes.push(Rc::new(rim.flipped())),
                 Some(_) => planes.push(Rc::new(rim)),
                 None => {}
             }
@@ -48,6 +49,6 @@ impl Shade {
 }
 
 /// The side of a plane that a place is on.
-pub(super) fn side(plane: &Plane, place: &Place) -> Sign {
-    plane.at(place).sign()
+pub(super) fn side(plane: &Plane, place: &Place) -> Ordering {
+    plane.at(place).cmp(&IBig::ZERO)
 }

@@ -116,7 +116,7 @@ fn figures<K: Kernel>(tree: &KernelTree<K>) -> Figures {
 
 /// Whether a vertex is on another side of a plane than its fragment, by more than each limit.
 fn wrong_sides(vertex: &Placed, by: &Plane, side: Side, limits: &[Rational; 2]) -> [bool; 2] {
-    let sign = vertex.flat.side(by).cmp(&num_bigint::BigInt::zero());
+    let sign = vertex.flat.side(by).cmp(&dashu_int::IBig::ZERO);
     let is_wrong = match side {
         Side::Front => sign == Ordering::Less,
         Side::Back => sign == Ordering::Greater,

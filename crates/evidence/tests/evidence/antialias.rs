@@ -12,20 +12,20 @@ use binspace::scene::{self, Scene};
 use binspace::view::{Camera, views};
 use binspace::{BspTree, BuildOptions};
 use binspace_evidence::antialias::{Areas, blended, distance, supersampled};
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+use num_traits::Zero;
 
-type Point = [BigRational; 2];
+type Point = [RBig; 2];
 
 const SIZE: [u32; 2] = [8, 8];
 
-fn rational(n: i64, d: i64) -> BigRational {
-    BigRational::new(BigInt::from(n), BigInt::from(d))
+fn rational(n: i64, d: i64) -> RBig {
+    RBig::from_parts_signed(IBig::from(n), IBig::from(d))
 }
 
 /// The cross product of q - p and r - p.
-fn cross(p: &Point, q: &Point, r: &Point) -> BigRational {
+fn cross(p: &Point, q: &Point, r: &Point) -> RBig {
     (&q[0] - &p[0]) * (&r[1] - &p[1]) - (&q[1] - &p[1]) * (&r[0] - &p[0])
 }
 
@@ -41,7 +41,7 @@ fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
         for (k, p) in all.iter().enumerate() {
             let q = &all[(k + 1) % all.len()];
             let (at_p, at_q) = (cross(from, to, p), cross(from, to, q));
-            let zero = BigRational::zero();
+            let zero = RBig::zero();
             if at_p >= zero {
                 left.push(p.clone());
             }
@@ -54,9 +54,12 @@ fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
     left
 }
 
-fn area(polygon: &[Point]) -> BigRational {
-    let Some(first) = polygon.first() else { return BigRational::zero() };
-    let twice: BigRational = polygon.windows(2).map(|pair| cross(first, &pair[0], &pair[1])).sum();
+fn area(polygon: &[Point]) -> RBig {
+    let Some(first) = polygon.first() else { return RBig::zero() };
+    let twice: RBig = polygon
+        .windows(2)
+        .map(|pair| cross(first, &pair[0], &pair[1]))
+        .fold(RBig::ZERO, |sum, term| sum + term);
     twice / rational(2, 1)
 }
 
@@ -77,7 +80,7 @@ fn owned(pixel: &[Point], [a, b, c]: &[Vec<Point>; 3]) -> [f64; 3] {
     let (ab, ac, bc) = (common(&a, &b), common(&a, &c), common(&b, &c));
     let abc = common(&ab, &bc);
     let c = area(&c) - area(&ac) - area(&bc) + area(&abc);
-    [area(&a), area(&b) - area(&ab), c].map(|share| share.to_f64().unwrap())
+    [area(&a), area(&b) - area(&ab), c].map(|share| share.to_f64().value())
 }
 
 #[test]

@@ -5,33 +5,34 @@ use binspace::internals::{Eye, Faces};
 use binspace::scene::{self, Scene};
 use binspace::{BspTree, BuildOptions, Viewpoint};
 use binspace_evidence::shadows::{Piece, Zone, courtyard, lamp, pieces};
-use num_bigint::{BigInt, Sign};
-use num_rational::BigRational;
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use num_traits::Zero;
+use std::cmp::Ordering;
 use testkit::dice::Dice;
 use testkit::enough;
 use testkit::vector::{Plane, scalar};
 
-type Point = [BigInt; 3];
+type Point = [IBig; 3];
 
 fn whole(point: [f64; 3]) -> Point {
     point.map(|c| {
         assert_eq!(c, c.trunc());
-        BigInt::from(c as i128)
+        IBig::from(c as i128)
     })
 }
 
 /// The side of a point given by multiples of its coordinates, and the factor.
-fn side(plane: &Plane<BigInt>, [point @ .., factor]: &[BigInt; 4]) -> Sign {
-    (scalar(&plane.normal, point) - &plane.offset * factor).sign()
+fn side(plane: &Plane<IBig>, [point @ .., factor]: &[IBig; 4]) -> Ordering {
+    (scalar(&plane.normal, point) - &plane.offset * factor).cmp(&IBig::ZERO)
 }
 
 /// A face, as seen from a point of the lamp: its plane, the lamp's side of it, and the planes through
 /// the lamp and its edges.
 struct Screen {
-    plane: Plane<BigInt>,
-    lamp: Sign,
-    rims: Vec<Plane<BigInt>>,
+    plane: Plane<IBig>,
+    lamp: Ordering,
+    rims: Vec<Plane<IBig>>,
 }
 
 /// What may hide a point of the lamp.
@@ -47,34 +48,34 @@ impl Judge {
             let next = corners.iter().cycle().skip(1);
             let edges = corners.iter().zip(next);
             let rims = edges.map(|(a, b)| Plane::through([&lamp, a, b])).collect();
-            let lamp = plane.at(&lamp).sign();
+            let lamp = plane.at(&lamp).cmp(&IBig::ZERO);
             Screen { plane, lamp, rims }
         };
         Self((0..faces.len() as u32).map(screen).collect())
     }
 
     fn is_edge_on(&self, face: u32) -> bool {
-        self.0[face as usize].lamp == Sign::NoSign
+        self.0[face as usize].lamp == Ordering::Equal
     }
 
     /// Whether a face has a point between this one and the lamp.
-    fn hides(&self, point: &[BigInt; 4]) -> bool {
+    fn hides(&self, point: &[IBig; 4]) -> bool {
         self.0.iter().any(|Screen { plane, lamp, rims }| {
-            if *lamp == Sign::NoSign || side(plane, point) != -*lamp {
+            if *lamp == Ordering::Equal || side(plane, point) != lamp.reverse() {
                 return false;
             }
-            let sides: Vec<Sign> = rims.iter().map(|rim| side(rim, point)).collect();
-            !(sides.contains(&Sign::Plus) && sides.contains(&Sign::Minus))
+            let sides: Vec<Ordering> = rims.iter().map(|rim| side(rim, point)).collect();
+            !(sides.contains(&Ordering::Greater) && sides.contains(&Ordering::Less))
         })
     }
 }
 
 /// A random point within a piece: a mean of its corners, all with weights above 0.
-fn within(corners: &[[BigInt; 4]], dice: &mut Dice) -> [BigInt; 4] {
+fn within(corners: &[[IBig; 4]], dice: &mut Dice) -> [IBig; 4] {
     let most = corners.iter().map(|corner| &corner[3]).max().unwrap();
-    let mut sum: [BigInt; 4] = Default::default();
+    let mut sum: [IBig; 4] = Default::default();
     for corner in corners {
-        let weight = most / &corner[3] * BigInt::from(1 + dice.roll() % 1000);
+        let weight = most / &corner[3] * IBig::from(1 + dice.roll() % 1000);
         sum.iter_mut().zip(corner).for_each(|(sum, c)| *sum += &weight * c);
     }
     sum
@@ -167,13 +168,13 @@ fn pieces_with_another_zone_are_noticed() {
 }
 
 /// Twice the area of a projection along an axis.
-fn area(corners: &[[BigInt; 4]], axis: usize) -> BigRational {
+fn area(corners: &[[IBig; 4]], axis: usize) -> RBig {
     let at = |k: usize, i: usize| {
         let corner = &corners[k % corners.len()];
-        BigRational::new(corner[(axis + i) % 3].clone(), corner[3].clone())
+        RBig::from_parts_signed(corner[(axis + i) % 3].clone(), corner[3].clone())
     };
     let turn = |k| at(k, 1) * at(k + 1, 2) - at(k + 1, 1) * at(k, 2);
-    (0..corners.len()).map(turn).fold(BigRational::zero(), |sum, turn| sum + turn)
+    (0..corners.len()).map(turn).fold(RBig::zero(), |sum, turn| sum + turn)
 }
 
 #[test]
@@ -185,16 +186,20 @@ fn the_pieces_of_a_face_have_its_area() {
         assert!(pieces.len() > 3 * faces.len(), "{}", pieces.len());
         for face in 0..faces.len() as u32 {
             for axis in 0..3 {
-                let one = BigInt::from(1);
+                let one = IBig::from(1);
                 let corners = faces.corners(face).iter().map(|&p| whole(p));
                 let corners: Vec<_> = corners.map(|[x, y, z]| [x, y, z, one.clone()]).collect();
                 let own = pieces.iter().filter(|piece| piece.face == face);
                 let areas = own.map(|piece| area(&piece.exact_corners().collect::<Vec<_>>(), axis));
-                let areas: Vec<BigRational> = areas.collect();
+                let areas: Vec<RBig> = areas.collect();
                 // All run as the face does, so none is subtracted.
                 let whole = area(&corners, axis);
-                assert!(areas.iter().all(|part| part.numer().sign() == whole.numer().sign()));
-                assert_eq!(areas.into_iter().sum::<BigRational>(), whole, "face {face}");
+                assert!(areas.iter().all(|part| part.signum() == whole.signum()));
+                assert_eq!(
+                    areas.into_iter().fold(RBig::ZERO, |sum, area| sum + area),
+                    whole,
+                    "face {face}"
+                );
             }
         }
     }
