@@ -169,7 +169,7 @@ fn alone<T: Send>(act: impl FnOnce() -> T + Send) -> T {
 
 #[test]
 fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
-    let (view, listener) = (view(400), Listener::default());
+    let (view, listener) = (view(330), Listener::default());
     alone(|| {
         for (name, make) in MAKINGS {
             let found = check(name, &listener, || make(&view, Some(&listener)));
@@ -181,7 +181,7 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
 /// A map keeps the callback that it was made with; and after it was cancelled, it answers all the same.
 #[test]
 fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
-    let (view, listener) = (view(400), Listener::default());
+    let (view, listener) = (view(330), Listener::default());
     let View { tree, rays, overlay } = &view;
     listener.cancel_at(usize::MAX);
     let hear = |progress| listener.hear(progress);
@@ -206,7 +206,7 @@ fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
 /// On several threads calls come one at a time, in order, and none after the one that cancels.
 #[test]
 fn threads_report_in_order() {
-    let (view, listener) = (view(400), Listener::default());
+    let (view, listener) = (view(330), Listener::default());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
     pool.install(|| {
         for (name, make) in MAKINGS {

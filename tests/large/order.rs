@@ -10,16 +10,16 @@ use super::trial::Trial;
 
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
-    let trial = Trial { heuristics: Heuristic::ALL, views: times(10), rays: 8, most: 100 };
+    let trial = Trial { heuristics: Heuristic::ALL, views: times(5), rays: 8, most: 100 };
     let scores = trial.hold_all(KINDS, 1, |kind, dice| all_scenes::scene(kind, dice, 500));
     for (name, score) in &scores {
-        enough!(score.trees >= 6, score.pairs > 40; "{name}: {score:?}");
+        enough!(score.trees >= 6, score.pairs > 20; "{name}: {score:?}");
     }
     let all = Score::total(&scores);
     assert!(all.trees + all.given_up == KINDS * Heuristic::ALL.len(), "{all:?}");
     assert!(all.given_up <= 20, "{all:?}");
-    enough!(all.rays > 15_000, all.pairs > 600_000; "{all:?}");
-    enough!(all.coplanar > 9_000, all.borders > 15_000; "{all:?}");
+    enough!(all.rays > 7_000, all.pairs > 300_000; "{all:?}");
+    enough!(all.coplanar > 4_500, all.borders > 7_000; "{all:?}");
     assert!(all.grazing < all.pairs / 20 && all.excused == 0, "{all:?}");
 }
 
@@ -46,10 +46,10 @@ fn large_scenes_of_every_kind_are_in_order() {
 
 #[test]
 fn noisy_scenes_are_in_order_but_for_the_tolerance() {
-    let trial = Trial { heuristics: Heuristic::ALL, views: times(10), rays: 20, most: 30 };
+    let trial = Trial { heuristics: Heuristic::ALL, views: times(5), rays: 20, most: 30 };
     let scores = trial.hold_all(6, 3, |kind, dice| all_scenes::noisy(kind, dice, 600));
     let all = Score::total(&scores);
-    enough!(all.trees >= 40, all.pairs > 30_000; "{all:?}");
+    enough!(all.trees >= 40, all.pairs > 15_000; "{all:?}");
     assert!(all.borders < all.pairs / 100, "{all:?}");
     assert!(all.excused > 0 && all.excused < all.pairs / 5, "{all:?}");
 }

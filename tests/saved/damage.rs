@@ -2,6 +2,7 @@
 
 use binspace::scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder};
+use testkit::effort::effort;
 use testkit::enough;
 use testkit::saved::{bytes, checksum, seal};
 use testkit::targets::saved::try_file;
@@ -59,13 +60,16 @@ fn a_checksum_shows_every_changed_byte() {
     }
 }
 
-/// Every byte changed, and the checksum made right: refused, or as good as any tree to use.
+/// Every byte changed, in one way or with more effort in several, and the checksum made right: refused, or as
+/// good as any tree to use.
 #[test]
 fn a_forged_file_is_refused_or_usable() {
     let (mut usable, mut refused) = (0, 0);
+    let changes = [0x01, 0x02, 0x10, 0x80, 0xff];
+    let step = changes.len().div_ceil(effort());
     for file in files() {
         for at in 16..file.len() - 4 {
-            for change in [0x01, 0x02, 0x10, 0x80, 0xff] {
+            for change in changes.iter().skip(at % step).step_by(step) {
                 let mut forged = file.clone();
                 forged[at] ^= change;
                 seal(&mut forged);
@@ -76,7 +80,7 @@ fn a_forged_file_is_refused_or_usable() {
         }
     }
     // Corners may be moved a little, and counts be false.
-    enough!(usable > 1000, refused > 1000; "{usable} {refused}");
+    enough!(usable > 200, refused > 200; "{usable} {refused}");
 }
 
 #[test]

@@ -65,6 +65,14 @@ impl Sampled {
             let start = pixel / size[0] * SAMPLES * across + pixel % size[0] * SAMPLES;
             let own =
                 (0..SAMPLES * SAMPLES).map(|k| samples[start + k / SAMPLES * across + k % SAMPLES]);
+            let first = samples[start];
+            if own.clone().all(|(_, kind)| kind == first.1) {
+                sampled.contrasts.push(0.0);
+                sampled.means.push(first.0.map(f64::from));
+                sampled.is_open.push(first.1 == 0);
+                sampled.kinds.push(1);
+                continue;
+            }
             let kinds: HashSet<u64> = own.clone().map(|(_, kind)| kind).collect();
             let span = |i: usize| {
                 let channel = own.clone().map(|(colour, _)| colour[i]);

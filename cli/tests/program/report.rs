@@ -105,6 +105,7 @@ fn a_folder_in_which_nothing_can_be_made_is_refused_before_anything_is_measured(
 
 /// Drawings join the report where no family is named.
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn drawings_stand_beside_the_list_of_fragments() {
     let folder = Folder::new("report_drawings");
     folder.write("scene.obj", CROSSING);

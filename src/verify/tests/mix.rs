@@ -125,7 +125,7 @@ fn opaque_by_depth_and_translucent_in_tree_order_is_the_exact_picture() {
         for heuristic in [Heuristic::Auto, Heuristic::Random { seed: 4 }] {
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic).with_tolerance(0.0);
             let tree = options.build(scene.polygons()).unwrap();
-            for camera in cameras(&scene, 3) {
+            for camera in cameras(&scene, 2) {
                 let rays = Rays::new(&camera, tree.faces()).unwrap();
                 let hits = hits(&rays, tree.faces());
                 let truth = sorted_picture(tree.faces(), &hits);
@@ -142,6 +142,6 @@ fn opaque_by_depth_and_translucent_in_tree_order_is_the_exact_picture() {
             }
         }
     }
-    assert!(pixels > 20_000 && deep > 4000, "{pixels} pixels, {deep} of three faces or more");
-    assert!(wrong_unsorted > 1000, "the order is no matter: {wrong_unsorted}");
+    assert!(pixels > 13_000 && deep > 2600, "{pixels} pixels, {deep} of three faces or more");
+    assert!(wrong_unsorted > 600, "the order is no matter: {wrong_unsorted}");
 }
