@@ -5,6 +5,8 @@ mod one_plane;
 #[cfg(feature = "save")]
 mod saved;
 
+use std::fmt;
+
 use super::Lattice;
 use super::label::MAX_LABELS;
 use crate::error::{Error, Limit};
@@ -17,7 +19,7 @@ use crate::memory::reserve;
 /// becomes one face; any other becomes triangles. A corner that does not lie exactly on the plane
 /// of its face's reference triangle is *defined* to lie on it, moved along the axis in which the
 /// plane is least steep. Stored is the lattice point nearest to the moved corner.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Faces {
     pub(crate) lattice: Lattice,
     pub(crate) tolerance: f64,
@@ -36,6 +38,17 @@ pub struct Faces {
     /// each face's plane is that of its own reference triangle.
     pub(crate) planes: Vec<[u32; 3]>,
     pub(crate) thin: Thin,
+}
+
+impl fmt::Debug for Faces {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Faces")
+            .field("lattice", &self.lattice)
+            .field("tolerance", &self.tolerance)
+            .field("corners", &self.corners.len())
+            .field("faces", &self.faces.len())
+            .finish_non_exhaustive()
+    }
 }
 
 /// How many of the last faces have no area: first segments, then points.

@@ -1,5 +1,6 @@
 //! A fragment: what a tree's orders are made of.
 
+use std::fmt;
 use std::iter::FusedIterator;
 use std::ops::Range;
 
@@ -11,7 +12,7 @@ use super::{BspTree, grid};
 use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, PlaneId, Symbol, Vertex};
 
 /// A convex piece of a polygon, or the whole polygon.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Fragment<'t> {
     pub(crate) faces: &'t Faces,
     index: u32,
@@ -188,6 +189,16 @@ impl<'t> Fragment<'t> {
             weights.iter_mut().for_each(|(k, _)| *k = faces.corner_number(face, *k));
             weights
         })
+    }
+}
+
+impl fmt::Debug for Fragment<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Fragment")
+            .field("index", &self.index)
+            .field("polygon", &self.polygon())
+            .field("vertices", &self.vertices().collect::<Vec<_>>())
+            .finish_non_exhaustive()
     }
 }
 

@@ -133,6 +133,18 @@ fn as_many_fragments_as_faces_say_that_nothing_was_cut() {
     assert!(tree.len() > 5);
 }
 
+/// It once listed all faces of the tree.
+#[test]
+fn debug_output_is_about_the_fragment_alone() {
+    let tree = BspTree::build([sheet(2, 0.0, 4.0), sheet(2, 1.0, 4.0)]).unwrap();
+    let text = format!("{:?}", tree.fragment(1));
+    assert!(
+        text.starts_with("Fragment { index: 1, polygon: 1, vertices: [") && text.len() < 200,
+        "{text}"
+    );
+    assert!(format!("{:?}", tree.faces()).contains("faces: 2, .."));
+}
+
 #[test]
 fn the_parts_of_a_fragment_are_read_from_both_ends() {
     let tree = BspTree::build(scene::random_triangles(60, 1).polygons()).unwrap();
