@@ -3,7 +3,6 @@
 //! A fragment's vertices are computed from the lines that bound it, not from the library's own
 //! definition of them, and every decision is made again.
 
-use super::homogeneous::{self, Homogeneous};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
@@ -21,7 +20,6 @@ pub const POSITION_ERROR: f64 = 0.77;
 /// A fragment in rationals.
 struct Piece {
     points: Vec<Point>,
-    flat: Vec<Homogeneous>,
     lines: Vec<Line>,
 }
 
@@ -56,17 +54,17 @@ pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     judge.weights(polygons)
 }
 
-/// What is there of a face: its area, as a residue, and the runs along each of its edges, from 0 to 1.
+/// What is there of a face: its area, seen along an axis, and the runs along each of its edges, from 0 to 1.
 #[derive(Clone, Debug, Default)]
 pub struct Cover {
-    area: u128,
+    area: Rational,
     runs: Vec<Vec<[Rational; 2]>>,
 }
 
 impl Cover {
     /// Adds what is elsewhere of the same face.
     pub fn add(&mut self, other: &Self) {
-        self.area = homogeneous::add(self.area, other.area);
+        self.area += &other.area;
         self.runs.resize(other.runs.len().max(self.runs.len()), Vec::new());
         self.runs.iter_mut().zip(&other.runs).for_each(|(own, other)| own.extend_from_slice(other));
     }
@@ -86,8 +84,7 @@ impl<'t> Judge<'t> {
             let face = &faces[fragment.face() as usize];
             let resolve = |i| face.resolve(tree.faces(), symbol(i));
             let points: Vec<Point> = (0..lines.len()).map(resolve).collect();
-            let flat = points.iter().map(Homogeneous::new).collect();
-            Piece { points, flat, lines }
+            Piece { points, lines }
         };
         let pieces = tree.fragments().map(piece).collect();
         Self { tree, faces, pieces }
@@ -114,8 +111,8 @@ impl<'t> Judge<'t> {
             let facing = rational::sign(&face.plane.normal[axis]);
             let mut turns = 0;
             for i in 0..n {
-                let corner = [0, 1, 2].map(|k| &piece.flat[(i + k) % n]);
-                let turn = homogeneous::turn(corner, axis);
+                let corner = [0, 1, 2].map(|k| &piece.points[(i + k) % n]);
+                let turn = rational::sign(&area(corner, axis));
                 let straight_on = turn.is_eq() && corner[0] != corner[1];
                 ensure(turn == facing || straight_on, || {
                     format!("turns the wrong way at {}: {fragment:?}", (i + 1) % n)
@@ -135,12 +132,15 @@ impl<'t> Judge<'t> {
 
     /// What is there of each face.
     pub fn covers(&self) -> Vec<Cover> {
-        let empty = |face: &Face| Cover { area: 0, runs: vec![Vec::new(); face.corners.len()] };
+        let empty = |face: &Face| Cover {
+            area: Rational::zero(),
+            runs: vec![Vec::new(); face.corners.len()],
+        };
         let mut covers: Vec<Cover> = self.faces.iter().map(empty).collect();
         for (fragment, face, piece) in self.with_pieces() {
             let cover = &mut covers[fragment.face() as usize];
             let axis = model::main_axis(&face.plane);
-            cover.area = homogeneous::add(cover.area, homogeneous::area(&piece.flat, axis));
+            cover.area += area(&piece.points, axis);
             for (i, line) in piece.lines.iter().enumerate() {
                 let Some(edge) = line.as_edge() else { continue };
                 let ends = [i, (i + 1) % piece.points.len()].map(|k| &piece.points[k]);
@@ -154,9 +154,9 @@ impl<'t> Judge<'t> {
     pub fn is_covered(&self, id: usize, cover: &mut Cover) -> Verdict {
         let face = &self.faces[id];
         let axis = model::main_axis(&face.plane);
-        let corners: Vec<_> = face.corners.iter().map(Homogeneous::new).collect();
-        let area = homogeneous::area(&corners, axis);
-        ensure(cover.area == area, || format!("the pieces of face {id} miss its area"))?;
+        ensure(cover.area == area(&face.corners, axis), || {
+            format!("the pieces of face {id} miss its area")
+        })?;
         for (edge, runs) in cover.runs.iter_mut().enumerate() {
             runs.sort();
             let end = runs.iter().try_fold(Rational::zero(), |end, [from, to]| {
@@ -183,8 +183,8 @@ impl<'t> Judge<'t> {
                 for id in range {
                     let piece = &self.pieces[id as usize];
                     let face = self.tree.fragment(id).face();
-                    let side = |p: &Homogeneous| Rational::from(p.side(&by));
-                    let values: Vec<Rational> = piece.flat.iter().map(side).collect();
+                    let values: Vec<Rational> =
+                        piece.points.iter().map(|point| by.at(point)).collect();
                     let exact = &self.faces[face as usize];
                     let allowed = exact.classify((faces, face), (node.plane(), &by), &values);
                     ensure(allowed.contains(&expected), || {
@@ -244,6 +244,19 @@ fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2]
     let a = snapped(&corners[edge]);
     let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len()).map(snapped);
     [a, next.find(|&next| next != a).unwrap_or(a)]
+}
+
+/// Twice the area of an outline seen along an axis.
+fn area<'p>(outline: impl IntoIterator<Item = &'p Point>, axis: usize) -> Rational {
+    let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
+    let mut points = outline.into_iter();
+    let Some(first) = points.next() else { return Rational::zero() };
+    let arms: Vec<_> = points.map(|point| [j, k].map(|i| &point[i] - &first[i])).collect();
+    let triangle = |arms: &[[Rational; 2]]| {
+        let [[ax, ay], [bx, by]] = [&arms[0], &arms[1]];
+        ax * by - ay * bx
+    };
+    arms.windows(2).map(triangle).fold(Rational::zero(), |sum, term| sum + term)
 }
 
 /// How far along an edge of a face a point on it is: 0 to 1.

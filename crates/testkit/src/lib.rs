@@ -15,7 +15,6 @@ pub mod fragment_pixels;
 pub mod hard;
 pub mod hinted;
 pub mod hits;
-pub mod homogeneous;
 pub mod judge;
 pub mod layered;
 pub mod model;
