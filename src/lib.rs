@@ -127,11 +127,9 @@ pub mod internals {
     pub use crate::query::Spot;
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]
-    pub use crate::scene::cuboid::cuboid;
+    pub use crate::scene::generated::{cuboid, unit_circle};
     #[cfg(feature = "obj")]
     pub use crate::scene::obj::file::open_regular;
-    #[cfg(feature = "scene")]
-    pub use crate::scene::turn::unit_circle;
     pub use crate::tree::apart::parts_of_tree;
     pub use crate::tree::parts::{Parts, RawChild, RawNode, Record};
 }

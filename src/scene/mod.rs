@@ -11,38 +11,22 @@
 //! last bit.
 
 mod builtin;
-mod chain;
-mod city;
 mod cornell;
-mod crossing;
-pub(crate) mod cuboid;
-mod layers;
-mod material;
-mod newell;
+pub(crate) mod generated;
 #[cfg(feature = "obj")]
 pub(crate) mod obj;
-mod random;
 #[cfg(feature = "save")]
 mod saved;
-mod sphere;
 mod teapot;
-mod terrain;
-pub(crate) mod turn;
 
 pub use builtin::{Builtin, BuiltinError, BuiltinSpec};
-pub use chain::chain;
-pub use city::city;
 pub use cornell::cornell_box;
-pub use crossing::crossing;
-pub use layers::layers;
-pub use material::Material;
-pub use newell::newell_bars;
+pub use generated::{
+    chain, city, crossing, layers, newell_bars, random_triangles, sphere, terrain,
+};
 #[cfg(feature = "obj")]
 pub use obj::{ObjError, ObjReport, ObjStream};
-pub use random::random_triangles;
-pub use sphere::sphere;
 pub use teapot::teapot;
-pub use terrain::terrain;
 
 use std::ops::Deref;
 
@@ -298,5 +282,49 @@ impl Scene {
     /// such as the Cornell box through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
+    }
+}
+
+/// A flat colour. There is no lighting.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Material {
+    /// A name for people; need not be unique.
+    pub name: String,
+    /// Red, green, blue from 0 to 1, sRGB-encoded: the value to display, as it stands.
+    pub color: [f32; 3],
+    /// From 0, invisible, to 1, opaque.
+    pub opacity: f32,
+}
+
+impl Material {
+    /// Light grey, opaque, without a name: for polygons without a material.
+    pub const DEFAULT: Self = Self { name: String::new(), color: [0.8; 3], opacity: 1.0 };
+
+    /// An opaque material.
+    pub fn new(name: impl Into<String>, color: [f32; 3]) -> Self {
+        Self { name: name.into(), color, opacity: 1.0 }
+    }
+
+    /// The same material with an opacity from 0, invisible, to 1, opaque.
+    #[must_use]
+    pub fn with_opacity(self, opacity: f32) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito, "Color Universal
+    /// Design", 2008, with grey in place of black.
+    pub fn palette() -> impl Iterator<Item = Self> {
+        const PALETTE: [(&str, [u8; 3]); 8] = [
+            ("orange", [230, 159, 0]),
+            ("sky blue", [86, 180, 233]),
+            ("bluish green", [0, 158, 115]),
+            ("yellow", [240, 228, 66]),
+            ("blue", [0, 114, 178]),
+            ("vermilion", [213, 94, 0]),
+            ("reddish purple", [204, 121, 167]),
+            ("grey", [153, 153, 153]),
+        ];
+        PALETTE.iter().map(|&(name, rgb)| Self::new(name, rgb.map(|byte| f32::from(byte) / 255.0)))
     }
 }
