@@ -1,19 +1,18 @@
 //! A scene divided into cells by planes.
 
 mod choose;
-mod extent;
-mod order;
-mod reach;
 #[cfg(feature = "save")]
 mod saved;
 
 use std::ops::Range;
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use crate::exact::cell::{CellBox, EVERYWHERE};
-use crate::exact::{Faces, Lattice};
-pub use extent::Extent;
+use crate::exact::{Eye, Faces, LATTICE_LIMIT, Lattice, Plane};
+use crate::input::Polygon;
+use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
 ///
@@ -173,5 +172,194 @@ impl Partition {
             subtree = if is_behind { back } else { front };
         }
         found
+    }
+
+    /// The numbers of all cells, the furthest first: no cell hides a later one. O(cells). An eye on a plane
+    /// between two counts as on either side of it, as in a tree.
+    pub fn back_to_front(&self, viewpoint: Viewpoint) -> Vec<usize> {
+        let eye = Eye::new(viewpoint, &self.lattice);
+        let mut order = Vec::with_capacity(self.cells());
+        let mut rest = vec![self.root()];
+        while let Some(subtree) = rest.pop() {
+            if subtree.cells.len() == 1 {
+                order.push(subtree.cells.start);
+                continue;
+            }
+            let Wall { axis, at } = self.planes[subtree.plane];
+            let [back, front] = subtree.sides();
+            let is_in_front = Plane::axis_at_eye(axis, [at; 3], &eye).is_gt();
+            // The nearer side is put below the further one, so that it comes later.
+            rest.extend(if is_in_front { [front, back] } else { [back, front] });
+        }
+        order
+    }
+
+    /// The numbers of all cells, the nearest first: the reverse of
+    /// [`back_to_front`](Self::back_to_front).
+    pub fn front_to_back(&self, viewpoint: Viewpoint) -> Vec<usize> {
+        let mut order = self.back_to_front(viewpoint);
+        order.reverse();
+        order
+    }
+
+    /// Replaces `cells` by the cells that a polygon may have part in, in ascending order. All
+    /// that [`build_cell`](crate::BuildOptions::build_cell) needs of a scene are the polygons that reach the cell.
+    ///
+    /// Conservative: a cell is listed if its box meets the polygon's, widened by the tolerance, and the
+    /// layer along its plane. So a few cells are listed that nothing of the polygon is in, which does no
+    /// harm. A polygon with a corner beyond the partition's grid, or no number, is listed for all: building
+    /// them tells about it.
+    ///
+    /// O(corners + cells reached · log cells).
+    pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
+        cells.clear();
+        let corners: SmallVec<[[f64; 3]; 8]> =
+            polygon.corners().map(|corner| self.lattice.snap(corner)).collect();
+        let Some(&first) = corners.first() else { return };
+        let is_on_lattice = |corner: &[f64; 3]| corner.iter().all(|c| c.abs() <= LATTICE_LIMIT);
+        if !corners.iter().all(is_on_lattice) {
+            cells.extend(0..self.cells());
+            return;
+        }
+        let margin = MARGIN[0] * self.tolerance + MARGIN[1];
+        let [mut low, mut high] = [first; 2];
+        for corner in &corners {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        let reach = [low.map(|c| c - margin), high.map(|c| c + margin)];
+        let mut slot = None;
+        let mut rest: SmallVec<[(CellRange, CellBox); 16]> = SmallVec::new();
+        rest.push((self.root(), reach));
+        while let Some((subtree, part)) = rest.pop() {
+            if subtree.cells.len() == 1 {
+                // What is in one cell with all that is around it needs no closer look.
+                let layer = || Layer::new(&corners, margin);
+                if part == reach || slot.get_or_insert_with(layer).meets(&part) {
+                    cells.push(subtree.cells.start);
+                }
+                continue;
+            }
+            let Wall { axis, at } = self.planes[subtree.plane];
+            let [back, front] = subtree.sides();
+            let [mut back_part, mut front_part] = [part; 2];
+            back_part[1][axis] = at.min(part[1][axis]);
+            front_part[0][axis] = at.max(part[0][axis]);
+            // What is behind comes off first, so that cells come in ascending order.
+            if part[1][axis] >= at {
+                rest.push((front, front_part));
+            }
+            if part[0][axis] < at {
+                rest.push((back, back_part));
+            }
+        }
+    }
+}
+
+/// The bounding box of a scene, and how precise it is: what those who build its cells have to agree on.
+///
+/// Each may gather it of its own polygons; together they are [merged](Self::merge), in any order.
+///
+/// ```
+/// use binspace::partition::Extent;
+///
+/// let mut extent = Extent::default();
+/// extent.include(&[[0.0, 1.0, 2.0], [3.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+/// assert_eq!(extent.high.to_array(), [3.0, 1.0, 2.0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// The least coordinates; infinite if there is no corner, NaN if a coordinate is infinite or NaN.
+    pub low: DVec3,
+    /// The largest coordinates; −∞ if there is no corner.
+    pub high: DVec3,
+    /// The largest [`precision`](Polygon::precision) of the polygons.
+    pub precision: f64,
+}
+
+impl Default for Extent {
+    /// That of nothing.
+    fn default() -> Self {
+        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, precision: 0.0 }
+    }
+}
+
+impl Extent {
+    /// Includes a polygon.
+    pub fn include(&mut self, polygon: &(impl Polygon + ?Sized)) {
+        for corner in polygon.corners() {
+            let box_of_it = if corner.is_finite() { [corner; 2] } else { [DVec3::NAN; 2] };
+            self.include_box(box_of_it);
+        }
+        self.precision = self.precision.max(polygon.precision());
+    }
+
+    /// Includes what another has.
+    pub fn merge(&mut self, other: &Self) {
+        self.include_box([other.low, other.high]);
+        self.precision = self.precision.max(other.precision);
+    }
+
+    fn include_box(&mut self, [low, high]: [DVec3; 2]) {
+        // Not `min` and `max` of the type, which pass over NaN.
+        for axis in 0..3 {
+            if low[axis] < self.low[axis] || low[axis].is_nan() {
+                self.low[axis] = low[axis];
+            }
+            if high[axis] > self.high[axis] || high[axis].is_nan() {
+                self.high[axis] = high[axis];
+            }
+        }
+    }
+}
+
+/// How far beyond its corners a polygon may reach, in tolerances and in steps of the lattice: a corner
+/// that is moved onto its plane moves by √3 of the tolerance and half a step, and what is within the
+/// tolerance of a cell's plane belongs to one side. Together √3 + 1 = 2.74 tolerances and half a step. Smaller: cells miss what is theirs; larger: more
+/// polygons are given to cells that nothing of them is in.
+const MARGIN: [f64; 2] = [3.0, 2.0];
+/// What rounding adds to the distance of a corner from a plane, as a share of the lengths that it is made
+/// of. The normal is any, and taken as it is. With u = 2⁻⁵³: arms of corners are exact, so a scalar product with
+/// one is off by 3u, three for the product and the sums on the way; an end of a box by u and its difference
+/// from a corner by u, its middle and its half by u more, and their products by 3u each. Together with the sums
+/// and differences in `meets`, and the slack itself, that is less than 20u.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The space between two parallel planes around some corners.
+struct Layer {
+    /// The point that distances are measured from.
+    from: DVec3,
+    normal: DVec3,
+    /// The scalar products of the normal with all points, the margin included.
+    least: f64,
+    most: f64,
+}
+
+impl Layer {
+    /// Perpendicular to Newell's normal: of a planar polygon that is thin. Any normal would be right.
+    fn new(corners: &[[f64; 3]], margin: f64) -> Self {
+        let from = DVec3::from(corners[0]);
+        // Differences of lattice coordinates are exact.
+        let arms = corners.iter().map(|&corner| DVec3::from(corner) - from);
+        let next = arms.clone().cycle().skip(1);
+        let normal: DVec3 = arms.clone().zip(next).map(|(arm, next)| arm.cross(next)).sum();
+        let start = [f64::INFINITY, f64::NEG_INFINITY];
+        let [least, most] = arms.clone().fold(start, |[least, most], arm| {
+            let along = normal.dot(arm);
+            [least.min(along), most.max(along)]
+        });
+        let size = arms.map(|arm| arm.abs().max_element()).fold(0.0, f64::max);
+        let slack = normal.abs().element_sum() * (margin + ROUNDING * (size + margin));
+        Self { from, normal, least: least - slack, most: most + slack }
+    }
+
+    /// Whether some of a box, which reaches no further than the corners and the margin, is in it.
+    fn meets(&self, [low, high]: &CellBox) -> bool {
+        let [low, high] = [low, high].map(|&corner| DVec3::from(corner) - self.from);
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let (along, reach) = (self.normal.dot(middle), self.normal.abs().dot(half));
+        along - reach <= self.most && along + reach >= self.least
     }
 }

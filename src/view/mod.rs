@@ -4,11 +4,8 @@
 //! one and covers the square from (0, 0) to (1, 1), so that its centre is at (0.5, 0.5).
 
 mod camera;
-mod clip;
-mod error;
 mod vantage;
 
-pub use camera::{Camera, Projection};
-pub use error::CameraError;
-pub(crate) use error::Kind as CameraProblem;
+pub(crate) use camera::CameraProblem;
+pub use camera::{Camera, CameraError, Projection};
 pub use vantage::views;

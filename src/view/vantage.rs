@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::camera::{Camera, unit};
-use super::error::CameraError;
+use super::camera::{Camera, CameraError, unit};
 use crate::random::SplitMix64;
 
 /// The field of view of cameras that stand around a scene, in radians.

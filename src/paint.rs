@@ -1,12 +1,9 @@
 //! Painting a tree's fragments, with exact coverage of every pixel.
 
-mod pieces;
-
-use crate::raster::{Image, Layers, Order, Painter, Rays, blend, for_each_shaded};
-use crate::tree::BspTree;
+use crate::exact::Line;
+use crate::raster::{Image, Layers, Order, Outline, Painter, Piece, Rays, blend, for_each_shaded};
+use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
-
-pub(crate) use pieces::Buffers;
 
 /// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be that of the
 /// rays.
@@ -102,5 +99,27 @@ pub fn for_each_painted(
         for_each_shaded(rays, tree.faces(), buffers.piece(&fragment), colour, |pixel, colour| {
             paint(pixel, colour, opacity);
         });
+    }
+}
+
+/// A fragment's outline, in memory that the next one uses again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
+    lines: Vec<Line>,
+    vertices: Vec<[f64; 3]>,
+}
+
+impl Buffers {
+    pub(crate) fn piece(&mut self, fragment: &Fragment<'_>) -> Piece<'_> {
+        let face = fragment.face();
+        if fragment.is_whole() {
+            return Piece { face, outline: Outline::Whole };
+        }
+        self.vertices.clear();
+        self.vertices.extend(fragment.lattice_vertices());
+        let vertices = &self.vertices[..];
+        self.lines.clear();
+        self.lines.extend(fragment.lines());
+        Piece { face, outline: Outline::Lines { lines: &self.lines, vertices } }
     }
 }
