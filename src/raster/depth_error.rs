@@ -1,10 +1,9 @@
 //! How far wrongly painted faces lie behind the ones that should show.
 
 use super::compare_pictures::{Comparison, LastPair, Verdict};
-use super::coverage::Coverage;
+use super::coverage::{Coverage, Outline};
 use super::exact::PlanePair;
 use super::image::Image;
-use super::piece::Outline;
 use super::rays::Rays;
 use crate::exact::Faces;
 

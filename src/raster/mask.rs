@@ -3,8 +3,7 @@
 use std::ops::Range;
 
 use super::bounds::Window;
-use super::coverage::Coverage;
-use super::piece::Piece;
+use super::coverage::{Coverage, Piece};
 use super::rays::Rays;
 use crate::exact::Faces;
 

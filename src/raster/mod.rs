@@ -13,21 +13,17 @@
 //! these with the polygons as given.
 
 mod bounds;
-mod canvas;
 mod compare_pictures;
 mod coverage;
 mod depth_error;
 mod digits;
 mod exact;
 mod image;
-mod layers;
 mod line;
 mod mask;
 mod painter;
 mod picture;
-mod piece;
 mod rays;
-mod runs;
 mod sheet;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -36,18 +32,17 @@ mod zbuffer;
 pub use crate::exact::Faces;
 #[cfg(feature = "drawing")]
 pub(crate) use bounds::VERTEX_ERROR;
-pub use canvas::blend;
-pub(crate) use canvas::for_each_shaded;
 pub use compare_pictures::{Comparison, Verdict, compare};
 pub(crate) use compare_pictures::{compare_by, is_open};
 pub use depth_error::{DepthError, depth_error};
+pub(crate) use image::Layers;
 pub use image::{Image, NONE};
-pub(crate) use layers::Layers;
 #[cfg(feature = "drawing")]
 pub(crate) use line::edge;
 pub(crate) use mask::Mask;
 pub(crate) use painter::covers;
-pub use picture::{brightness, colour_of, depth_map, difference, picture};
+pub(crate) use picture::for_each_shaded;
+pub use picture::{blend, brightness, colour_of, depth_map, difference, picture};
 #[cfg(feature = "drawing")]
 pub(crate) use rays::Pencil;
 pub use rays::Rays;
@@ -60,6 +55,6 @@ pub use zbuffer::{DepthImage, zbuffer};
 /// named by faces on the lattice, which users do not see.
 #[doc(hidden)]
 pub use self::{
+    coverage::{Outline, Piece},
     painter::{Order, Painter, for_each_run},
-    piece::{Outline, Piece},
 };

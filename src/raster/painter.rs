@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use super::coverage::Coverage;
+use super::coverage::{Coverage, Piece};
 use super::image::{Image, NONE};
-use super::piece::Piece;
 use super::rays::Rays;
 use crate::exact::Faces;
 

@@ -3,13 +3,11 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::coverage::Coverage;
+use super::coverage::{Coverage, Outline};
 use super::digits;
 use super::exact::Plane;
-use super::image::{Image, NONE};
-use super::layers::Layers;
+use super::image::{Image, Layers, NONE};
 use super::line::Seen;
-use super::piece::Outline;
 use super::rays::Rays;
 use super::sheet::ROUNDING;
 use crate::exact::Faces;

@@ -1,0 +1,338 @@
+//! Files: how numbers and lists are written and read back, whatever they are of.
+//!
+//! A file is little-endian. It begins with the eight bytes `binspace`, four that say of what it is,
+//! such as `tree`, and the version as `u32`. It ends with a `u32`, the CRC-32 (as of gzip and PNG) of
+//! all bytes before. In between are numbers, and lists: their length as `u64`, then the items.
+//! Another file may follow directly.
+
+use std::fmt;
+use std::io::{self, Read, Write};
+
+use crc32fast::Hasher;
+
+/// What every file begins with.
+const MAGIC: [u8; 8] = *b"binspace";
+
+/// What a file holds, and the version of its layout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Kind {
+    /// Four letters.
+    pub(crate) name: [u8; 4],
+    pub(crate) version: u32,
+}
+
+/// How many bytes are read or written at once. Smaller: more calls; larger: it leaves the processor's cache.
+const CHUNK: usize = 1 << 16;
+
+/// Reads a file.
+#[derive(Debug)]
+pub(crate) struct Reader<R> {
+    input: R,
+    sum: Hasher,
+    chunk: Vec<u8>,
+}
+
+impl<R: Read> Reader<R> {
+    /// Begins with a file, which must be of this kind and version.
+    pub(crate) fn new(input: R, kind: Kind) -> Result<Self, LoadError> {
+        let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
+        if reader.get::<8>("first bytes")? != MAGIC {
+            return Err(LoadError::foreign());
+        }
+        let (name, version) = (reader.get("first bytes")?, reader.u32("first bytes")?);
+        if name != kind.name {
+            return Err(LoadError::other_kind(name, kind.name));
+        }
+        if version != kind.version {
+            return Err(LoadError::version(version, kind.version));
+        }
+        Ok(reader)
+    }
+
+    /// Reads some bytes of what is called `what`.
+    fn get<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], LoadError> {
+        let mut bytes = [0; N];
+        self.input.read_exact(&mut bytes).map_err(|error| LoadError::of_reading(error, what))?;
+        self.sum.update(&bytes);
+        Ok(bytes)
+    }
+
+    pub(crate) fn u32(&mut self, what: &'static str) -> Result<u32, LoadError> {
+        self.get(what).map(u32::from_le_bytes)
+    }
+
+    pub(crate) fn u64(&mut self, what: &'static str) -> Result<u64, LoadError> {
+        self.get(what).map(u64::from_le_bytes)
+    }
+
+    pub(crate) fn f64(&mut self, what: &'static str) -> Result<f64, LoadError> {
+        self.get(what).map(f64::from_le_bytes)
+    }
+
+    /// A number of things, which must not be above a limit.
+    pub(crate) fn count(&mut self, what: &'static str, limit: usize) -> Result<usize, LoadError> {
+        let (found, limit) = (self.u64(what)?, limit as u64);
+        if found > limit {
+            return Err(LoadError::too_many(what, found, limit));
+        }
+        // It fits, as the limit did.
+        Ok(found as usize)
+    }
+
+    /// Reads a list: how many items there are, which must not be above a limit, and the items, each
+    /// from `N` bytes.
+    pub(crate) fn list<T, const N: usize>(
+        &mut self,
+        what: &'static str,
+        limit: usize,
+        item: impl FnMut(&[u8; N]) -> T,
+    ) -> Result<Vec<T>, LoadError> {
+        let len = self.count(what, limit)?;
+        self.items(what, len, item)
+    }
+
+    /// Reads the items of a list, each from `N` bytes, given how many there are.
+    pub(crate) fn items<T, const N: usize>(
+        &mut self,
+        what: &'static str,
+        len: usize,
+        mut item: impl FnMut(&[u8; N]) -> T,
+    ) -> Result<Vec<T>, LoadError> {
+        let mut items = Vec::new();
+        let most = (CHUNK / N).max(1);
+        while items.len() < len {
+            let some = most.min(len - items.len());
+            // At most twice what has been read, so that a false length cannot ask for much.
+            if items.capacity() - items.len() < some {
+                let room = len.min(2 * items.len() + most) - items.len();
+                items.try_reserve_exact(room).map_err(|_| LoadError::out_of_memory())?;
+            }
+            let bytes = &mut self.chunk[..some * N];
+            self.input.read_exact(bytes).map_err(|error| LoadError::of_reading(error, what))?;
+            self.sum.update(bytes);
+            // A closure around it is inlined; `&mut item` in its place was called for each item.
+            #[expect(clippy::redundant_closure, reason = "see above")]
+            items.extend(bytes.as_chunks::<N>().0.iter().map(|bytes| item(bytes)));
+        }
+        Ok(items)
+    }
+
+    /// Compares the checksum. What was read before may be false until then.
+    pub(crate) fn finish(mut self) -> Result<(), LoadError> {
+        let found = self.sum.clone().finalize();
+        let expected = self.u32("checksum")?;
+        if found == expected { Ok(()) } else { Err(LoadError::checksum(found, expected)) }
+    }
+}
+
+/// The `u32` that begins at a place among some bytes.
+#[inline]
+pub(crate) fn u32_at<const N: usize>(bytes: &[u8; N], at: usize) -> u32 {
+    u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
+}
+
+/// The `u64` that begins at a place among some bytes.
+#[inline]
+pub(crate) fn u64_at<const N: usize>(bytes: &[u8; N], at: usize) -> u64 {
+    u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
+}
+
+/// Writes a file.
+#[derive(Debug)]
+pub(crate) struct Writer<W> {
+    output: W,
+    sum: Hasher,
+    /// What is still to be written, up to about [`CHUNK`] bytes.
+    waiting: Vec<u8>,
+}
+
+impl<W: Write> Writer<W> {
+    /// Begins a file.
+    pub(crate) fn new(output: W, kind: Kind) -> io::Result<Self> {
+        let mut writer = Self { output, sum: Hasher::new(), waiting: Vec::new() };
+        writer.put(MAGIC)?;
+        writer.put(kind.name)?;
+        writer.u32(kind.version)?;
+        Ok(writer)
+    }
+
+    /// Writes bytes.
+    #[inline]
+    pub(crate) fn put<const N: usize>(&mut self, bytes: [u8; N]) -> io::Result<()> {
+        self.waiting.extend_from_slice(&bytes);
+        if self.waiting.len() >= CHUNK { self.flush() } else { Ok(()) }
+    }
+
+    #[inline]
+    pub(crate) fn u32(&mut self, value: u32) -> io::Result<()> {
+        self.put(value.to_le_bytes())
+    }
+
+    #[inline]
+    pub(crate) fn u64(&mut self, value: u64) -> io::Result<()> {
+        self.put(value.to_le_bytes())
+    }
+
+    #[inline]
+    pub(crate) fn f64(&mut self, value: f64) -> io::Result<()> {
+        self.put(value.to_le_bytes())
+    }
+
+    /// Writes a list: how many items there are, and each as `write` does.
+    pub(crate) fn list<T>(
+        &mut self,
+        items: impl ExactSizeIterator<Item = T>,
+        write: impl FnMut(&mut Self, T) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.u64(items.len() as u64)?;
+        self.items(items, write)
+    }
+
+    /// Writes the items of a list alone, whose number follows from what was written before.
+    pub(crate) fn items<T>(
+        &mut self,
+        mut items: impl Iterator<Item = T>,
+        mut write: impl FnMut(&mut Self, T) -> io::Result<()>,
+    ) -> io::Result<()> {
+        items.try_for_each(|item| write(self, item))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.sum.update(&self.waiting);
+        self.output.write_all(&self.waiting)?;
+        self.waiting.clear();
+        Ok(())
+    }
+
+    /// Writes what is left, and the checksum.
+    pub(crate) fn finish(mut self) -> io::Result<()> {
+        self.flush()?;
+        let sum = self.sum.clone().finalize();
+        self.output.write_all(&sum.to_le_bytes())?;
+        self.output.flush()
+    }
+}
+
+/// Why a file could not be read.
+///
+/// Its message says what is wrong with the file, and what to do. After an error, nothing is known of
+/// how much was read.
+#[derive(Debug)]
+pub struct LoadError {
+    fault: Fault,
+}
+
+#[derive(Debug)]
+enum Fault {
+    Io(io::Error),
+    Short { what: &'static str },
+    Foreign,
+    Content { found: [u8; 4], expected: [u8; 4] },
+    Version { found: u32, expected: u32 },
+    TooMany { what: &'static str, found: u64, limit: u64 },
+    Checksum { found: u32, expected: u32 },
+    OutOfMemory,
+    Invalid { what: &'static str, number: Option<usize>, fault: &'static str },
+}
+
+/// The error of a thing of which there are several, given its number, that is not as it must be.
+pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> LoadError {
+    LoadError { fault: Fault::Invalid { what, number: Some(number), fault } }
+}
+
+impl LoadError {
+    /// Ends of data and lack of memory are told from other failures to read.
+    pub(super) fn of_reading(error: io::Error, what: &'static str) -> Self {
+        match error.kind() {
+            io::ErrorKind::UnexpectedEof => Self { fault: Fault::Short { what } },
+            io::ErrorKind::OutOfMemory => Self::out_of_memory(),
+            _ => Self { fault: Fault::Io(error) },
+        }
+    }
+
+    pub(super) fn foreign() -> Self {
+        Self { fault: Fault::Foreign }
+    }
+
+    pub(super) fn other_kind(found: [u8; 4], expected: [u8; 4]) -> Self {
+        Self { fault: Fault::Content { found, expected } }
+    }
+
+    pub(super) fn version(found: u32, expected: u32) -> Self {
+        Self { fault: Fault::Version { found, expected } }
+    }
+
+    pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Self {
+        Self { fault: Fault::TooMany { what, found, limit } }
+    }
+
+    pub(super) fn checksum(found: u32, expected: u32) -> Self {
+        Self { fault: Fault::Checksum { found, expected } }
+    }
+
+    pub(crate) fn out_of_memory() -> Self {
+        Self { fault: Fault::OutOfMemory }
+    }
+
+    /// The error of a thing of which there is one.
+    pub(crate) fn of(what: &'static str, fault: &'static str) -> Self {
+        Self { fault: Fault::Invalid { what, number: None, fault } }
+    }
+
+    /// Whether memory ran out. (The file itself may be right.)
+    pub const fn is_out_of_memory(&self) -> bool {
+        matches!(self.fault, Fault::OutOfMemory)
+    }
+
+    /// Whether reading itself failed; then [`source`](std::error::Error::source) is the reason.
+    pub const fn is_io(&self) -> bool {
+        matches!(self.fault, Fault::Io(_))
+    }
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.fault {
+            Fault::Io(error) => write!(f, "cannot be read: {error}"),
+            Fault::Short { what } => {
+                write!(f, "it ends within its {what}: it is cut short, or damaged before that")
+            }
+            Fault::Foreign => f.write_str("it is no file of binspace: it begins with other bytes"),
+            Fault::Content { found, expected } => {
+                let [found, expected] = [found, expected].map(|name| name.escape_ascii());
+                write!(f, "it holds a \"{found}\" where a \"{expected}\" is expected")
+            }
+            Fault::Version { found, expected } => write!(
+                f,
+                "its layout is version {found}, but this version of binspace reads version \
+                 {expected} alone: write it again, from the polygons"
+            ),
+            Fault::TooMany { what, found, limit } => {
+                write!(
+                    f,
+                    "it claims to have {found} {what}, but {limit} is the most: it is damaged"
+                )
+            }
+            Fault::Checksum { found, expected } => write!(
+                f,
+                "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
+            ),
+            Fault::OutOfMemory => f.write_str("out of memory"),
+            Fault::Invalid { what, number: Some(number), fault } => {
+                write!(f, "it was not written by binspace: {what} {number} {fault}")
+            }
+            Fault::Invalid { what, number: None, fault } => {
+                write!(f, "it was not written by binspace: its {what} {fault}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for LoadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &self.fault {
+            Fault::Io(error) => Some(error),
+            _ => None,
+        }
+    }
+}
