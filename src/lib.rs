@@ -130,8 +130,7 @@ pub mod internals {
     pub use crate::scene::generated::{cuboid, unit_circle};
     #[cfg(feature = "obj")]
     pub use crate::scene::obj::file::open_regular;
-    pub use crate::tree::apart::parts_of_tree;
-    pub use crate::tree::parts::{Parts, RawChild, RawNode, Record};
+    pub use crate::tree::parts::{Parts, RawChild, RawNode, Record, parts_of_tree};
 }
 
 /// The README's examples are tested as they stand.

@@ -10,7 +10,6 @@ mod placer;
 mod planes;
 mod region;
 mod replace;
-mod shape;
 mod shapes;
 mod skeleton;
 mod store;
@@ -19,8 +18,7 @@ use std::fmt;
 
 pub use order::Overlaid;
 use placer::Placer;
-pub use shape::{Marker, Segment, Shape};
-pub use shapes::Shapes;
+pub use shapes::{Marker, Segment, Shape, Shapes};
 use skeleton::Skeleton;
 
 use crate::error::{Error, Kind};

@@ -6,7 +6,7 @@ use std::ops::Range;
 use smallvec::{SmallVec, smallvec};
 
 use super::Overlay;
-use super::shape::Shape;
+use super::shapes::Shape;
 use super::skeleton::{Branch, Group, SlotContent, SlotSide};
 use crate::error::Error;
 use crate::tree::order::eye_sides::View;

@@ -1,6 +1,10 @@
-//! What an overlay is given for a frame.
+//! What an overlay is given for a frame, and what a number of a merged order stands for.
 
 use glam::DVec3;
+
+use super::Overlay;
+use crate::exact::SymbolKind;
+use crate::tree::Fragment;
 
 /// Polygons, lines and points for [`Overlay::replace_with`](crate::overlay::Overlay::replace_with).
 ///
@@ -45,5 +49,135 @@ impl<P, L, Q> Shapes<P, L, Q> {
     pub fn with_points<T>(self, points: T) -> Shapes<P, L, T> {
         let Self { polygons, lines, .. } = self;
         Shapes { polygons, lines, points }
+    }
+}
+
+/// What is painted next: a fragment of the tree, or a piece of what the overlay was given.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Shape<'a> {
+    /// A fragment of the tree, or a piece of a polygon of the overlay.
+    Fragment(Fragment<'a>),
+    /// A piece of a segment of a line.
+    Segment(Segment<'a>),
+    /// A point.
+    Marker(Marker),
+}
+
+impl<'a> Shape<'a> {
+    /// Its number, as in [`Overlay::back_to_front_into`].
+    pub fn index(&self) -> u32 {
+        match self {
+            Self::Fragment(fragment) => fragment.index(),
+            Self::Segment(segment) => segment.index(),
+            Self::Marker(marker) => marker.index(),
+        }
+    }
+
+    /// The fragment or piece of a polygon, if it is one.
+    pub fn fragment(self) -> Option<Fragment<'a>> {
+        match self {
+            Self::Fragment(fragment) => Some(fragment),
+            _ => None,
+        }
+    }
+}
+
+/// A piece of a segment, which joins two corners of a line of an overlay.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<'a> {
+    /// Two vertices on the segment's face.
+    piece: Fragment<'a>,
+    number: u32,
+}
+
+impl Segment<'_> {
+    /// Its number, as in [`Overlay::back_to_front_into`].
+    pub fn index(&self) -> u32 {
+        self.piece.index()
+    }
+
+    /// The index of the line among the lines that were given.
+    pub fn line(&self) -> usize {
+        self.piece.polygon()
+    }
+
+    /// The number of the segment in its line: it joins the corners of this number and the next.
+    pub fn number(&self) -> usize {
+        self.number as usize
+    }
+
+    /// Its two ends, in the direction of the line. A corner is as given, but for its rounding to the
+    /// grid; a cut end is rounded as [`Fragment::vertices`] are. The two pieces at a cut have the same
+    /// bits there.
+    pub fn ends(&self) -> [DVec3; 2] {
+        let mut ends = self.piece.vertices();
+        [(); 2].map(|()| ends.next().unwrap_or_default())
+    }
+
+    /// Where its ends are on the segment, from 0 at the first corner to 1 at the second, rounded: of a
+    /// piece shorter than a rounding, the first may be larger than the second.
+    pub fn shares(&self) -> [f64; 2] {
+        let mut ends = self.piece.weights().map(|weights| {
+            weights.iter().map(|&(corner, weight)| f64::from(corner) * weight).sum()
+        });
+        [(); 2].map(|()| ends.next().unwrap_or_default())
+    }
+
+    /// Whether each of its ends was cut, and so is no corner of the line.
+    pub fn cuts(&self) -> [bool; 2] {
+        let mut ends = self.piece.symbols();
+        [(); 2]
+            .map(|()| ends.next().is_some_and(|end| !matches!(end.kind(), SymbolKind::Corner(_))))
+    }
+}
+
+/// A point of an overlay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marker {
+    index: u32,
+    point: u32,
+    position: DVec3,
+}
+
+impl Marker {
+    /// Its number, as in [`Overlay::back_to_front_into`].
+    pub fn index(&self) -> u32 {
+        self.index
+    }
+
+    /// The index of the point among the points that were given.
+    pub fn point(&self) -> usize {
+        self.point as usize
+    }
+
+    /// Where it is: as given, but for the rounding to the grid.
+    pub fn position(&self) -> DVec3 {
+        self.position
+    }
+}
+
+impl Overlay {
+    /// What a number stands for; `None` if it is that of a fragment of the tree, or of nothing.
+    pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
+        let face = self.record(number)?.face;
+        let piece = self.stored(number);
+        let thin = self.faces.thin;
+        let from_end = self.faces.len() - face as usize;
+        Some(if from_end <= thin.points {
+            let position = piece.vertices().next().unwrap_or_default();
+            let point = self.faces.polygon(face) as u32;
+            Shape::Marker(Marker { index: number, point, position })
+        } else if from_end <= thin.points + thin.segments {
+            let at = thin.points + thin.segments - from_end;
+            Shape::Segment(Segment { piece, number: self.segments[at] })
+        } else {
+            Shape::Fragment(piece)
+        })
+    }
+
+    /// The piece of a polygon by its number; `None` if it is that of anything else.
+    pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
+        self.shape(number)?.fragment()
     }
 }

@@ -1,11 +1,9 @@
-//! The finished tree, one file an operation.
+//! The finished tree.
 
-pub(crate) mod apart;
 mod between;
 mod bounds;
 pub(crate) mod bsp_tree;
 mod culling;
-mod facing;
 mod fragment;
 pub(crate) mod grid;
 mod mesh;

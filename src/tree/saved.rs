@@ -6,12 +6,11 @@ mod outlines;
 use std::io::{self, Read, Write};
 
 use super::BspTree;
-use super::apart::raw_nodes;
 use super::bsp_tree::next_generation;
 use super::node_record::MOST_FRAGMENTS;
 use super::order::planes::Planes;
 use super::order::schedule::Schedule;
-use super::parts::{Parts, Record};
+use super::parts::{Parts, Record, raw_nodes};
 use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, MAX_LABELS, Symbol};
 use crate::faces::Preparation;
 use crate::parallel_map;

@@ -5,7 +5,6 @@ mod fragments;
 pub(super) mod indices;
 pub(crate) mod layout;
 pub(crate) mod planes;
-mod same;
 pub(crate) mod schedule;
 mod twig;
 mod walk;
