@@ -13,7 +13,6 @@ use std::cmp::Ordering;
 use testkit::effort::times;
 use testkit::enough;
 use testkit::hard;
-use testkit::homogeneous::Homogeneous;
 use testkit::model::{self, Face};
 use testkit::rational::{self, Plane, Point, Rational};
 use testkit::scenes::polygons;
@@ -34,7 +33,6 @@ struct Figures {
 /// A vertex where its definition puts it, and whether it is on a wrong side.
 struct Placed {
     point: Point,
-    flat: Homogeneous,
     misplaced: [bool; 2],
 }
 
@@ -79,10 +77,7 @@ fn figures<K: Kernel>(tree: &KernelTree<K>) -> Figures {
                 figures.drift_max = figures.drift_max.max(off);
                 sum += off;
             }
-            piece.push(point.map(|point| {
-                let flat = Homogeneous::new(&point);
-                Placed { point, flat, misplaced: [false; 2] }
-            }));
+            piece.push(point.map(|point| Placed { point, misplaced: [false; 2] }));
         }
         figures.vertices += piece.len();
         figures.undefined += piece.iter().filter(|vertex| vertex.is_none()).count();
@@ -116,7 +111,8 @@ fn figures<K: Kernel>(tree: &KernelTree<K>) -> Figures {
 
 /// Whether a vertex is on another side of a plane than its fragment, by more than each limit.
 fn wrong_sides(vertex: &Placed, by: &Plane, side: Side, limits: &[Rational; 2]) -> [bool; 2] {
-    let sign = vertex.flat.side(by).cmp(&dashu_int::IBig::ZERO);
+    let distance = by.at(&vertex.point);
+    let sign = rational::sign(&distance);
     let is_wrong = match side {
         Side::Front => sign == Ordering::Less,
         Side::Back => sign == Ordering::Greater,
@@ -125,7 +121,7 @@ fn wrong_sides(vertex: &Placed, by: &Plane, side: Side, limits: &[Rational; 2]) 
     if !is_wrong {
         return [false; 2];
     }
-    let size = by.at(&vertex.point).abs();
+    let size = distance.abs();
     [&limits[1], &limits[0]].map(|limit| size > *limit)
 }
 
