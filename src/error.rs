@@ -152,7 +152,7 @@ pub(crate) enum InputKind {
     Layer,
 }
 
-/// What is wrong with the input that an error names.
+/// The fault of a polygon, line or point.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum InputFault {
     NonFinite,
@@ -171,7 +171,7 @@ pub(crate) enum InputFault {
     Layer,
 }
 
-/// What is limited.
+/// A limit that the input, or a tree of it, exceeds.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Limit {
     Polygons(usize),

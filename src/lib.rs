@@ -124,6 +124,8 @@ pub mod internals {
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
     pub use crate::input::MAX_CORNERS;
+    #[cfg(feature = "raster")]
+    pub use crate::paint::Pieces;
     pub use crate::query::Spot;
     pub use crate::random::{SplitMix64, mix};
     #[cfg(feature = "scene")]

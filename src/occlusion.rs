@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::paint::Buffers;
+use crate::paint::Pieces;
 use crate::raster::{Mask, Rays};
 use crate::tree::{BspTree, Fragment};
 
@@ -46,7 +46,7 @@ pub struct CoverageMask<'t> {
     tree: &'t BspTree,
     rays: Rays,
     mask: Mask,
-    buffers: Buffers,
+    pieces: Pieces,
 }
 
 impl<'t> CoverageMask<'t> {
@@ -59,7 +59,7 @@ impl<'t> CoverageMask<'t> {
     pub fn new(tree: &'t BspTree, rays: &Rays, cell: u32) -> Self {
         rays.expect(tree.faces());
         let mask = Mask::new(rays.size(), cell.max(1));
-        Self { tree, rays: rays.clone(), mask, buffers: Buffers::default() }
+        Self { tree, rays: rays.clone(), mask, pieces: Pieces::default() }
     }
 
     /// Whether nothing in a box owns a pixel: all that it may cover is covered, or it is outside of
@@ -90,7 +90,7 @@ impl<'t> CoverageMask<'t> {
         // Its own faces, not those of the mask's tree: it may be a piece of an overlay.
         let faces = fragment.faces;
         self.rays.expect(faces);
-        self.mask.cover(&self.rays, faces, self.buffers.piece(fragment))
+        self.mask.cover(&self.rays, faces, self.pieces.of(fragment))
     }
 
     /// Whether all of the picture is covered.

@@ -39,10 +39,10 @@ pub(crate) fn paint_list(
     mut layers: Option<&mut Layers>,
 ) -> Image {
     let mut painter = Painter::new(rays, tree.faces(), order);
-    let mut buffers = Buffers::default();
+    let mut pieces = Pieces::default();
     for &index in list.iter().filter(|&&index| (index as usize) < tree.len()) {
         let fragment = tree.fragment(index);
-        painter.draw_and(buffers.piece(&fragment), |y, columns| {
+        painter.draw_and(pieces.of(&fragment), |y, columns| {
             if let Some(layers) = &mut layers {
                 layers.add(fragment.face(), y, columns);
             }
@@ -92,25 +92,26 @@ pub fn for_each_painted(
     rays.expect(tree.faces());
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
-    let mut buffers = Buffers::default();
+    let mut pieces = Pieces::default();
     for index in order {
         let fragment = tree.fragment(index);
         let (colour, opacity) = look(fragment.polygon());
-        for_each_shaded(rays, tree.faces(), buffers.piece(&fragment), colour, |pixel, colour| {
+        for_each_shaded(rays, tree.faces(), pieces.of(&fragment), colour, |pixel, colour| {
             paint(pixel, colour, opacity);
         });
     }
 }
 
-/// A fragment's outline, in memory that the next one uses again.
+/// Makes pieces to paint of fragments, in memory that the next one uses again.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Buffers {
+pub struct Pieces {
     lines: Vec<Line>,
     vertices: Vec<[f64; 3]>,
 }
 
-impl Buffers {
-    pub(crate) fn piece(&mut self, fragment: &Fragment<'_>) -> Piece<'_> {
+impl Pieces {
+    /// A fragment as a piece bounded by its exact lines.
+    pub fn of(&mut self, fragment: &Fragment<'_>) -> Piece<'_> {
         let face = fragment.face();
         if fragment.is_whole() {
             return Piece { face, outline: Outline::Whole };

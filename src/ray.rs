@@ -16,7 +16,7 @@ use glam::DVec3;
 /// | coordinates | the ray |
 /// |---|---|
 /// | any NaN or ±∞ | meets nothing |
-/// | a point further from the origin than 2⁶⁸ extents | may meet nothing |
+/// | a point further from the scene than 2⁶⁸ extents | may meet nothing |
 /// | a direction of zeros, or two equal ends | is a point: it meets what contains it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {

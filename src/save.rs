@@ -21,7 +21,8 @@ pub(crate) struct Kind {
     pub(crate) version: u32,
 }
 
-/// How many bytes are read or written at once. Smaller: more calls; larger: it leaves the processor's cache.
+/// How many bytes are read or written at once. Too small: more calls. Too large: it leaves the
+/// processor's cache.
 const CHUNK: usize = 1 << 16;
 
 /// Reads a file.

@@ -1,4 +1,4 @@
-//! What an overlay is given for a frame, and what a number of a merged order stands for.
+//! The input of an overlay for a frame, and the items of a merged order.
 
 use glam::DVec3;
 
@@ -52,7 +52,7 @@ impl<P, L, Q> Shapes<P, L, Q> {
     }
 }
 
-/// What is painted next: a fragment of the tree, or a piece of what the overlay was given.
+/// An item of a merged order: a fragment of the tree, or a piece of the overlay's input.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Shape<'a> {
@@ -107,7 +107,7 @@ impl Segment<'_> {
         self.number as usize
     }
 
-    /// Its two ends, in the direction of the line. A corner is as given, but for its rounding to the
+    /// Its two ends, in the direction of the line. A corner of the line is rounded to the
     /// grid; a cut end is rounded as [`Fragment::vertices`] are. The two pieces at a cut have the same
     /// bits there.
     pub fn ends(&self) -> [DVec3; 2] {
@@ -151,7 +151,7 @@ impl Marker {
         self.point as usize
     }
 
-    /// Where it is: as given, but for the rounding to the grid.
+    /// The given point, rounded to the grid.
     pub fn position(&self) -> DVec3 {
         self.position
     }

@@ -235,7 +235,7 @@ impl Partition {
         rest.push((self.root(), reach));
         while let Some((subtree, part)) = rest.pop() {
             if subtree.cells.len() == 1 {
-                // What is in one cell with all that is around it needs no closer look.
+                // A polygon whose widened box lies in one cell needs no closer look.
                 let layer = || Layer::new(&corners, margin);
                 if part == reach || slot.get_or_insert_with(layer).meets(&part) {
                     cells.push(subtree.cells.start);
@@ -247,7 +247,7 @@ impl Partition {
             let [mut back_part, mut front_part] = [part; 2];
             back_part[1][axis] = at.min(part[1][axis]);
             front_part[0][axis] = at.max(part[0][axis]);
-            // What is behind comes off first, so that cells come in ascending order.
+            // The back is pushed last and popped first, so that cells come in ascending order.
             if part[1][axis] >= at {
                 rest.push((front, front_part));
             }
@@ -315,10 +315,10 @@ impl Extent {
     }
 }
 
-/// How far beyond its corners a polygon may reach, in tolerances and in steps of the lattice: a corner
-/// that is moved onto its plane moves by √3 of the tolerance and half a step, and what is within the
-/// tolerance of a cell's plane belongs to one side. Together √3 + 1 = 2.74 tolerances and half a step. Smaller: cells miss what is theirs; larger: more
-/// polygons are given to cells that nothing of them is in.
+/// How far beyond its corners a polygon may reach, in tolerances and in steps of the lattice. Moving a corner
+/// onto its plane moves it by √3 tolerances and half a step; a cell's plane adds one tolerance: together
+/// 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells get polygons that do not
+/// reach them.
 const MARGIN: [f64; 2] = [3.0, 2.0];
 /// What rounding adds to the distance of a corner from a plane, as a share of the lengths that it is made
 /// of. The normal is any, and taken as it is. With u = 2⁻⁵³: arms of corners are exact, so a scalar product with

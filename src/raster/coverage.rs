@@ -41,7 +41,7 @@ pub struct Piece<'a> {
 pub enum Outline<'a> {
     /// All of it.
     Whole,
-    /// What lies on the right side of each of these lines: exact, however small the piece.
+    /// The part on the inner side of each of these lines. It is exact, however small the piece.
     Lines {
         /// The lines that bound the piece: edges of the face, and cuts.
         lines: &'a [Line],
@@ -49,8 +49,8 @@ pub enum Outline<'a> {
         /// only say which pixels to look at.
         vertices: &'a [[f64; 3]],
     },
-    /// What lies between these vertices, in lattice units, in the face's orientation, rounded to
-    /// the lattice: for algorithms that do not keep the lines.
+    /// The convex polygon of these vertices, in lattice units and in the face's orientation. They are rounded
+    /// to the lattice. For algorithms that do not keep the lines.
     Vertices(&'a [[f64; 3]]),
 }
 

@@ -1,6 +1,6 @@
 //! Which wrong pixels the tolerance excuses, given the planes of a tree.
 
-use crate::paint::Buffers;
+use crate::paint::Pieces;
 use crate::raster::{Comparison, Image, Rays, compare_by, covers, is_open};
 use crate::tree::BspTree;
 
@@ -17,7 +17,7 @@ pub(super) fn compare_by_planes(
         return compare_by(rays, faces, [painted, truth], 0.0, |_, _| false);
     }
     let mut sorted = None;
-    let mut buffers = Buffers::default();
+    let mut pieces = Pieces::default();
     // The fragment of a face that covers a pixel.
     let mut fragment_at = |face: u32, pixel| {
         let by_face: &Vec<(u32, u32)> = sorted.get_or_insert_with(|| {
@@ -29,7 +29,7 @@ pub(super) fn compare_by_planes(
         let of_face = by_face[first..].iter().take_while(|&&(other, _)| other == face);
         let mut fragments = of_face.map(|&(_, fragment)| fragment);
         fragments.find(|&fragment| {
-            let piece = buffers.piece(&tree.fragment(fragment));
+            let piece = pieces.of(&tree.fragment(fragment));
             covers(rays, faces, piece, pixel)
         })
     };

@@ -3,7 +3,7 @@
 use super::Rect;
 use binspace::glam::{DMat4, DVec2};
 use num_traits::Signed;
-use testkit::rational::{Rational, exact, sign};
+use testkit::rational::{Rational, exact, sign, total};
 
 pub(crate) type Point2 = [Rational; 2];
 
@@ -105,11 +105,7 @@ fn keep(
 /// Twice the area of an outline, positive if it runs from u towards v.
 pub(crate) fn area(outline: &[Point2]) -> Rational {
     let next = outline.iter().cycle().skip(1);
-    outline
-        .iter()
-        .zip(next)
-        .map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0])
-        .fold(Rational::ZERO, |sum, term| sum + term)
+    total(outline.iter().zip(next).map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0]))
 }
 
 /// Whether a point is inside a convex outline of either orientation, and not on it.

@@ -125,8 +125,7 @@ fn fragments_tell_the_planes_of_their_faces() {
             assert!((normal - unit).abs().max_element() <= 3.0 * f64::EPSILON, "{normal} {unit}");
             // The square of the exact offset, as roots are no fractions.
             let square = |x: &rational::Rational| x * x;
-            let length =
-                scaled.iter().map(square).fold(rational::Rational::ZERO, |sum, term| sum + term);
+            let length = rational::total(scaled.iter().map(square));
             let exact = rational::scalar(&scaled, &points[0]);
             let size = points.iter().flatten().map(Signed::abs).max().unwrap();
             let slack = size * rational::exact(12.0 * f64::EPSILON);

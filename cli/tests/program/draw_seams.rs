@@ -65,6 +65,7 @@ impl Sampled {
             let start = pixel / size[0] * SAMPLES * across + pixel % size[0] * SAMPLES;
             let own =
                 (0..SAMPLES * SAMPLES).map(|k| samples[start + k / SAMPLES * across + k % SAMPLES]);
+            // Of one list of polygons, all samples have one colour.
             let first = samples[start];
             if own.clone().all(|(_, kind)| kind == first.1) {
                 sampled.contrasts.push(0.0);

@@ -18,7 +18,6 @@ mod noisy;
 pub mod overdraw;
 pub mod panes;
 pub mod patches;
-mod pieces;
 mod place;
 pub mod plain;
 pub mod portals;

@@ -8,7 +8,7 @@ use binspace::raster::{NONE, Outline, Piece, Rays, for_each_run};
 use binspace::{BspTree, Error, Flow, Part};
 
 use crate::layers::Layers;
-use crate::pieces::Pieces;
+use binspace::internals::Pieces;
 
 /// The work that a picture took, pixel by pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
 use crate::layers::Layers;
-use crate::pieces::Pieces;
+use binspace::internals::Pieces;
 
 /// A colour, each channel from 0 to 1.
 pub type Colour = [f32; 3];

@@ -1,18 +1,12 @@
 //! The pixels of a fragment.
 
-use binspace::internals::Line;
-use binspace::raster::{Outline, Piece, Rays, for_each_run};
+use binspace::internals::Pieces;
+use binspace::raster::{Piece, Rays, for_each_run};
 use binspace::{BspTree, Fragment};
 
 /// Calls a function with what a painter draws of a fragment.
 pub fn with_piece(fragment: &Fragment<'_>, draw: impl FnOnce(Piece<'_>)) {
-    let lines: Vec<Line> = fragment.lines().collect();
-    let vertices: Vec<[f64; 3]> = fragment.lattice_vertices().collect();
-    let outline = match fragment.is_whole() {
-        true => Outline::Whole,
-        false => Outline::Lines { lines: &lines, vertices: &vertices },
-    };
-    draw(Piece { face: fragment.face(), outline });
+    draw(Pieces::default().of(fragment));
 }
 
 /// Calls a function with the number of each pixel whose centre a fragment covers: by integers.

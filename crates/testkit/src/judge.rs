@@ -54,7 +54,8 @@ pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     judge.weights(polygons)
 }
 
-/// What is there of a face: its area, seen along an axis, and the runs along each of its edges, from 0 to 1.
+/// The covered part of a face: twice its area, seen along an axis, and for each edge the covered intervals,
+/// from 0 to 1.
 #[derive(Clone, Debug, Default)]
 pub struct Cover {
     area: Rational,
@@ -62,7 +63,7 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// Adds what is elsewhere of the same face.
+    /// Adds another covered part of the same face.
     pub fn add(&mut self, other: &Self) {
         self.area += &other.area;
         self.runs.resize(other.runs.len().max(self.runs.len()), Vec::new());
@@ -112,7 +113,9 @@ impl<'t> Judge<'t> {
             let mut turns = 0;
             for i in 0..n {
                 let corner = [0, 1, 2].map(|k| &piece.points[(i + k) % n]);
-                let turn = rational::sign(&area(corner, axis));
+                let [before, after] =
+                    [0, 1].map(|k| rational::difference(corner[k + 1], corner[k]));
+                let turn = rational::sign(&rational::product(&before, &after)[axis]);
                 let straight_on = turn.is_eq() && corner[0] != corner[1];
                 ensure(turn == facing || straight_on, || {
                     format!("turns the wrong way at {}: {fragment:?}", (i + 1) % n)
@@ -140,7 +143,7 @@ impl<'t> Judge<'t> {
         for (fragment, face, piece) in self.with_pieces() {
             let cover = &mut covers[fragment.face() as usize];
             let axis = model::main_axis(&face.plane);
-            cover.area += area(&piece.points, axis);
+            cover.area += &rational::area(&piece.points)[axis];
             for (i, line) in piece.lines.iter().enumerate() {
                 let Some(edge) = line.as_edge() else { continue };
                 let ends = [i, (i + 1) % piece.points.len()].map(|k| &piece.points[k]);
@@ -154,7 +157,7 @@ impl<'t> Judge<'t> {
     pub fn is_covered(&self, id: usize, cover: &mut Cover) -> Verdict {
         let face = &self.faces[id];
         let axis = model::main_axis(&face.plane);
-        ensure(cover.area == area(&face.corners, axis), || {
+        ensure(cover.area == rational::area(&face.corners)[axis], || {
             format!("the pieces of face {id} miss its area")
         })?;
         for (edge, runs) in cover.runs.iter_mut().enumerate() {
@@ -244,19 +247,6 @@ fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2]
     let a = snapped(&corners[edge]);
     let mut next = corners.iter().cycle().skip(edge + 1).take(corners.len()).map(snapped);
     [a, next.find(|&next| next != a).unwrap_or(a)]
-}
-
-/// Twice the area of an outline seen along an axis.
-fn area<'p>(outline: impl IntoIterator<Item = &'p Point>, axis: usize) -> Rational {
-    let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
-    let mut points = outline.into_iter();
-    let Some(first) = points.next() else { return Rational::zero() };
-    let arms: Vec<_> = points.map(|point| [j, k].map(|i| &point[i] - &first[i])).collect();
-    let triangle = |arms: &[[Rational; 2]]| {
-        let [[ax, ay], [bx, by]] = [&arms[0], &arms[1]];
-        ax * by - ay * bx
-    };
-    arms.windows(2).map(triangle).fold(Rational::zero(), |sum, term| sum + term)
 }
 
 /// How far along an edge of a face a point on it is: 0 to 1.

@@ -40,6 +40,11 @@ pub fn step(lattice: &Lattice) -> Rational {
     exact(lattice.length_to_world(MANY)) / exact(MANY)
 }
 
+/// The sum of some numbers.
+pub fn total(numbers: impl IntoIterator<Item = Rational>) -> Rational {
+    numbers.into_iter().fold(Rational::zero(), |sum, number| sum + number)
+}
+
 /// Twice the vector area of a closed outline.
 pub fn area(outline: &[Point]) -> Point {
     let zero = [Rational::zero(), Rational::zero(), Rational::zero()];

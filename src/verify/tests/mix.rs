@@ -8,7 +8,7 @@ use dashu_ratio::RBig;
 
 use super::cameras;
 use crate::exact::Faces;
-use crate::paint::Buffers;
+use crate::paint::Pieces;
 use crate::raster::tests::oracle::meets;
 use crate::raster::{Rays, for_each_run};
 use crate::scene::Scene;
@@ -74,12 +74,12 @@ fn mixed_picture(tree: &BspTree, rays: &Rays, hits: &Hits, translucent: &[u32]) 
     let mut opaque: Vec<u32> = (0..tree.len() as u32).collect();
     opaque.retain(|&fragment| is_opaque(tree.fragment(fragment).polygon()));
     opaque.sort_by_key(|&fragment| tree.fragment(fragment).polygon());
-    let mut buffers = Buffers::default();
+    let mut pieces = Pieces::default();
     for (fragments, writes_depth) in [(&opaque[..], true), (translucent, false)] {
         for &index in fragments {
             let fragment = tree.fragment(index);
             let (face, polygon) = (fragment.face(), fragment.polygon());
-            for_each_run(rays, faces, buffers.piece(&fragment), |y, columns| {
+            for_each_run(rays, faces, pieces.of(&fragment), |y, columns| {
                 for pixel in columns.map(|x| (y * width + x) as usize) {
                     let distance = &hits[pixel][&face];
                     if depths[pixel].as_ref().is_some_and(|nearest| distance > nearest) {

@@ -77,7 +77,7 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
                 .collect();
             let count = RBig::from(IBig::from(points.len()));
             let middle: Vector = std::array::from_fn(|i| {
-                points.iter().fold(RBig::ZERO, |sum, p| sum + &p[i]) / &count
+                testkit::rational::total(points.iter().map(|p| p[i].clone())) / &count
             });
             let share = RBig::from_parts_signed(IBig::one(), IBig::one() << 30);
             let near = |p: &Vector| -> Vector {

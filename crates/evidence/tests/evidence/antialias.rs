@@ -56,10 +56,8 @@ fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
 
 fn area(polygon: &[Point]) -> RBig {
     let Some(first) = polygon.first() else { return RBig::zero() };
-    let twice: RBig = polygon
-        .windows(2)
-        .map(|pair| cross(first, &pair[0], &pair[1]))
-        .fold(RBig::ZERO, |sum, term| sum + term);
+    let triangles = polygon.windows(2).map(|pair| cross(first, &pair[0], &pair[1]));
+    let twice = testkit::rational::total(triangles);
     twice / rational(2, 1)
 }
 

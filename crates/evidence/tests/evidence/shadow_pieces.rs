@@ -7,7 +7,6 @@ use binspace::{BspTree, BuildOptions, Viewpoint};
 use binspace_evidence::shadows::{Piece, Zone, courtyard, lamp, pieces};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use num_traits::Zero;
 use std::cmp::Ordering;
 use testkit::dice::Dice;
 use testkit::enough;
@@ -174,7 +173,7 @@ fn area(corners: &[[IBig; 4]], axis: usize) -> RBig {
         RBig::from_parts_signed(corner[(axis + i) % 3].clone(), corner[3].clone())
     };
     let turn = |k| at(k, 1) * at(k + 1, 2) - at(k + 1, 1) * at(k, 2);
-    (0..corners.len()).map(turn).fold(RBig::zero(), |sum, turn| sum + turn)
+    testkit::rational::total((0..corners.len()).map(turn))
 }
 
 #[test]
@@ -195,11 +194,7 @@ fn the_pieces_of_a_face_have_its_area() {
                 // All run as the face does, so none is subtracted.
                 let whole = area(&corners, axis);
                 assert!(areas.iter().all(|part| part.signum() == whole.signum()));
-                assert_eq!(
-                    areas.into_iter().fold(RBig::ZERO, |sum, area| sum + area),
-                    whole,
-                    "face {face}"
-                );
+                assert_eq!(testkit::rational::total(areas), whole, "face {face}");
             }
         }
     }
