@@ -115,6 +115,7 @@ impl<'t> Fragment<'t> {
     /// the polygon's plane if they were off it by less than the tolerance. Other vertices are
     /// rounded: each coordinate is within 2⁻⁵¹ of the scene's extent plus one step of `f64` of its
     /// exact value. Pieces of one polygon that share a vertex get the same bits for it.
+    /// Where three cuts meet in a point of the polygon, its bits may differ by one rounding between pieces.
     ///
     /// Vertices that cuts have made are computed from their exact definition at each reading, about
     /// 0.1 µs each, except in trees of a [`FrameBuilder`](crate::FrameBuilder).

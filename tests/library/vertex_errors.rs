@@ -69,12 +69,12 @@ impl Errors {
             let exact = Face::new(faces, fragment.face());
             let lines: Vec<Line> = fragment.lines().collect();
             let corners = faces.corners(fragment.face()).len() as u32;
-            for (i, vertex) in fragment.vertices().enumerate() {
+            for (i, (vertex, name)) in fragment.vertices().zip(fragment.symbols()).enumerate() {
                 let symbol = meeting(lines[(i + lines.len() - 1) % lines.len()], lines[i], corners);
                 let point = exact.resolve(faces, symbol);
-                // The same, bit for bit, for the pieces on both sides of a cut.
+                // The same, bit for bit, for all pieces that the same cuts made.
                 let bits = vertex.to_array().map(f64::to_bits);
-                let name = format!("{} {symbol:?}", fragment.face());
+                let name = format!("{} {name:?}", fragment.face());
                 prop_assert_eq!(*places.entry(name).or_insert(bits), bits, "{:?}", symbol);
                 for axis in 0..3 {
                     let place = (&point[axis] + &world.origin[axis]) * &world.step;

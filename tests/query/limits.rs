@@ -29,3 +29,17 @@ fn a_wall_before_a_floor_that_is_met_flat_is_hit_first() {
     // At x = 6.2e14, where it is 1.2 above the floor, and at 7.3e14.
     assert_eq!(hits(&tree, flat), [2, 0]);
 }
+
+/// Distances count from the scene, not from the origin: a small scene far out is hit from beside it.
+#[test]
+fn rays_from_within_2_to_the_67_extents_of_a_small_scene_far_out_hit_it() {
+    for exponent in [-20, -60, -100, -115] {
+        let size = 2f64.powi(exponent);
+        let corners = [[0.0, -2.0, 0.0], [size, -2.0, 0.0], [0.0, -2.0, size]];
+        let tree = BspTree::build([corners]).unwrap();
+        let from = [0.25 * size, -2.0 + 2f64.powi(exponent + 67), 0.25 * size];
+        assert_eq!(hits(&tree, Ray::new(from, [0.0, -1.0, 0.0])), [0], "2^{exponent}");
+        let past = [from[0], -2.0 - 2f64.powi(exponent + 67), from[2]];
+        assert_eq!(hits(&tree, Ray::between(from, past)), [0], "2^{exponent}");
+    }
+}
