@@ -176,6 +176,17 @@ mod tests {
         }
     }
 
+    /// A quarter of 42 pieces, rounded down, is 10.
+    #[test]
+    fn a_plane_divides_evenly_from_a_share_of_the_pieces_on() {
+        let divides_evenly = |front, splits| {
+            let counts = Counts { front, back: 42 - front - splits, splits };
+            Cost::of(&counts).divides_evenly(42, 4)
+        };
+        assert!([10, 21, 32].into_iter().all(|front| divides_evenly(front, 0)));
+        assert!(!divides_evenly(9, 0) && !divides_evenly(33, 0) && !divides_evenly(20, 1));
+    }
+
     #[test]
     fn terms_of_large_sets_leave_out_whether_a_plane_cuts() {
         let [small, large] =

@@ -195,6 +195,17 @@ fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
     }
 }
 
+/// In a list, the deepest layer would be at level 31.
+#[test]
+fn a_frame_divides_a_small_stack_evenly() {
+    let layers = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let layers: Vec<_> = (0..32).map(|z| layers.map(|p| p.with_z(f64::from(z)))).collect();
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    let stats = builder.build(&layers).unwrap().stats();
+    assert_eq!(stats.fragments, 32);
+    assert!(stats.depth_max <= 16, "{}", stats.depth_max);
+}
+
 /// A ring of cards, each of which crosses its two neighbours.
 fn ring(cards: usize) -> Vec<[DVec3; 4]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);

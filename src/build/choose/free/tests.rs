@@ -143,6 +143,22 @@ fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
     }
 }
 
+/// The others begin at cuts, and no corner there names a plane.
+#[test]
+fn a_plane_is_found_where_pieces_only_end() {
+    let floor = [DVec3::NEG_Y, DVec3::new(0.0, -1.0, 1.0), DVec3::new(1.0, -1.0, 0.0)];
+    let ending = reaching([0.0, 1.0], 0);
+    let beginning = [[1.5, -1.5, 0.0], [3.0, 1.0, -1.0], [3.0, 1.0, 1.0]].map(DVec3::from);
+    let mut polygons = vec![floor];
+    polygons.extend([[ending; 4], [beginning; 4]].concat());
+    let mut fixture = Fixture::new(&polygons, 0.0);
+    fixture.keep(PlaneId::face(0), Side::Front);
+    let found =
+        FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default()).unwrap();
+    let even = Cost { cuts: false, amount: 2.0 * work(4) };
+    assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((0, even)));
+}
+
 #[test]
 fn a_tolerance_may_be_wider_than_bins() {
     let mut random = SplitMix64::new(4);
