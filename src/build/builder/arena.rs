@@ -14,10 +14,9 @@ impl<K: Kernel> Builder<'_, K> {
     pub(super) fn compact(&mut self) -> Result<(), Error> {
         let mut arena = Vec::new();
         for pending in &mut self.pending {
-            if pending.job.is_none() {
-                for live in &mut self.pieces[pending.range.clone()] {
-                    *live = live.copied(&self.arena, &mut arena)?;
-                }
+            // Empty if another job builds the set.
+            for live in &mut self.pieces[pending.range.clone()] {
+                *live = live.copied(&self.arena, &mut arena)?;
             }
             pending.arena = arena.len();
         }
