@@ -94,12 +94,10 @@ impl<'a> Coverage<'a> {
                 }
             }
         }
-        // The edges of a planar face are planes through the eye that bound a cone in front of it.
-        // The lines of other pieces may also bound a mirror image of the piece behind the eye, so
-        // rays must be restricted to the half-space ahead.
-        let whole = matches!(outline, Outline::Whole);
-        let cone = whole && faces.upright_axis(face).is_none();
-        if rays.is_perspective() && !cone {
+        // Where a ray meets the plane behind the eye, all sides are reversed. No point lies outside all
+        // edges of a convex face, so the ray is not inside all of them. The lines of other pieces may
+        // also bound a mirror image behind the eye, so rays must be restricted to the half-space ahead.
+        if rays.is_perspective() && !matches!(outline, Outline::Whole) {
             add(Source::Ahead);
         }
         Some(Self { seen, lines, window })
