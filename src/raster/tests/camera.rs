@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{Random, cameras, faces, ray};
 use crate::exact::Faces;
-use crate::raster::Rays;
+use crate::raster::{Rays, depth_map, zbuffer};
 use crate::view::Camera;
 
 fn box_of(size: f64) -> Faces {
@@ -58,5 +58,7 @@ fn an_empty_scene_makes_an_empty_picture() {
     let faces = faces(&[], None);
     let camera = Camera::looking_at_all([DVec3::ZERO, DVec3::ZERO], DVec3::Z, [5, 4]).unwrap();
     let rays = Rays::new(&camera, &faces).unwrap();
-    assert_eq!(crate::raster::zbuffer(&rays, &faces).image().covered(), 0);
+    let depth = zbuffer(&rays, &faces);
+    assert_eq!(depth.image().covered(), 0);
+    assert_eq!(depth_map(&depth, [255, 40]), [0; 5 * 4 * 3]);
 }

@@ -253,16 +253,18 @@ fn faces_that_are_not_met_have_no_depth_error() {
     }
 }
 
-/// Two faces behind a third, painted in turn: each pixel is judged by the faces of its own.
+/// Two faces behind a third, painted in turn: each pixel is judged by the faces of its own. One of the
+/// two is met in the left half alone.
 #[test]
 fn each_pixel_is_judged_by_its_own_faces() {
     let tolerance = 0.01;
-    let all = [0.0, -1.5 * tolerance, -5.0].map(|z| square([0.0, 0.0], [6.0, 6.0], z));
+    let all = [(6.0, 0.0), (3.0, -1.5 * tolerance), (6.0, -5.0)]
+        .map(|(right, z)| square([0.0, 0.0], [right, 6.0], z));
     let alternating = |one: u32, other: u32| {
         (0..SIZE[0] * SIZE[1]).map(|i| if i % 2 == 0 { one } else { other }).collect()
     };
-    for (tolerance, wrong, max, sum) in
-        [(0.0, 36, 5.0, 18.0 * (5.0 + 0.015)), (tolerance, 18, 5.0, 18.0 * 5.0)]
+    for (tolerance, wrong, met, sum) in
+        [(0.0, 36, 30, 18.0 * 5.0 + 12.0 * 0.015), (tolerance, 18, 18, 18.0 * 5.0)]
     {
         let faces = faces(&all, Some(tolerance));
         let rays = rays(&faces);
@@ -271,8 +273,8 @@ fn each_pixel_is_judged_by_its_own_faces() {
         let comparison = compare(&rays, &faces, &painted, truth.image());
         assert_eq!((comparison.wrong_order, comparison.contested), (wrong, 36 - wrong));
         let error = depth_error(&rays, &faces, &painted, truth.image(), &comparison);
-        assert_eq!(error.pixels, wrong);
-        assert!((error.max - max).abs() < 1e-12 && (error.sum - sum).abs() < 1e-9, "{error:?}");
+        assert_eq!(error.pixels, met);
+        assert!((error.max - 5.0).abs() < 1e-12 && (error.sum - sum).abs() < 1e-9, "{error:?}");
     }
 }
 
