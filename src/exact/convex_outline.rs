@@ -82,6 +82,15 @@ mod tests {
     use crate::random::SplitMix64;
 
     #[test]
+    fn a_triangle_is_convex_if_it_has_an_area() {
+        let convex = |triangle: [[f64; 3]; 3]| is_convex(3, |k| triangle[k], 2);
+        for [x, y] in [[1.0, 2.0], [1.0, -2.0], [4.0, 1.0]] {
+            assert!(convex([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [x, y, 5.0]]), "{x}, {y}");
+            assert!(!convex([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [x, 0.0, 5.0]]), "{x}");
+        }
+    }
+
+    #[test]
     fn an_outline_with_two_corners_on_one_point_of_the_view_is_not_convex() {
         let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         for start in 0..4 {
