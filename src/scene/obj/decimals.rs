@@ -8,8 +8,8 @@ const FEWEST_DIGITS: i32 = 6;
 /// The decimal digits that an `f64` holds, whatever its value; those behind are noise of a
 /// computation, as in `0.30000000000000004`.
 const DIGITS_OF_F64: i32 = 15;
-/// Numbers are zero but for noise if they begin so many places behind the largest. Smaller: thin
-/// layers near zero are not seen; larger: one sine of a rounded π decides.
+/// Numbers are zero but for noise if they begin more than so many places behind the largest. Smaller:
+/// thin layers near zero are not seen; larger: one sine of a rounded π decides.
 const NOISE_PLACES: i32 = 11;
 /// Numbers of so many significant digits are long: as many as tell one `f32` from another. Fewer: the
 /// heights of thin layers, as people write them, are long; more: those of an `f32` are not.
@@ -226,7 +226,7 @@ mod tests {
     fn a_few_long_numbers_do_not_decide_for_all() {
         let three: Vec<String> = (0..1000).map(|k| format!("{}.{:03}", k % 7, k)).collect();
         let with = |others: &[&str]| unit(three.iter().map(|n| &**n).chain(others.iter().copied()));
-        let cases: [(&[&str], f64); 14] = [
+        let cases: [(&[&str], f64); 15] = [
             (&[], 1e-3),
             (&["0.30000000000000004"], 1e-3),
             (&["2.9999999999999996", "30.000000000000004"], 1e-3),
@@ -235,6 +235,8 @@ mod tests {
             // A sine of π.
             (&["1.2246467991473532e-16", "-6.123234e-17"], 1e-3),
             (&["0.0000000000015"], 1e-3),
+            // Eleven places behind the largest number, it counts.
+            (&["0.000000000015"], 1e-12),
             // Thin layers are not strays: neither written by people, nor near zero, nor a poster on a wall.
             (&["0.0005"], 1e-4),
             (&["123.45605"], 1e-5),
