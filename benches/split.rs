@@ -1,68 +1,77 @@
-//! Deciding where pieces lie against a plane, and cutting them, by both kernels.
+//! Deciding where pieces lie against a plane, and cutting them: exactly, and by rounded numbers.
 
 #![allow(missing_docs, reason = "criterion's macros make functions without any")]
 
-use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
+use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex, split};
 use binspace::scene::random_triangles;
-use binspace_evidence::Float;
+use binspace_evidence::{RoundedPiece, RoundedPlane};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
 /// How many faces lie in front of a plane, behind, on it, across.
-fn classify<K: Kernel>(kernel: K, faces: &Faces, plane: PlaneId) -> [usize; 4] {
-    let splitter = kernel.splitter(faces, plane);
+fn count(sides: impl Iterator<Item = Side>) -> [usize; 4] {
     let mut counts = [0; 4];
-    for face in 0..faces.len() as u32 {
-        let side = kernel.classify(faces, &splitter, Piece { face, cut: None });
-        counts[side as usize] += 1;
-    }
+    sides.for_each(|side| counts[side as usize] += 1);
     counts
 }
 
-/// Cuts every face that spans a plane; gives how many vertices the parts have.
-fn cut<K: Kernel>(kernel: K, faces: &Faces, plane: PlaneId, spanning: &[u32]) -> [usize; 2] {
-    let splitter = kernel.splitter(faces, plane);
+/// Cuts faces that span a plane; returns how many vertices the parts have.
+fn cut(faces: &Faces, plane: &PreparedPlane, spanning: &[u32]) -> [usize; 2] {
     let (mut outline, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
     for &face in spanning {
         outline.clear();
         let corners = 0..faces.corners(face).len() as u32;
-        outline.extend(corners.map(|k| kernel.corner(faces, face, k)));
-        split(&kernel, faces, &splitter, face, &outline, &mut front, &mut back);
+        outline.extend(corners.map(|k| Vertex::corner(faces, face, k)));
+        split(faces, plane, face, &outline, &mut front, &mut back);
     }
     [front.len(), back.len()]
 }
 
-fn spanning(faces: &Faces, plane: PlaneId) -> Vec<u32> {
-    let splitter = Exact.splitter(faces, plane);
-    let spans =
-        |&face: &u32| Exact.classify(faces, &splitter, Piece { face, cut: None }) == Side::Spanning;
-    (0..faces.len() as u32).filter(spans).collect()
+/// The same by rounded numbers.
+fn cut_rounded(plane: &RoundedPlane<f64>, spanning: &[RoundedPiece]) -> [usize; 2] {
+    let mut counts = [0; 2];
+    for piece in spanning {
+        let parts = plane.split(piece);
+        (0..2).for_each(|i| counts[i] += parts[i].positions().count());
+    }
+    counts
 }
 
 fn bench(criterion: &mut Criterion) {
+    const FACE: u32 = 77;
     let scene = random_triangles(10_000, 1);
     let (faces, _) = Faces::new(scene.polygons(), None).expect("finite");
-    let plane = PlaneId::axis(0, faces.corner_range(77).start as u32);
-    let across = spanning(&faces, plane);
+    let all = 0..faces.len() as u32;
+    let exact = PreparedPlane::new(&faces, PlaneId::face(FACE));
+    let rounded = RoundedPlane::<f64>::new(&faces, FACE, 1e-9);
+    let pieces: Vec<RoundedPiece> =
+        all.clone().map(|face| RoundedPiece::whole::<f64>(&faces, face)).collect();
+    let classify = || count(all.clone().map(|face| exact.classify(black_box(&faces), face, None)));
+    let classify_rounded = || count(black_box(&pieces).iter().map(|piece| rounded.classify(piece)));
 
-    let [front, back, on, spans] = classify(Exact, &faces, plane);
-    assert_eq!(front + back + on + spans, faces.len());
-    assert_eq!(spans, across.len());
-    let [in_front, behind] = cut(Exact, &faces, plane, &across);
+    let spans = |&face: &u32| exact.classify(&faces, face, None) == Side::Spanning;
+    let across: Vec<u32> = all.clone().filter(spans).collect();
+    let pieces_across: Vec<RoundedPiece> =
+        across.iter().map(|&face| pieces[face as usize].clone()).collect();
+    let counts = classify();
+    assert_eq!(counts.iter().sum::<usize>(), faces.len());
+    assert_eq!(counts, classify_rounded());
+    let parts = cut(&faces, &exact, &across);
+    assert_eq!(parts, cut_rounded(&rounded, &pieces_across));
     // A triangle is cut into a triangle and a quad, or, through a corner, into two triangles.
-    assert!(in_front + behind <= 7 * spans && in_front + behind >= 6 * spans);
+    let vertices = parts[0] + parts[1];
+    assert!(vertices <= 7 * across.len() && vertices >= 6 * across.len());
 
-    let float = Float::<f64>::default();
     let mut group = criterion.benchmark_group("classify");
     group.throughput(Throughput::Elements(faces.len() as u64));
-    group.bench_function("exact", |b| b.iter(|| classify(Exact, black_box(&faces), plane)));
-    group.bench_function("float", |b| b.iter(|| classify(float, black_box(&faces), plane)));
+    group.bench_function("exact", |b| b.iter(classify));
+    group.bench_function("rounded", |b| b.iter(classify_rounded));
     group.finish();
     let mut group = criterion.benchmark_group("split");
-    group.throughput(Throughput::Elements(spans as u64));
-    group.bench_function("exact", |b| b.iter(|| cut(Exact, black_box(&faces), plane, &across)));
-    group.bench_function("float", |b| b.iter(|| cut(float, black_box(&faces), plane, &across)));
+    group.throughput(Throughput::Elements(across.len() as u64));
+    group.bench_function("exact", |b| b.iter(|| cut(black_box(&faces), &exact, &across)));
+    group.bench_function("rounded", |b| b.iter(|| cut_rounded(&rounded, &pieces_across)));
     group.finish();
 }
 

@@ -117,10 +117,10 @@ pub mod iter {
 #[doc(hidden)]
 pub mod internals {
     pub use crate::build::choose::{Quick, Tuning};
-    pub use crate::build::driver::{parts, tree_of};
+    pub use crate::build::driver::tree_of;
     pub use crate::exact::{
-        Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Kernel, LATTICE_LIMIT, Lattice,
-        Line, Piece, PlaneId, PlaneKind, Side, Symbol, SymbolKind, Vertex, split,
+        Eye, Faces, LATTICE_LIMIT, Lattice, Line, PlaneId, PlaneKind, PreparedPlane, Side,
+        StoredVertex, Symbol, SymbolKind, Vertex, split,
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
     pub use crate::input::MAX_CORNERS;
@@ -132,7 +132,6 @@ pub mod internals {
     pub use crate::scene::generated::{cuboid, unit_circle};
     #[cfg(feature = "obj")]
     pub use crate::scene::obj::file::open_regular;
-    pub use crate::tree::parts::{Parts, RawChild, RawNode, Record, parts_of_tree};
 }
 
 /// The README's examples are tested as they stand.

@@ -22,7 +22,7 @@ const SCENES: [(&str, f64); 6] = [
 
 pub(crate) fn run() {
     let table = Table::new(
-        "Build, exact kernel, two threads, against bvh",
+        "Build, two threads, against bvh",
         &[
             "scene",
             "triangles",

@@ -13,10 +13,10 @@ mod build;
 mod clipping;
 mod culling;
 mod drawings;
+mod exactness;
 mod fragments;
 mod frames;
 mod growth;
-mod kernels;
 mod mesh;
 mod order;
 mod overlay;
@@ -45,7 +45,7 @@ const SECTIONS: &[Section] = &[
     ("culling", culling::run),
     ("drawings", drawings::run),
     ("gl2ps", drawings::gl2ps::run),
-    ("exactness", kernels::run),
+    ("exactness", exactness::run),
     ("rulings", rulings::run),
     ("saved", saved::run),
     ("rays", rays::run),

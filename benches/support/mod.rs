@@ -154,7 +154,7 @@ pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     }
 }
 
-/// The most decisions by the exact kernel that are made to check a tree: some seconds.
+/// The most exact decisions that are made to check a tree: some seconds.
 const MOST_CHECKS: f64 = 3e8;
 
 /// A tree whose time is reported must be right: every face in it, and valid, if that can be checked

@@ -1,13 +1,14 @@
 //! Joins the outputs of all jobs into one tree in depth-first order.
 
 use crate::Error;
+use crate::exact::StoredVertex;
 use crate::memory::{push, reserve};
 use crate::tree::parts::{Parts, RawNode, Record};
 
 /// The nodes and fragments that one job built.
-#[derive(Debug)]
-pub(super) struct Output<S> {
-    pub(super) parts: Parts<S>,
+#[derive(Debug, Default)]
+pub(super) struct Output {
+    pub(super) parts: Parts,
     /// Where the outputs of other jobs are to be inserted.
     gaps: Vec<Gap>,
 }
@@ -20,18 +21,12 @@ struct Gap {
     job: usize,
 }
 
-impl<S> Default for Output<S> {
-    fn default() -> Self {
-        Self { parts: Parts::default(), gaps: vec![] }
-    }
-}
-
-impl<S: Copy> Output<S> {
+impl Output {
     /// Appends a fragment.
     pub(super) fn push(
         &mut self,
         face: u32,
-        vertices: impl ExactSizeIterator<Item = S>,
+        vertices: impl ExactSizeIterator<Item = StoredVertex>,
     ) -> Result<(), Error> {
         reserve(&mut self.parts.records, 1)?;
         self.parts.records.push(Record { face, vertices: self.parts.vertices.len() as u32 });
@@ -86,11 +81,11 @@ impl<S: Copy> Output<S> {
 
 /// Joins the outputs of all jobs. The first is that of the root; gaps in the outputs refer to the
 /// others by their index.
-pub(super) fn assemble<S: Copy>(mut outputs: Vec<Output<S>>) -> Result<Parts<S>, Error> {
+pub(super) fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     if outputs.len() == 1 {
         return Ok(outputs.pop().unwrap_or_default().parts);
     }
-    let sum = |len: fn(&Output<S>) -> usize| outputs.iter().map(len).sum();
+    let sum = |len: fn(&Output) -> usize| outputs.iter().map(len).sum();
     let mut whole = Output::default();
     whole.parts.cuts = sum(|output| output.parts.cuts);
     reserve(&mut whole.parts.nodes, sum(|output| output.parts.nodes.len()))?;

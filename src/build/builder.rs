@@ -13,19 +13,19 @@ use super::assemble::Output;
 use super::choose::{Choice, Set};
 use super::job::Job;
 use crate::Error;
-use crate::exact::{Kernel, PlaneId};
+use crate::exact::PlaneId;
 use leaf::is_leaf;
 use state::{Builder, Pending};
 pub(super) use state::{Memory, Shared};
 
 /// Builds the subtree of a job. Large sets are passed to `hand_over`, which returns the number of the
 /// job that will build them.
-pub(super) fn build<'a, K: Kernel>(
-    shared: &'a Shared<'a, K>,
-    job: Job<K::Vertex>,
-    memory: &mut Memory<K>,
-    mut hand_over: impl FnMut(Job<K::Vertex>) -> Result<usize, Error>,
-) -> Result<Output<K::Stored>, Error> {
+pub(super) fn build<'a>(
+    shared: &'a Shared<'a>,
+    job: Job,
+    memory: &mut Memory,
+    mut hand_over: impl FnMut(Job) -> Result<usize, Error>,
+) -> Result<Output, Error> {
     let mut builder = Builder::new(shared, job, memory);
     while let Some(pending) = builder.pending.pop() {
         shared.rules.watch.work(0)?;
@@ -43,12 +43,12 @@ pub(super) fn build<'a, K: Kernel>(
     Ok(builder.end(memory))
 }
 
-impl<K: Kernel> Builder<'_, K> {
+impl Builder<'_> {
     /// Writes the node of the set on top of the stack, and puts its two sides on the stack.
     fn step(
         &mut self,
         pending: &Pending,
-        hand_over: &mut impl FnMut(Job<K::Vertex>) -> Result<usize, Error>,
+        hand_over: &mut impl FnMut(Job) -> Result<usize, Error>,
     ) -> Result<(), Error> {
         let start = pending.range.start;
         let set = &self.pieces[start..];
@@ -69,8 +69,8 @@ impl<K: Kernel> Builder<'_, K> {
             plane
         } else {
             let count = set.len();
-            let Shared { kernel, faces, rules, .. } = self.shared;
-            let set = Set::new(kernel, faces, set, &self.arena);
+            let Shared { faces, rules, .. } = self.shared;
+            let set = Set::new(faces, set, &self.arena);
             let plane = match self.chooser.choose(rules, &set, pending.is_peeled)? {
                 Choice::Split(plane) => plane,
                 Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),

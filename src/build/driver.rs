@@ -6,13 +6,13 @@ use std::ops::ControlFlow;
 use super::builder::{Memory, Shared};
 use super::choose::Tuning;
 use super::job::Job;
-use super::live::Live;
 use super::options::BuildOptions;
+use super::piece::Piece;
 use super::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
 use super::threads;
 use crate::error::Error;
+use crate::exact::Faces;
 use crate::exact::cell::Clipper;
-use crate::exact::{Exact, ExactVertex, Faces, Kernel};
 use crate::faces::{Listener, Preparation, Preparer};
 use crate::input::Polygon;
 use crate::memory::{push, reserve};
@@ -106,12 +106,12 @@ pub(super) fn tree_of_faces(
 ) -> Result<BspTree, Error> {
     watch.expect(faces.len())?;
     let parts = if faces.corners_of_cell() == 0 {
-        watched_parts(Exact, options, &Tuning::DEFAULT, &faces, watch)?
+        parts(options, &Tuning::DEFAULT, &faces, watch)?
     } else {
         let job = pieces_in_cell(&mut faces, watch)?;
         preparation.dropped = faces.dropped(preparation.polygons).count();
         watch.expect(faces.len())?;
-        let shared = Shared::new(Exact, &faces, options, &Tuning::DEFAULT, watch)?;
+        let shared = Shared::new(&faces, options, &Tuning::DEFAULT, watch)?;
         threads::run(&shared, job, &mut Memory::default())?
     };
     watch.end()?;
@@ -119,7 +119,7 @@ pub(super) fn tree_of_faces(
 }
 
 /// Cuts faces to their cell, and removes those that nothing is left of.
-fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job<ExactVertex>, Error> {
+fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
     let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     let (mut clipper, count) = (Clipper::new(faces), faces.len() as u32);
     for start in (0..count).step_by(PIECES_AT_ONCE) {
@@ -127,9 +127,9 @@ fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job<ExactVerte
         watch.work(some.len())?;
         for face in some {
             let Some(outline) = clipper.clip(face) else { continue };
-            let mut piece = Live::whole(faces, face);
+            let mut piece = Piece::whole(faces, face);
             if !outline.is_empty() {
-                piece = Live::cut::<Exact>(&piece, outline, arena.len());
+                piece = Piece::part(&piece, outline, arena.len());
                 reserve(&mut arena, outline.len())?;
                 arena.extend_from_slice(outline);
             }
@@ -161,7 +161,7 @@ fn prepared<P: Polygon>(
 #[derive(Default)]
 pub(super) struct FrameMemory {
     preparer: Preparer,
-    memory: Memory<Exact>,
+    memory: Memory,
     nodes: Vec<RawNode>,
     sizes: Vec<Sizes>,
 }
@@ -198,7 +198,7 @@ impl FrameMemory {
             arrange(&mut faces)?;
         }
         let tuning = &Tuning::FRAMES;
-        let shared = Shared::new(Exact, &faces, options, tuning, &watch)?;
+        let shared = Shared::new(&faces, options, tuning, &watch)?;
         let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;
         *nodes = tree.refill(faces, preparation, parts, sizes)?;
         Ok(())
@@ -216,22 +216,8 @@ pub fn tree_of(
     faces: Faces,
     preparation: Preparation,
 ) -> Result<BspTree, Error> {
-    let parts = parts(Exact, options, tuning, &faces)?;
+    let parts = parts(options, tuning, &faces, &Watch::default())?;
     BspTree::new(faces, preparation, parts)
-}
-
-/// Builds the parts of a tree whose decisions a kernel makes.
-///
-/// # Errors
-///
-/// If a budget or memory runs out.
-pub fn parts<K: Kernel>(
-    kernel: K,
-    options: &BuildOptions,
-    tuning: &Tuning,
-    faces: &Faces,
-) -> Result<Parts<K::Stored>, Error> {
-    watched_parts(kernel, options, tuning, faces, &Watch::default())
 }
 
 /// A step of the preparation takes about as long as examining this many pieces.
@@ -247,24 +233,24 @@ impl Listener for Watch<'_> {
     }
 }
 
-fn watched_parts<K: Kernel>(
-    kernel: K,
+/// Builds the parts of a tree of prepared faces.
+fn parts(
     options: &BuildOptions,
     tuning: &Tuning,
     faces: &Faces,
     watch: &Watch<'_>,
-) -> Result<Parts<K::Stored>, Error> {
-    let shared = Shared::new(kernel, faces, options, tuning, watch)?;
+) -> Result<Parts, Error> {
+    let shared = Shared::new(faces, options, tuning, watch)?;
     divide_all(&shared, faces, &mut Memory::default(), watch)
 }
 
 /// Divides the set of all faces, down to the leaves.
-fn divide_all<K: Kernel>(
-    shared: &Shared<'_, K>,
+fn divide_all(
+    shared: &Shared<'_>,
     faces: &Faces,
-    memory: &mut Memory<K>,
+    memory: &mut Memory,
     watch: &Watch<'_>,
-) -> Result<Parts<K::Stored>, Error> {
+) -> Result<Parts, Error> {
     let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
     pieces.clear();
     arena.clear();
@@ -273,7 +259,7 @@ fn divide_all<K: Kernel>(
     for start in (0..count).step_by(PIECES_AT_ONCE) {
         let some = start..count.min(start + PIECES_AT_ONCE as u32);
         watch.work(some.len())?;
-        pieces.extend(some.map(|face| Live::whole(faces, face)));
+        pieces.extend(some.map(|face| Piece::whole(faces, face)));
     }
     threads::run(shared, Job { pieces, arena, depth: 0 }, memory)
 }

@@ -1,20 +1,21 @@
 //! What is passed to another thread, and when.
 
-use super::live::Live;
+use super::piece::Piece;
+use crate::exact::Vertex;
 
 /// Where both sides of a plane have at least this many pieces, one side becomes a job of its own.
 /// Smaller: more copying; larger: threads wait for each other at the end.
 const JOB: usize = 1024;
 
 /// A set of pieces with their vertices, to be built into a subtree.
-pub(super) struct Job<V> {
-    pub(super) pieces: Vec<Live>,
-    pub(super) arena: Vec<V>,
+pub(super) struct Job {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) arena: Vec<Vertex>,
     /// How many nodes lie above it.
     pub(super) depth: usize,
 }
 
-impl<V> Job<V> {
+impl Job {
     /// Whether it is too small to hand any set over: neither side of a plane has more pieces.
     #[cfg(feature = "parallel")]
     pub(super) fn is_the_last(&self) -> bool {

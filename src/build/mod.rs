@@ -6,7 +6,7 @@
 //! | `driver` | the steps from polygons to a tree |
 //! | `builder` | how a set of pieces becomes a node: a leaf, a plane, layers that are peeled off |
 //! | `choose` | which plane divides a set |
-//! | `knife`, `live` | what a piece is on its way down, and how it is cut |
+//! | `piece` | what a piece is on its way down, and how it is cut |
 //! | `threads`, `job` | which subtrees threads are given, and when |
 //! | `assemble` | how the subtrees become one tree |
 //! | `budget`, `progress` | when a build ends early |
@@ -23,10 +23,9 @@ mod extend;
 mod frame_builder;
 mod heuristic;
 mod job;
-pub(crate) mod knife;
-pub(crate) mod live;
 mod options;
 pub(crate) mod overlay_builder;
+pub(crate) mod piece;
 pub(crate) mod progress;
 mod threads;
 

@@ -5,12 +5,12 @@ use std::mem::take;
 use super::builder::{Memory, Shared};
 use super::choose::Tuning;
 use super::job::Job;
-use super::live::Live;
 use super::options::BuildOptions;
+use super::piece::Piece;
 use super::progress::Watch;
 use super::threads;
 use crate::error::Error;
-use crate::exact::{Exact, ExactStored, ExactVertex, Faces};
+use crate::exact::{Faces, Vertex};
 use crate::memory::reserve;
 use crate::tree::node_record::MOST_FRAGMENTS;
 use crate::tree::parts::Parts;
@@ -18,7 +18,7 @@ use crate::tree::parts::Parts;
 /// Builds a tree of the pieces in each cell, in memory that it keeps.
 #[derive(Default)]
 pub(crate) struct OverlayBuilder {
-    memory: Memory<Exact>,
+    memory: Memory,
 }
 
 impl OverlayBuilder {
@@ -31,10 +31,10 @@ impl OverlayBuilder {
     pub(crate) fn build(
         &mut self,
         faces: &Faces,
-        pieces: &[Live],
-        arena: &[ExactVertex],
+        pieces: &[Piece],
+        arena: &[Vertex],
         watch: &Watch<'_>,
-    ) -> Result<Parts<ExactStored>, Error> {
+    ) -> Result<Parts, Error> {
         let Self { memory } = self;
         let mut job =
             Job { pieces: take(&mut memory.pieces), arena: take(&mut memory.arena), depth: 0 };
@@ -46,12 +46,12 @@ impl OverlayBuilder {
         }
         // The budget counts all faces, the tree's among them.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
-        let shared = Shared::new(Exact, faces, &options, &Tuning::FRAMES, watch)?;
+        let shared = Shared::new(faces, &options, &Tuning::FRAMES, watch)?;
         threads::run(&shared.with_positions(), job, memory)
     }
 
     /// Keeps the memory of a tree for the next.
-    pub(crate) fn keep(&mut self, parts: Parts<ExactStored>) {
+    pub(crate) fn keep(&mut self, parts: Parts) {
         self.memory.output.parts = parts;
     }
 }

@@ -10,7 +10,6 @@ use super::assemble::assemble;
 use super::builder::{Memory, Shared, build};
 use super::job::Job;
 use crate::Error;
-use crate::exact::Kernel;
 use crate::memory;
 use crate::tree::parts::Parts;
 
@@ -21,17 +20,17 @@ const ALONE: usize = 2048;
 
 /// The outputs of the jobs so far, by their numbers; those of jobs that are not finished are missing.
 #[cfg(feature = "parallel")]
-type Outputs<S> = Mutex<Vec<Option<Result<Output<S>, Error>>>>;
+type Outputs = Mutex<Vec<Option<Result<Output, Error>>>>;
 
 /// Builds a job on a thread of the pool, and spawns the jobs that it hands over. Once it fails, the
 /// others stop.
 #[cfg(feature = "parallel")]
-fn build_and_spawn<'s, K: Kernel>(
+fn build_and_spawn<'s>(
     scope: &rayon::Scope<'s>,
-    shared: &'s Shared<'s, K>,
-    outputs: &'s Outputs<K::Stored>,
-    (number, job): (usize, Job<K::Vertex>),
-    memory: &mut Memory<K>,
+    shared: &'s Shared<'s>,
+    outputs: &'s Outputs,
+    (number, job): (usize, Job),
+    memory: &mut Memory,
 ) {
     let output = build(shared, job, memory, |job| {
         let mut listed = outputs.lock().unwrap_or_else(PoisonError::into_inner);
@@ -51,11 +50,7 @@ fn build_and_spawn<'s, K: Kernel>(
 
 /// Builds a job, and all jobs that it and they hand over, and joins them.
 #[cfg(feature = "parallel")]
-pub(super) fn run<K: Kernel>(
-    shared: &Shared<'_, K>,
-    job: Job<K::Vertex>,
-    memory: &mut Memory<K>,
-) -> Result<Parts<K::Stored>, Error> {
+pub(super) fn run(shared: &Shared<'_>, job: Job, memory: &mut Memory) -> Result<Parts, Error> {
     if job.is_the_last() || !crate::parallel_map::are_running() {
         return in_turn(shared, job, memory);
     }
@@ -85,11 +80,7 @@ pub(super) fn run<K: Kernel>(
 pub(super) use in_turn as run;
 
 /// As above, one after the other.
-pub(super) fn in_turn<K: Kernel>(
-    shared: &Shared<'_, K>,
-    job: Job<K::Vertex>,
-    memory: &mut Memory<K>,
-) -> Result<Parts<K::Stored>, Error> {
+pub(super) fn in_turn(shared: &Shared<'_>, job: Job, memory: &mut Memory) -> Result<Parts, Error> {
     let mut jobs = VecDeque::new();
     let (mut next, mut outputs) = (Some(job), Vec::new());
     while let Some(job) = next {

@@ -9,7 +9,7 @@ use super::reporter::each;
 use super::table::{Table, insert};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Faces, Kernel, PlaneId, cross};
+use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 
 /// A face, and which of its edges.
 pub(super) type FaceEdge = (u32, u32);
@@ -107,7 +107,7 @@ impl InnerEdges {
 
 /// On which side of a face's plane a point lies, further from it than the tolerance.
 fn side(faces: &Faces, face: u32, point: &[f64; 3]) -> Ordering {
-    Exact.splitter(faces, PlaneId::face(face)).side_beyond(faces, point)
+    PreparedPlane::new(faces, PlaneId::face(face)).side_beyond(faces, point)
 }
 
 /// The direction of an edge.

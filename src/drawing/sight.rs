@@ -12,7 +12,7 @@ use super::lines::Lines;
 use super::rect::{NOWHERE, Rect, are_apart};
 use super::rounded::Rounded;
 use super::tile::Tile;
-use crate::exact::{Exact, Int, Kernel, PlaneId};
+use crate::exact::{Int, PlaneId, PreparedPlane};
 
 /// A segment of the scene, as far as the picture has it.
 #[derive(Clone, Copy, Debug)]
@@ -252,8 +252,8 @@ impl Sight {
         seen: Ordering,
     ) -> Option<[f64; 2]> {
         let faces = lines.frame.faces;
-        let splitter = Exact.splitter(faces, PlaneId::face(face));
-        let sides = ends.map(|end| splitter.side_beyond(faces, &end));
+        let prepared = PreparedPlane::new(faces, PlaneId::face(face));
+        let sides = ends.map(|end| prepared.side_beyond(faces, &end));
         let is_behind = sides.map(|side| side == seen.reverse());
         if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
             return (is_behind != [false; 2]).then_some(ALL);

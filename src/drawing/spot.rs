@@ -8,7 +8,7 @@ use super::lines::Lines;
 use super::rect::Rect;
 use super::sight::MARGIN;
 use super::tile::Tile;
-use crate::exact::{Exact, Int, Kernel, PlaneId};
+use crate::exact::{Int, PlaneId, PreparedPlane};
 
 /// A point of the scene as the picture shows it.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ impl Spot {
     /// Whether it is further away than a face's plane.
     pub(super) fn is_behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> bool {
         let faces = lines.frame.faces;
-        let splitter = Exact.splitter(faces, PlaneId::face(face));
-        splitter.side_beyond(faces, &self.point) == seen.reverse()
+        let prepared = PreparedPlane::new(faces, PlaneId::face(face));
+        prepared.side_beyond(faces, &self.point) == seen.reverse()
     }
 }

@@ -8,7 +8,7 @@ use super::stock::Stock;
 use super::tile::{IN_VAIN, in_vain};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Faces, Kernel, PlaneId};
+use crate::exact::{Faces, PlaneId, PreparedPlane};
 use crate::memory::{collect, push};
 
 /// Blocks of at most so many faces are not halved. Larger: more pairs are compared; smaller: more blocks.
@@ -67,8 +67,8 @@ pub(super) fn straddling(
 impl Faces {
     /// Whether a face has corners on both sides of another's plane, further from it than the tolerance.
     pub(super) fn straddles(&self, face: u32, other: u32) -> bool {
-        let splitter = Exact.splitter(self, PlaneId::face(other));
-        let mut sides = self.corners(face).iter().map(|at| splitter.side_beyond(self, at));
+        let prepared = PreparedPlane::new(self, PlaneId::face(other));
+        let mut sides = self.corners(face).iter().map(|at| prepared.side_beyond(self, at));
         let Some(first) = sides.find(|side| side.is_ne()) else { return false };
         sides.any(|side| side == first.reverse())
     }

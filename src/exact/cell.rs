@@ -5,11 +5,10 @@
 
 use smallvec::SmallVec;
 
-use super::exact_kernel::Exact;
-use super::filter::{ExactSplitter, ExactVertex};
-use super::kernel::{Kernel, Piece, Side};
+use super::classify::{PreparedPlane, Side};
 use super::label::PlaneId;
 use super::lattice::{LIMIT, MAX_TOLERANCE};
+use super::split::Vertex;
 use super::{Faces, Lattice, split};
 
 /// A box by its lower and its upper corner, in lattice units.
@@ -101,40 +100,40 @@ fn count_while<T>(items: &[T], is_counted: impl Fn(&T) -> bool) -> usize {
 
 /// Cuts faces to their cell.
 ///
-/// Each plane of the cell decides as a partition plane of a tree does, by the rules of [`Exact`]. What
+/// Each plane of the cell decides as a partition plane of a tree does, by the rules of [`classify`](super::classify). What
 /// is coplanar with it belongs to the cell in front. So do the planes of all cells of a scene, which
 /// therefore have each point of each face in one cell; and both cells beside a plane name the vertices
 /// that it makes by the same points.
 pub(crate) struct Clipper<'f> {
     faces: &'f Faces,
-    planes: SmallVec<[(ExactSplitter, Side); 6]>,
-    outline: Vec<ExactVertex>,
-    front: Vec<ExactVertex>,
-    back: Vec<ExactVertex>,
+    planes: SmallVec<[(PreparedPlane, Side); 6]>,
+    outline: Vec<Vertex>,
+    front: Vec<Vertex>,
+    back: Vec<Vertex>,
 }
 
 impl<'f> Clipper<'f> {
     pub(crate) fn new(faces: &'f Faces) -> Self {
         let planes = faces.planes_of_cell();
-        let planes = planes.map(|(plane, side)| (Exact.splitter(faces, plane), side)).collect();
+        let planes = planes.map(|(plane, side)| (PreparedPlane::new(faces, plane), side)).collect();
         Self { faces, planes, outline: vec![], front: vec![], back: vec![] }
     }
 
     /// The part of a face in the cell, by its vertices: an empty list is the whole face, `None` no part.
-    pub(crate) fn clip(&mut self, face: u32) -> Option<&[ExactVertex]> {
+    pub(crate) fn clip(&mut self, face: u32) -> Option<&[Vertex]> {
         let Self { faces, planes, outline, front, back } = self;
         outline.clear();
-        for (splitter, own) in planes {
+        for (prepared, own) in planes {
             let cut = (!outline.is_empty()).then_some(&outline[..]);
-            match Exact.classify(faces, splitter, Piece { face, cut }) {
+            match prepared.classify(faces, face, cut) {
                 Side::Spanning => {
                     if outline.is_empty() {
                         let corners = 0..faces.corners(face).len() as u32;
-                        outline.extend(corners.map(|k| Exact.corner(faces, face, k)));
+                        outline.extend(corners.map(|k| Vertex::corner(faces, face, k)));
                     }
                     front.clear();
                     back.clear();
-                    split(&Exact, faces, splitter, face, outline, front, back);
+                    split(faces, prepared, face, outline, front, back);
                     std::mem::swap(outline, if *own == Side::Front { front } else { back });
                 }
                 Side::Coplanar if *own == Side::Front => {}

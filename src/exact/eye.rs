@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::lattice::{exponent_of, scaled, two_sum};
-use super::{Lattice, Plane};
+use super::{Faces, Lattice, Plane, PlaneId, PlaneKind};
 use crate::viewpoint::Viewpoint;
 
 /// A viewpoint in lattice units, rounded once: the point integer · 2^shift, or, without a shift,
@@ -89,6 +89,16 @@ impl Eye {
     /// direction towards it and 0.
     pub fn homogeneous(&self) -> ([f64; 3], f64) {
         (self.float, if self.shift.is_some() { 1.0 } else { 0.0 })
+    }
+}
+
+impl Faces {
+    /// On which side of a plane an eye lies.
+    pub fn eye_side(&self, plane: PlaneId, eye: &Eye) -> Ordering {
+        match plane.kind() {
+            PlaneKind::Axis(axis, corner) => Plane::axis_at_eye(axis, self.corner(corner), eye),
+            PlaneKind::Face(_) => self.plane(plane).at_eye(eye),
+        }
     }
 }
 

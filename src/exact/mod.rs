@@ -9,12 +9,10 @@
 //! | `vertex` | on which side of a plane a vertex lies, in integers |
 //! | `rounded_vertex` | where a vertex is, rounded |
 //! | `normal` | how a face's plane lies, rounded |
-//! | `filter` | on which side a vertex lies, by floats where they are certain |
-//! | `tolerance` | where a piece lies against a plane |
+//! | `classify` | where a piece lies against a plane |
 //! | `edge` | what an edge of a face is |
 //! | `flatten` | where corners off their face's plane are moved |
 //! | `split` | how a piece is cut |
-//! | `kernel` | what a tree is built with; `exact_kernel` is the one that the library uses |
 //! | `barycentric` | of which corners, and with which weights, a vertex consists |
 //! | `int` | integers of fixed width |
 //! | `cell` | which part of a face is in a cell of a larger scene |
@@ -27,34 +25,29 @@
 pub(crate) mod along;
 mod barycentric;
 pub(crate) mod cell;
+mod classify;
 mod convex_outline;
 mod edge;
-pub(crate) mod exact_kernel;
 pub(crate) mod exact_ray;
 mod eye;
 pub(crate) mod faces;
-mod filter;
 mod flatten;
 pub(crate) mod half_space;
 pub(crate) mod int;
-mod kernel;
 pub(crate) mod label;
 pub(crate) mod lattice;
 mod normal;
 mod plane;
 mod rounded_vertex;
 mod split;
-mod tolerance;
 pub(crate) mod vertex;
 
+pub use classify::{PreparedPlane, Side};
 pub(crate) use convex_outline::{is_convex, turns_one_way};
-pub use exact_kernel::{Exact, ExactStored};
 pub use eye::Eye;
 pub use faces::Faces;
-pub use filter::{ExactSplitter, ExactVertex};
 pub(crate) use flatten::Flattener;
 pub(crate) use int::Int;
-pub use kernel::{Kernel, Piece, Side, Vertex};
 pub(crate) use label::MAX_LABELS;
 pub use label::{Line, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::LIMIT as LATTICE_LIMIT;
@@ -65,4 +58,4 @@ pub(crate) use normal::{RoundedNormal, have_area};
 pub(crate) use plane::dot;
 pub(crate) use plane::{Plane, cross};
 pub(crate) use rounded_vertex::OFF as POSITION_OFF;
-pub use split::split;
+pub use split::{StoredVertex, Vertex, split};

@@ -1,11 +1,95 @@
-//! Cutting one piece of a face in two.
+//! The vertices of a piece, and how a plane cuts a piece in two.
 
 use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::kernel::{Kernel, Vertex};
-use super::{Faces, Line};
+use super::Faces;
+use super::classify::PreparedPlane;
+use super::label::{Line, Symbol};
+
+/// A vertex of a piece of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    pub(crate) position: [f64; 3],
+    pub(crate) symbol: Symbol,
+    pub(crate) line: Line,
+}
+
+impl Vertex {
+    /// Corner `k` of a face.
+    pub fn corner(faces: &Faces, face: u32, k: u32) -> Self {
+        let symbol = Symbol::corner(k);
+        Self { position: faces.position(face, symbol), symbol, line: Line::edge(k) }
+    }
+
+    /// Its position in lattice units, rounded.
+    #[inline]
+    pub fn position(&self) -> [f64; 3] {
+        self.position
+    }
+
+    /// Its definition.
+    #[inline]
+    pub fn symbol(&self) -> Symbol {
+        self.symbol
+    }
+
+    /// The line that bounds the piece from this vertex to the next.
+    #[inline]
+    pub fn line(&self) -> Line {
+        self.line
+    }
+
+    /// The vertex where a plane cuts the edge that begins here.
+    pub fn cut(&self, faces: &Faces, face: u32, plane: &PreparedPlane) -> Self {
+        let symbol = Symbol::crossing(self.line, plane.plane);
+        Self { position: faces.position(face, symbol), symbol, line: self.line }
+    }
+
+    /// The same vertex with another line to the next one.
+    #[inline]
+    pub(crate) fn with_line(self, line: Line) -> Self {
+        Self { line, ..self }
+    }
+
+    /// The vertex as a finished tree keeps it.
+    #[inline]
+    pub fn stored(&self) -> StoredVertex {
+        StoredVertex { symbol: self.symbol, line: self.line }
+    }
+}
+
+/// A vertex by its definition alone. Its position is computed when it is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StoredVertex {
+    pub(super) symbol: Symbol,
+    pub(super) line: Line,
+}
+
+impl StoredVertex {
+    /// A vertex as a file names it, which may be any.
+    #[cfg(feature = "save")]
+    pub(crate) fn new(symbol: Symbol, line: Line) -> Self {
+        Self { symbol, line }
+    }
+
+    /// Its definition.
+    pub(crate) fn symbol(&self) -> Symbol {
+        self.symbol
+    }
+
+    /// The line that bounds the piece from this vertex to the next.
+    pub(crate) fn line(&self) -> Line {
+        self.line
+    }
+
+    /// The vertex with its position.
+    pub fn restored(&self, faces: &Faces, face: u32) -> Vertex {
+        let &Self { symbol, line } = self;
+        Vertex { position: faces.position(face, symbol), symbol, line }
+    }
+}
 
 /// Cuts a piece by a plane that has some of its vertices in front and some behind, and appends
 /// the vertices of the two parts to `front` and `back`, in the piece's orientation.
@@ -15,21 +99,20 @@ use super::{Faces, Line};
 /// bit for bit. A convex piece gets at most two new vertices. O(n) for a piece of `n` vertices.
 ///
 /// A piece of two vertices is one of a segment, whose ends are on different sides.
-pub fn split<K: Kernel>(
-    kernel: &K,
+pub fn split(
     faces: &Faces,
-    splitter: &K::Splitter,
+    plane: &PreparedPlane,
     face: u32,
-    vertices: &[K::Vertex],
-    front: &mut Vec<K::Vertex>,
-    back: &mut Vec<K::Vertex>,
+    vertices: &[Vertex],
+    front: &mut Vec<Vertex>,
+    back: &mut Vec<Vertex>,
 ) {
-    let cut = |side: Ordering| Line::cut(K::plane(splitter), side.is_lt());
+    let cut = |side: Ordering| Line::cut(plane.plane, side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
-        vertices.iter().map(|vertex| kernel.side(faces, splitter, face, vertex)).collect();
+        vertices.iter().map(|vertex| plane.side(faces, face, vertex)).collect();
     // A segment: an outline would come back along it.
     if let [a, b] = vertices {
-        let middle = kernel.cut(faces, splitter, face, [a, b]);
+        let middle = a.cut(faces, face, plane);
         let parts = if sides[0].is_gt() { [front, back] } else { [back, front] };
         parts[0].extend([*a, middle]);
         parts[1].extend([middle, *b]);
@@ -51,7 +134,7 @@ pub fn split<K: Kernel>(
             back.push(along(Ordering::Less));
         }
         if here.is_ne() && next == here.reverse() {
-            let crossing = kernel.cut(faces, splitter, face, [vertex, &vertices[j]]);
+            let crossing = vertex.cut(faces, face, plane);
             let (leaving, entering) =
                 (crossing.with_line(cut(here)), crossing.with_line(vertex.line()));
             // The outline goes from one part to the other here. The part it leaves follows the cut

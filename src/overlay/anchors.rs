@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::build::progress::Watch;
 use crate::error::Error;
-use crate::exact::{ExactVertex, Faces, Vertex};
+use crate::exact::{Faces, Vertex};
 use crate::memory::reserve;
 
 /// For each point, a segment that it is an end of, if there is one.
@@ -75,23 +75,18 @@ impl Anchors {
     }
 
     /// Where the points begin in a set of pieces, which is in the order of faces.
-    pub(super) fn points<'p>(&self, pieces: &'p [Live]) -> &'p [Live] {
+    pub(super) fn points<'p>(&self, pieces: &'p [Piece]) -> &'p [Piece] {
         &pieces[pieces.partition_point(|piece| piece.face < self.first)..]
     }
 
     /// The segment of a point, if the piece of it that ends there is in the same set.
-    pub(super) fn segment(
-        &self,
-        point: &Live,
-        pieces: &[Live],
-        arena: &[ExactVertex],
-    ) -> Option<u32> {
+    pub(super) fn segment(&self, point: &Piece, pieces: &[Piece], arena: &[Vertex]) -> Option<u32> {
         let place = self.place_of[(point.face - self.first) as usize];
         let face = self.places[place as usize].1?;
         let start = pieces.partition_point(|piece| piece.face < face);
         let mut parts = pieces[start..].iter().take_while(|piece| piece.face == face);
-        let ends = |piece: &Live| piece.piece(arena).cut.unwrap_or_default();
-        let touches = |piece: &Live| ends(piece).iter().any(|end| end.position() == point.min);
+        let ends = |piece: &Piece| piece.cut_vertices(arena).unwrap_or_default();
+        let touches = |piece: &Piece| ends(piece).iter().any(|end| end.position() == point.min);
         parts.any(touches).then_some(face)
     }
 }

@@ -22,7 +22,7 @@ pub use shapes::{Marker, Segment, Shape, Shapes};
 use skeleton::Skeleton;
 
 use crate::error::{Error, Kind};
-use crate::exact::{ExactStored, Faces};
+use crate::exact::Faces;
 use crate::faces::{Preparation, Preparer};
 use crate::tree::parts::{Parts, Record, Stored};
 use crate::tree::{BspTree, Fragment};
@@ -162,7 +162,7 @@ pub struct Overlay {
     base: Base,
     preparer: Preparer,
     placer: Placer,
-    pieces: Parts<ExactStored>,
+    pieces: Parts,
     skeleton: Skeleton,
     preparation: Preparation,
     /// For each face that is a segment, its number in its line.

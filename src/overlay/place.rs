@@ -6,10 +6,10 @@ use super::placer::{Pending, Placer, Work};
 use super::planes;
 use super::region::{Opened, Region, Whose};
 use super::skeleton::{Place, Skeleton};
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::build::progress::Watch;
 use crate::error::{Error, Limit};
-use crate::exact::{Exact, ExactSplitter, ExactStored, Faces, Kernel, Line, Side, Vertex};
+use crate::exact::{Faces, Line, PreparedPlane, Side, Vertex};
 use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::tree::node_record::MOST_FRAGMENTS;
@@ -30,7 +30,7 @@ impl Placer {
         &mut self,
         tree: &BspTree,
         faces: &Faces,
-        pieces: &mut Parts<ExactStored>,
+        pieces: &mut Parts,
         skeleton: &mut Skeleton,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
@@ -57,15 +57,15 @@ impl Work<'_> {
         *crowd = None;
         let (new, thin) = (faces.len() - *first as usize, *thin);
         reserve(pieces, new)?;
-        pieces.extend((*first..thin).map(|face| Live::whole(faces, face)));
+        pieces.extend((*first..thin).map(|face| Piece::whole(faces, face)));
         reserve(arena, 2 * (faces.len() - thin as usize))?;
         for face in thin..faces.len() as u32 {
             let start = arena.len();
             let ends = 0..faces.reach(face) as u32;
             // Both ends are on the segment, which is the first edge of its face.
-            let end = |k| Exact.corner(faces, face, k).with_line(Line::edge(0));
+            let end = |k| Vertex::corner(faces, face, k).with_line(Line::edge(0));
             arena.extend(ends.map(end));
-            pieces.push(Live::thin(face, &arena[start..], start));
+            pieces.push(Piece::thin(face, &arena[start..], start));
         }
         if new > 0 {
             let region = Region::root(Whose::Tree, tree.nodes.len(), tree.len());
@@ -105,12 +105,12 @@ impl Work<'_> {
         let Some(Opened { mut branch, own, sides: [in_front, behind] }) = opened else {
             return Ok(());
         };
-        let splitter = Exact.splitter(self.faces, branch.plane);
-        let side = self.side_of_all(start, crowd, &splitter);
+        let prepared = PreparedPlane::new(self.faces, branch.plane);
+        let side = self.side_of_all(start, crowd, &prepared);
         self.placer.front.clear();
         self.placer.own.clear();
         if side.is_none() {
-            self.divide(start, &splitter)?;
+            self.divide(start, &prepared)?;
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
         branch.pieces = self.store_all(own, self.placer.own.len())?;
@@ -135,36 +135,36 @@ impl Work<'_> {
         &mut self,
         start: usize,
         known: Option<[[f64; 3]; 2]>,
-        splitter: &ExactSplitter,
+        prepared: &PreparedPlane,
     ) -> Option<Side> {
         let Placer { pieces, crowd, .. } = &mut *self.placer;
         let set = &pieces[start..];
         if set.len() < CROWD {
             return None;
         }
-        let union = |[low, high]: [[f64; 3]; 2], piece: &Live| {
+        let union = |[low, high]: [[f64; 3]; 2], piece: &Piece| {
             let corner = |i: usize| (low[i].min(piece.min[i]), high[i].max(piece.max[i]));
             let [x, y, z] = [corner(0), corner(1), corner(2)];
             [[x.0, y.0, z.0], [x.1, y.1, z.1]]
         };
         let first = [set[0].min, set[0].max];
         let bounds = known.unwrap_or_else(|| set.iter().fold(first, union));
-        let side = splitter.side_of_box(bounds);
+        let side = prepared.side_of_box(bounds);
         *crowd = side.map(|_| bounds);
         side
     }
 
     /// Divides the set on top of the stack: pieces behind stay on the stack, pieces in front go to
     /// `front`, and pieces on the plane to `own`.
-    fn divide(&mut self, start: usize, splitter: &ExactSplitter) -> Result<(), Error> {
-        let Placer { pieces, arena, front, own, knife, .. } = &mut *self.placer;
+    fn divide(&mut self, start: usize, prepared: &PreparedPlane) -> Result<(), Error> {
+        let Placer { pieces, arena, front, own, splitter, .. } = &mut *self.placer;
         // Each piece has at most one part in front, or is one on the plane.
         reserve(front, pieces.len() - start)?;
         reserve(own, pieces.len() - start)?;
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
-            let behind = match Exact.classify(self.faces, splitter, piece.piece(arena)) {
+            let behind = match piece.side(self.faces, prepared, arena) {
                 Side::Back => piece,
                 Side::Front => {
                     front.push(piece);
@@ -175,7 +175,7 @@ impl Work<'_> {
                     continue;
                 }
                 Side::Spanning => {
-                    let parts = knife.cut(&Exact, self.faces, splitter, &piece, arena)?;
+                    let parts = splitter.cut(self.faces, prepared, &piece, arena)?;
                     front.push(parts[0]);
                     parts[1]
                 }

@@ -5,11 +5,10 @@ use std::ops::Range;
 use super::anchors::Anchors;
 use super::region::{CellTree, Region};
 use super::skeleton::{Place, Skeleton};
-use crate::build::knife::Knife;
-use crate::build::live::Live;
 use crate::build::overlay_builder::OverlayBuilder;
+use crate::build::piece::{Piece, Splitter};
 use crate::build::progress::Watch;
-use crate::exact::{ExactStored, ExactVertex, Faces};
+use crate::exact::{Faces, Vertex};
 use crate::tree::BspTree;
 use crate::tree::parts::Parts;
 
@@ -31,15 +30,15 @@ pub(super) struct Placer {
     pub(super) anchors: Anchors,
     /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
     /// polygons, then lines, then points.
-    pub(super) pieces: Vec<Live>,
+    pub(super) pieces: Vec<Piece>,
     /// The vertices of cut pieces, in the order of the cuts.
-    pub(super) arena: Vec<ExactVertex>,
+    pub(super) arena: Vec<Vertex>,
     pub(super) pending: Vec<Pending>,
-    pub(super) front: Vec<Live>,
-    pub(super) own: Vec<Live>,
+    pub(super) front: Vec<Piece>,
+    pub(super) own: Vec<Piece>,
     /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
     pub(super) crowd: Option<[[f64; 3]; 2]>,
-    pub(super) knife: Knife<ExactVertex>,
+    pub(super) splitter: Splitter,
     /// The face to begin with: those before it are the tree's.
     pub(super) first: u32,
     /// The first face without area.
@@ -51,7 +50,7 @@ pub(super) struct Work<'a> {
     pub(super) tree: &'a BspTree,
     pub(super) faces: &'a Faces,
     pub(super) placer: &'a mut Placer,
-    pub(super) pieces: &'a mut Parts<ExactStored>,
+    pub(super) pieces: &'a mut Parts,
     pub(super) skeleton: &'a mut Skeleton,
     pub(super) watch: &'a Watch<'a>,
 }

@@ -3,8 +3,8 @@
 use smallvec::SmallVec;
 
 use super::anchors::Anchors;
-use crate::build::live::Live;
-use crate::exact::{Exact, ExactVertex, Faces, Kernel, PlaneId, Side, SymbolKind, Vertex};
+use crate::build::piece::Piece;
+use crate::exact::{Faces, PlaneId, PreparedPlane, Side, SymbolKind, Vertex};
 
 /// How many pieces of a set a plane is tried on, spread evenly over the set. More: time; fewer: worse
 /// planes for large sets.
@@ -16,15 +16,15 @@ const OWN: usize = 6;
 /// are lists, and take the square of the time.
 const CUT: usize = 4;
 
-type Sample<'a> = SmallVec<[&'a Live; SAMPLE]>;
+type Sample<'a> = SmallVec<[&'a Piece; SAMPLE]>;
 
 /// Chooses the plane that divides a set of pieces, not none, without area. On either side there are
 /// fewer pieces than in the set.
 pub(super) fn between(
     faces: &Faces,
     anchors: &Anchors,
-    pieces: &[Live],
-    arena: &[ExactVertex],
+    pieces: &[Piece],
+    arena: &[Vertex],
 ) -> PlaneId {
     let sample: Sample<'_> = spread(pieces, SAMPLE).collect();
     let first = own_plane(faces, sample[0].face);
@@ -44,7 +44,7 @@ pub(super) fn between(
 fn cheapest(
     faces: &Faces,
     sample: &Sample<'_>,
-    arena: &[ExactVertex],
+    arena: &[Vertex],
     planes: impl Iterator<Item = PlaneId>,
 ) -> Option<(usize, PlaneId)> {
     let mut best: Option<(usize, PlaneId)> = None;
@@ -62,17 +62,13 @@ fn cheapest(
 }
 
 /// So many pieces of a set, or all, spread evenly.
-fn spread(pieces: &[Live], most: usize) -> impl Iterator<Item = &Live> {
+fn spread(pieces: &[Piece], most: usize) -> impl Iterator<Item = &Piece> {
     let count = pieces.len().min(most);
     (0..count).map(move |i| &pieces[i * pieces.len() / count])
 }
 
 /// Some segments that end at points of the set, if there are any.
-fn anchored(
-    anchors: &Anchors,
-    pieces: &[Live],
-    arena: &[ExactVertex],
-) -> impl Iterator<Item = u32> {
+fn anchored(anchors: &Anchors, pieces: &[Piece], arena: &[Vertex]) -> impl Iterator<Item = u32> {
     let points = anchors.points(pieces);
     let parts = points.chunks(points.len().div_ceil(OWN).max(1));
     parts
@@ -92,12 +88,12 @@ fn own_plane(faces: &Faces, face: u32) -> PlaneId {
 fn medians<'a>(
     faces: &'a Faces,
     sample: &Sample<'_>,
-    arena: &'a [ExactVertex],
+    arena: &'a [Vertex],
 ) -> impl Iterator<Item = PlaneId> + 'a {
     let mut corners: SmallVec<[u32; 2 * SAMPLE]> = SmallVec::new();
     for piece in sample {
         let start = faces.corner_range(piece.face).start as u32;
-        for vertex in piece.piece(arena).cut.unwrap_or_default() {
+        for vertex in piece.cut_vertices(arena).unwrap_or_default() {
             if let SymbolKind::Corner(k) = vertex.symbol().kind() {
                 corners.push(start + k);
             }
@@ -113,16 +109,11 @@ fn medians<'a>(
 }
 
 /// What it costs to divide a set by a plane; `None` if as many are left on a side.
-fn cost(
-    faces: &Faces,
-    sample: &Sample<'_>,
-    arena: &[ExactVertex],
-    plane: PlaneId,
-) -> Option<usize> {
-    let splitter = Exact.splitter(faces, plane);
+fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) -> Option<usize> {
+    let prepared = PreparedPlane::new(faces, plane);
     let (mut front, mut back, mut cuts) = (0, 0, 0);
     for piece in sample {
-        match Exact.classify(faces, &splitter, piece.piece(arena)) {
+        match piece.side(faces, &prepared, arena) {
             Side::Front => front += 1,
             Side::Back => back += 1,
             Side::Spanning => cuts += 1,

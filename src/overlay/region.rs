@@ -6,7 +6,7 @@ use glam::Vec4;
 
 use super::skeleton::{Branch, SlotSide};
 use crate::Error;
-use crate::exact::{ExactStored, Faces, PlaneId};
+use crate::exact::{Faces, PlaneId};
 use crate::tree::BspTree;
 use crate::tree::node_record::{NodeRecord, Ranges, Sizes, finish, make_room};
 use crate::tree::order::planes::rounded;
@@ -49,12 +49,12 @@ impl Region {
 pub(super) struct CellTree {
     nodes: Vec<NodeRecord>,
     sizes: Vec<Sizes>,
-    pub(super) parts: Parts<ExactStored>,
+    pub(super) parts: Parts,
 }
 
 impl CellTree {
     /// Replaces the tree, and gives all of it as a region.
-    pub(super) fn fill(&mut self, parts: Parts<ExactStored>) -> Result<Region, Error> {
+    pub(super) fn fill(&mut self, parts: Parts) -> Result<Region, Error> {
         make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
         finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
         self.parts = parts;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::Vec4;
 
 use crate::error::Error;
-use crate::exact::{ExactStored, Faces, PlaneId};
+use crate::exact::{Faces, PlaneId};
 use crate::memory::reserve;
 use crate::tree::order::planes::rounded;
 use crate::tree::parts::{Parts, RawChild};
@@ -181,7 +181,7 @@ impl Skeleton {
         &mut self,
         place: Place,
         faces: &Faces,
-        tree: &Parts<ExactStored>,
+        tree: &Parts,
         mut first: u32,
     ) -> Result<(), Error> {
         self.open.clear();

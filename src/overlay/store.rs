@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::placer::{Placer, Work};
 use super::skeleton::SlotSide;
 use crate::error::Error;
-use crate::exact::{Exact, ExactStored, Kernel, Vertex};
+use crate::exact::{StoredVertex, Vertex};
 use crate::memory::reserve;
 use crate::tree::parts::{Parts, Record};
 
@@ -32,8 +32,8 @@ impl Work<'_> {
         // Coplanar polygons are painted in input order, which sets keep when they are divided.
         debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
         for live in &list[..own] {
-            let cut = live.piece(arena).cut.unwrap_or_default();
-            let symbols = cut.iter().map(|vertex| Exact.store(vertex));
+            let cut = live.cut_vertices(arena).unwrap_or_default();
+            let symbols = cut.iter().map(|vertex| vertex.stored());
             add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position))?;
             self.watch.finish(live.cuts);
         }
@@ -41,7 +41,7 @@ impl Work<'_> {
     }
 
     /// Appends the fragments of a small tree to the overlay's pieces, and gives the number of the first.
-    pub(super) fn store_tree(&mut self, tree: &Parts<ExactStored>) -> Result<u32, Error> {
+    pub(super) fn store_tree(&mut self, tree: &Parts) -> Result<u32, Error> {
         let pieces = &mut *self.pieces;
         let first = pieces.records.len() as u32;
         let shift = pieces.vertices.len() as u32;
@@ -58,9 +58,9 @@ impl Work<'_> {
 
 /// Adds a piece to those that are in place.
 fn add(
-    pieces: &mut Parts<ExactStored>,
+    pieces: &mut Parts,
     face: u32,
-    symbols: impl ExactSizeIterator<Item = ExactStored>,
+    symbols: impl ExactSizeIterator<Item = StoredVertex>,
     places: impl ExactSizeIterator<Item = [f64; 3]>,
 ) -> Result<(), Error> {
     let Parts { records, vertices, positions, .. } = pieces;

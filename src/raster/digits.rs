@@ -2,7 +2,7 @@
 //! signed digits.
 //!
 //! A product or a sum is first computed digit by digit in 128 bits, without carries; carries are
-//! propagated once, at the end. The kernels' [`Int`](crate::exact::Int) is in two's complement and
+//! propagated once, at the end. [`Int`](crate::exact::Int) is in two's complement and
 //! carries in every step, so a mistake in one is not repeated in the other.
 
 use std::cmp::Ordering;

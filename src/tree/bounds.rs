@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::order::planes::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
 use crate::Error;
-use crate::exact::{Exact, Eye, Kernel, Lattice, PlaneId, SymbolKind};
+use crate::exact::{Eye, Lattice, PlaneId, StoredVertex, SymbolKind};
 use crate::memory::{collect, reserve};
 use crate::parallel_map;
 use crate::viewpoint::Viewpoint;
@@ -136,7 +136,7 @@ impl Fragment<'_> {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut stored = self.stored().iter();
         for vertex in self.lattice_vertices() {
-            let symbol = stored.next().map(Exact::symbol);
+            let symbol = stored.next().map(StoredVertex::symbol);
             let is_cut = symbol.is_some_and(|s| !matches!(s.kind(), SymbolKind::Corner(_)));
             let off = rounding(vertex, is_cut, moved);
             for axis in 0..3 {

@@ -8,7 +8,7 @@ use super::order::planes::Planes;
 use super::order::schedule::Schedule;
 use super::parts::{Parts, RawNode, Record};
 use crate::Error;
-use crate::exact::{ExactStored, Faces};
+use crate::exact::{Faces, StoredVertex};
 use crate::faces::Preparation;
 
 /// A binary space partition of polygons, which gives their exact back-to-front or front-to-back
@@ -245,7 +245,7 @@ pub struct BspTree {
     /// None in a tree for one view.
     pub(super) schedule: Option<Schedule>,
     pub(crate) records: Vec<Record>,
-    pub(super) vertices: Vec<ExactStored>,
+    pub(super) vertices: Vec<StoredVertex>,
     /// Rounded positions of the vertices, in lattice units; only in a tree for one view.
     pub(super) positions: Vec<[f64; 3]>,
     /// How many times the builder cut a piece in two.
@@ -278,7 +278,7 @@ impl BspTree {
     }
 
     /// Empties the tree, and gives its lists back.
-    pub(crate) fn take_parts(&mut self) -> (Faces, Parts<ExactStored>) {
+    pub(crate) fn take_parts(&mut self) -> (Faces, Parts) {
         let Self { faces, nodes, planes, records, vertices, positions, .. } =
             std::mem::replace(self, Self::empty());
         (self.nodes, self.planes) = (nodes, planes);
@@ -293,7 +293,7 @@ impl BspTree {
         &mut self,
         faces: Faces,
         preparation: Preparation,
-        parts: Parts<ExactStored>,
+        parts: Parts,
         sizes: &mut Vec<Sizes>,
     ) -> Result<Vec<RawNode>, Error> {
         make_room(parts.nodes.len(), sizes, &mut self.nodes)?;
@@ -312,11 +312,7 @@ impl BspTree {
     }
 
     /// A tree for many orders.
-    pub(crate) fn new(
-        faces: Faces,
-        preparation: Preparation,
-        parts: Parts<ExactStored>,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(faces: Faces, preparation: Preparation, parts: Parts) -> Result<Self, Error> {
         let mut tree = Self::empty();
         drop(tree.refill(faces, preparation, parts, &mut Vec::new())?);
         tree.nodes.shrink_to_fit();

@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 
 use super::parts::{Record, Stored};
 use super::{BspTree, grid};
-use crate::exact::{Exact, ExactStored, Eye, Faces, Kernel, Line, PlaneId, Symbol, Vertex};
+use crate::exact::{Eye, Faces, Line, PlaneId, StoredVertex, Symbol};
 use crate::viewpoint::Viewpoint;
 
 /// A convex piece of a polygon, or the whole polygon.
@@ -19,7 +19,7 @@ pub struct Fragment<'t> {
     pub(crate) faces: &'t Faces,
     index: u32,
     pub(super) face: u32,
-    stored: &'t [ExactStored],
+    stored: &'t [StoredVertex],
     /// The rounded positions of the same, if they are kept.
     positions: &'t [[f64; 3]],
 }
@@ -38,12 +38,7 @@ impl BspTree {
 
 impl<'t> Fragment<'t> {
     /// The fragment of a record, by the number that it has in orders.
-    pub(crate) fn new(
-        faces: &'t Faces,
-        stored: Stored<'t, ExactStored>,
-        record: usize,
-        index: u32,
-    ) -> Self {
+    pub(crate) fn new(faces: &'t Faces, stored: Stored<'t>, record: usize, index: u32) -> Self {
         let Stored { records, vertices, positions } = stored;
         let next = records.get(record + 1);
         let end = next.map_or(vertices.len(), |next| next.vertices as usize);
@@ -54,7 +49,7 @@ impl<'t> Fragment<'t> {
     }
 
     /// The vertices as the tree stores them; none for a whole face.
-    pub(super) fn stored(&self) -> &'t [ExactStored] {
+    pub(super) fn stored(&self) -> &'t [StoredVertex] {
         self.stored
     }
 
@@ -137,7 +132,7 @@ impl<'t> Fragment<'t> {
         let known = if stored.is_empty() { corners } else { self.positions };
         (0..self.vertex_count()).map(move |i| match (known.get(i), stored.get(i)) {
             (Some(&position), _) => position,
-            (None, Some(stored)) => Exact.restore(faces, face, stored).position(),
+            (None, Some(stored)) => stored.restored(faces, face).position(),
             (None, None) => corners[i],
         })
     }
@@ -161,7 +156,7 @@ impl<'t> Fragment<'t> {
     ) -> impl DoubleEndedIterator<Item = Line> + ExactSizeIterator + Clone + use<'t> {
         let stored = self.stored;
         (0..self.vertex_count()).map(move |i| match stored.get(i) {
-            Some(stored) => Exact::line(stored),
+            Some(stored) => stored.line(),
             None => Line::edge(i as u32),
         })
     }
@@ -173,7 +168,7 @@ impl<'t> Fragment<'t> {
     ) -> impl DoubleEndedIterator<Item = Symbol> + ExactSizeIterator + Clone + use<'t> {
         let stored = self.stored;
         (0..self.vertex_count())
-            .map(move |i| stored.get(i).map_or(Symbol::corner(i as u32), Exact::symbol))
+            .map(move |i| stored.get(i).map_or(Symbol::corner(i as u32), StoredVertex::symbol))
     }
 
     /// For each vertex, weights over the polygon's corners: pairs of a corner's number and its

@@ -3,24 +3,24 @@
 use super::BspTree;
 use super::node_record::NodeRecord;
 use super::walk::Walk;
-use crate::exact::{ExactStored, PlaneId};
+use crate::exact::{PlaneId, StoredVertex};
 
 /// A node as the builder writes it.
 #[derive(Clone, Copy, Debug)]
-pub struct RawNode {
+pub(crate) struct RawNode {
     /// The partition plane.
-    pub plane: PlaneId,
+    pub(crate) plane: PlaneId,
     /// How many fragments lie on the plane.
-    pub own: u32,
+    pub(crate) own: u32,
     /// The front side.
-    pub front: RawChild,
+    pub(crate) front: RawChild,
     /// The back side.
-    pub back: RawChild,
+    pub(crate) back: RawChild,
 }
 
 /// What is on one side of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RawChild {
+pub(crate) enum RawChild {
     /// A leaf of this many fragments, stored right behind the node's own.
     Leaf(u32),
     /// Another node.
@@ -29,18 +29,18 @@ pub enum RawChild {
 
 /// A stored fragment. Its vertices end where those of the next fragment begin; a whole face has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Record {
+pub(crate) struct Record {
     /// The face that it is a piece of.
-    pub face: u32,
+    pub(crate) face: u32,
     /// The index of its first vertex.
-    pub vertices: u32,
+    pub(crate) vertices: u32,
 }
 
 /// Stored fragments, by reference.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stored<'t, S> {
+pub(crate) struct Stored<'t> {
     pub(crate) records: &'t [Record],
-    pub(crate) vertices: &'t [S],
+    pub(crate) vertices: &'t [StoredVertex],
     /// The rounded positions of the vertices, if they are kept.
     pub(crate) positions: &'t [[f64; 3]],
 }
@@ -48,21 +48,21 @@ pub(crate) struct Stored<'t, S> {
 /// Nodes and fragments, both depth first and the front before the back. The fragments of a node come
 /// in this order: those on its plane, those of a front leaf, those of a back leaf, those of the
 /// nodes below.
-#[derive(Debug)]
-pub struct Parts<S> {
+#[derive(Debug, Default)]
+pub(crate) struct Parts {
     /// The nodes.
-    pub nodes: Vec<RawNode>,
+    pub(crate) nodes: Vec<RawNode>,
     /// The fragments.
-    pub records: Vec<Record>,
+    pub(crate) records: Vec<Record>,
     /// The vertices of all fragments that are not whole faces.
-    pub vertices: Vec<S>,
+    pub(crate) vertices: Vec<StoredVertex>,
     /// Their rounded positions, in lattice units; none if they are not kept.
-    pub positions: Vec<[f64; 3]>,
+    pub(crate) positions: Vec<[f64; 3]>,
     /// How many times a piece was cut in two.
-    pub cuts: usize,
+    pub(crate) cuts: usize,
 }
 
-impl<S> Parts<S> {
+impl Parts {
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
         self.nodes.clear();
@@ -70,12 +70,6 @@ impl<S> Parts<S> {
         self.vertices.clear();
         self.positions.clear();
         self.cuts = 0;
-    }
-}
-
-impl<S> Default for Parts<S> {
-    fn default() -> Self {
-        Self { nodes: vec![], records: vec![], vertices: vec![], positions: vec![], cuts: 0 }
     }
 }
 
@@ -94,15 +88,4 @@ pub(super) fn raw_nodes(tree: &BspTree) -> impl Iterator<Item = RawNode> {
             back: child(node.back_is_node(), visit.behind.len() as u32),
         })
     })
-}
-
-/// The parts that a tree was made of.
-pub fn parts_of_tree(tree: &BspTree) -> Parts<ExactStored> {
-    Parts {
-        nodes: raw_nodes(tree).collect(),
-        records: tree.records.clone(),
-        vertices: tree.vertices.clone(),
-        positions: tree.positions.clone(),
-        cuts: tree.cuts,
-    }
 }

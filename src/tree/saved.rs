@@ -11,7 +11,7 @@ use super::node_record::MOST_FRAGMENTS;
 use super::order::planes::Planes;
 use super::order::schedule::Schedule;
 use super::parts::{Parts, Record, raw_nodes};
-use crate::exact::{Exact, ExactStored, Faces, Kernel, Line, MAX_LABELS, Symbol};
+use crate::exact::{Faces, Line, MAX_LABELS, StoredVertex, Symbol};
 use crate::faces::Preparation;
 use crate::parallel_map;
 use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
@@ -91,8 +91,8 @@ impl BspTree {
             file.u32(fragment.stored().len() as u32)
         })?;
         file.items(self.vertices.iter(), |file, vertex| {
-            let symbol = Exact::symbol(vertex).to_bits();
-            let lines = symbol.into_iter().chain([Exact::line(vertex).to_bits()]);
+            let symbol = vertex.symbol().to_bits();
+            let lines = symbol.into_iter().chain([vertex.line().to_bits()]);
             file.items(lines, |file, line| file.u32(line))
         })?;
         file.finish()
@@ -198,7 +198,7 @@ fn pair(bytes: &[u8; 8]) -> [u32; 2] {
 /// The fragments, and the vertices of those that were cut.
 fn read_records(
     file: &mut Reader<impl Read>,
-) -> Result<(Vec<Record>, Vec<ExactStored>), LoadError> {
+) -> Result<(Vec<Record>, Vec<StoredVertex>), LoadError> {
     let mut vertices = 0_u64;
     let records = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 8]| {
         let [face, len] = pair(bytes);
@@ -211,7 +211,7 @@ fn read_records(
     }
     let vertices = file.items("vertices", vertices as usize, |bytes: &[u8; 12]| {
         let symbol = Symbol::from_bits([u32_at(bytes, 0), u32_at(bytes, 4)]);
-        ExactStored::new(symbol, Line::from_bits(u32_at(bytes, 8)))
+        StoredVertex::new(symbol, Line::from_bits(u32_at(bytes, 8)))
     })?;
     Ok((records, vertices))
 }

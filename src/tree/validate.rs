@@ -10,7 +10,6 @@ mod tests;
 use super::order::planes::Planes;
 use super::order::schedule::Schedule;
 use super::{BspTree, Fragment};
-use crate::exact::{Exact, Kernel};
 use fault::Fault;
 pub use fault::Invalid;
 
@@ -69,7 +68,7 @@ impl BspTree {
         let is_wrong = |fragment: Fragment<'_>| {
             let stored = fragment.stored().iter().zip(&mut kept);
             stored.into_iter().any(|(stored, &position)| {
-                self.faces.position(fragment.face(), Exact::symbol(stored)) != position
+                self.faces.position(fragment.face(), stored.symbol()) != position
             })
         };
         if self.fragments().any(is_wrong) { fault } else { Ok(()) }

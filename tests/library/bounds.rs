@@ -1,8 +1,8 @@
 //! How tight the filter's bounds are. A hill climb searches for scenes on which a smaller bound
-//! would decide wrongly. The kernel decides them rightly, so the bound is large enough there; they
+//! would decide wrongly. The library decides them rightly, so the bound is large enough there; they
 //! exist, so the bound is hardly larger than necessary.
 
-use binspace::internals::{Exact, ExactVertex, Faces, Kernel, Piece, PlaneId, Side, Vertex};
+use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex};
 use dashu_int::IBig;
 use num_traits::{Signed, ToPrimitive, Zero};
 use testkit::dice::Dice;
@@ -79,12 +79,12 @@ fn shifted(mut triangle: Triangle, place: &Place, axis: usize) -> Option<Triangl
 /// the products that the plane's normal is made of.
 fn distance(triangle: &Triangle, place: &Place) -> f64 {
     let faces = faces(&[*triangle]);
-    let splitter = Exact.splitter(&faces, PlaneId::face(1));
+    let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
     let [p, q, r] = triangle;
     let product = |i: usize, j: usize| ((q[i] - p[i]) as f64 * (r[j] - p[j]) as f64).abs();
     let pairs = [(0, 1), (1, 0), (1, 2), (2, 1), (2, 0), (0, 2)];
     let size: f64 = pairs.into_iter().map(|(i, j)| product(i, j)).sum();
-    splitter.distance(place.rounded) / size
+    prepared.distance(place.rounded) / size
 }
 
 /// Where all that errs errs most: a plane as steep along x as along z through the far ends of both,
@@ -154,14 +154,14 @@ fn cut_vertices(count: usize, dice: &mut Dice) -> Vec<(Triangle, i64, Place)> {
 }
 
 /// The vertex where a triangle's first edge reaches a height y.
-fn vertex(triangle: &Triangle, level: i64, others: &[Triangle]) -> (Faces, ExactVertex) {
+fn vertex(triangle: &Triangle, level: i64, others: &[Triangle]) -> (Faces, Vertex) {
     let flat = [[0, level, 0], [1, level, 0], [0, level, 1]];
     let all: Vec<Triangle> = others.iter().copied().chain([*triangle, flat]).collect();
     let faces = faces(&all);
     let cut = others.len() as u32 + 1;
     let plane = PlaneId::axis(1, faces.corner_range(cut + 1).start as u32);
-    let ends = [0, 1].map(|k| Exact.corner(&faces, cut, k));
-    let vertex = Exact.cut(&faces, &Exact.splitter(&faces, plane), cut, [&ends[0], &ends[1]]);
+    let corner = Vertex::corner(&faces, cut, 0);
+    let vertex = corner.cut(&faces, cut, &PreparedPlane::new(&faces, plane));
     (faces, vertex)
 }
 
@@ -176,10 +176,10 @@ fn cut(triangle: &Triangle, level: i64) -> Place {
 /// The bound in units of π.
 fn bound(triangle: &Triangle) -> f64 {
     let faces = faces(&[*triangle]);
-    let splitter = Exact.splitter(&faces, PlaneId::face(1));
+    let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
     let place = Place::corner([EDGE, 0, 0]);
-    let unit = splitter.distance(place.rounded) / distance(triangle, &place);
-    splitter.slack() / unit
+    let unit = prepared.distance(place.rounded) / distance(triangle, &place);
+    prepared.slack() / unit
 }
 
 #[test]
@@ -193,9 +193,9 @@ fn a_bound_of_three_quarters_would_put_a_cut_vertex_on_the_wrong_side_of_a_plane
     let at = places.iter().position(|other| std::ptr::eq(other, place)).expect("one of them");
     let (triangle, level, _) = &vertices[at];
     let (faces, vertex) = vertex(triangle, *level, &[plane]);
-    let splitter = Exact.splitter(&faces, PlaneId::face(1));
-    assert!(splitter.distance(vertex.position()) > 0.75 * splitter.slack());
-    let side = Exact.side(&faces, &splitter, 2, &vertex);
+    let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
+    assert!(prepared.distance(vertex.position()) > 0.75 * prepared.slack());
+    let side = prepared.side(&faces, 2, &vertex);
     assert_eq!(side, exactly(&plane, place).0.cmp(&IBig::zero()));
     assert!(side.is_le());
 }
@@ -212,9 +212,9 @@ fn a_bound_of_six_tenths_would_put_a_corner_on_the_wrong_side_of_a_plane() {
     assert!((0.6..1.0).contains(&share), "{share}: {plane:?}");
     let behind = [corner, [corner[0], 0, -EDGE], [0, 0, -EDGE]];
     let faces = faces(&[plane, behind]);
-    let splitter = Exact.splitter(&faces, PlaneId::face(1));
-    assert!(splitter.distance(place.rounded) > 0.6 * splitter.slack());
-    let side = Exact.side(&faces, &splitter, 2, &Exact.corner(&faces, 2, 0));
+    let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
+    assert!(prepared.distance(place.rounded) > 0.6 * prepared.slack());
+    let side = prepared.side(&faces, 2, &Vertex::corner(&faces, 2, 0));
     assert!(side.is_le() && side == exactly(&plane, place).0.cmp(&IBig::zero()));
 }
 
@@ -232,9 +232,9 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
                 standing[0][axis] = wall;
                 let (faces, vertex) = vertex(&triangle, level, &[standing]);
                 let corner = faces.corner_range(1).start as u32;
-                let splitter = Exact.splitter(&faces, PlaneId::axis(axis, corner));
-                assert!(splitter.distance(vertex.position()) >= 0.25);
-                let side = Exact.side(&faces, &splitter, 2, &vertex);
+                let prepared = PreparedPlane::new(&faces, PlaneId::axis(axis, corner));
+                assert!(prepared.distance(vertex.position()) >= 0.25);
+                let side = prepared.side(&faces, 2, &vertex);
                 assert_eq!(side, at.cmp(&IBig::zero()));
                 crossed += 1;
             }
@@ -271,8 +271,8 @@ fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyon
                     .collect();
             let (faces, _) = Faces::new(&scene, Some(tolerance)).expect("finite");
             assert_eq!(faces.tolerance(), tolerance);
-            let splitter = Exact.splitter(&faces, PlaneId::face(1));
-            let side = |face| Exact.classify(&faces, &splitter, Piece { face, cut: None });
+            let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
+            let side = |face| prepared.classify(&faces, face, None);
             let sides = [2, 3, 4].map(side);
             let expected = if beyond {
                 [Side::Spanning, Side::Front, Side::Back]
@@ -295,9 +295,8 @@ fn without_a_tolerance_one_step_off_a_plane_is_off_it() {
             let turned = |p: [i64; 3]| [0, 1, 2].map(|i| p[(i + axis) % 3]);
             let upright = [[0, 0, 0], [1, 0, 0], [0, 0, step]];
             let faces = faces(&[flat.map(turned), upright.map(turned)]);
-            let splitter = Exact.splitter(&faces, PlaneId::face(1));
-            let piece = Piece { face: 2, cut: None };
-            assert_eq!(Exact.classify(&faces, &splitter, piece), expected, "axis {axis}");
+            let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
+            assert_eq!(prepared.classify(&faces, 2, None), expected, "axis {axis}");
             decided += 1;
         }
     }
@@ -317,8 +316,8 @@ fn a_corner_beyond_the_tolerance_of_an_axis_s_plane_by_less_than_a_step_is_beyon
         let (faces, _) = Faces::new(&scene, Some(2.5)).expect("finite");
         assert_eq!(faces.tolerance(), 2.5);
         let corner = faces.corner_range(1).start as u32;
-        let splitter = Exact.splitter(&faces, PlaneId::axis(2, corner));
-        let side = |face| Exact.classify(&faces, &splitter, Piece { face, cut: None });
+        let prepared = PreparedPlane::new(&faces, PlaneId::axis(2, corner));
+        let side = |face| prepared.classify(&faces, face, None);
         let expected =
             if beyond { [Side::Spanning, Side::Front, Side::Back] } else { [Side::Coplanar; 3] };
         assert_eq!([2, 3, 4].map(side), expected, "{value} off");

@@ -3,7 +3,7 @@
 
 use binspace::Viewpoint;
 use binspace::glam::DVec3;
-use binspace::internals::{Exact, Eye, Faces, Kernel, Lattice, PlaneId};
+use binspace::internals::{Eye, Faces, Lattice, PlaneId};
 use num_traits::Signed;
 use proptest::prelude::*;
 use std::cmp::Ordering;
@@ -14,7 +14,7 @@ use testkit::rational::{self, Plane, Point, Rational};
 use testkit::views::{in_lattice, power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {
-    Exact.eye_side(faces, plane, &Eye::new(viewpoint, faces.lattice()))
+    faces.eye_side(plane, &Eye::new(viewpoint, faces.lattice()))
 }
 
 fn planes(faces: &Faces) -> impl Iterator<Item = PlaneId> {

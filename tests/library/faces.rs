@@ -1,7 +1,7 @@
 //! Facts about the faces of any scene: convex, planar, where the input is, and whole if they can be.
 
 use binspace::glam::DVec3;
-use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, split};
+use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex, split};
 use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -62,13 +62,13 @@ fn any_finite() -> impl Strategy<Value = f64> {
 fn decide_all(faces: &Faces) {
     for face in 0..faces.len() as u32 {
         let corners = 0..faces.corners(face).len() as u32;
-        let whole: Vec<_> = corners.clone().map(|k| Exact.corner(faces, face, k)).collect();
+        let whole: Vec<_> = corners.clone().map(|k| Vertex::corner(faces, face, k)).collect();
         let planes = (0..faces.len() as u32).map(PlaneId::face);
         for plane in planes.chain(corners.map(|k| PlaneId::axis(k as usize % 3, k))) {
-            let splitter = Exact.splitter(faces, plane);
-            if Exact.classify(faces, &splitter, Piece { face, cut: None }) == Side::Spanning {
+            let prepared = PreparedPlane::new(faces, plane);
+            if prepared.classify(faces, face, None) == Side::Spanning {
                 let (mut front, mut back) = (Vec::new(), Vec::new());
-                split(&Exact, faces, &splitter, face, &whole, &mut front, &mut back);
+                split(faces, &prepared, face, &whole, &mut front, &mut back);
                 assert!(front.len() >= 3 && back.len() >= 3);
             }
         }

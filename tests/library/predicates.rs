@@ -1,4 +1,4 @@
-//! The exact kernel against exact rationals, on scenes that are hard to decide.
+//! Decisions and cuts against rationals, on scenes that are hard to decide.
 
 use binspace::internals::PlaneId;
 use proptest::prelude::*;

@@ -1,8 +1,8 @@
 //! Public types are `Send` and `Sync`: trees above all, with everything that they return.
 
 use binspace::internals::{
-    Exact, ExactSplitter, ExactStored, ExactVertex, Eye, Faces, Lattice, Line, Piece, PlaneId,
-    PlaneKind, Side, Symbol, SymbolKind,
+    Eye, Faces, Lattice, Line, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Symbol,
+    SymbolKind, Vertex,
 };
 use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
@@ -44,13 +44,11 @@ assert_shared!(
     Faces,
     Preparation,
     Lattice,
-    Exact,
-    ExactSplitter,
-    ExactStored,
-    ExactVertex,
+    PreparedPlane,
+    StoredVertex,
+    Vertex,
     Eye,
     Line,
-    Piece<'_, ExactVertex>,
     PlaneId,
     PlaneKind,
     Side,

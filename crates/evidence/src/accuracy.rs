@@ -5,8 +5,8 @@ use num_traits::{FromPrimitive, Zero};
 
 use crate::place::{Place, Plane};
 use crate::residue::{Residue, twice_area};
-use crate::tree::{KernelTree, Visit};
-use binspace::internals::{Faces, Kernel, PlaneId, PlaneKind, Side, Symbol};
+use crate::tree::{self, Node, Tree};
+use binspace::internals::{Faces, PlaneId, PlaneKind, Side, Symbol};
 
 /// The errors of the vertices of a tree's fragments, and the number of those on a wrong side; see
 /// [`accuracy`].
@@ -52,20 +52,23 @@ struct Vertex {
 }
 
 /// Compares every vertex with its definition, and its definition with every plane above it,
-/// exactly, whatever the kernel: O(n · mean depth).
+/// exactly: O(n · mean depth).
 ///
-/// The exact kernel misplaces nothing, and its vertices are off only by their last rounding. This
+/// The library's tree misplaces nothing, and its vertices are off only by their last rounding. This
 /// function computes planes and vertices in big integers of its own, with a filter of its own in
-/// front, so a mistake in the kernel's arithmetic is counted and not repeated. Tests count the same
+/// front, so a mistake in the library's arithmetic is counted and not repeated. Tests count the same
 /// in rationals, on hard scenes of up to some hundred faces.
-pub fn accuracy<K: Kernel>(tree: &KernelTree<K>) -> Accuracy {
-    let mut count = Count::new(tree.faces());
+pub fn accuracy(tree: &Tree) -> Accuracy {
+    let mut count = Count::new(&tree.faces);
     let mut path: Vec<Above> = Vec::new();
-    for visit in tree.walk() {
-        extend_path(tree.faces(), &mut path, &visit);
-        for (range, side) in
-            [(visit.on, Side::Coplanar), (visit.front, Side::Front), (visit.back, Side::Back)]
-        {
+    for node in &tree.nodes {
+        extend_path(&tree.faces, &mut path, node);
+        let leaf = |side: &tree::Side| match side {
+            tree::Side::Leaf(fragments) => fragments.clone(),
+            tree::Side::Node(_) => 0..0,
+        };
+        let (on, front, back) = (node.on.clone(), leaf(&node.front), leaf(&node.back));
+        for (range, side) in [(on, Side::Coplanar), (front, Side::Front), (back, Side::Back)] {
             if let Some(last) = path.last_mut() {
                 last.side = side;
             }
@@ -75,12 +78,12 @@ pub fn accuracy<K: Kernel>(tree: &KernelTree<K>) -> Accuracy {
     count.finish()
 }
 
-fn extend_path(faces: &Faces, path: &mut Vec<Above>, visit: &Visit) {
-    path.truncate(visit.depth - 1);
+fn extend_path(faces: &Faces, path: &mut Vec<Above>, node: &Node) {
+    path.truncate(node.depth - 1);
     if let Some(parent) = path.last_mut() {
-        parent.side = if visit.is_front { Side::Front } else { Side::Back };
+        parent.side = if node.is_front { Side::Front } else { Side::Back };
     }
-    path.push(Above::new(faces, visit.plane));
+    path.push(Above::new(faces, node.plane));
 }
 
 /// What has been counted so far.
@@ -98,7 +101,7 @@ impl<'a> Count<'a> {
         Self { faces, result: Accuracy::default(), drift_sum: 0.0, areas }
     }
 
-    fn judge<K: Kernel>(&mut self, tree: &KernelTree<K>, fragment: u32, path: &[Above]) {
+    fn judge(&mut self, tree: &Tree, fragment: u32, path: &[Above]) {
         let face = tree.face(fragment);
         let id = PlaneId::face(face);
         let plane = Plane::of(self.faces, id);

@@ -1,5 +1,5 @@
-//! Evidence about binspace: other methods to decide visibility, the library's builder with rounded
-//! decisions, families of hard scenes, and measures of error against exact truth. Users of the
+//! Evidence about binspace: other methods to decide visibility, trees of rounded
+//! numbers, families of hard scenes, and measures of error against exact truth. Users of the
 //! library do not compile this crate.
 
 mod accuracy;
@@ -36,8 +36,8 @@ pub use facing::Facing;
 pub use family::{Family, FamilyError};
 pub use hiding::{Hiding, overlaps_in_depth};
 pub use noisy::noisy_sphere;
-pub use rounded::{Float, FloatSplitter, FloatVertex, Precision};
-pub use tree::KernelTree;
+pub use rounded::{Precision, RoundedPiece, RoundedPlane};
+pub use tree::Tree;
 pub use worked::{
     EIGHT_ORDER, EYE_OF_EIGHT, GRID_OF_SIX, eight, eye_on_eight, letters, six_by_six,
     six_by_six_camera,

@@ -214,7 +214,7 @@ pub(crate) fn eye(eye: &Eye) -> [IBig; 4] {
     [x, y, z, u8::from(eye.shift().is_some()).into()]
 }
 
-/// Rounded kernels make vertices anywhere; further off than 256 scenes is as bad as infinitely far.
+/// Rounded trees make vertices anywhere; further off than 256 scenes is as bad as infinitely far.
 const REACH: f64 = (1u64 << 59) as f64;
 
 /// A whole number below 2⁶³.

@@ -1,14 +1,15 @@
-//! A kernel like that of other libraries: rounded vertices, rounded planes, an epsilon.
+//! A tree as textbooks build it: rounded planes, rounded vertices, and an epsilon.
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
+use std::marker::PhantomData;
 
-use binspace::internals::{
-    Eye, Faces, Kernel, Line, Piece, PlaneId, PlaneKind, Side, Symbol, Vertex,
-};
+use binspace::internals::{Eye, Faces, LATTICE_LIMIT, Line, PlaneId, PlaneKind, Side, Symbol};
 
-/// The precision of a [`Float`] kernel.
-pub trait Precision: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
+use crate::tree::{self, Fragment, Node, Tree, Vertex};
+
+/// The type that every operation is rounded to.
+pub trait Precision: Copy + Debug + 'static {
     /// Rounds a number to this precision.
     fn round(value: f64) -> f64;
 }
@@ -27,153 +28,79 @@ impl Precision for f32 {
     }
 }
 
-/// Decides by rounded distances and an epsilon; every operation is rounded to `T`.
-///
-/// It errs wherever distances are near the epsilon or the precision: the
-/// [`Exact`](binspace::internals::Exact) kernel is the one to use, this one shows the difference.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Float<T> {
-    epsilon: f64,
-    precision: std::marker::PhantomData<T>,
-}
-
-impl<T> Float<T> {
-    /// A kernel that treats vertices as on a plane if they are no further from it than `epsilon`
-    /// times half the scene's extent.
-    pub fn new(epsilon: f64) -> Self {
-        Self { epsilon, precision: std::marker::PhantomData }
-    }
-}
-
-impl<T: Precision> Default for Float<T> {
-    /// An epsilon of 1e-5, in the middle of what other libraries use.
-    fn default() -> Self {
-        Self::new(1e-5)
-    }
-}
-
-/// A plane with a unit normal.
+/// The plane of a face, with a unit normal.
 #[derive(Clone, Copy, Debug)]
-pub struct FloatSplitter<T> {
+pub struct RoundedPlane<T> {
     plane: PlaneId,
     normal: [f64; 3],
     offset: f64,
+    /// In lattice units.
     epsilon: f64,
-    precision: std::marker::PhantomData<T>,
+    precision: PhantomData<T>,
 }
 
-impl<T: Precision> FloatSplitter<T> {
+/// A face, or a piece of one that was cut. Definitions of vertices are kept to judge them; no
+/// decision uses them.
+#[derive(Clone, Debug)]
+pub struct RoundedPiece {
+    face: u32,
+    vertices: Vec<Vertex>,
+    is_whole: bool,
+}
+
+impl<T: Precision> RoundedPlane<T> {
+    /// The plane of a face. Vertices no further from it than `epsilon` times half the scene's extent
+    /// are on it.
+    pub fn new(faces: &Faces, face: u32, epsilon: f64) -> Self {
+        let triangle = faces.reference_triangle(face);
+        let [p, q, r] = triangle.map(|c| faces.corner(c).map(T::round));
+        // Scaled to at most 1, so that products stay within the range of f32.
+        let edge = |x: [f64; 3]| -> [f64; 3] {
+            std::array::from_fn(|i| T::round((x[i] - p[i]) * f64::EPSILON))
+        };
+        let (u, w) = (edge(q), edge(r));
+        let product = |a: f64, b: f64| T::round(a * b);
+        let normal: [f64; 3] = std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            T::round(product(u[j], w[k]) - product(u[k], w[j]))
+        });
+        let [x, y, z] = normal.map(|c| product(c, c));
+        let length = T::round(T::round(T::round(x + y) + z).sqrt());
+        let normal = normal.map(|c| if length > 0.0 { T::round(c / length) } else { 0.0 });
+        let term = |i: usize| T::round(normal[i] * p[i]);
+        let offset = T::round(T::round(term(0) + term(1)) + term(2));
+        let (plane, epsilon) = (PlaneId::face(face), epsilon * LATTICE_LIMIT);
+        Self { plane, normal, offset, epsilon, precision: PhantomData }
+    }
+
     #[inline]
     fn distance(&self, p: [f64; 3]) -> f64 {
-        let n = self.normal;
-        let term = |i: usize| T::round(n[i] * p[i]);
+        let term = |i: usize| T::round(self.normal[i] * p[i]);
         T::round(T::round(T::round(term(0) + term(1)) + term(2)) - self.offset)
     }
 
     #[inline]
     fn side(&self, position: [f64; 3]) -> Ordering {
-        let s = self.distance(position);
-        if s > self.epsilon {
+        let distance = self.distance(position);
+        if distance > self.epsilon {
             Ordering::Greater
-        } else if s < -self.epsilon {
+        } else if distance < -self.epsilon {
             Ordering::Less
         } else {
             Ordering::Equal
         }
     }
-}
 
-/// A rounded vertex; its definition is kept only to tell where it came from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatVertex {
-    position: [f64; 3],
-    symbol: Symbol,
-    line: Line,
-}
-
-impl Vertex for FloatVertex {
-    #[inline]
-    fn position(&self) -> [f64; 3] {
-        self.position
-    }
-    fn symbol(&self) -> Symbol {
-        self.symbol
-    }
-    #[inline]
-    fn line(&self) -> Line {
-        self.line
-    }
-    #[inline]
-    fn with_line(self, line: Line) -> Self {
-        Self { line, ..self }
-    }
-}
-
-impl<T: Precision> Kernel for Float<T> {
-    type Splitter = FloatSplitter<T>;
-    type Vertex = FloatVertex;
-    type Stored = FloatVertex;
-
-    fn splitter(&self, faces: &Faces, plane: PlaneId) -> FloatSplitter<T> {
-        let (normal, point) = match plane.kind() {
-            PlaneKind::Axis(axis, corner) => {
-                let mut normal = [0.0; 3];
-                normal[axis] = 1.0;
-                (normal, faces.corner(corner).map(T::round))
-            }
-            PlaneKind::Face(face) => {
-                let triangle = faces.reference_triangle(face);
-                let [p, q, r] = triangle.map(|c| faces.corner(c).map(T::round));
-                // Scaled to at most 1, so that products stay within the range of f32.
-                let edge = |x: [f64; 3]| -> [f64; 3] {
-                    std::array::from_fn(|i| T::round((x[i] - p[i]) * f64::EPSILON))
-                };
-                let (u, w) = (edge(q), edge(r));
-                let product = |a: f64, b: f64| T::round(a * b);
-                let normal: [f64; 3] = std::array::from_fn(|i| {
-                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    T::round(product(u[j], w[k]) - product(u[k], w[j]))
-                });
-                let [x, y, z] = normal.map(|c| product(c, c));
-                let length = T::round(T::round(T::round(x + y) + z).sqrt());
-                let unit = normal.map(|c| if length > 0.0 { T::round(c / length) } else { 0.0 });
-                (unit, p)
-            }
-        };
-        let term = |i: usize| T::round(normal[i] * point[i]);
-        let offset = T::round(T::round(term(0) + term(1)) + term(2));
-        let epsilon = self.epsilon * binspace::internals::LATTICE_LIMIT;
-        FloatSplitter { plane, normal, offset, epsilon, precision: std::marker::PhantomData }
-    }
-
-    fn plane(splitter: &FloatSplitter<T>) -> PlaneId {
-        splitter.plane
-    }
-
-    fn corner(&self, faces: &Faces, face: u32, k: u32) -> FloatVertex {
-        let position = faces.corners(face)[k as usize].map(T::round);
-        FloatVertex { position, symbol: Symbol::corner(k), line: Line::edge(k) }
-    }
-
-    #[inline]
-    fn classify(
-        &self,
-        faces: &Faces,
-        splitter: &FloatSplitter<T>,
-        piece: Piece<'_, FloatVertex>,
-    ) -> Side {
-        if splitter.plane == PlaneId::face(piece.face) {
+    /// Where a piece lies.
+    pub fn classify(&self, piece: &RoundedPiece) -> Side {
+        if self.plane == PlaneId::face(piece.face) {
             return Side::Coplanar;
         }
         let (mut in_front, mut behind) = (false, false);
-        let mut see = |position| {
-            let side = splitter.side(position);
+        for vertex in &piece.vertices {
+            let side = self.side(vertex.position);
             in_front |= side.is_gt();
             behind |= side.is_lt();
-        };
-        match piece.cut {
-            None => faces.corners(piece.face).iter().for_each(|&c| see(c.map(T::round))),
-            Some(vertices) => vertices.iter().for_each(|vertex| see(vertex.position)),
         }
         match (in_front, behind) {
             (true, true) => Side::Spanning,
@@ -183,55 +110,207 @@ impl<T: Precision> Kernel for Float<T> {
         }
     }
 
-    #[inline]
-    fn side(
-        &self,
-        _: &Faces,
-        splitter: &FloatSplitter<T>,
-        _: u32,
-        vertex: &FloatVertex,
-    ) -> Ordering {
-        splitter.side(vertex.position)
+    /// The parts of a piece in front of the plane and behind it.
+    pub fn split(&self, piece: &RoundedPiece) -> [RoundedPiece; 2] {
+        let part = || RoundedPiece { face: piece.face, vertices: Vec::new(), is_whole: false };
+        let mut parts = [part(), part()];
+        let sides: Vec<Ordering> =
+            piece.vertices.iter().map(|vertex| self.side(vertex.position)).collect();
+        for (i, &vertex) in piece.vertices.iter().enumerate() {
+            let j = (i + 1) % sides.len();
+            let (here, next) = (sides[i], sides[j]);
+            let crossing = || self.crossing(&vertex, &piece.vertices[j]);
+            for (part, own) in parts.iter_mut().zip([Ordering::Greater, Ordering::Less]) {
+                // The line along the plane, where the part's outline leaves the piece's.
+                let cut = Line::cut(self.plane, own.is_lt());
+                let leaves = next == own.reverse();
+                if here == own || here.is_eq() {
+                    let line = if here.is_eq() && leaves { cut } else { vertex.line };
+                    part.vertices.push(Vertex { line, ..vertex });
+                }
+                if here.is_ne() && next == here.reverse() {
+                    let line = if leaves { cut } else { vertex.line };
+                    part.vertices.push(Vertex { line, ..crossing() });
+                }
+            }
+        }
+        parts
     }
 
-    fn cut(
-        &self,
-        _: &Faces,
-        splitter: &FloatSplitter<T>,
-        _: u32,
-        [from, to]: [&FloatVertex; 2],
-    ) -> FloatVertex {
-        let (a, b) = (splitter.distance(from.position), splitter.distance(to.position));
+    /// Where the plane cuts an edge.
+    fn crossing(&self, from: &Vertex, to: &Vertex) -> Vertex {
+        let (a, b) = (self.distance(from.position), self.distance(to.position));
         let t = T::round(a / T::round(a - b));
         let position = std::array::from_fn(|i| {
             let (p, q) = (from.position[i], to.position[i]);
             T::round(p + T::round(T::round(q - p) * t))
         });
-        let symbol = Symbol::crossing(from.line, splitter.plane);
-        FloatVertex { position, symbol, line: from.line }
+        let symbol = Symbol::crossing(from.line, self.plane);
+        Vertex { position, symbol, line: from.line }
+    }
+}
+
+impl RoundedPiece {
+    /// A whole face.
+    pub fn whole<T: Precision>(faces: &Faces, face: u32) -> Self {
+        let vertex = |(k, corner): (u32, &[f64; 3])| Vertex {
+            position: corner.map(T::round),
+            symbol: Symbol::corner(k),
+            line: Line::edge(k),
+        };
+        let vertices = (0..).zip(faces.corners(face)).map(vertex).collect();
+        Self { face, vertices, is_whole: true }
     }
 
-    fn store(&self, vertex: &FloatVertex) -> FloatVertex {
-        *vertex
+    /// The positions of its vertices, in lattice units.
+    pub fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.vertices.iter().map(|vertex| vertex.position)
     }
 
-    fn restore(&self, _: &Faces, _: u32, stored: &FloatVertex) -> FloatVertex {
-        *stored
+    /// The definitions of its vertices.
+    pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.vertices.iter().map(|vertex| vertex.symbol)
+    }
+}
+
+/// How many planes are tried at each node, as by `Heuristic::Sampled`.
+const CANDIDATES: usize = 16;
+/// A cut costs as much as this many pieces by which one side has more than the other.
+const CUT: usize = 8;
+
+/// A set of pieces that is still to be divided.
+struct Pending {
+    pieces: Vec<RoundedPiece>,
+    depth: usize,
+    parent: Option<(usize, bool)>,
+}
+
+impl Tree {
+    /// Builds a tree of faces by rounded numbers: vertices no further from a plane than `epsilon`
+    /// times half the scene's extent are on it. It cuts wrongly wherever distances are near the
+    /// epsilon or the precision; `Heuristic::Sampled` is the same choice of planes with exact
+    /// decisions.
+    ///
+    /// `None` if there would be more than `max_fragments` fragments.
+    pub fn with_epsilon<T: Precision>(
+        faces: Faces,
+        epsilon: f64,
+        max_fragments: usize,
+    ) -> Option<Self> {
+        let mut tree = Self {
+            faces,
+            nodes: Vec::new(),
+            fragments: Vec::new(),
+            vertices: Vec::new(),
+            cuts: 0,
+            eye_side: eye_side::<T>,
+        };
+        let count = tree.faces.len();
+        let pieces = (0..count as u32).map(|face| RoundedPiece::whole::<T>(&tree.faces, face));
+        let mut stack = vec![Pending { pieces: pieces.collect(), depth: 1, parent: None }];
+        while let Some(Pending { pieces, depth, parent }) = stack.pop() {
+            if pieces.is_empty() {
+                continue;
+            }
+            let plane: RoundedPlane<T> = choose(&tree.faces, &pieces, epsilon);
+            let (mut on, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
+            for piece in pieces {
+                match plane.classify(&piece) {
+                    Side::Coplanar => on.push(piece),
+                    Side::Front => front.push(piece),
+                    Side::Back => back.push(piece),
+                    Side::Spanning => {
+                        let [in_front, behind] = plane.split(&piece);
+                        front.push(in_front);
+                        back.push(behind);
+                        tree.cuts += 1;
+                    }
+                }
+            }
+            if count + tree.cuts > max_fragments {
+                return None;
+            }
+            // Coplanar pieces are painted in input order.
+            on.sort_by_key(|piece| piece.face);
+            let node = tree.push(plane.plane, depth, parent, &on);
+            for (pieces, is_front) in [(back, false), (front, true)] {
+                stack.push(Pending { pieces, depth: depth + 1, parent: Some((node, is_front)) });
+            }
+        }
+        // Subtrees end where their last node does.
+        for node in (0..tree.nodes.len()).rev() {
+            let Node { front, back, .. } = &tree.nodes[node];
+            let last = match (front, back) {
+                (_, &tree::Side::Node(last)) | (&tree::Side::Node(last), _) => last,
+                _ => continue,
+            };
+            tree.nodes[node].all.end = tree.nodes[last].all.end;
+        }
+        Some(tree)
     }
 
-    fn symbol(stored: &FloatVertex) -> Symbol {
-        stored.symbol
+    /// Appends a node with the pieces on its plane, and makes it its parent's child.
+    fn push(
+        &mut self,
+        plane: PlaneId,
+        depth: usize,
+        parent: Option<(usize, bool)>,
+        on: &[RoundedPiece],
+    ) -> usize {
+        let start = self.fragments.len() as u32;
+        for piece in on {
+            let vertices = self.vertices.len() as u32;
+            self.fragments.push(Fragment { face: piece.face, start: vertices });
+            if !piece.is_whole {
+                self.vertices.extend_from_slice(&piece.vertices);
+            }
+        }
+        let (node, end) = (self.nodes.len(), self.fragments.len() as u32);
+        let nothing = || tree::Side::Leaf(end..end);
+        self.nodes.push(Node {
+            plane,
+            depth,
+            is_front: parent.is_some_and(|(_, is_front)| is_front),
+            on: start..end,
+            front: nothing(),
+            back: nothing(),
+            all: start..end,
+        });
+        if let Some((parent, is_front)) = parent {
+            let Node { front, back, .. } = &mut self.nodes[parent];
+            *(if is_front { front } else { back }) = tree::Side::Node(node);
+        }
+        node
     }
+}
 
-    fn line(stored: &FloatVertex) -> Line {
-        stored.line
-    }
+/// The best plane of a sample of the pieces' planes: few cuts, and sides of like size.
+fn choose<T: Precision>(faces: &Faces, pieces: &[RoundedPiece], epsilon: f64) -> RoundedPlane<T> {
+    let count = CANDIDATES.min(pieces.len());
+    let planes = (0..count).map(|i| {
+        let face = pieces[i * pieces.len() / count].face;
+        RoundedPlane::new(faces, face, epsilon)
+    });
+    let cost = |plane: &RoundedPlane<T>| {
+        let [mut front, mut back, mut cuts] = [0usize; 3];
+        for piece in pieces {
+            match plane.classify(piece) {
+                Side::Front => front += 1,
+                Side::Back => back += 1,
+                Side::Spanning => cuts += 1,
+                Side::Coplanar => {}
+            }
+        }
+        CUT * cuts + front.abs_diff(back)
+    };
+    planes.min_by_key(cost).expect("a piece")
+}
 
-    fn eye_side(&self, faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering {
-        let splitter = self.splitter(faces, plane);
-        let (e, w) = eye.homogeneous();
-        let n = splitter.normal;
-        let s = n[0] * e[0] + n[1] * e[1] + n[2] * e[2] - w * splitter.offset;
-        T::round(s).total_cmp(&0.0)
-    }
+/// On which side of a face's plane an eye lies, rounded.
+fn eye_side<T: Precision>(faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering {
+    let PlaneKind::Face(face) = plane.kind() else { unreachable!("planes are those of faces") };
+    let RoundedPlane { normal, offset, .. } = RoundedPlane::<T>::new(faces, face, 0.0);
+    let (e, w) = eye.homogeneous();
+    let distance = normal[0] * e[0] + normal[1] * e[1] + normal[2] * e[2] - w * offset;
+    T::round(distance).total_cmp(&0.0)
 }

@@ -1,96 +1,66 @@
-//! A tree with the decisions of any kernel, in the form in which the builder returns it.
+//! A tree as plain lists, to measure its errors and its orders, whoever built it.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::Range;
 
-use binspace::internals::{
-    Exact, Eye, Faces, Kernel, Line, Parts, Piece, PlaneId, RawChild, Side, Symbol, Tuning, Vertex,
-    parts, parts_of_tree,
-};
-use binspace::{BspTree, BuildOptions, Error, Viewpoint};
+use binspace::internals::{Eye, Faces, Line, PlaneId, Symbol};
+use binspace::{BspTree, Child, Viewpoint};
 
-/// A tree of faces that the library's own builder built with the decisions of a kernel, to measure
-/// what rounded decisions do. Its orders use an explicit stack, O(n).
+/// A BSP tree whose vertices have a definition and a position: the library's, or one of
+/// [rounded numbers](Tree::with_epsilon).
 #[derive(Clone)]
-pub struct KernelTree<K: Kernel> {
-    kernel: K,
-    faces: Faces,
-    nodes: Vec<Node>,
-    /// The face of each fragment, and where its vertices begin.
-    fragments: Vec<(u32, u32)>,
-    vertices: Vec<K::Stored>,
-    cuts: usize,
+pub struct Tree {
+    pub(crate) faces: Faces,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) fragments: Vec<Fragment>,
+    /// The vertices of all fragments that are not whole faces.
+    pub(crate) vertices: Vec<Vertex>,
+    pub(crate) cuts: usize,
+    /// On which side of a plane an eye lies.
+    pub(crate) eye_side: fn(&Faces, PlaneId, &Eye) -> Ordering,
 }
 
-/// Nodes stand depth first, the front before the back. Fragments are numbered likewise: those on
-/// the plane, those of a front leaf, those of a back leaf, then those of the nodes below.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    plane: PlaneId,
-    own: u32,
-    front: RawChild,
-    back: RawChild,
-    /// How many fragments there are in its subtree, and how many nodes.
-    fragments: u32,
-    nodes: u32,
-}
-
-/// A node on a walk through a tree.
+/// Nodes stand depth first, the front before the back. Fragments are numbered likewise: those on the
+/// plane, those of a front leaf, those of a back leaf, then those of the nodes below.
 #[derive(Clone, Debug)]
-pub(crate) struct Visit {
+pub(crate) struct Node {
     pub(crate) plane: PlaneId,
     /// How many nodes there are on the path to it, itself included.
     pub(crate) depth: usize,
     /// Whether it is in front of its parent.
     pub(crate) is_front: bool,
-    /// The fragments on its plane, of a front leaf, and of a back leaf.
+    /// The fragments on its plane.
     pub(crate) on: Range<u32>,
-    pub(crate) front: Range<u32>,
-    pub(crate) back: Range<u32>,
+    pub(crate) front: Side,
+    pub(crate) back: Side,
+    /// The fragments of its whole subtree.
+    pub(crate) all: Range<u32>,
 }
 
-impl<K: Kernel> KernelTree<K> {
-    /// Builds a tree of faces, with the tolerance of the faces, not that of the options.
-    ///
-    /// # Errors
-    ///
-    /// If a budget runs out.
-    pub fn build(kernel: K, options: &BuildOptions, faces: Faces) -> Result<Self, Error> {
-        let parts = parts(kernel, options, &Tuning::DEFAULT, &faces)?;
-        Ok(Self::new(kernel, faces, parts))
-    }
+/// One side of a node: the fragments of a leaf, or the number of another node.
+#[derive(Clone, Debug)]
+pub(crate) enum Side {
+    Leaf(Range<u32>),
+    Node(usize),
+}
 
-    fn new(kernel: K, faces: Faces, parts: Parts<K::Stored>) -> Self {
-        let mut nodes: Vec<Node> = Vec::with_capacity(parts.nodes.len());
-        // From the last to the first: `nodes` holds those behind, the next one last.
-        for raw in parts.nodes.iter().rev() {
-            let at = |behind: usize| nodes[nodes.len() - 1 - behind];
-            let (front, front_nodes) = match raw.front {
-                RawChild::Leaf(len) => (len, 0),
-                RawChild::Node => (at(0).fragments, at(0).nodes),
-            };
-            let (back, back_nodes) = match raw.back {
-                RawChild::Leaf(len) => (len, 0),
-                RawChild::Node => {
-                    let child = at(front_nodes as usize);
-                    (child.fragments, child.nodes)
-                }
-            };
-            nodes.push(Node {
-                plane: raw.plane,
-                own: raw.own,
-                front: raw.front,
-                back: raw.back,
-                fragments: raw.own + front + back,
-                nodes: 1 + front_nodes + back_nodes,
-            });
-        }
-        nodes.reverse();
-        let fragments = parts.records.iter().map(|record| (record.face, record.vertices)).collect();
-        Self { kernel, faces, nodes, fragments, vertices: parts.vertices, cuts: parts.cuts }
-    }
+/// A fragment. Its vertices end where those of the next one begin; a whole face has none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fragment {
+    pub(crate) face: u32,
+    pub(crate) start: u32,
+}
 
+/// A vertex: its position in lattice units, its definition, and the line from it to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Vertex {
+    pub(crate) position: [f64; 3],
+    pub(crate) symbol: Symbol,
+    pub(crate) line: Line,
+}
+
+impl Tree {
     /// How many fragments there are.
     pub fn len(&self) -> usize {
         self.fragments.len()
@@ -113,7 +83,7 @@ impl<K: Kernel> KernelTree<K> {
 
     /// The most nodes on a path from the root.
     pub fn depth(&self) -> usize {
-        self.walk().map(|visit| visit.depth).max().unwrap_or(0)
+        self.nodes.iter().map(|node| node.depth).max().unwrap_or(0)
     }
 
     /// The faces that the fragments are pieces of.
@@ -121,35 +91,33 @@ impl<K: Kernel> KernelTree<K> {
         &self.faces
     }
 
-    /// The resident size in bytes, besides the faces.
+    /// The resident size in bytes, without the faces.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.nodes) + size_of_val(&*self.fragments) + size_of_val(&*self.vertices)
     }
 
     /// The face that a fragment is a piece of.
     pub fn face(&self, fragment: u32) -> u32 {
-        self.fragments[fragment as usize].0
+        self.fragments[fragment as usize].face
     }
 
-    /// The vertices of a fragment as they are kept; none if it is all of its face.
-    fn stored(&self, fragment: u32) -> &[K::Stored] {
-        let start = self.fragments[fragment as usize].1 as usize;
+    /// The vertices of a fragment; none if it is a whole face.
+    fn stored(&self, fragment: u32) -> &[Vertex] {
+        let start = self.fragments[fragment as usize].start as usize;
         let next = self.fragments.get(fragment as usize + 1);
-        &self.vertices[start..next.map_or(self.vertices.len(), |next| next.1 as usize)]
+        &self.vertices[start..next.map_or(self.vertices.len(), |next| next.start as usize)]
     }
 
-    /// Whether a fragment is all of its face.
+    /// Whether a fragment is a whole face.
     pub fn is_whole(&self, fragment: u32) -> bool {
         self.stored(fragment).is_empty()
     }
 
     /// The vertices of a fragment in lattice units, rounded.
     pub fn lattice_vertices(&self, fragment: u32) -> impl Iterator<Item = [f64; 3]> {
-        let (face, stored) = (self.face(fragment), self.stored(fragment));
-        let whole = if stored.is_empty() { self.faces.corners(face) } else { &[] };
-        let restored =
-            stored.iter().map(move |v| self.kernel.restore(&self.faces, face, v).position());
-        whole.iter().copied().chain(restored)
+        let stored = self.stored(fragment);
+        let whole = if stored.is_empty() { self.faces.corners(self.face(fragment)) } else { &[] };
+        whole.iter().copied().chain(stored.iter().map(|vertex| vertex.position))
     }
 
     /// For each vertex of a fragment, its definition.
@@ -157,113 +125,47 @@ impl<K: Kernel> KernelTree<K> {
         let stored = self.stored(fragment);
         let corners =
             if stored.is_empty() { self.faces.corners(self.face(fragment)).len() } else { 0 };
-        (0..corners as u32).map(Symbol::corner).chain(stored.iter().map(K::symbol))
-    }
-
-    /// For each edge of a fragment, what bounds it there.
-    pub fn lines(&self, fragment: u32) -> impl Iterator<Item = Line> {
-        let stored = self.stored(fragment);
-        let corners =
-            if stored.is_empty() { self.faces.corners(self.face(fragment)).len() } else { 0 };
-        (0..corners as u32).map(Line::edge).chain(stored.iter().map(K::line))
-    }
-
-    /// Where a fragment lies against a plane, by the kernel.
-    pub fn classify(&self, fragment: u32, plane: PlaneId) -> Side {
-        let face = self.face(fragment);
-        let vertices: Vec<K::Vertex> = self
-            .stored(fragment)
-            .iter()
-            .map(|stored| self.kernel.restore(&self.faces, face, stored))
-            .collect();
-        let cut = (!vertices.is_empty()).then_some(&vertices[..]);
-        let splitter = self.kernel.splitter(&self.faces, plane);
-        self.kernel.classify(&self.faces, &splitter, Piece { face, cut })
-    }
-
-    /// Writes the numbers of all fragments, back to front, in place of what the list held.
-    pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
-        order.clear();
-        let eye = Eye::new(viewpoint, self.faces.lattice());
-        let mut stack =
-            vec![if self.nodes.is_empty() { Part::Run(0..0) } else { Part::Node(0, 0) }];
-        while let Some(part) = stack.pop() {
-            match part {
-                Part::Run(run) => order.extend(run),
-                Part::Node(index, first) => {
-                    let node = &self.nodes[index as usize];
-                    let mut next = first;
-                    let mut run = |len: u32| {
-                        next += len;
-                        Part::Run(next - len..next)
-                    };
-                    let on = run(node.own);
-                    let mut leaf = |child| match child {
-                        RawChild::Leaf(len) => Some(run(len)),
-                        RawChild::Node => None,
-                    };
-                    let (front, back) = (leaf(node.front), leaf(node.back));
-                    let (mut child, mut first) = (index + 1, next);
-                    let mut subtree = || {
-                        let part = Part::Node(child, first);
-                        let size = &self.nodes[child as usize];
-                        (child, first) = (child + size.nodes, first + size.fragments);
-                        part
-                    };
-                    let front = front.unwrap_or_else(&mut subtree);
-                    let back = back.unwrap_or_else(&mut subtree);
-                    let side = self.kernel.eye_side(&self.faces, node.plane, &eye);
-                    let [far, near] =
-                        if side == Ordering::Greater { [back, front] } else { [front, back] };
-                    stack.extend([near, on, far]);
-                }
-            }
-        }
+        (0..corners as u32).map(Symbol::corner).chain(stored.iter().map(|vertex| vertex.symbol))
     }
 
     /// The partition planes, depth first, each with the fragments on it, and all in front and
     /// behind.
     pub fn partitions(&self) -> impl Iterator<Item = (PlaneId, [Range<u32>; 3])> {
-        self.walk().zip(self.nodes.iter().enumerate()).map(|(visit, (index, node))| {
-            // Subtrees are numbered behind the leaves of their parent.
-            let (mut child, mut next) = (index + 1, visit.back.end);
-            let mut subtree = || {
-                let size = &self.nodes[child];
-                (child, next) = (child + size.nodes as usize, next + size.fragments);
-                next - size.fragments..next
-            };
-            let front = if node.front == RawChild::Node { subtree() } else { visit.front };
-            let back = if node.back == RawChild::Node { subtree() } else { visit.back };
-            (visit.plane, [visit.on, front, back])
-        })
+        let all = |side: &Side| match side {
+            Side::Leaf(fragments) => fragments.clone(),
+            Side::Node(node) => self.nodes[*node].all.clone(),
+        };
+        self.nodes
+            .iter()
+            .map(move |node| (node.plane, [node.on.clone(), all(&node.front), all(&node.back)]))
     }
 
-    /// The nodes, depth first.
-    pub(crate) fn walk(&self) -> impl Iterator<Item = Visit> {
-        let (mut stack, mut next) = (vec![(1, false)], 0);
-        self.nodes.iter().map(move |node| {
-            let (depth, is_front) = stack.pop().unwrap_or((1, false));
-            let mut take = |child| {
-                let len = if let RawChild::Leaf(len) = child { len } else { 0 };
-                next += len;
-                next - len..next
-            };
-            let on = take(RawChild::Leaf(node.own));
-            let (front, back) = (take(node.front), take(node.back));
-            for (child, is_front) in [(node.back, false), (node.front, true)] {
-                if child == RawChild::Node {
-                    stack.push((depth + 1, is_front));
+    /// Writes the numbers of all fragments, back to front, in place of what the list held. O(n), with
+    /// a stack of its own.
+    pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
+        order.clear();
+        let eye = Eye::new(viewpoint, self.faces.lattice());
+        let mut stack = Vec::new();
+        if !self.nodes.is_empty() {
+            stack.push(Side::Node(0));
+        }
+        while let Some(side) = stack.pop() {
+            match side {
+                Side::Leaf(fragments) => order.extend(fragments),
+                Side::Node(node) => {
+                    let Node { plane, on, front, back, .. } = &self.nodes[node];
+                    let is_in_front = (self.eye_side)(&self.faces, *plane, &eye).is_gt();
+                    let [far, near] = if is_in_front { [back, front] } else { [front, back] };
+                    stack.extend([near.clone(), Side::Leaf(on.clone()), far.clone()]);
                 }
             }
-            Visit { plane: node.plane, depth, is_front, on, front, back }
-        })
+        }
     }
 }
 
-impl<K: Kernel> fmt::Debug for KernelTree<K> {
+impl fmt::Debug for Tree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("KernelTree")
-            .field("kernel", &self.kernel)
+        f.debug_struct("Tree")
             .field("faces", &self.faces.len())
             .field("nodes", &self.nodes.len())
             .field("fragments", &self.fragments.len())
@@ -271,14 +173,43 @@ impl<K: Kernel> fmt::Debug for KernelTree<K> {
     }
 }
 
-impl From<&BspTree> for KernelTree<Exact> {
+impl From<&BspTree> for Tree {
     fn from(tree: &BspTree) -> Self {
-        Self::new(Exact, tree.faces().clone(), parts_of_tree(tree))
+        let mut is_front = vec![false; tree.nodes().count()];
+        let nodes = tree.nodes().map(|node| {
+            let side = |child| match child {
+                Child::Node(node) => Side::Node(node.index()),
+                Child::Leaf(fragments) => Side::Leaf(fragments),
+            };
+            let [front, back] = [node.front(), node.back()].map(side);
+            if let Side::Node(front) = front {
+                is_front[front] = true;
+            }
+            Node {
+                plane: node.plane(),
+                depth: node.depth(),
+                is_front: is_front[node.index()],
+                on: node.on(),
+                front,
+                back,
+                all: node.fragments(),
+            }
+        });
+        let nodes = nodes.collect();
+        let (mut fragments, mut vertices) = (Vec::new(), Vec::new());
+        for fragment in tree.fragments() {
+            fragments.push(Fragment { face: fragment.face(), start: vertices.len() as u32 });
+            if !fragment.is_whole() {
+                let names = fragment.symbols().zip(fragment.lines());
+                let placed = fragment.lattice_vertices().zip(names);
+                vertices.extend(placed.map(|(position, (symbol, line))| Vertex {
+                    position,
+                    symbol,
+                    line,
+                }));
+            }
+        }
+        let (faces, cuts) = (tree.faces().clone(), tree.stats().splits);
+        Self { faces, nodes, fragments, vertices, cuts, eye_side: Faces::eye_side }
     }
-}
-
-/// A part of a tree: fragments in the order of their numbers, or a node with its first fragment.
-enum Part {
-    Run(Range<u32>),
-    Node(u32, u32),
 }

@@ -4,11 +4,9 @@ use super::judge::{POSITION_ERROR, Verdict, ensure};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
 use binspace::internals::{
-    Exact, Faces, Kernel, Piece, PlaneId, PlaneKind, Side, SymbolKind, Vertex, split,
+    Faces, PlaneId, PlaneKind, PreparedPlane, Side, SymbolKind, Vertex, split,
 };
 use num_traits::Signed;
-
-type ExactVertex = <Exact as Kernel>::Vertex;
 
 /// What a run of tests went through.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,7 +39,7 @@ pub struct Walk<'a> {
     faces: &'a Faces,
     face: u32,
     exact: Face,
-    piece: Vec<ExactVertex>,
+    piece: Vec<Vertex>,
     outline: Vec<model::Vertex>,
     whole: bool,
     tally: &'a mut Tally,
@@ -51,24 +49,24 @@ impl<'a> Walk<'a> {
     pub fn new(faces: &'a Faces, face: u32, tally: &'a mut Tally) -> Self {
         let exact = Face::new(faces, face);
         let corners = 0..faces.corners(face).len() as u32;
-        let piece = corners.map(|k| Exact.corner(faces, face, k)).collect();
+        let piece = corners.map(|k| Vertex::corner(faces, face, k)).collect();
         let outline = exact.outline();
         Self { faces, face, exact, piece, outline, whole: true, tally }
     }
 
     /// Holds the piece against a plane, and cuts it if the plane does.
     pub fn step(&mut self, plane: PlaneId, keep_back: bool) -> Verdict {
-        let splitter = Exact.splitter(self.faces, plane);
+        let prepared = PreparedPlane::new(self.faces, plane);
         let by = model::plane(self.faces, plane);
         let values: Vec<Rational> = self.outline.iter().map(|v| by.at(&v.point)).collect();
         for (vertex, value) in self.piece.clone().iter().zip(&values) {
-            let side = Exact.side(self.faces, &splitter, self.face, vertex);
+            let side = prepared.side(self.faces, self.face, vertex);
             let is_right = side == rational::sign(value);
             ensure(is_right, || format!("{vertex:?} is {side:?} of {plane:?}"))?;
-            self.check_distance(plane, &splitter, vertex, value)?;
+            self.check_distance(plane, &prepared, vertex, value)?;
         }
         let cut = (!self.whole).then_some(&*self.piece);
-        let side = Exact.classify(self.faces, &splitter, Piece { face: self.face, cut });
+        let side = prepared.classify(self.faces, self.face, cut);
         let allowed = self.exact.classify((self.faces, self.face), (plane, &by), &values);
         ensure(allowed.contains(&side), || format!("{side:?} and not {allowed:?} of {plane:?}"))?;
         self.tally.pieces += 1;
@@ -78,7 +76,7 @@ impl<'a> Walk<'a> {
             values.iter().any(Signed::is_positive) && values.iter().any(Signed::is_negative);
         self.tally.tolerated += usize::from(spans && side != Side::Spanning);
         if side == Side::Spanning {
-            self.cut(plane, &splitter, &values, keep_back)?;
+            self.cut(plane, &prepared, &values, keep_back)?;
         }
         Ok(())
     }
@@ -86,13 +84,13 @@ impl<'a> Walk<'a> {
     fn cut(
         &mut self,
         plane: PlaneId,
-        splitter: &<Exact as Kernel>::Splitter,
+        prepared: &PreparedPlane,
         values: &[Rational],
         keep_back: bool,
     ) -> Verdict {
         self.tally.cuts += 1;
         let (mut front, mut back) = (Vec::new(), Vec::new());
-        split(&Exact, self.faces, splitter, self.face, &self.piece, &mut front, &mut back);
+        split(self.faces, prepared, self.face, &self.piece, &mut front, &mut back);
         let parts = [false, true].map(|behind| model::clip(&self.outline, values, plane, behind));
         self.check_part(&front, &parts[0])?;
         self.check_part(&back, &parts[1])?;
@@ -106,11 +104,11 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    fn resolve(&self, piece: &[ExactVertex]) -> Vec<Point> {
+    fn resolve(&self, piece: &[Vertex]) -> Vec<Point> {
         piece.iter().map(|v| self.exact.resolve(self.faces, v.symbol())).collect()
     }
 
-    fn check_part(&mut self, part: &[ExactVertex], expected: &[model::Vertex]) -> Verdict {
+    fn check_part(&mut self, part: &[Vertex], expected: &[model::Vertex]) -> Verdict {
         let is_proper = part.len() >= 3 && part.len() == expected.len();
         ensure(is_proper, || format!("{part:?}, not {expected:?}"))?;
         for ((vertex, point), expected) in part.iter().zip(self.resolve(part)).zip(expected) {
@@ -119,9 +117,9 @@ impl<'a> Walk<'a> {
             let error = rational::distance_to_rounded(&point, vertex.position());
             self.tally.worst_position = self.tally.worst_position.max(error);
             ensure(error <= POSITION_ERROR, || format!("{vertex:?} is {error} off"))?;
-            let stored = Exact.store(vertex);
-            let restored = Exact.restore(self.faces, self.face, &stored);
-            let parts = |v: &ExactVertex| (v.position(), v.symbol(), v.line());
+            let stored = vertex.stored();
+            let restored = stored.restored(self.faces, self.face);
+            let parts = |v: &Vertex| (v.position(), v.symbol(), v.line());
             ensure(parts(&restored) == parts(vertex), || format!("{vertex:?} is not stored"))?;
             let by_two_cuts = matches!(vertex.symbol().kind(), SymbolKind::Inside(..));
             self.tally.inside += usize::from(by_two_cuts);
@@ -132,15 +130,15 @@ impl<'a> Walk<'a> {
     fn check_distance(
         &mut self,
         plane: PlaneId,
-        splitter: &<Exact as Kernel>::Splitter,
-        vertex: &ExactVertex,
+        prepared: &PreparedPlane,
+        vertex: &Vertex,
         exact: &Rational,
     ) -> Verdict {
-        let rounded = splitter.distance(vertex.position());
+        let rounded = prepared.distance(vertex.position());
         let bound = stated_bound(self.faces, plane);
         if self.faces.tolerance() == 0.0 {
             // Without a tolerance the slack is the bound that the filter goes by.
-            let is_enough = splitter.slack() >= bound * (1.0 - 1e-12);
+            let is_enough = prepared.slack() >= bound * (1.0 - 1e-12);
             ensure(is_enough, || format!("the slack at {plane:?}"))?;
         }
         if rounded != 0.0 && rational::sign(&rational::exact(rounded)) != rational::sign(exact) {

@@ -172,7 +172,7 @@ impl<'t> Judge<'t> {
         Ok(())
     }
 
-    /// Every fragment lies where the rules of the exact kernel put it, of every plane above it.
+    /// Every fragment lies where the rules of the library put it, of every plane above it.
     fn sides(&self) -> Verdict {
         let faces = self.tree.faces();
         for node in self.tree.nodes() {

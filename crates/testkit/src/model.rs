@@ -71,7 +71,7 @@ impl Face {
         self.corners.iter().zip(next).map(turn).min().expect("corners")
     }
 
-    /// Every answer that the rules of the exact kernel allow: one, but where a corner is as far
+    /// Every answer that the rules of the library allow: one, but where a corner is as far
     /// from the plane as the tolerance, to within the rounding of the tolerance.
     pub fn classify(
         &self,

@@ -5,10 +5,9 @@ use std::mem::take;
 use super::state::{Builder, COMPACT};
 use crate::build::job::Job;
 use crate::error::{Error, Limit};
-use crate::exact::Kernel;
 use crate::memory::collect;
 
-impl<K: Kernel> Builder<'_, K> {
+impl Builder<'_> {
     /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
     /// size that the sets still to be split need, however often one piece is cut.
     pub(super) fn compact(&mut self) -> Result<(), Error> {
@@ -28,7 +27,7 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     /// Removes the set on top of the stack and gives it an arena of its own.
-    pub(super) fn take(&mut self, start: usize, depth: usize) -> Result<Job<K::Vertex>, Error> {
+    pub(super) fn take(&mut self, start: usize, depth: usize) -> Result<Job, Error> {
         let mut arena = Vec::new();
         let mut pieces =
             if start == 0 { take(&mut self.pieces) } else { collect(self.pieces.drain(start..))? };

@@ -2,21 +2,21 @@
 
 use super::state::Builder;
 use crate::Error;
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::build::progress::PIECES_AT_ONCE;
-use crate::exact::{Kernel, PlaneId, Side};
+use crate::exact::{PlaneId, PreparedPlane, Side};
 use crate::memory::reserve;
 
 /// Cutting a piece counts as the work of classifying this many.
 const CUT: usize = 64;
 
-impl<K: Kernel> Builder<'_, K> {
+impl Builder<'_> {
     /// Finds the side of each piece of the set on top of the stack, into `scratch.sides`.
     pub(super) fn classify(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
-        let splitter = kernel.splitter(faces, plane);
+        let faces = self.shared.faces;
+        let prepared = PreparedPlane::new(faces, plane);
         let arena = &self.arena;
-        let side = |live: &Live| kernel.classify(faces, &splitter, live.piece(arena));
+        let side = |piece: &Piece| piece.side(faces, &prepared, arena);
         self.scratch.sides.clear();
         reserve(&mut self.scratch.sides, self.pieces.len() - start)?;
         for pieces in self.pieces[start..].chunks(PIECES_AT_ONCE) {
@@ -75,10 +75,10 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// Cuts the pieces in `scratch.spanning`, and adds their parts to both sides.
     fn cut_spanning(&mut self, plane: PlaneId) -> Result<(), Error> {
-        let splitter = self.shared.kernel.splitter(self.shared.faces, plane);
+        let prepared = PreparedPlane::new(self.shared.faces, plane);
         for i in 0..self.scratch.spanning.len() {
             let whole = self.scratch.spanning[i];
-            let [front, back] = self.cut(&whole, &splitter)?;
+            let [front, back] = self.cut(&whole, &prepared)?;
             reserve(&mut self.pieces, 1)?;
             self.pieces.push(back);
             reserve(&mut self.scratch.front, 1)?;
@@ -88,10 +88,14 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     /// Cuts a piece, and gives the parts in front and behind.
-    pub(super) fn cut(&mut self, live: &Live, splitter: &K::Splitter) -> Result<[Live; 2], Error> {
+    pub(super) fn cut(
+        &mut self,
+        live: &Piece,
+        prepared: &PreparedPlane,
+    ) -> Result<[Piece; 2], Error> {
         self.shared.rules.watch.work(CUT)?;
         let Self { shared, arena, scratch, .. } = self;
         self.output.parts.cuts += 1;
-        scratch.knife.cut(&shared.kernel, shared.faces, splitter, live, arena)
+        scratch.splitter.cut(shared.faces, prepared, live, arena)
     }
 }

@@ -5,22 +5,22 @@ use super::state::{Builder, Pending};
 use crate::Error;
 use crate::build::choose::Peeled;
 use crate::build::job::{Job, is_worth_a_job};
-use crate::build::live::Live;
-use crate::exact::{Kernel, PlaneId, Side};
+use crate::build::piece::Piece;
+use crate::exact::{PlaneId, Side};
 use crate::memory::{collect, push, reserve};
 use crate::tree::parts::{RawChild, RawNode};
 
-impl<K: Kernel> Builder<'_, K> {
+impl Builder<'_> {
     /// Writes the node of a set that has been divided, and puts its two sides on the stack.
     pub(super) fn emit(
         &mut self,
         plane: PlaneId,
         start: usize,
         depth: usize,
-        hand_over: &mut impl FnMut(Job<K::Vertex>) -> Result<usize, Error>,
+        hand_over: &mut impl FnMut(Job) -> Result<usize, Error>,
     ) -> Result<(), Error> {
         // Coplanar polygons are painted in input order.
-        self.scratch.own.sort_unstable_by_key(Live::rank);
+        self.scratch.own.sort_unstable_by_key(Piece::rank);
         let own = self.scratch.own.len();
         (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
         let (back, front) = (self.pieces.len() - start, self.scratch.front.len());
@@ -89,7 +89,7 @@ impl<K: Kernel> Builder<'_, K> {
                 left[piece as usize] = false;
                 own.push(self.pieces[start + piece as usize]);
             }
-            own.sort_unstable_by_key(Live::rank);
+            own.sort_unstable_by_key(Piece::rank);
             let own = own.len();
             (0..own).try_for_each(|i| self.store(self.scratch.own[i]))?;
             let child = |side| if layer.rest == side { RawChild::Node } else { RawChild::Leaf(0) };

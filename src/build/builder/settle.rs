@@ -13,13 +13,13 @@ use super::state::{Builder, Shared};
 use super::table::{Row, Slot};
 use crate::Error;
 use crate::bits::bits;
-use crate::build::live::Live;
-use crate::exact::{Kernel, Piece, PlaneId, PlaneKind, Side};
+use crate::build::piece::Piece;
+use crate::exact::{PlaneId, PlaneKind, PreparedPlane, Side};
 
 /// The faces whose planes were given up for a set. None is tried again, so the search ends.
 type Tried = SmallVec<[u32; 4]>;
 
-impl<K: Kernel> Builder<'_, K> {
+impl Builder<'_> {
     /// Classifies the set on top of the stack by a plane, or by the one that divides it instead.
     pub(super) fn settle(&mut self, start: usize, mut plane: PlaneId) -> Result<PlaneId, Error> {
         let mut tried = Tried::new();
@@ -36,7 +36,7 @@ impl<K: Kernel> Builder<'_, K> {
                 }
                 None => f64::INFINITY,
             };
-            let is_rival = |(piece, side): &(&Live, &Side)| match side {
+            let is_rival = |(piece, side): &(&Piece, &Side)| match side {
                 Side::Spanning => !tried.contains(&piece.face),
                 Side::Coplanar => false,
                 Side::Front | Side::Back => size(piece) > least && !tried.contains(&piece.face),
@@ -50,7 +50,7 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     /// The same in a table, for the plane of the piece in a slot.
-    pub(super) fn settle_row(&mut self, set: u64, mut slot: usize) -> Result<Row<K>, Error> {
+    pub(super) fn settle_row(&mut self, set: u64, mut slot: usize) -> Result<Row, Error> {
         let mut tried = 0u64;
         loop {
             let row = self.table.slots[slot].row;
@@ -80,23 +80,23 @@ impl<K: Kernel> Builder<'_, K> {
 }
 
 /// The square of the diagonal of a piece's box.
-fn size(piece: &Live) -> f64 {
+fn size(piece: &Piece) -> f64 {
     (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
 }
 
 /// The largest of some pieces on whose own plane a face lies.
-fn larger<'p, K: Kernel>(
-    shared: &Shared<'_, K>,
+fn larger<'p>(
+    shared: &Shared<'_>,
     face: u32,
-    pieces: impl Iterator<Item = &'p Live>,
-) -> Result<Option<&'p Live>, Error> {
-    let Shared { kernel, faces, rules, .. } = shared;
-    let mut best: Option<(f64, &Live)> = None;
+    pieces: impl Iterator<Item = &'p Piece>,
+) -> Result<Option<&'p Piece>, Error> {
+    let Shared { faces, rules, .. } = shared;
+    let mut best: Option<(f64, &Piece)> = None;
     for piece in pieces {
         rules.watch.work(1)?;
-        let splitter = kernel.splitter(faces, PlaneId::face(piece.face));
+        let prepared = PreparedPlane::new(faces, PlaneId::face(piece.face));
         if best.is_none_or(|(most, _)| size(piece) > most)
-            && kernel.classify(faces, &splitter, Piece { face, cut: None }) == Side::Coplanar
+            && prepared.classify(faces, face, None) == Side::Coplanar
         {
             best = Some((size(piece), piece));
         }

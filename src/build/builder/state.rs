@@ -9,18 +9,16 @@ use crate::build::assemble::Output;
 use crate::build::budget::Budget;
 use crate::build::choose::{Chooser, Rules, Tuning};
 use crate::build::job::Job;
-use crate::build::knife::Knife;
-use crate::build::live::Live;
 use crate::build::options::BuildOptions;
+use crate::build::piece::{Piece, Splitter};
 use crate::build::progress::Watch;
-use crate::exact::{Faces, Kernel, Side};
+use crate::exact::{Faces, Side, Vertex};
 
 /// The smallest arena, in vertices, that is compacted. Smaller: time to copy; larger: memory.
 pub(super) const COMPACT: usize = 1 << 13;
 
 /// What all jobs of a build share.
-pub(in crate::build) struct Shared<'a, K> {
-    pub(super) kernel: K,
+pub(in crate::build) struct Shared<'a> {
     pub(super) faces: &'a Faces,
     pub(super) options: &'a BuildOptions,
     pub(super) rules: Rules<'a>,
@@ -29,10 +27,9 @@ pub(in crate::build) struct Shared<'a, K> {
     pub(super) keeps_positions: bool,
 }
 
-impl<'a, K> Shared<'a, K> {
+impl<'a> Shared<'a> {
     /// An error if there are more faces than the budget allows fragments.
     pub(in crate::build) fn new(
-        kernel: K,
         faces: &'a Faces,
         options: &'a BuildOptions,
         tuning: &'a Tuning,
@@ -40,7 +37,7 @@ impl<'a, K> Shared<'a, K> {
     ) -> Result<Self, Error> {
         let budget = Budget::new(options, faces.len())?;
         let rules = Rules { heuristic: options.heuristic, tuning, watch };
-        Ok(Self { kernel, faces, options, rules, budget, keeps_positions: false })
+        Ok(Self { faces, options, rules, budget, keeps_positions: false })
     }
 
     /// Stops all jobs of the build.
@@ -74,28 +71,24 @@ impl Pending {
 }
 
 /// One job's state.
-pub(super) struct Builder<'a, K: Kernel> {
-    pub(super) shared: &'a Shared<'a, K>,
+pub(super) struct Builder<'a> {
+    pub(super) shared: &'a Shared<'a>,
     pub(super) chooser: Chooser,
     /// A stack of the sets still to be split, the next one on top.
-    pub(super) pieces: Vec<Live>,
+    pub(super) pieces: Vec<Piece>,
     /// The vertices of cut pieces, in the order of the cuts. Those of sets that are built are
     /// truncated from the end.
-    pub(super) arena: Vec<K::Vertex>,
+    pub(super) arena: Vec<Vertex>,
     pub(super) pending: Vec<Pending>,
     /// The length at which the arena is next compacted.
     pub(super) compact_at: usize,
-    pub(super) output: Output<K::Stored>,
-    pub(super) scratch: Scratch<K::Vertex>,
-    pub(super) table: Table<K>,
+    pub(super) output: Output,
+    pub(super) scratch: Scratch,
+    pub(super) table: Table,
 }
 
-impl<'a, K: Kernel> Builder<'a, K> {
-    pub(super) fn new(
-        shared: &'a Shared<'a, K>,
-        job: Job<K::Vertex>,
-        memory: &mut Memory<K>,
-    ) -> Self {
+impl<'a> Builder<'a> {
+    pub(super) fn new(shared: &'a Shared<'a>, job: Job, memory: &mut Memory) -> Self {
         let Job { pieces, arena, depth } = job;
         let Memory { chooser, pending, output, scratch, table, .. } = take(memory);
         let mut builder = Self {
@@ -117,7 +110,7 @@ impl<'a, K: Kernel> Builder<'a, K> {
     }
 
     /// Gives its lists back, apart from the output.
-    pub(super) fn end(self, memory: &mut Memory<K>) -> Output<K::Stored> {
+    pub(super) fn end(self, memory: &mut Memory) -> Output {
         let Self { chooser, pending, pieces, arena, scratch, table, output, .. } = self;
         *memory =
             Memory { chooser, pending, pieces, arena, scratch, table, output: Output::default() };
@@ -126,47 +119,23 @@ impl<'a, K: Kernel> Builder<'a, K> {
 }
 
 /// The lists of a job, kept to be used again.
-pub(in crate::build) struct Memory<K: Kernel> {
+#[derive(Default)]
+pub(in crate::build) struct Memory {
     chooser: Chooser,
     pending: Vec<Pending>,
-    pub(in crate::build) pieces: Vec<Live>,
-    pub(in crate::build) arena: Vec<K::Vertex>,
-    scratch: Scratch<K::Vertex>,
-    table: Table<K>,
-    pub(in crate::build) output: Output<K::Stored>,
-}
-
-impl<K: Kernel> Default for Memory<K> {
-    fn default() -> Self {
-        Self {
-            chooser: Chooser::default(),
-            pending: vec![],
-            pieces: vec![],
-            arena: vec![],
-            scratch: Scratch::default(),
-            table: Table::default(),
-            output: Output::default(),
-        }
-    }
+    pub(in crate::build) pieces: Vec<Piece>,
+    pub(in crate::build) arena: Vec<Vertex>,
+    scratch: Scratch,
+    table: Table,
+    pub(in crate::build) output: Output,
 }
 
 /// Buffers that are reused for every set.
-pub(super) struct Scratch<V> {
-    pub(super) own: Vec<Live>,
-    pub(super) front: Vec<Live>,
-    pub(super) spanning: Vec<Live>,
+#[derive(Default)]
+pub(super) struct Scratch {
+    pub(super) own: Vec<Piece>,
+    pub(super) front: Vec<Piece>,
+    pub(super) spanning: Vec<Piece>,
     pub(super) sides: Vec<Side>,
-    pub(super) knife: Knife<V>,
-}
-
-impl<V> Default for Scratch<V> {
-    fn default() -> Self {
-        Self {
-            own: vec![],
-            front: vec![],
-            spanning: vec![],
-            sides: vec![],
-            knife: Knife::default(),
-        }
-    }
+    pub(super) splitter: Splitter,
 }

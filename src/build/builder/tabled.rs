@@ -6,12 +6,12 @@ use super::table::{Open, Row, SLOTS, Slot};
 use crate::Error;
 use crate::bits::bits;
 use crate::build::choose::{Best, Quick, Rules, Set, crosses};
-use crate::build::live::Live;
-use crate::exact::{Kernel, PlaneId, Side};
+use crate::build::piece::Piece;
+use crate::exact::{PlaneId, PreparedPlane, Side};
 use crate::memory::{push, reserve};
 use crate::tree::parts::{RawChild, RawNode};
 
-impl<K: Kernel> Builder<'_, K> {
+impl Builder<'_> {
     /// Divides the set on top of the stack, of at most half as many pieces as a table has slots, down
     /// to the leaves.
     pub(super) fn divide_tabled(
@@ -37,7 +37,7 @@ impl<K: Kernel> Builder<'_, K> {
             // Those on the plane are done with.
             let left = set & (row.front | row.back);
             for slot in bits(spanning) {
-                let parts = self.cut_slot(slot, left, &row.splitter)?;
+                let parts = self.cut_slot(slot, left, &row.prepared)?;
                 sides[0] |= 1 << parts[0];
                 sides[1] |= 1 << parts[1];
             }
@@ -48,7 +48,7 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// Moves the pieces on top of the stack into slots, and prepares the planes of their faces.
     fn fill_table(&mut self, start: usize) -> Result<(), Error> {
-        let (kernel, faces) = (self.shared.kernel, self.shared.faces);
+        let faces = self.shared.faces;
         let table = &mut self.table;
         let count = self.pieces.len() - start;
         table.sets.clear();
@@ -63,8 +63,8 @@ impl<K: Kernel> Builder<'_, K> {
             };
             let row = known.unwrap_or(table.planes.len());
             if known.is_none() {
-                let splitter = kernel.splitter(faces, plane);
-                table.planes.push(Row::new(plane, splitter));
+                let prepared = PreparedPlane::new(faces, plane);
+                table.planes.push(Row::new(plane, prepared));
             }
             table.slots.push(Slot { piece, row });
         }
@@ -77,7 +77,7 @@ impl<K: Kernel> Builder<'_, K> {
     /// cuts few pieces, all of which cross its own piece; else the best of those that cut nothing, a
     /// free plane that cuts nothing, or the best of its own. (Where an own plane cannot be trusted, free
     /// planes come first.)
-    fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row<K>, Error> {
+    fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row, Error> {
         let (slot, ends_search) = self.best_own_of_table(set, quick)?;
         if !ends_search && let Some(free) = self.free_of_table(set)? {
             return Ok(free);
@@ -121,7 +121,7 @@ impl<K: Kernel> Builder<'_, K> {
 
     /// Finds out where pieces lie against a plane of which that is not known.
     pub(super) fn complete(&mut self, set: u64, row: usize) -> Result<(), Error> {
-        let Shared { kernel, faces, rules, .. } = self.shared;
+        let Shared { faces, rules, .. } = self.shared;
         let table = &mut self.table;
         let row = &mut table.planes[row];
         let unknown = set & !row.known;
@@ -129,8 +129,8 @@ impl<K: Kernel> Builder<'_, K> {
             rules.watch.work(unknown.count_ones() as usize)?;
         }
         for slot in bits(unknown) {
-            let piece = table.slots[slot].piece.piece(&self.arena);
-            row.set(slot, kernel.classify(faces, &row.splitter, piece));
+            let piece = &table.slots[slot].piece;
+            row.set(slot, piece.side(faces, &row.prepared, &self.arena));
         }
         Ok(())
     }
@@ -153,17 +153,17 @@ impl<K: Kernel> Builder<'_, K> {
     }
 
     /// A free plane that cuts nothing of a set.
-    fn free_of_table(&mut self, set: u64) -> Result<Option<Row<K>>, Error> {
-        let Shared { kernel, faces, rules, .. } = self.shared;
+    fn free_of_table(&mut self, set: u64) -> Result<Option<Row>, Error> {
+        let Shared { faces, rules, .. } = self.shared;
         let listed = &mut self.scratch.own;
         listed.clear();
         listed.extend(bits(set).map(|slot| self.table.slots[slot].piece));
-        let pieces = Set::new(kernel, faces, listed, &self.arena);
+        let pieces = Set::new(faces, listed, &self.arena);
         let Some(plane) = self.chooser.clean(rules, &pieces)? else { return Ok(None) };
-        let mut row = Row::new(plane, kernel.splitter(faces, plane));
+        let mut row = Row::new(plane, PreparedPlane::new(faces, plane));
         for slot in bits(set) {
-            let piece = self.table.slots[slot].piece.piece(&self.arena);
-            row.set(slot, kernel.classify(faces, &row.splitter, piece));
+            let piece = &self.table.slots[slot].piece;
+            row.set(slot, piece.side(faces, &row.prepared, &self.arena));
         }
         // Free planes are found by rounded distances, so exact decisions can show that one separates
         // nothing.
@@ -176,10 +176,10 @@ impl<K: Kernel> Builder<'_, K> {
         &mut self,
         slot: usize,
         set: u64,
-        splitter: &K::Splitter,
+        prepared: &PreparedPlane,
     ) -> Result<[usize; 2], Error> {
         let whole = self.table.slots[slot];
-        let [front, back] = self.cut(&whole.piece, splitter)?;
+        let [front, back] = self.cut(&whole.piece, prepared)?;
         let table = &mut self.table;
         let other = table.free.trailing_zeros() as usize;
         table.free &= table.free - 1;
@@ -210,7 +210,7 @@ impl<K: Kernel> Builder<'_, K> {
     /// Writes a node with what is on its plane and in its leaves, and puts its other sides on the stack.
     fn emit_tabled(
         &mut self,
-        row: &Row<K>,
+        row: &Row,
         own: u64,
         sides: [u64; 2],
         depth: usize,
@@ -218,7 +218,7 @@ impl<K: Kernel> Builder<'_, K> {
         let listed = &mut self.scratch.own;
         listed.clear();
         listed.extend(bits(own).map(|slot| self.table.slots[slot].piece));
-        listed.sort_unstable_by_key(Live::rank);
+        listed.sort_unstable_by_key(Piece::rank);
         let own_len = listed.len() as u32;
         (0..listed.len()).try_for_each(|i| self.store(self.scratch.own[i]))?;
         self.table.free |= own;

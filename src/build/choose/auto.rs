@@ -11,9 +11,9 @@ use super::set::Set;
 use super::sketch::LANES;
 use super::tuning::{Quick, Tuning};
 use crate::Error;
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::build::progress::PIECES_AT_ONCE;
-use crate::exact::{Kernel, PlaneId, Side};
+use crate::exact::{PlaneId, Side};
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -29,10 +29,10 @@ impl Auto {
     /// does not cut the other; in frames, an own plane that cuts nothing and divides evenly; a free plane
     /// that cuts nothing; in frames, a plane in the middle that cuts only what crosses it; pieces that are
     /// peeled off; the plane of least cost.
-    pub(super) fn choose<K: Kernel>(
+    pub(super) fn choose(
         &mut self,
         rules: &Rules<'_>,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         is_peeled: bool,
     ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
@@ -74,9 +74,9 @@ impl Auto {
 
     /// A free plane that cuts nothing, if nothing or only what has to be cut is in the middle of the set;
     /// else the plane there that cuts only what has to be cut.
-    fn plane_in_the_middle<K: Kernel>(
+    fn plane_in_the_middle(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         tuning: &Tuning,
         quick: &Quick,
     ) -> Result<Option<PlaneId>, Error> {
@@ -98,16 +98,12 @@ impl Auto {
     }
 
     /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.
-    pub(super) fn common_plane<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        tuning: &Tuning,
-    ) -> Option<PlaneId> {
+    pub(super) fn common_plane(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
         // The planes of small ones may miss the others by what rounding has left.
         let size = |&piece: &usize| {
-            let Live { min, max, .. } = set.pieces[piece];
+            let Piece { min, max, .. } = set.pieces[piece];
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
         };
         let large = set.sample(tuning.first_sample).max_by(|a, b| size(a).total_cmp(&size(b)))?;
@@ -117,14 +113,14 @@ impl Auto {
             return None;
         }
         let plane = set.own_plane(large);
-        let splitter = set.splitter(plane);
-        pieces().all(|piece| set.classify(&splitter, piece) == Side::Coplanar).then_some(plane)
+        let prepared = set.prepare(plane);
+        pieces().all(|piece| set.classify(&prepared, piece) == Side::Coplanar).then_some(plane)
     }
 
-    fn best_of_small<K: Kernel>(
+    fn best_of_small(
         &mut self,
         rules: &Rules<'_>,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         free: Option<Candidate>,
         is_peeled: bool,
     ) -> Result<Choice, Error> {
@@ -154,10 +150,10 @@ impl Auto {
         Ok(better(set, &terms, own, free))
     }
 
-    fn best_of_large<K: Kernel>(
+    fn best_of_large(
         &mut self,
         rules: &Rules<'_>,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         free: Option<Candidate>,
     ) -> Result<Choice, Error> {
         let Rules { tuning, watch, .. } = *rules;
@@ -187,12 +183,7 @@ impl Auto {
     }
 
     /// Compares own planes of a large set with a first sample of it.
-    fn begin_large<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        terms: &Terms,
-        tuning: &Tuning,
-    ) -> Result<(), Error> {
+    fn begin_large(&mut self, set: &Set<'_>, terms: &Terms, tuning: &Tuning) -> Result<(), Error> {
         let count = tuning.few_own_planes;
         self.sample.restart(set, count.next_multiple_of(LANES))?;
         self.contest.begin(set, &mut self.sample, count, terms, tuning)
@@ -201,20 +192,15 @@ impl Auto {
 
 /// The plane of one of two pieces, if it does not cut the other: no plane is better, and there is
 /// nothing to search for.
-fn plane_of_pair<K: Kernel>(set: &Set<'_, K>) -> Option<PlaneId> {
+fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
     [0, 1].into_iter().find_map(|own| {
         let plane = set.own_plane(own);
-        (set.classify(&set.splitter(plane), 1 - own) != Side::Spanning).then_some(plane)
+        (set.classify(&set.prepare(plane), 1 - own) != Side::Spanning).then_some(plane)
     })
 }
 
 /// The better of an own plane and a free one; any, if there are none.
-fn better<K: Kernel>(
-    set: &Set<'_, K>,
-    terms: &Terms,
-    own: Option<Candidate>,
-    free: Option<Candidate>,
-) -> Choice {
+fn better(set: &Set<'_>, terms: &Terms, own: Option<Candidate>, free: Option<Candidate>) -> Choice {
     Choice::Split(match (own, free) {
         (Some(own), Some(free)) if terms.compared(free.cost).is_less(&own.cost) => free.plane,
         (Some(one), _) | (None, Some(one)) => one.plane,
@@ -238,8 +224,8 @@ mod tests {
             let fixture = Fixture::new(&triangles(&mut random, 2, 1.0), 0.0);
             let set = fixture.set();
             let is_whole = |own: usize| {
-                let splitter = set.splitter(set.own_plane(own));
-                set.classify(&splitter, 1 - own) != Side::Spanning
+                let prepared = set.prepare(set.own_plane(own));
+                set.classify(&prepared, 1 - own) != Side::Spanning
             };
             let expected = [0, 1].into_iter().find(|&own| is_whole(own));
             assert_eq!(plane_of_pair(&set), expected.map(|own| set.own_plane(own)));

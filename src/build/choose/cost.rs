@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 
 use super::set::Set;
 use super::tuning::Tuning;
-use crate::exact::{Kernel, PlaneId};
+use crate::exact::PlaneId;
 
 /// How many pieces lie in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,7 +86,7 @@ pub(super) struct Terms {
 
 impl Terms {
     /// Of a small set: what cuts nothing is preferred.
-    pub(super) fn small<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+    pub(super) fn small(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
     }
 
@@ -100,7 +100,7 @@ impl Terms {
     /// Of a large set: whether a plane cuts is left out. The first rounds see a sample, in which many planes
     /// cut nothing that cut much of the set; and the planes at the rim of a set, which cut nothing either,
     /// would make a list of it.
-    pub(super) fn large<K: Kernel>(set: &Set<'_, K>, tuning: &Tuning) -> Self {
+    pub(super) fn large(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self { prefers_uncut: false, ..Self::small(set, tuning) }
     }
 

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::exact::{Faces, RoundedNormal, Vertex};
 
 /// How far a plane may be off at a vertex, in the `size` of its rounded normal. The vertex is rounded by
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// the segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
 /// orientation predicates”, 2003). Where rounding may decide that, as of pieces that only touch or lie
 /// nearly in one plane, they do not cross.
-pub(in crate::build) fn crosses<V: Vertex>(faces: &Faces, arena: &[V], a: &Live, b: &Live) -> bool {
+pub(in crate::build) fn crosses(faces: &Faces, arena: &[Vertex], a: &Piece, b: &Piece) -> bool {
     let Some(one) = Ends::of(faces, arena, a, b.face) else { return false };
     let Some(other) = Ends::of(faces, arena, b, a.face) else { return false };
     // Along the line, in the direction in which the front of `b` is on the left in the plane of `a`, the
@@ -43,7 +43,7 @@ struct Ends {
 
 impl Ends {
     /// Those of a piece and the plane of a face; `None` if the outline may not pass it.
-    fn of<V: Vertex>(faces: &Faces, arena: &[V], live: &Live, plane: u32) -> Option<Self> {
+    fn of(faces: &Faces, arena: &[Vertex], live: &Piece, plane: u32) -> Option<Self> {
         let triangle = faces.triangle(plane);
         let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
         let (normal, through) = (DVec3::from(normal), DVec3::from(triangle[0]));
@@ -91,12 +91,10 @@ mod tests {
 
     use super::super::tests::{Fixture, triangles};
     use super::crosses;
-    use crate::exact::Exact;
     use crate::random::SplitMix64;
 
     fn cross(fixture: &Fixture) -> bool {
-        let none: &[<Exact as crate::exact::Kernel>::Vertex] = &[];
-        crosses(&fixture.faces, none, &fixture.pieces[0], &fixture.pieces[1])
+        crosses(&fixture.faces, &[], &fixture.pieces[0], &fixture.pieces[1])
     }
 
     /// A square of side 2 in the plane z = 0, and one in the plane x = 0, moved along y and z.

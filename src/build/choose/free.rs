@@ -9,9 +9,9 @@ use super::cost::{Candidate, Cost, Counts};
 use super::set::Set;
 use super::tuning::Tuning;
 use crate::Error;
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::build::progress::{SWEEP, Watch};
-use crate::exact::{Faces, Kernel};
+use crate::exact::Faces;
 use crate::memory::reserve;
 use binned::{Binned, compare};
 use plane::{FreePlane, Through};
@@ -28,9 +28,9 @@ impl FreePlanes {
     /// The free plane of least cost, if one has fewer pieces on each side than there are. (Where the
     /// tolerance is not 0, pieces that begin or end within it of a bin's border may be counted on
     /// the wrong side.)
-    pub(super) fn best<K: Kernel>(
+    pub(super) fn best(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         tuning: &Tuning,
         watch: &Watch<'_>,
     ) -> Result<Option<Candidate>, Error> {
@@ -49,9 +49,9 @@ impl FreePlanes {
 
     /// The free plane of least cost among those that cut nothing. It sorts the set, which for a small one
     /// takes less time than counting by bins.
-    pub(super) fn clean<K: Kernel>(
+    pub(super) fn clean(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         tuning: &Tuning,
     ) -> Result<Option<Candidate>, Error> {
         let mut best: Option<FreePlane> = None;
@@ -90,7 +90,7 @@ impl FreePlanes {
 
 /// A plane between two pieces, the first of which ends before the other begins: at the end of one of
 /// them, or else through a corner of their faces that was cut off.
-fn between(faces: &Faces, axis: usize, [first, next]: [&Live; 2]) -> Option<Through> {
+fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Through> {
     let [low, high] = [first.max[axis], next.min[axis]];
     if next.min_is_corner(axis) {
         return Some(Through::Coordinate(high));
@@ -98,13 +98,13 @@ fn between(faces: &Faces, axis: usize, [first, next]: [&Live; 2]) -> Option<Thro
     if first.max_is_corner(axis) {
         return Some(Through::Coordinate(low));
     }
-    let corner = |piece: &Live| piece.corner_within(faces, axis, [low, high]);
+    let corner = |piece: &Piece| piece.corner_within(faces, axis, [low, high]);
     corner(next).or_else(|| corner(first)).map(Through::Corner)
 }
 
 /// The axes along which a set has an extent, with its ends: those first along which it may part,
 /// and the longest of them.
-fn axes<K: Kernel>(set: &Set<'_, K>) -> impl Iterator<Item = (usize, [f64; 2])> + use<K> {
+fn axes(set: &Set<'_>) -> impl Iterator<Item = (usize, [f64; 2])> + use<> {
     let mut axes = [0, 1, 2].map(|axis| (axis, [set.min[axis], set.max[axis]]));
     let extent = |&(_, [low, high]): &(usize, [f64; 2])| high - low;
     axes.sort_by(|a, b| {

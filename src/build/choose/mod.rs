@@ -1,4 +1,4 @@
-//! Choosing the splitter of a set of pieces.
+//! Choosing the prepared of a set of pieces.
 //!
 //! | file | decides |
 //! |---|---|
@@ -33,7 +33,7 @@ mod tuning;
 
 use super::heuristic::{DEFAULT_WEIGHTS, Heuristic};
 use crate::Error;
-use crate::exact::{Kernel, PlaneId};
+use crate::exact::PlaneId;
 use crate::random::mix;
 use auto::Auto;
 pub(super) use crossing::crosses;
@@ -55,10 +55,10 @@ impl Chooser {
     /// Chooses what to do with a set of at least one piece. `is_peeled`: it is what peeling left; then
     /// peeling is not tried again if the set is small. Not every plane chosen makes progress; the
     /// builder checks.
-    pub(super) fn choose<K: Kernel>(
+    pub(super) fn choose(
         &mut self,
         rules: &Rules<'_>,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         is_peeled: bool,
     ) -> Result<Choice, Error> {
         let most = rules.tuning.own_planes;
@@ -94,19 +94,19 @@ impl Chooser {
     }
 
     /// A free plane that cuts nothing.
-    pub(super) fn clean<K: Kernel>(
+    pub(super) fn clean(
         &mut self,
         rules: &Rules<'_>,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
     ) -> Result<Option<PlaneId>, Error> {
         Ok(self.auto.free.clean(set, rules.tuning)?.map(|free| free.plane))
     }
 
     /// The own plane of least weighted sum.
-    fn weighted<K: Kernel>(
+    fn weighted(
         &mut self,
         rules: &Rules<'_>,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         candidates: usize,
         [splits, balance, axial]: [f64; 3],
     ) -> Result<PlaneId, Error> {

@@ -9,8 +9,7 @@ use super::set::Set;
 use super::sketch::{LANES, SketchPlane};
 use super::tuning::Tuning;
 use crate::Error;
-use crate::build::live::Live;
-use crate::exact::Kernel;
+use crate::build::piece::Piece;
 
 /// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +38,7 @@ impl Shares {
     }
 
     #[inline]
-    pub(super) fn get(&self, piece: &Live) -> f64 {
+    pub(super) fn get(&self, piece: &Piece) -> f64 {
         let [x, y, z] = std::array::from_fn(|axis| {
             let size = piece.max[axis] - piece.min[axis];
             self.per_unit[axis].map_or(1.0, |per_unit| size * per_unit)
@@ -66,9 +65,9 @@ pub(super) struct Contest {
 impl Contest {
     /// Replaces the field by the first `count` pieces of the sample, and compares them with the first
     /// pieces of it.
-    pub(super) fn begin<K: Kernel>(
+    pub(super) fn begin(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         sample: &mut Sample,
         count: usize,
         terms: &Terms,
@@ -102,9 +101,9 @@ impl Contest {
     }
 
     /// The best plane of the field, by more and more of the set; the earliest of equals.
-    pub(super) fn best<K: Kernel>(
+    pub(super) fn best(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         sample: &mut Sample,
         terms: &Terms,
         tuning: &Tuning,
@@ -139,9 +138,9 @@ impl Contest {
     }
 
     /// Compares all candidates with the first `pieces` pieces.
-    fn look<K: Kernel>(
+    fn look(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         sample: &mut Sample,
         pieces: usize,
         terms: &Terms,

@@ -12,7 +12,7 @@ use super::tuning::Tuning;
 use crate::Error;
 use crate::bits::bits;
 use crate::build::progress::Watch;
-use crate::exact::{Kernel, PlaneId, Side};
+use crate::exact::{PlaneId, Side};
 use crate::memory::{push, reserve};
 pub(super) use boxes::arrange;
 use boxes::{Boxes, Node};
@@ -61,7 +61,7 @@ impl Peeled {
 /// its plane left out, is one of the rest, with no more fragments. A set in convex position comes
 /// apart entirely if all places are tried.
 ///
-/// Exact: only what the sketch calls certain is believed, and the kernel decides on what is near a
+/// Exact: only what the sketch calls certain is believed, and exact arithmetic decides on what is near a
 /// plane. A tree of boxes around the pieces tells for all but the neighbours of a piece on which
 /// side of its plane they are, so that a set in convex position takes O(n log n) where boxes can
 /// tell at all; where many pieces have a vertex in common, as the sides of a cone, it takes O(n²).
@@ -92,9 +92,9 @@ impl Peeler {
     /// Searches a set of which the sketch holds all pieces for those at some places; gives what was
     /// found, if anything. If there are more groups than `tuning.groups_per_box`, groups must be near
     /// one another (see [`arrange`]), or the boxes tell nothing.
-    pub(super) fn search<K: Kernel>(
+    pub(super) fn search(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         sketch: &Sketch,
         places: impl Iterator<Item = usize>,
         tuning: &Tuning,
@@ -114,9 +114,9 @@ impl Peeler {
 }
 
 /// A search in one set.
-struct Search<'a, 'w, K: Kernel> {
+struct Search<'a, 'w> {
     lists: &'a mut Peeler,
-    set: &'a Set<'a, K>,
+    set: &'a Set<'a>,
     sketch: &'a Sketch,
     watch: &'a Watch<'w>,
     peeled: Peeled,
@@ -124,7 +124,7 @@ struct Search<'a, 'w, K: Kernel> {
     left: usize,
 }
 
-impl<K: Kernel> Search<'_, '_, K> {
+impl Search<'_, '_> {
     /// Takes off what it can, going once over the pieces at some places.
     fn pass(&mut self, places: impl Iterator<Item = usize>) -> Result<(), Error> {
         for p in places {
@@ -219,13 +219,13 @@ impl<K: Kernel> Search<'_, '_, K> {
     /// Takes a piece off, with those on its plane, if all others that are left are on one side of
     /// it; says how many.
     fn take(&mut self, p: usize, plane: PlaneId) -> Result<usize, Error> {
-        let splitter = self.set.splitter(plane);
+        let prepared = self.set.prepare(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
         own.clear();
         push(own, p as u32)?;
         let held = witnesses;
         for &q in &*near {
-            let side = self.set.classify(&splitter, self.sketch.number(q as usize));
+            let side = self.set.classify(&prepared, self.sketch.number(q as usize));
             if side == Side::Coplanar {
                 push(own, q)?;
             }

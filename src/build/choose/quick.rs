@@ -4,8 +4,8 @@ use super::cost::{Cost, Counts, Terms};
 use super::own::Shares;
 use super::set::Set;
 use super::tuning::{Quick, Tuning};
-use crate::build::live::Live;
-use crate::exact::{Faces, Kernel, LATTICE_LIMIT, PlaneId, Side};
+use crate::build::piece::Piece;
+use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, Side};
 
 /// The share of its set's box that a piece has to fill for its plane to be trusted at once.
 ///
@@ -39,7 +39,7 @@ pub(in crate::build) struct Best {
 
 impl Best {
     pub(in crate::build) fn new<'a>(
-        pieces: impl Iterator<Item = &'a Live>,
+        pieces: impl Iterator<Item = &'a Piece>,
         faces: &Faces,
         tuning: &Tuning,
         quick: &Quick,
@@ -72,7 +72,7 @@ impl Best {
     }
 
     /// Compares the plane of a piece, by which pieces reach in front of it, and which behind.
-    pub(in crate::build) fn see(&mut self, slot: usize, piece: &Live, [front, back]: [u64; 2]) {
+    pub(in crate::build) fn see(&mut self, slot: usize, piece: &Piece, [front, back]: [u64; 2]) {
         let cut = front & back;
         // Counting bits takes a while on processors without an instruction for it.
         let splits = if cut == 0 { 0 } else { cut.count_ones() };
@@ -89,7 +89,7 @@ impl Best {
     }
 
     /// Whether the plane of a piece can be trusted.
-    pub(in crate::build) fn is_trusted(&self, piece: &Live) -> bool {
+    pub(in crate::build) fn is_trusted(&self, piece: &Piece) -> bool {
         self.shares.get(piece) >= self.trusted_share
     }
 
@@ -111,21 +111,17 @@ impl Best {
 
 /// An own plane that cuts nothing and divides the set evenly, among those of a few pieces. Layers of a
 /// stack have such planes; in other sets a few pieces are enough to see that one is cut.
-pub(super) fn even_plane<K: Kernel>(
-    set: &Set<'_, K>,
-    tuning: &Tuning,
-    quick: &Quick,
-) -> Option<PlaneId> {
+pub(super) fn even_plane(set: &Set<'_>, tuning: &Tuning, quick: &Quick) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
     let shares = Shares::of(set.size());
     let least_trusted = trusted_share(set.faces, quick);
     let is_trusted = |&piece: &usize| shares.get(&set.pieces[piece]) >= least_trusted;
     let mut planes = set.sample(quick.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
     planes.find(|&plane| {
-        let splitter = set.splitter(plane);
+        let prepared = set.prepare(plane);
         let (mut front, mut back) = (0, 0);
         let is_whole = (0..set.len()).all(|piece| {
-            let side = set.classify(&splitter, piece);
+            let side = set.classify(&prepared, piece);
             front += usize::from(side == Side::Front);
             back += usize::from(side == Side::Back);
             // If all of a first sample is on one side, so is nearly all of the set.
@@ -147,7 +143,7 @@ pub(super) enum Middle {
 }
 
 impl Middle {
-    pub(super) fn of<K: Kernel>(set: &Set<'_, K>, quick: &Quick) -> Self {
+    pub(super) fn of(set: &Set<'_>, quick: &Quick) -> Self {
         let (axis, middle) = set.middle();
         let is_there = |&own: &usize| {
             let piece = &set.pieces[own];
@@ -155,10 +151,10 @@ impl Middle {
         };
         let (shares, least_trusted) = (Shares::of(set.size()), trusted_share(set.faces, quick));
         let cuts_what_crosses = |&own: &usize| {
-            let splitter = set.splitter(set.own_plane(own));
+            let prepared = set.prepare(set.own_plane(own));
             let mut cuts = 0;
             let is_needed = (0..set.len()).all(|piece| {
-                let spans = set.classify(&splitter, piece) == Side::Spanning;
+                let spans = set.classify(&prepared, piece) == Side::Spanning;
                 cuts += usize::from(spans);
                 !spans || set.crosses(piece, own)
             });

@@ -3,7 +3,6 @@
 use super::set::Set;
 use super::sketch::Sketch;
 use crate::Error;
-use crate::exact::Kernel;
 
 /// A sketch of some pieces of a set, to which others are added in an order of which every beginning
 /// is a sample of the set.
@@ -15,18 +14,14 @@ pub(super) struct Sample {
 
 impl Sample {
     /// Replaces what is sketched by the first `count` pieces, or all of them if there are not more.
-    pub(super) fn restart<K: Kernel>(
-        &mut self,
-        set: &Set<'_, K>,
-        count: usize,
-    ) -> Result<(), Error> {
+    pub(super) fn restart(&mut self, set: &Set<'_>, count: usize) -> Result<(), Error> {
         self.sketch.clear();
         self.rest = Spread::new(set.len());
         self.grow(set, count)
     }
 
     /// Adds pieces until there are `count`, or all.
-    pub(super) fn grow<K: Kernel>(&mut self, set: &Set<'_, K>, count: usize) -> Result<(), Error> {
+    pub(super) fn grow(&mut self, set: &Set<'_>, count: usize) -> Result<(), Error> {
         let missing = count.min(set.len()).saturating_sub(self.sketch.len());
         if missing > 0 {
             self.sketch.extend(set, self.rest.by_ref().take(missing))?;

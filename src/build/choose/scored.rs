@@ -5,7 +5,7 @@ use super::set::Set;
 use super::sketch::{LANES, Sketch, SketchPlane};
 use crate::Error;
 use crate::build::progress::{PIECES_AT_ONCE, Watch};
-use crate::exact::{Kernel, PlaneId};
+use crate::exact::PlaneId;
 use crate::memory::reserve;
 
 /// Tries own planes; its lists are kept to be used again.
@@ -26,9 +26,9 @@ struct Tried {
 impl Scored {
     /// The best plane of `candidates` pieces by a score of the counts and of whether the plane is
     /// perpendicular to an axis, lower being better; the earliest of equals.
-    pub(super) fn best<K: Kernel>(
+    pub(super) fn best(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         candidates: usize,
         watch: &Watch<'_>,
         score: impl Fn(&Counts, bool) -> (f64, f64),

@@ -3,16 +3,15 @@
 use glam::{DVec3, Vec3};
 
 use super::crossing::crosses;
-use crate::build::live::Live;
-use crate::exact::{Faces, Kernel, Piece, PlaneId, Side};
+use crate::build::piece::Piece;
+use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
 
 /// A set of pieces that is to be divided: at least one.
 #[derive(Debug)]
-pub(crate) struct Set<'a, K: Kernel> {
-    kernel: &'a K,
+pub(crate) struct Set<'a> {
     pub(super) faces: &'a Faces,
-    pub(super) pieces: &'a [Live],
-    arena: &'a [K::Vertex],
+    pub(super) pieces: &'a [Piece],
+    arena: &'a [Vertex],
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
@@ -21,13 +20,8 @@ pub(crate) struct Set<'a, K: Kernel> {
     last_begin: [f64; 3],
 }
 
-impl<'a, K: Kernel> Set<'a, K> {
-    pub(crate) fn new(
-        kernel: &'a K,
-        faces: &'a Faces,
-        pieces: &'a [Live],
-        arena: &'a [K::Vertex],
-    ) -> Self {
+impl<'a> Set<'a> {
+    pub(crate) fn new(faces: &'a Faces, pieces: &'a [Piece], arena: &'a [Vertex]) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let (mut first_end, mut last_begin) = (min, max);
         // None is NaN: to compare takes fewer instructions than `f64::min`.
@@ -41,7 +35,7 @@ impl<'a, K: Kernel> Set<'a, K> {
                 raise(&mut last_begin[axis], piece.min[axis]);
             }
         }
-        Self { kernel, faces, pieces, arena, min, max, first_end, last_begin }
+        Self { faces, pieces, arena, min, max, first_end, last_begin }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -96,7 +90,7 @@ impl<'a, K: Kernel> Set<'a, K> {
 
     /// Whether the plane of a piece cuts another, and the two certainly cross.
     pub(super) fn crosses(&self, piece: usize, other: usize) -> bool {
-        self.classify(&self.splitter(self.own_plane(piece)), other) == Side::Spanning
+        self.classify(&self.prepare(self.own_plane(piece)), other) == Side::Spanning
             && crosses(self.faces, self.arena, &self.pieces[piece], &self.pieces[other])
     }
 
@@ -105,13 +99,13 @@ impl<'a, K: Kernel> Set<'a, K> {
         PlaneId::face(self.pieces[piece].face)
     }
 
-    pub(super) fn splitter(&self, plane: PlaneId) -> K::Splitter {
-        self.kernel.splitter(self.faces, plane)
+    pub(super) fn prepare(&self, plane: PlaneId) -> PreparedPlane {
+        PreparedPlane::new(self.faces, plane)
     }
 
-    /// Where a piece lies against a plane, by the kernel.
-    pub(super) fn classify(&self, splitter: &K::Splitter, piece: usize) -> Side {
-        self.kernel.classify(self.faces, splitter, self.pieces[piece].piece(self.arena))
+    /// Where a piece lies against a plane, exactly.
+    pub(super) fn classify(&self, prepared: &PreparedPlane, piece: usize) -> Side {
+        self.pieces[piece].side(self.faces, prepared, self.arena)
     }
 
     /// Calls a function with each vertex of a piece, in lattice units, rounded.
@@ -121,12 +115,12 @@ impl<'a, K: Kernel> Set<'a, K> {
     }
 
     pub(super) fn vertices(&self, piece: usize) -> usize {
-        let Piece { face, cut } = self.pieces[piece].piece(self.arena);
-        cut.map_or(self.faces.corners(face).len(), <[_]>::len)
+        let cut = self.pieces[piece].cut_vertices(self.arena);
+        cut.map_or_else(|| self.faces.corners(self.pieces[piece].face).len(), <[_]>::len)
     }
 
     /// `count` of the pieces, spread evenly; all of them if there are not more.
-    pub(super) fn sample(&self, count: usize) -> impl Iterator<Item = usize> + use<K> {
+    pub(super) fn sample(&self, count: usize) -> impl Iterator<Item = usize> + use<> {
         let n = self.len();
         let count = count.min(n);
         (0..count).map(move |i| i * n / count)

@@ -10,7 +10,6 @@ use glam::{DVec3, Vec3, Vec4};
 use super::cost::Counts;
 use super::set::Set;
 use crate::Error;
-use crate::exact::Kernel;
 use crate::memory::reserve;
 
 /// Pieces compared with a plane at once.
@@ -68,7 +67,7 @@ impl Sketch {
     }
 
     /// Forgets all pieces, and takes the extent of another set.
-    pub(super) fn reset<K: Kernel>(&mut self, set: &Set<'_, K>) {
+    pub(super) fn reset(&mut self, set: &Set<'_>) {
         self.clear();
         let (min, max) = (DVec3::from_array(set.min), DVec3::from_array(set.max));
         self.middle = 0.5 * (min + max);
@@ -83,9 +82,9 @@ impl Sketch {
     }
 
     /// Adds pieces of the set, by number.
-    pub(super) fn extend<K: Kernel>(
+    pub(super) fn extend(
         &mut self,
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         numbers: impl ExactSizeIterator<Item = usize>,
     ) -> Result<(), Error> {
         debug_assert!(self.numbers.len().is_multiple_of(LANES), "the last group is full");
@@ -98,7 +97,7 @@ impl Sketch {
         Ok(())
     }
 
-    fn add_group<K: Kernel>(&mut self, set: &Set<'_, K>, start: usize) -> Result<(), Error> {
+    fn add_group(&mut self, set: &Set<'_>, start: usize) -> Result<(), Error> {
         let group = &self.numbers[start..self.numbers.len().min(start + LANES)];
         let vertices = group.iter().map(|&piece| set.vertices(piece as usize)).max().unwrap_or(0);
         let row = self.rows.len();
@@ -153,14 +152,14 @@ impl Sketch {
 
     /// The plane of a piece of the set in the coordinates of the sketch.
     #[inline]
-    pub(super) fn plane<K: Kernel>(&self, set: &Set<'_, K>, piece: usize) -> SketchPlane {
+    pub(super) fn plane(&self, set: &Set<'_>, piece: usize) -> SketchPlane {
         let (normal, point) = set.rounded_plane(piece);
         let offset = normal.as_dvec3().dot(point - self.middle);
         SketchPlane { normal: normal.to_array(), offset: offset as f32 }
     }
 
     /// Whether a piece of the set may lie on the plane of another.
-    pub(super) fn may_be_on<K: Kernel>(&self, set: &Set<'_, K>, own: usize, piece: usize) -> bool {
+    pub(super) fn may_be_on(&self, set: &Set<'_>, own: usize, piece: usize) -> bool {
         let (normal, point) = set.rounded_plane(own);
         let (normal, mut is_near) = (normal.as_dvec3(), true);
         set.for_each_vertex(piece, |vertex| {

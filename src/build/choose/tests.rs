@@ -5,50 +5,42 @@ use glam::{DQuat, DVec3, EulerRot};
 use super::set::Set;
 use super::tuning::Tuning;
 use super::{Choice, Chooser, Rules};
-use crate::build::live::Live;
+use crate::build::piece::{Piece, Splitter};
 use crate::build::progress::Watch;
 use crate::build::{BuildOptions, FrameBuilder, Heuristic};
-use crate::exact::{Exact, Faces, Kernel, PlaneId, PlaneKind, Side, split};
+use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 use crate::random::SplitMix64;
 use crate::tree::BspTree;
 
 /// A set of pieces with all that it refers to.
 pub(super) struct Fixture {
     pub(super) faces: Faces,
-    pub(super) pieces: Vec<Live>,
-    arena: Vec<<Exact as Kernel>::Vertex>,
+    pub(super) pieces: Vec<Piece>,
+    arena: Vec<Vertex>,
 }
 
 impl Fixture {
     pub(super) fn new<const N: usize>(polygons: &[[DVec3; N]], tolerance: f64) -> Self {
         let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
-        let pieces = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
+        let pieces = (0..faces.len() as u32).map(|face| Piece::whole(&faces, face)).collect();
         Self { faces, pieces, arena: vec![] }
     }
 
-    pub(super) fn set(&self) -> Set<'_, Exact> {
-        Set::new(&Exact, &self.faces, &self.pieces, &self.arena)
+    pub(super) fn set(&self) -> Set<'_> {
+        Set::new(&self.faces, &self.pieces, &self.arena)
     }
 
     /// Keeps what is on one side of a plane.
     pub(super) fn keep(&mut self, plane: PlaneId, kept: Side) {
-        let splitter = Exact.splitter(&self.faces, plane);
-        for live in std::mem::take(&mut self.pieces) {
-            let piece = live.piece(&self.arena);
-            let side = Exact.classify(&self.faces, &splitter, piece);
+        let prepared = PreparedPlane::new(&self.faces, plane);
+        let mut splitter = Splitter::default();
+        for piece in std::mem::take(&mut self.pieces) {
+            let side = piece.side(&self.faces, &prepared, &self.arena);
             if side == kept {
-                self.pieces.push(live);
+                self.pieces.push(piece);
             } else if side == Side::Spanning {
-                let corners = 0..self.faces.corners(live.face).len() as u32;
-                let outline = piece.cut.map_or_else(
-                    || corners.map(|k| Exact.corner(&self.faces, live.face, k)).collect(),
-                    <[_]>::to_vec,
-                );
-                let (mut front, mut back) = (vec![], vec![]);
-                split(&Exact, &self.faces, &splitter, live.face, &outline, &mut front, &mut back);
-                let start = self.arena.len();
-                self.arena.extend(if kept == Side::Front { front } else { back });
-                self.pieces.push(Live::cut::<Exact>(&live, &self.arena[start..], start));
+                let parts = splitter.cut(&self.faces, &prepared, &piece, &mut self.arena).unwrap();
+                self.pieces.push(parts[usize::from(kept == Side::Back)]);
             }
         }
     }
@@ -190,7 +182,7 @@ fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
         let plane = chosen(Heuristic::Auto, &polygons);
         let PlaneKind::Axis(axis, corner) = plane.kind() else { panic!("{n}: {plane:?}") };
         let at = fixture.faces.corner(corner)[axis];
-        let is_uncut = |piece: &Live| piece.max[axis] <= at || piece.min[axis] >= at;
+        let is_uncut = |piece: &Piece| piece.max[axis] <= at || piece.min[axis] >= at;
         assert!(fixture.pieces.iter().all(is_uncut), "{n}: {plane:?}");
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, oracle};
-use crate::exact::{Exact, ExactVertex, Faces, Kernel, Line, PlaneId, Vertex, split};
+use crate::exact::{Faces, Line, PlaneId, PreparedPlane, Vertex, split};
 use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays};
 
@@ -18,18 +18,17 @@ struct Tile {
 /// The pieces of face 0 after cuts by the given planes.
 fn tiles(faces: &Faces, planes: &[PlaneId]) -> Vec<Tile> {
     let corners = 0..faces.corners(0).len() as u32;
-    let mut pieces: Vec<Vec<ExactVertex>> =
-        vec![corners.map(|k| Exact.corner(faces, 0, k)).collect()];
+    let mut pieces: Vec<Vec<Vertex>> = vec![corners.map(|k| Vertex::corner(faces, 0, k)).collect()];
     for &plane in planes {
-        let splitter = Exact.splitter(faces, plane);
+        let splitter = PreparedPlane::new(faces, plane);
         let mut next = Vec::new();
         for piece in pieces {
-            let sides = piece.iter().map(|vertex| Exact.side(faces, &splitter, 0, vertex));
+            let sides = piece.iter().map(|vertex| splitter.side(faces, 0, vertex));
             let (front, back) =
                 sides.fold((false, false), |(f, b), side| (f | side.is_gt(), b | side.is_lt()));
             if front && back {
                 let (mut ahead, mut behind) = (Vec::new(), Vec::new());
-                split(&Exact, faces, &splitter, 0, &piece, &mut ahead, &mut behind);
+                split(faces, &splitter, 0, &piece, &mut ahead, &mut behind);
                 next.extend([ahead, behind]);
             } else {
                 next.push(piece);
@@ -37,7 +36,7 @@ fn tiles(faces: &Faces, planes: &[PlaneId]) -> Vec<Tile> {
         }
         pieces = next;
     }
-    let tile = |piece: Vec<ExactVertex>| Tile {
+    let tile = |piece: Vec<Vertex>| Tile {
         lines: piece.iter().map(Vertex::line).collect(),
         vertices: piece.iter().map(Vertex::position).collect(),
     };

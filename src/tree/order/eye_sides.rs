@@ -10,7 +10,7 @@ use glam::{DVec4, Vec4};
 
 use super::planes::{GROUP, Planes, WORD};
 use crate::bits::bits;
-use crate::exact::{Exact, Eye, Faces, Kernel, LATTICE_LIMIT, PlaneId};
+use crate::exact::{Eye, Faces, LATTICE_LIMIT, PlaneId};
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
@@ -77,7 +77,7 @@ impl View {
         if distance.abs() > self.bound {
             return distance > 0.0;
         }
-        Exact.eye_side(faces, plane, &self.eye) == Ordering::Greater
+        faces.eye_side(plane, &self.eye) == Ordering::Greater
     }
 
     /// Of up to 16 planes from some number on: a bit for each that the eye is in front of, and for each that
@@ -140,7 +140,7 @@ impl View {
     #[cold]
     fn decide(&self, tree: &BspTree, node: usize) -> bool {
         let plane = tree.nodes[node].plane;
-        Exact.eye_side(&tree.faces, plane, &self.eye) == Ordering::Greater
+        tree.faces.eye_side(plane, &self.eye) == Ordering::Greater
     }
 }
 

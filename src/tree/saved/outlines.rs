@@ -5,8 +5,7 @@
 //! it *is* there, exactly.
 
 use crate::exact::lattice::MAX_CORNER;
-use crate::exact::{Exact, ExactStored, ExactVertex, Faces, Kernel};
-use crate::exact::{Line, PlaneId, SymbolKind, Vertex};
+use crate::exact::{Faces, Line, PlaneId, PreparedPlane, StoredVertex, SymbolKind, Vertex};
 use crate::parallel_map;
 use crate::save::{LoadError, invalid};
 use crate::tree::parts::{Parts, Record};
@@ -16,11 +15,7 @@ const OUTLINES_A_THREAD: usize = 4096;
 
 /// An error unless each face has fragments, which are all of it or have outlines. If `keep`, writes
 /// down where their vertices are.
-pub(super) fn check(
-    faces: &Faces,
-    parts: &mut Parts<ExactStored>,
-    keep: bool,
-) -> Result<(), LoadError> {
+pub(super) fn check(faces: &Faces, parts: &mut Parts, keep: bool) -> Result<(), LoadError> {
     check_numbers(faces, parts)?;
     let Parts { records, vertices, positions, .. } = parts;
     let ranges = (0..records.len()).step_by(OUTLINES_A_THREAD);
@@ -53,15 +48,15 @@ pub(super) fn check(
 /// The vertices of a fragment.
 fn stored<'a>(
     records: &[Record],
-    vertices: &'a [ExactStored],
+    vertices: &'a [StoredVertex],
     fragment: usize,
-) -> &'a [ExactStored] {
+) -> &'a [StoredVertex] {
     let end = records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
     &vertices[records[fragment].vertices as usize..end]
 }
 
 /// Every face has one fragment that is whole, or several that are not.
-fn check_numbers(faces: &Faces, parts: &Parts<ExactStored>) -> Result<(), LoadError> {
+fn check_numbers(faces: &Faces, parts: &Parts) -> Result<(), LoadError> {
     const NONE: u8 = 0;
     const WHOLE: u8 = 1;
     const FIRST: u8 = 2;
@@ -93,18 +88,17 @@ fn check_numbers(faces: &Faces, parts: &Parts<ExactStored>) -> Result<(), LoadEr
 /// The outline of a cut fragment.
 struct Outline<'a> {
     faces: &'a Faces,
-    vertices: Vec<ExactVertex>,
+    vertices: Vec<Vertex>,
 }
 
 impl Outline<'_> {
-    fn check(&mut self, face: u32, stored: &[ExactStored]) -> Result<(), &'static str> {
+    fn check(&mut self, face: u32, stored: &[StoredVertex]) -> Result<(), &'static str> {
         self.check_names(face, stored)?;
         let faces = self.faces;
         self.vertices.clear();
-        self.vertices.extend(stored.iter().map(|stored| Exact.restore(faces, face, stored)));
+        self.vertices.extend(stored.iter().map(|stored| stored.restored(faces, face)));
         // Where lines are parallel, this is infinite or no number.
-        let is_point =
-            |vertex: &ExactVertex| vertex.position().iter().all(|c| c.abs() <= MAX_CORNER);
+        let is_point = |vertex: &Vertex| vertex.position().iter().all(|c| c.abs() <= MAX_CORNER);
         if !self.vertices.iter().all(is_point) {
             return Err("has a vertex outside the grid");
         }
@@ -114,11 +108,10 @@ impl Outline<'_> {
         })
     }
 
-    fn check_names(&self, face: u32, stored: &[ExactStored]) -> Result<(), &'static str> {
+    fn check_names(&self, face: u32, stored: &[StoredVertex]) -> Result<(), &'static str> {
         let (known, edges) = (self.faces.known(), self.faces.corners(face).len() as u32);
-        let is_known = |stored: &ExactStored| {
-            Exact::symbol(stored).is_known(known, edges)
-                && Exact::line(stored).is_known(known, edges)
+        let is_known = |stored: &StoredVertex| {
+            stored.symbol().is_known(known, edges) && stored.line().is_known(known, edges)
         };
         if stored.len() < 3 {
             return Err("has fewer than three vertices");
@@ -126,28 +119,28 @@ impl Outline<'_> {
         if !stored.iter().all(is_known) {
             return Err("has a vertex or line of something that does not exist");
         }
-        if stored.iter().all(|stored| Exact::line(stored).as_cut().is_none()) {
+        if stored.iter().all(|stored| stored.line().as_cut().is_none()) {
             return Err("is cut by no plane, but not whole");
         }
         Ok(())
     }
 
     /// The vertex a number of places after another.
-    fn vertex(&self, at: usize, after: usize) -> &ExactVertex {
+    fn vertex(&self, at: usize, after: usize) -> &Vertex {
         &self.vertices[(at + after) % self.vertices.len()]
     }
 
     /// The two ends of an edge on a plane are on it, and the vertices before and after are on the
     /// side that the edge says. So the plane is not that of the face.
     fn check_cut(&self, face: u32, edge: usize, plane: PlaneId) -> Result<(), &'static str> {
-        let splitter = Exact.splitter(self.faces, plane);
-        let side = |vertex: &ExactVertex| Exact.side(self.faces, &splitter, face, vertex);
-        let is_on = |vertex: &ExactVertex| vertex.symbol().is_on(plane) || side(vertex).is_eq();
+        let prepared = PreparedPlane::new(self.faces, plane);
+        let side = |vertex: &Vertex| prepared.side(self.faces, face, vertex);
+        let is_on = |vertex: &Vertex| vertex.symbol().is_on(plane) || side(vertex).is_eq();
         if !is_on(self.vertex(edge, 0)) || !is_on(self.vertex(edge, 1)) {
             return Err("has a vertex that is not on its line");
         }
         let is_behind = self.vertices[edge].line().is_behind();
-        let is_inside = |vertex: &ExactVertex| {
+        let is_inside = |vertex: &Vertex| {
             let side = side(vertex);
             if is_behind { side.is_lt() } else { side.is_gt() }
         };
@@ -163,7 +156,7 @@ impl Outline<'_> {
     fn check_edge(&self, face: u32, edge: usize) -> Result<(), &'static str> {
         let len = self.faces.corners(face).len() as u32;
         let k = self.vertices[edge].line().as_edge().unwrap_or(0);
-        let is_on = |vertex: &ExactVertex| match vertex.symbol().kind() {
+        let is_on = |vertex: &Vertex| match vertex.symbol().kind() {
             SymbolKind::Corner(corner) => corner == k || corner == (k + 1) % len,
             SymbolKind::OnEdge(edge, _) => edge == k,
             SymbolKind::Inside(..) => false,
@@ -176,6 +169,6 @@ impl Outline<'_> {
     }
 }
 
-fn stored_line(stored: &[ExactStored], edge: usize) -> Line {
-    Exact::line(&stored[edge])
+fn stored_line(stored: &[StoredVertex], edge: usize) -> Line {
+    stored[edge].line()
 }

@@ -19,19 +19,19 @@ use std::collections::BTreeMap;
 
 use super::fault::{Culprit, Fault, Invalid};
 use crate::exact::cell::Clipper;
-use crate::exact::{Exact, ExactVertex, Kernel, Line, PlaneId, Symbol, Vertex};
+use crate::exact::{Line, PlaneId, PreparedPlane, Symbol, Vertex};
 use crate::tree::BspTree;
 use crate::tree::walk::Visit;
 
 /// The pieces of a node's set, by face: their outlines, empty for a whole face.
-type Set<V> = BTreeMap<u32, Vec<V>>;
+type Set = BTreeMap<u32, Vec<Vertex>>;
 
 impl BspTree {
     /// Glues the fragments together, and compares the result with the faces, and the number of
     /// cuts that were undone with what the builder counted.
     pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), Invalid> {
         // The sets of subtrees whose parent is still to come, the front's above the back's.
-        let mut sets: Vec<Set<ExactVertex>> = Vec::new();
+        let mut sets: Vec<Set> = Vec::new();
         let mut splits = 0;
         for visit in visits.iter().rev() {
             let fault = |what| Invalid { node: visit.node, what };
@@ -64,13 +64,13 @@ impl BspTree {
     fn glue_sets(
         &self,
         plane: PlaneId,
-        front: Set<ExactVertex>,
-        back: Set<ExactVertex>,
+        front: Set,
+        back: Set,
         splits: &mut usize,
-    ) -> Result<Set<ExactVertex>, Fault> {
+    ) -> Result<Set, Fault> {
         let front_is_large = front.len() > back.len();
         let (mut large, small) = if front_is_large { (front, back) } else { (back, front) };
-        let splitter = Exact.splitter(&self.faces, plane);
+        let prepared = PreparedPlane::new(&self.faces, plane);
         for (face, piece) in small {
             let Some(other) = large.get_mut(&face) else {
                 large.insert(face, piece);
@@ -78,7 +78,7 @@ impl BspTree {
             };
             let parts =
                 if front_is_large { [&other[..], &piece[..]] } else { [&piece[..], &other[..]] };
-            let side = |vertex: &_| Exact.side(&self.faces, &splitter, face, vertex);
+            let side = |vertex: &_| prepared.side(&self.faces, face, vertex);
             *other = glue(plane, parts, side).ok_or_else(|| Fault::Cut(self.culprit(face)))?;
             *splits += 1;
         }
@@ -86,7 +86,7 @@ impl BspTree {
     }
 
     /// Compares the set of the root with the faces, or what of them is in their cell.
-    fn check_faces(&self, set: &Set<ExactVertex>) -> Result<(), Fault> {
+    fn check_faces(&self, set: &Set) -> Result<(), Fault> {
         let mut clipper = Clipper::new(&self.faces);
         for face in 0..self.faces.len() as u32 {
             let part = clipper.clip(face);
@@ -97,7 +97,7 @@ impl BspTree {
                 continue;
             }
             let corners = self.faces.corners(face).len();
-            let is_face = |outline: &Vec<ExactVertex>| {
+            let is_face = |outline: &Vec<Vertex>| {
                 let first = outline.iter().position(|v| v.symbol() == Symbol::corner(0));
                 let is_corner = |k: usize| {
                     let vertex = outline[(first.unwrap_or(0) + k) % corners];
@@ -119,8 +119,8 @@ impl BspTree {
 }
 
 /// Whether two outlines are one, wherever they begin.
-fn is_same(outline: &[ExactVertex], other: &[ExactVertex]) -> bool {
-    let name = |vertex: &ExactVertex| (vertex.symbol(), vertex.line());
+fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
+    let name = |vertex: &Vertex| (vertex.symbol(), vertex.line());
     let Some(first) = other.first().map(name) else { return outline.is_empty() };
     let start = outline.iter().position(|vertex| name(vertex) == first);
     start.is_some_and(|start| {
@@ -131,11 +131,11 @@ fn is_same(outline: &[ExactVertex], other: &[ExactVertex]) -> bool {
 
 /// What two pieces in front of a plane and behind it were before it cut them apart; `None` if they
 /// were not one convex piece that it crossed, as of two of which one is the whole face.
-fn glue<V: Vertex>(
+fn glue(
     plane: PlaneId,
-    [front, back]: [&[V]; 2],
-    side: impl Fn(&V) -> Ordering,
-) -> Option<Vec<V>> {
+    [front, back]: [&[Vertex]; 2],
+    side: impl Fn(&Vertex) -> Ordering,
+) -> Option<Vec<Vertex>> {
     // From the cut's first vertex on: the cut is then the edge from vertex 0 to vertex 1.
     let front = from_cut(front, Line::cut(plane, false))?;
     let back = from_cut(back, Line::cut(plane, true))?;
@@ -165,7 +165,7 @@ fn glue<V: Vertex>(
 
 /// An outline turned so that it begins with its edge on a line. It has one such edge: a second one would
 /// be left over in the end, and be found at the root.
-fn from_cut<V: Vertex>(outline: &[V], cut: Line) -> Option<Vec<V>> {
+fn from_cut(outline: &[Vertex], cut: Line) -> Option<Vec<Vertex>> {
     // Fragments have three vertices, but what is glued wrongly may have fewer.
     if outline.len() < 3 {
         return None;
@@ -178,39 +178,19 @@ fn from_cut<V: Vertex>(outline: &[V], cut: Line) -> Option<Vec<V>> {
 mod tests {
     use super::*;
 
-    /// A vertex whose place is said by hand: x is how far it is in front of the plane.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    struct Named {
-        symbol: Symbol,
-        line: Line,
-        at: [f64; 3],
-    }
-
-    impl Vertex for Named {
-        fn position(&self) -> [f64; 3] {
-            self.at
-        }
-        fn symbol(&self) -> Symbol {
-            self.symbol
-        }
-        fn line(&self) -> Line {
-            self.line
-        }
-        fn with_line(self, line: Line) -> Self {
-            Self { line, ..self }
-        }
-    }
-
     const PLANE: PlaneId = PlaneId::face(7);
 
-    /// The two parts of a square, in front of the plane and behind it.
-    fn parts() -> [Vec<Named>; 2] {
-        let corner =
-            |k, x, y| Named { symbol: Symbol::corner(k), line: Line::edge(k), at: [x, y, 0.0] };
-        let crossing = |k, line, y| Named {
+    /// The two parts of a square, in front of the plane and behind it: x is the distance from the plane.
+    fn parts() -> [Vec<Vertex>; 2] {
+        let corner = |k, x, y| Vertex {
+            symbol: Symbol::corner(k),
+            line: Line::edge(k),
+            position: [x, y, 0.0],
+        };
+        let crossing = |k, line, y| Vertex {
             symbol: Symbol::crossing(Line::edge(k), PLANE),
             line,
-            at: [0.0, y, 0.0],
+            position: [0.0, y, 0.0],
         };
         let front = [
             crossing(0, Line::edge(0), 0.0),
@@ -227,8 +207,8 @@ mod tests {
         [front.to_vec(), back.to_vec()]
     }
 
-    fn glued([front, back]: &[Vec<Named>; 2]) -> Option<Vec<Named>> {
-        let side = |vertex: &Named| vertex.at[0].total_cmp(&0.0);
+    fn glued([front, back]: &[Vec<Vertex>; 2]) -> Option<Vec<Vertex>> {
+        let side = |vertex: &Vertex| vertex.position[0].total_cmp(&0.0);
         glue(PLANE, [&front[..], &back[..]], side)
     }
 
@@ -236,7 +216,7 @@ mod tests {
     fn parts_of_a_square_are_glued_to_its_corners() {
         let whole = glued(&parts()).expect("two parts of one square");
         let corners: Vec<Symbol> = [1, 2, 3, 0].map(Symbol::corner).into();
-        assert_eq!(whole.iter().map(Named::symbol).collect::<Vec<_>>(), corners);
+        assert_eq!(whole.iter().map(Vertex::symbol).collect::<Vec<_>>(), corners);
     }
 
     /// A vertex more on the plane, on a line that goes on across it, would stand there twice.
@@ -244,9 +224,9 @@ mod tests {
     fn the_vertices_beside_a_cut_are_off_the_plane() {
         for part in 0..2 {
             for beside in 1..3 {
-                for wrong in [0.0, -parts()[part][beside].at[0]] {
+                for wrong in [0.0, -parts()[part][beside].position[0]] {
                     let mut parts = parts();
-                    parts[part][beside].at[0] = wrong;
+                    parts[part][beside].position[0] = wrong;
                     assert_eq!(glued(&parts), None, "part {part}, vertex {beside} at {wrong}");
                 }
             }
@@ -258,7 +238,7 @@ mod tests {
         for part in 0..2 {
             for end in [0, 3] {
                 let mut parts = parts();
-                parts[part][end].at[2] = 1.0;
+                parts[part][end].position[2] = 1.0;
                 assert_eq!(glued(&parts), None, "part {part}, vertex {end}");
             }
         }

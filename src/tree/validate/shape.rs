@@ -1,7 +1,7 @@
 //! Whether a tree's parts have sizes that agree, and names of things that exist.
 
 use super::fault::{Fault, Invalid};
-use crate::exact::{Exact, ExactStored, Kernel, Line, PlaneId, PlaneKind, SymbolKind};
+use crate::exact::{Line, PlaneId, PlaneKind, StoredVertex, SymbolKind};
 use crate::tree::BspTree;
 use crate::tree::walk::{Visit, Walk};
 
@@ -66,7 +66,7 @@ impl BspTree {
                     return fault(Fault::Outline { fragment });
                 }
                 let stored = self.fragment(fragment).stored();
-                let is_cut = stored.iter().any(|vertex| Exact::line(vertex).as_cut().is_some());
+                let is_cut = stored.iter().any(|vertex| vertex.line().as_cut().is_some());
                 if !stored.is_empty() && !is_cut {
                     return fault(Fault::ListedWhole { fragment });
                 }
@@ -101,13 +101,13 @@ impl BspTree {
             (Some(edge), _) => edge < corners,
             (None, plane) => plane.is_some_and(|plane| self.names_input(plane)),
         };
-        let knows = |vertex: &ExactStored| {
-            let known = match Exact::symbol(vertex).kind() {
+        let knows = |vertex: &StoredVertex| {
+            let known = match vertex.symbol().kind() {
                 SymbolKind::Corner(k) => k < corners,
                 SymbolKind::OnEdge(k, plane) => k < corners && self.names_input(plane),
                 SymbolKind::Inside(g, h) => self.names_input(g) && self.names_input(h),
             };
-            known && knows_line(Exact::line(vertex))
+            known && knows_line(vertex.line())
         };
         stored.iter().all(knows) && (stored.is_empty() || stored.len() >= 3)
     }

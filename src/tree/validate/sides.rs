@@ -1,7 +1,7 @@
 //! Whether fragments lie where their places in the tree say.
 
 use super::fault::{Fault, Invalid};
-use crate::exact::{Exact, ExactSplitter, ExactVertex, Kernel, Piece, Side};
+use crate::exact::{PreparedPlane, Side, Vertex};
 use crate::tree::BspTree;
 use crate::tree::walk::Visit;
 
@@ -9,7 +9,7 @@ impl BspTree {
     /// Holds each fragment against every plane above it, and those on a plane against the order of
     /// the input.
     pub(super) fn check_sides(&self, visits: &[Visit]) -> Result<(), Invalid> {
-        let mut path: Vec<(ExactSplitter, Side)> = Vec::new();
+        let mut path: Vec<(PreparedPlane, Side)> = Vec::new();
         for visit in visits {
             let fault = |what| Invalid { node: visit.node, what };
             let plane = self.nodes[visit.node].plane;
@@ -17,12 +17,12 @@ impl BspTree {
             if let Some(parent) = path.last_mut() {
                 parent.1 = if visit.is_front { Side::Front } else { Side::Back };
             }
-            let splitter = Exact.splitter(&self.faces, plane);
+            let prepared = PreparedPlane::new(&self.faces, plane);
             // Otherwise the classification below, which is the builder's, proves nothing.
-            if !splitter.has_length_of(&self.faces) {
+            if !prepared.has_length_of(&self.faces) {
                 return Err(fault(Fault::Tolerance));
             }
-            path.push((splitter, Side::Coplanar));
+            path.push((prepared, Side::Coplanar));
             for (range, side) in visit.groups() {
                 if let Some(last) = path.last_mut() {
                     last.1 = side;
@@ -39,12 +39,12 @@ impl BspTree {
         Ok(())
     }
 
-    fn check_sides_of(&self, id: u32, path: &[(ExactSplitter, Side)]) -> Result<(), Fault> {
+    fn check_sides_of(&self, id: u32, path: &[(PreparedPlane, Side)]) -> Result<(), Fault> {
         let vertices = self.restored(id);
         let cut = (!vertices.is_empty()).then_some(&vertices[..]);
-        let piece = Piece { face: self.records[id as usize].face, cut };
-        for &(ref splitter, expected) in path {
-            let found = Exact.classify(&self.faces, splitter, piece);
+        let face = self.records[id as usize].face;
+        for &(ref prepared, expected) in path {
+            let found = prepared.classify(&self.faces, face, cut);
             if found != expected {
                 return Err(Fault::Side { fragment: id, expected, found });
             }
@@ -53,9 +53,9 @@ impl BspTree {
     }
 
     /// The vertices of a fragment as the builder had them; none of a whole face.
-    pub(super) fn restored(&self, id: u32) -> Vec<ExactVertex> {
+    pub(super) fn restored(&self, id: u32) -> Vec<Vertex> {
         let fragment = self.fragment(id);
-        let restore = |stored| Exact.restore(&self.faces, fragment.face(), stored);
-        fragment.stored().iter().map(restore).collect()
+        let stored = fragment.stored().iter();
+        stored.map(|stored| stored.restored(&self.faces, fragment.face())).collect()
     }
 }

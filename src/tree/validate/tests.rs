@@ -10,13 +10,13 @@ mod sizes;
 use glam::{DQuat, DVec3};
 
 use crate::build::{BuildOptions, Heuristic};
-use crate::exact::{Exact, Kernel};
+use crate::exact::StoredVertex;
 use crate::scene::{self, Scene};
 use crate::tree::BspTree;
 use crate::tree::parts::{self, RawChild, RawNode, Record};
 use crate::tree::walk::Walk;
 
-type Stored = <Exact as Kernel>::Stored;
+type Stored = StoredVertex;
 
 /// A tree taken apart: what its builder put out.
 #[derive(Clone)]

@@ -20,7 +20,7 @@ fn cameras(scene: &Scene, count: usize) -> Vec<Camera> {
 }
 
 #[test]
-fn the_exact_kernel_paints_what_the_depth_buffer_sees() {
+fn a_tree_paints_what_the_depth_buffer_sees() {
     for scene in [scene::newell_bars(), scene::crossing(5), scene::random_triangles(60, 1)] {
         let cameras = cameras(&scene, 4);
         for &heuristic in Heuristic::ALL {

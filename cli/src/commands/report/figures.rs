@@ -100,7 +100,7 @@ impl Section {
         names
     }
 
-    /// What the exact kernel got wrong here.
+    /// What the exact tree got wrong here.
     pub(super) fn exactness(&self) -> Exactness {
         let one = |row: &Row| match &row.found {
             Err(_) => Exactness { rows: 1, failed: 1, ..Exactness::default() },
@@ -119,7 +119,7 @@ impl Section {
     }
 }
 
-/// What the exact kernel got wrong.
+/// What the exact tree got wrong.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Exactness {
     pub(super) rows: usize,

@@ -2,18 +2,19 @@
 
 use std::time::Instant;
 
-use binspace::internals::{Exact, Faces, Kernel};
+use binspace::internals::Faces;
 use binspace::scene::{Builtin, Scene};
 use binspace::{BuildOptions, Heuristic, Viewpoint};
-use binspace_evidence::{Float, KernelTree, Worst, noisy_sphere};
+use binspace_evidence::{Tree, Worst, noisy_sphere};
 
 use super::figures::EXACT;
 use crate::args::ReportArgs;
 use crate::failure::Failure;
 use crate::progress::Progress;
 
-/// The rounded kernel to compare with.
+/// The rounded tree to compare with.
 const ROUNDED: &str = "bsp f64 1e-6";
+const EPSILON: f64 = 1e-6;
 /// The most fragments; more take minutes.
 const MAX_FRAGMENTS: usize = 1 << 22;
 /// What is built in less is built twice, and the faster one counts.
@@ -52,8 +53,8 @@ pub(super) fn run(
             progress.step();
             add(Growth { scene: name.to_owned(), polygons: polygons.len(), method, found })
         };
-        add(EXACT, measure(Exact, polygons, heuristic))?;
-        add(ROUNDED, measure(Float::<f64>::new(1e-6), polygons, heuristic))
+        add(EXACT, exact(polygons, heuristic))?;
+        add(ROUNDED, rounded(polygons))
     };
     for Case { subject, size } in cases {
         let polygons = match subject {
@@ -130,13 +131,35 @@ fn cases(quick: bool) -> Vec<Case> {
     cases
 }
 
-fn measure<K: Kernel>(kernel: K, scene: &Scene, heuristic: Heuristic) -> Result<Size, String> {
+/// The exact tree of a scene.
+fn exact(scene: &Scene, heuristic: Heuristic) -> Result<Size, String> {
     let options = BuildOptions::DEFAULT.with_max_fragments(MAX_FRAGMENTS).with_heuristic(heuristic);
+    let build = || options.build(scene.polygons()).map_err(|error| error.to_string());
+    let (tree, build) = timed(build)?;
+    let order = time_order(|viewpoint, order| tree.back_to_front_into(viewpoint, order));
+    let (fragments, depth, bytes) = (tree.len(), tree.stats().depth_max, tree.bytes());
+    Ok(Size { fragments, depth, bytes, build, order })
+}
+
+/// The tree of rounded numbers.
+fn rounded(scene: &Scene) -> Result<Size, String> {
+    let build = || {
+        let (faces, _) = Faces::new(scene.polygons(), None).map_err(|error| error.to_string())?;
+        Tree::with_epsilon::<f64>(faces, EPSILON, MAX_FRAGMENTS)
+            .ok_or_else(|| format!("more than {MAX_FRAGMENTS} fragments"))
+    };
+    let (tree, build) = timed(build)?;
+    let order = time_order(|viewpoint, order| tree.back_to_front_into(viewpoint, order));
+    let (fragments, depth) = (tree.len(), tree.depth());
+    let bytes = tree.bytes() + tree.faces().bytes();
+    Ok(Size { fragments, depth, bytes, build, order })
+}
+
+/// What a function builds, and the seconds that it takes.
+fn timed<T>(build: impl Fn() -> Result<T, String>) -> Result<(T, f64), String> {
     let build = || {
         let start = Instant::now();
-        let faces = Faces::new(scene.polygons(), None).map(|(faces, _)| faces);
-        let tree = faces.and_then(|faces| KernelTree::build(kernel, &options, faces));
-        tree.map(|tree| (tree, start.elapsed().as_secs_f64())).map_err(|error| error.to_string())
+        build().map(|tree| (tree, start.elapsed().as_secs_f64()))
     };
     let (mut tree, mut seconds) = build()?;
     if seconds < SHORT {
@@ -144,16 +167,17 @@ fn measure<K: Kernel>(kernel: K, scene: &Scene, heuristic: Heuristic) -> Result<
         seconds = seconds.min(again.1);
         tree = again.0;
     }
-    let mut order = Vec::new();
+    Ok((tree, seconds))
+}
+
+/// The seconds that one order takes: the least of five.
+fn time_order(mut order: impl FnMut(Viewpoint, &mut Vec<u32>)) -> f64 {
+    let mut list = Vec::new();
     let mut time = || {
         let start = Instant::now();
-        tree.back_to_front_into(Viewpoint::direction([1.0, 2.0, -3.0]), &mut order);
-        std::hint::black_box(&order);
+        order(Viewpoint::direction([1.0, 2.0, -3.0]), &mut list);
+        std::hint::black_box(&list);
         start.elapsed().as_secs_f64()
     };
-    let times: Vec<f64> = (0..5).map(|_| time()).collect();
-    let order = times.into_iter().fold(f64::INFINITY, f64::min);
-    let (fragments, depth) = (tree.len(), tree.depth());
-    let bytes = tree.bytes() + tree.faces().bytes();
-    Ok(Size { fragments, depth, bytes, build: seconds, order })
+    (0..5).map(|_| time()).fold(f64::INFINITY, f64::min)
 }

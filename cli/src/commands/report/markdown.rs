@@ -82,8 +82,8 @@ alone, though those that it gave up are the hardest. – means that a method has
 const METHODS: &str = "
 ### The methods
 
-- *bsp exact*: the tree, by the exact kernel. *bsp f64 1e-9*, *bsp f32 1e-4*: the same builder by
-  rounded numbers and an epsilon, in units of half the extent.
+- *bsp exact*: the library's tree. *bsp f64 1e-9*, *bsp f32 1e-4*: a textbook tree of rounded numbers
+  with an epsilon, in units of half the extent, which tries 16 planes a node.
 - *input order*: nothing is removed; *fronts, input order*: only faces whose fronts are seen, which is
   exact for a convex body and wrong where backs can be seen. *Removed by back faces* is the mean share of faces
   that this step leaves out. *Decides in* follows Sutherland, Sproull and Schumacker (1974): among the polygons (object space), in each pixel (image space), or both.
@@ -213,7 +213,7 @@ fn growth(rows: &[Growth]) -> String {
     let mut table = Table::new(&[
         "scene",
         "polygons",
-        "kernel",
+        "tree",
         "fragments",
         "fragments / polygon",
         "depth",

@@ -142,8 +142,8 @@ fn growth(
                 })
                 .collect();
             if let Some(row) = rows.iter().find(of_it).filter(|_| !points.is_empty()) {
-                let kernel = row.method.trim_start_matches("bsp ");
-                let name = format!("{scene}, {kernel}");
+                let method = row.method.trim_start_matches("bsp ");
+                let name = format!("{scene}, {method}");
                 series.push(Series::new(&name, Style::new(colour, marker, reach), points));
             }
         }

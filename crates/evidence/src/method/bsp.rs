@@ -1,67 +1,57 @@
-//! BSP trees as methods: the library's tree, and the same with rounded decisions.
+//! BSP trees as methods: the library's tree, and trees of rounded numbers.
 
 use std::time::{Duration, Instant};
 
 use super::{Method, MethodError, Painted, Prepared, Space};
-use crate::{Accuracy, Float, KernelTree, accuracy};
-use binspace::internals::{Exact, Faces, Kernel, Tuning, tree_of};
+use crate::{Accuracy, Tree, accuracy};
+use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::paint::paint_order;
 use binspace::raster::{Order, Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Preparation};
 
-/// A BSP tree (Fuchs, Kedem & Naylor 1980) with the decisions of a kernel.
+/// A BSP tree (Fuchs, Kedem & Naylor 1980).
 ///
-/// Fragments of the exact kernel are drawn as bounded by their lines, those of other kernels as
-/// bounded by their rounded vertices.
+/// Fragments of the exact tree are drawn as bounded by their lines, those of rounded trees as bounded
+/// by their rounded vertices.
 #[derive(Clone, Debug)]
-pub struct Bsp<K: Kernel> {
-    /// The method's name.
-    pub name: String,
-    /// How the tree is built; the tolerance is that of the faces.
-    pub options: BuildOptions,
-    /// Decides on which side of a plane a vertex lies.
-    pub kernel: K,
-    /// Whether the tree is the library's own, whose fragments have exact lines.
-    is_exact: bool,
+pub struct Bsp {
+    options: BuildOptions,
+    arithmetic: Arithmetic,
 }
 
-impl Bsp<Exact> {
-    /// The tree that the library builds: no decision is ever wrong.
+#[derive(Clone, Copy, Debug)]
+enum Arithmetic {
+    Exact,
+    /// With an epsilon, a share of half the scene's extent.
+    Double(f64),
+    Single(f64),
+}
+
+impl Bsp {
+    /// The tree that the library builds: no decision is ever wrong. The tolerance is that of the faces.
     pub fn exact(options: BuildOptions) -> Self {
-        Self { name: "bsp exact".into(), options, kernel: Exact, is_exact: true }
+        Self { options, arithmetic: Arithmetic::Exact }
     }
-}
 
-impl Bsp<Float<f64>> {
-    /// With decisions in `f64`; vertices no further from a plane than `epsilon` times half the
-    /// scene's extent count as on it.
+    /// A tree of `f64`; see [`Tree::with_epsilon`]. Of the options, only the budget of fragments is used.
     pub fn double(options: BuildOptions, epsilon: f64) -> Self {
-        Self {
-            name: format!("bsp f64 {epsilon:e}"),
-            options,
-            kernel: Float::new(epsilon),
-            is_exact: false,
-        }
+        Self { options, arithmetic: Arithmetic::Double(epsilon) }
     }
-}
 
-impl Bsp<Float<f32>> {
-    /// With decisions in `f32`; vertices no further from a plane than `epsilon` times half the
-    /// scene's extent count as on it.
+    /// The same of `f32`.
     pub fn single(options: BuildOptions, epsilon: f64) -> Self {
-        Self {
-            name: format!("bsp f32 {epsilon:e}"),
-            options,
-            kernel: Float::new(epsilon),
-            is_exact: false,
-        }
+        Self { options, arithmetic: Arithmetic::Single(epsilon) }
     }
 }
 
-impl<K: Kernel> Method for Bsp<K> {
+impl Method for Bsp {
     fn name(&self) -> String {
-        self.name.clone()
+        match self.arithmetic {
+            Arithmetic::Exact => "bsp exact".into(),
+            Arithmetic::Double(epsilon) => format!("bsp f64 {epsilon:e}"),
+            Arithmetic::Single(epsilon) => format!("bsp f32 {epsilon:e}"),
+        }
     }
 
     fn space(&self) -> Space {
@@ -70,11 +60,16 @@ impl<K: Kernel> Method for Bsp<K> {
 
     fn prepare<'a>(&'a self, faces: &'a Faces) -> Result<Box<dyn Prepared + 'a>, MethodError> {
         let (options, faces) = (&self.options, faces.clone());
-        if self.is_exact {
-            let tree = tree_of(options, &Tuning::DEFAULT, faces, Preparation::default())?;
-            return Ok(Box::new(Ready { tree, order: Vec::new() }));
-        }
-        let tree = KernelTree::build(self.kernel, options, faces)?;
+        let limit = options.max_fragments;
+        let tree = match self.arithmetic {
+            Arithmetic::Exact => {
+                let tree = tree_of(options, &Tuning::DEFAULT, faces, Preparation::default())?;
+                return Ok(Box::new(Ready { tree, order: Vec::new() }));
+            }
+            Arithmetic::Double(epsilon) => Tree::with_epsilon::<f64>(faces, epsilon, limit),
+            Arithmetic::Single(epsilon) => Tree::with_epsilon::<f32>(faces, epsilon, limit),
+        };
+        let tree = tree.ok_or(MethodError::pieces(limit))?;
         Ok(Box::new(Ready { tree, order: Vec::new() }))
     }
 }
@@ -115,11 +110,11 @@ impl Prepared for Ready<BspTree> {
     }
 
     fn accuracy(&self) -> Option<Accuracy> {
-        Some(accuracy(&KernelTree::from(&self.tree)))
+        Some(accuracy(&Tree::from(&self.tree)))
     }
 }
 
-impl<K: Kernel> Prepared for Ready<KernelTree<K>> {
+impl Prepared for Ready<Tree> {
     fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
         let begin = Instant::now();
         self.tree.back_to_front_into(camera.viewpoint(), &mut self.order);

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::{Method, MethodError, Painted, Prepared, Space};
 use crate::Accuracy;
-use binspace::internals::{Exact, Eye, Faces, Kernel, PlaneId};
+use binspace::internals::{Eye, Faces, PlaneId};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
@@ -68,7 +68,5 @@ impl Prepared for Ready<'_> {
 /// theirs.
 pub(super) fn shown<'a>(rays: &Rays, faces: &'a Faces) -> impl Fn(u32) -> bool + use<'a> {
     let eye = rays.is_front_only().then(|| Eye::new(rays.viewpoint(), faces.lattice()));
-    move |face| {
-        eye.is_none_or(|eye| Exact.eye_side(faces, PlaneId::face(face), &eye) == Ordering::Greater)
-    }
+    move |face| eye.is_none_or(|eye| faces.eye_side(PlaneId::face(face), &eye) == Ordering::Greater)
 }

@@ -2,10 +2,10 @@
 //! definitions of vertices and planes.
 
 use binspace::glam::DVec3;
-use binspace::internals::{Exact, Faces, Kernel, PlaneId, Side, Symbol, SymbolKind};
+use binspace::internals::{Faces, PlaneId, Side, Symbol, SymbolKind, Tuning, tree_of};
 use binspace::scene;
-use binspace::{BuildOptions, Heuristic};
-use binspace_evidence::{Family, Float, KernelTree, Precision, accuracy};
+use binspace::{BuildOptions, Heuristic, Preparation};
+use binspace_evidence::{Family, Precision, Tree, accuracy};
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -63,7 +63,7 @@ fn drift(point: &Point, position: [f64; 3]) -> f64 {
     rational::distance_to_rounded(point, position)
 }
 
-fn figures<K: Kernel>(tree: &KernelTree<K>) -> Figures {
+fn figures(tree: &Tree) -> Figures {
     let faces = tree.faces();
     let models: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
     let (mut figures, mut sum) = (Figures::default(), 0.0);
@@ -126,12 +126,7 @@ fn wrong_sides(vertex: &Placed, by: &Plane, side: Side, limits: &[Rational; 2]) 
 }
 
 /// Whether the areas of a face's pieces do not add up to its own.
-fn is_torn<K: Kernel>(
-    tree: &KernelTree<K>,
-    id: u32,
-    face: &Face,
-    pieces: &[Vec<Option<Placed>>],
-) -> bool {
+fn is_torn(tree: &Tree, id: u32, face: &Face, pieces: &[Vec<Option<Placed>>]) -> bool {
     let axis = model::main_axis(&face.plane);
     let own = rational::area(&face.corners)[axis].clone();
     let mut sum = Rational::zero();
@@ -164,7 +159,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn compare<K: Kernel>(&mut self, tree: &KernelTree<K>) -> Result<Figures, String> {
+    fn compare(&mut self, tree: &Tree) -> Result<Figures, String> {
         let (found, expected) = (accuracy(tree), figures(tree));
         let counts = (found.vertices, found.undefined, found.torn);
         let close = |found: f64, expected: f64, share: f64| {
@@ -189,20 +184,16 @@ impl Tally {
         Ok(expected)
     }
 
-    /// Compares the tree of a kernel that rounds, unless it comes to no end.
+    /// Compares a rounded tree, unless it exceeds its budget.
     fn compare_rounded<T: Precision>(
         &mut self,
         options: BuildOptions,
         epsilon: f64,
         polygons: &[Vec<DVec3>],
     ) -> Result<(), String> {
-        let options = options.with_max_fragments(2000);
         let (faces, _) = Faces::new(polygons, options.tolerance).map_err(|e| e.to_string())?;
-        match KernelTree::build(Float::<T>::new(epsilon), &options, faces) {
-            Ok(tree) => self.compare(&tree).map(drop),
-            Err(error) if error.is_over_budget() => Ok(()),
-            Err(error) => Err(error.to_string()),
-        }
+        let tree = Tree::with_epsilon::<T>(faces, epsilon, 2000);
+        tree.map_or(Ok(()), |tree| self.compare(&tree).map(drop))
     }
 
     fn compare_all(
@@ -216,12 +207,13 @@ impl Tally {
     }
 }
 
-/// The exact kernel's tree, which misplaces nothing and keeps within three roundings, as rationals
+/// The library's tree, which misplaces nothing and keeps within three roundings, as rationals
 /// say.
 fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), String> {
     let (faces, _) = Faces::new(polygons, options.tolerance).map_err(|e| e.to_string())?;
-    let tree = KernelTree::build(Exact, &options, faces).map_err(|error| error.to_string())?;
-    let found = Tally::default().compare(&tree)?;
+    let tree = tree_of(&options, &Tuning::DEFAULT, faces, Preparation::default())
+        .map_err(|error| error.to_string())?;
+    let found = Tally::default().compare(&Tree::from(&tree))?;
     let is_right = found.misplaced[0] + found.undefined + found.torn == 0 && found.drift_max <= 1.5;
     if is_right { Ok(()) } else { Err(format!("{found:?}")) }
 }
@@ -265,10 +257,9 @@ fn a_corner_behind_a_plane_is_misplaced_if_it_is_further_than_the_tolerance() {
     let above = [[0.0, 0.5, 1.0], [0.0, -0.5, 1.0], [0.0, 0.0, -0.015]];
     let polygons: [&[[f64; 3]]; 2] = [&ground, &above];
     for (tolerance, misplaced) in [(0.0, 1), (0.01, 1), (0.0149, 1), (0.0151, 0), (0.02, 0)] {
-        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
-        let options = options.with_tolerance(tolerance);
+        let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
         let (faces, _) = Faces::new(polygons, options.tolerance).expect("finite");
-        let tree = KernelTree::build(Float::<f64>::new(0.1), &options, faces).expect("finite");
+        let tree = Tree::with_epsilon::<f64>(faces, 0.1, 100).expect("two polygons");
         assert_eq!((tree.len(), accuracy(&tree).misplaced), (2, misplaced), "{tolerance}");
     }
 }

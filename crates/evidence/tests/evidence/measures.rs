@@ -1,4 +1,4 @@
-//! The measures of error, against pictures and kernels with known faults.
+//! The measures of error, against pictures and trees with known faults.
 
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
@@ -7,7 +7,7 @@ use binspace::raster::{Order, Outline, Painter, Piece, Rays, zbuffer};
 use binspace::scene::Scene;
 use binspace::view::Camera;
 use binspace_evidence::measure::{PictureError, area_error, extent};
-use binspace_evidence::{Accuracy, Family, Float, KernelTree, accuracy};
+use binspace_evidence::{Accuracy, Family, Tree, accuracy};
 use testkit::enough;
 
 /// A square of side 2 around the z axis.
@@ -98,24 +98,24 @@ fn area_that_is_missing_or_too_much_is_found() {
     assert_eq!(show([1.5, 0.5, 1.0]), (3, 0.5, 1.0 / 3.0));
 }
 
-fn accuracy_of(kernel: Float<f64>, scene: &Scene) -> Accuracy {
+fn accuracy_with(epsilon: f64, scene: &Scene) -> Accuracy {
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
-    accuracy(&KernelTree::build(kernel, &BuildOptions::DEFAULT, faces).unwrap())
+    accuracy(&Tree::with_epsilon::<f64>(faces, epsilon, usize::MAX).unwrap())
 }
 
 #[test]
-fn a_kernel_that_is_far_off_misplaces_vertices_and_moves_them() {
+fn a_large_epsilon_misplaces_vertices_and_moves_them() {
     let scene = Family::Penetration.scene(30.0, 2);
-    let far = accuracy_of(Float::new(0.05), &scene);
+    let far = accuracy_with(0.05, &scene);
     enough!(far.misplaced > 50; "{far:?}");
     assert!(far.drift_max > 1e10 && far.torn > 0, "{far:?}");
-    let near = accuracy_of(Float::new(1e-12), &scene);
+    let near = accuracy_with(1e-12, &scene);
     assert!(near.misplaced < far.misplaced / 10, "{near:?}");
     assert!((0.1..100.0).contains(&near.drift_max), "{near:?}");
 }
 
 #[test]
-fn the_exact_kernel_misplaces_and_tears_nothing_in_any_family() {
+fn the_exact_tree_misplaces_and_tears_nothing_in_any_family() {
     let options = BuildOptions::DEFAULT.with_tolerance(Family::TOLERANCE);
     for family in Family::ALL {
         for &difficulty in family.sweep(true) {
@@ -123,7 +123,7 @@ fn the_exact_kernel_misplaces_and_tears_nothing_in_any_family() {
                 continue;
             }
             let scene = family.scene(difficulty, 2);
-            let found = accuracy(&KernelTree::from(&options.build(scene.polygons()).unwrap()));
+            let found = accuracy(&Tree::from(&options.build(scene.polygons()).unwrap()));
             let wrong = (found.misplaced, found.undefined, found.torn);
             assert_eq!(wrong, (0, 0, 0), "{family} {difficulty:e}: {found:?}");
             // Three roundings of at most a quarter each.
@@ -133,9 +133,9 @@ fn the_exact_kernel_misplaces_and_tears_nothing_in_any_family() {
 }
 
 #[test]
-fn a_kernel_that_takes_crossing_triangles_for_coplanar_puts_them_on_planes_they_are_off() {
+fn crossing_triangles_within_the_epsilon_are_put_on_planes_that_they_are_off() {
     let scene = Family::Angle.scene(1e-9, 1);
-    let found = accuracy_of(Float::new(1e-6), &scene);
+    let found = accuracy_with(1e-6, &scene);
     // Six triangles on one plane: all corners of all but the one that the plane is of, but for
     // those that happen to be on it.
     assert!((10..=15).contains(&found.misplaced), "{found:?}");

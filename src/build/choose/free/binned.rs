@@ -7,8 +7,7 @@ use crate::Error;
 use crate::build::choose::cost::{Cost, Counts};
 use crate::build::choose::set::Set;
 use crate::build::choose::tuning::Tuning;
-use crate::build::live::Live;
-use crate::exact::Kernel;
+use crate::build::piece::Piece;
 use crate::memory::{push, reserve};
 
 /// Compares the free planes along an axis; its lists are kept to be used again.
@@ -51,7 +50,7 @@ const FLAT: usize = 1;
 
 impl Span {
     #[inline]
-    fn of(piece: &Live, axis: usize, tolerance: f64) -> Self {
+    fn of(piece: &Piece, axis: usize, tolerance: f64) -> Self {
         let (min, max) = (piece.min[axis], piece.max[axis]);
         let kind = if max - min <= 2.0 * tolerance { FLAT } else { THICK };
         Self { begin: min + tolerance, end: max - tolerance, kind }
@@ -81,11 +80,11 @@ impl Passed {
 impl Binned {
     /// Looks for a free plane across an axis that costs less than the best so far; the set reaches from
     /// one of `ends` to the other.
-    pub(super) fn best_along<K: Kernel>(
+    pub(super) fn best_along(
         &mut self,
         axis: usize,
         [low, high]: [f64; 2],
-        set: &Set<'_, K>,
+        set: &Set<'_>,
         tuning: &Tuning,
         best: &mut Option<FreePlane>,
     ) -> Result<(), Error> {
@@ -101,7 +100,7 @@ impl Binned {
     /// Counts what begins and ends in each bin.
     fn fill(
         &mut self,
-        pieces: &[Live],
+        pieces: &[Piece],
         axis: usize,
         tolerance: f64,
         bins: &Bins,
@@ -155,7 +154,7 @@ impl Binned {
     }
 
     /// Gathers what is in the chosen bins.
-    fn gather(&mut self, pieces: &[Live], axis: usize, tolerance: f64) -> Result<(), Error> {
+    fn gather(&mut self, pieces: &[Piece], axis: usize, tolerance: f64) -> Result<(), Error> {
         let chosen = &self.chosen[..];
         self.begins.iter_mut().chain(&mut self.ends).for_each(Vec::clear);
         self.candidates.clear();

@@ -2,8 +2,8 @@
 
 use crate::build::choose::cost::{Candidate, Cost};
 use crate::build::choose::set::Set;
-use crate::build::live::Live;
-use crate::exact::{Kernel, PlaneId};
+use crate::build::piece::Piece;
+use crate::exact::PlaneId;
 
 /// A free plane, before it has a name.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ pub(super) enum Through {
 
 impl FreePlane {
     /// The plane by the name of a corner on it.
-    pub(super) fn with_corner<K: Kernel>(&self, set: &Set<'_, K>) -> Option<Candidate> {
+    pub(super) fn with_corner(&self, set: &Set<'_>) -> Option<Candidate> {
         let Self { cost, axis, through } = *self;
         let coordinate = match through {
             Through::Corner(corner) => {
@@ -32,7 +32,7 @@ impl FreePlane {
             }
             Through::Coordinate(coordinate) => coordinate,
         };
-        let touches = |piece: &&Live| {
+        let touches = |piece: &&Piece| {
             piece.min[axis] == coordinate && piece.min_is_corner(axis)
                 || piece.max[axis] == coordinate && piece.max_is_corner(axis)
         };

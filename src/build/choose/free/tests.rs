@@ -7,20 +7,20 @@ use super::super::set::Set;
 use super::super::tests::Fixture;
 use super::super::tuning::Tuning;
 use super::FreePlanes;
-use crate::build::live::Live;
+use crate::build::piece::Piece;
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Faces, PlaneId, PlaneKind, Side};
+use crate::exact::{Faces, PlaneId, PlaneKind, Side};
 use crate::random::SplitMix64;
 
 /// The least cost of all planes perpendicular to an axis through a corner, by looking at every
 /// piece for each.
-fn least(pieces: &[Live], axis: usize, tolerance: f64) -> Cost {
+fn least(pieces: &[Piece], axis: usize, tolerance: f64) -> Cost {
     let coordinates = pieces.iter().flat_map(|piece| [piece.min[axis], piece.max[axis]]);
     coordinates.map(|c| at(pieces, axis, c, tolerance)).min_by(Cost::cmp).unwrap_or(Cost::MOST)
 }
 
 /// What a plane costs; infinite if it leaves all pieces on one side.
-fn at(pieces: &[Live], axis: usize, c: f64, tolerance: f64) -> Cost {
+fn at(pieces: &[Piece], axis: usize, c: f64, tolerance: f64) -> Cost {
     let (mut in_front, mut behind, mut splits) = (0, 0, 0);
     for piece in pieces {
         let begun = piece.min[axis] + tolerance < c;
@@ -38,9 +38,10 @@ fn at(pieces: &[Live], axis: usize, c: f64, tolerance: f64) -> Cost {
 /// Asserts that the plane found is the best of the axes that have to be searched.
 fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
-    let pieces: Vec<Live> = (0..faces.len() as u32).map(|face| Live::whole(&faces, face)).collect();
+    let pieces: Vec<Piece> =
+        (0..faces.len() as u32).map(|face| Piece::whole(&faces, face)).collect();
     let watch = Watch::default();
-    let set = Set::new(&Exact, &faces, &pieces, &[]);
+    let set = Set::new(&faces, &pieces, &[]);
     let found = FreePlanes::default().best(&set, &Tuning::DEFAULT, &watch).unwrap();
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);

@@ -1,4 +1,4 @@
-//! The contest of own planes against brute force with the exact kernel.
+//! The contest of own planes against brute force with exact decisions.
 
 use glam::DVec3;
 
@@ -8,14 +8,14 @@ use super::super::set::Set;
 use super::super::tests::{Fixture, triangles};
 use super::super::tuning::Tuning;
 use super::{Contest, Terms};
-use crate::exact::{Exact, PlaneKind, Side};
+use crate::exact::{PlaneKind, Side};
 use crate::random::SplitMix64;
 
 /// Every plane is compared with every piece.
 const ALL: Tuning =
     Tuning { own_planes: usize::MAX, first_sample: usize::MAX >> 1, ..Tuning::DEFAULT };
 
-fn best(set: &Set<'_, Exact>, tuning: &Tuning) -> Candidate {
+fn best(set: &Set<'_>, tuning: &Tuning) -> Candidate {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len()).unwrap();
@@ -30,9 +30,9 @@ fn piece(found: &Candidate) -> usize {
     face as usize
 }
 
-fn cost(set: &Set<'_, Exact>, own: usize) -> Cost {
-    let splitter = set.splitter(set.own_plane(own));
-    let sides: Vec<_> = (0..set.len()).map(|piece| set.classify(&splitter, piece)).collect();
+fn cost(set: &Set<'_>, own: usize) -> Cost {
+    let prepared = set.prepare(set.own_plane(own));
+    let sides: Vec<_> = (0..set.len()).map(|piece| set.classify(&prepared, piece)).collect();
     let count = |side| sides.iter().filter(|&&other| other == side).count();
     let splits = count(Side::Spanning);
     let live = &set.pieces[own];
@@ -86,7 +86,7 @@ fn halving_finds_a_good_plane() {
 }
 
 /// A contest in which all candidates are compared with the first sample.
-fn begun(set: &Set<'_, Exact>, tuning: &Tuning) -> Contest {
+fn begun(set: &Set<'_>, tuning: &Tuning) -> Contest {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len()).unwrap();
@@ -121,8 +121,8 @@ fn one_sided_are_those_with_all_others_on_one_side() {
             let fixture = Fixture::new(&triangles(&mut random, n, size), 0.0);
             let set = fixture.set();
             let is_one_sided = |&own: &usize| {
-                let splitter = set.splitter(set.own_plane(own));
-                let sides: Vec<_> = (0..n).map(|piece| set.classify(&splitter, piece)).collect();
+                let prepared = set.prepare(set.own_plane(own));
+                let sides: Vec<_> = (0..n).map(|piece| set.classify(&prepared, piece)).collect();
                 [Side::Front, Side::Back]
                     .iter()
                     .any(|side| sides.iter().all(|other| [*side, Side::Coplanar].contains(other)))

@@ -5,13 +5,12 @@ use std::ops::Range;
 use crate::Error;
 use crate::build::choose::set::Set;
 use crate::build::choose::sketch::{LANES, Sketch, SketchBox};
-use crate::exact::Kernel;
 use crate::memory::{collect, reserve};
 
 /// The pieces of a large set in an order in which groups, and ranges of groups, are near one
 /// another: by halving the longest side of their box again and again.
-pub(in crate::build::choose) fn arrange<K: Kernel>(
-    set: &Set<'_, K>,
+pub(in crate::build::choose) fn arrange(
+    set: &Set<'_>,
     groups_per_box: usize,
 ) -> Result<Vec<usize>, Error> {
     let mut order = collect(0..set.len())?;

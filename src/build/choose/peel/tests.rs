@@ -1,4 +1,4 @@
-//! Peeling against brute force with the exact kernel.
+//! Peeling against brute force with exact decisions.
 
 use glam::{DQuat, DVec3, EulerRot};
 
@@ -8,10 +8,10 @@ use super::super::tests::{Fixture, grid, triangles};
 use super::super::tuning::Tuning;
 use super::{Peeled, Peeler, arrange};
 use crate::build::progress::Watch;
-use crate::exact::{Exact, Side};
+use crate::exact::Side;
 use crate::random::SplitMix64;
 
-fn peel(set: &Set<'_, Exact>, tuning: &Tuning) -> Option<Peeled> {
+fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
     let mut sketch = Sketch::default();
     sketch.reset(set);
     sketch.extend(set, arrange(set, tuning.groups_per_box).unwrap().into_iter()).unwrap();
@@ -20,34 +20,34 @@ fn peel(set: &Set<'_, Exact>, tuning: &Tuning) -> Option<Peeled> {
 
 /// Asserts that each layer has all the rest on the side that it says, and that its own pieces are
 /// all those on its plane; gives which pieces are left.
-fn assert_layers(name: &str, set: &Set<'_, Exact>, peeled: Option<&Peeled>) -> Vec<bool> {
+fn assert_layers(name: &str, set: &Set<'_>, peeled: Option<&Peeled>) -> Vec<bool> {
     let mut left = vec![true; set.len()];
     let layers =
         peeled.into_iter().flat_map(|peeled| peeled.layers().iter().map(move |l| (peeled, l)));
     for (i, (peeled, layer)) in layers.enumerate() {
         assert!(!peeled.pieces(layer).is_empty(), "{name}: nothing in layer {i}");
-        let splitter = set.splitter(layer.plane);
+        let prepared = set.prepare(layer.plane);
         for &piece in peeled.pieces(layer) {
             assert!(left[piece as usize], "{name}: {piece} is taken twice");
-            assert_eq!(set.classify(&splitter, piece as usize), Side::Coplanar, "{name}: {i}");
+            assert_eq!(set.classify(&prepared, piece as usize), Side::Coplanar, "{name}: {i}");
             left[piece as usize] = false;
         }
         for other in (0..set.len()).filter(|&other| left[other]) {
-            assert_eq!(set.classify(&splitter, other), layer.rest, "{name}: {other} at {i}");
+            assert_eq!(set.classify(&prepared, other), layer.rest, "{name}: {other} at {i}");
         }
     }
     left
 }
 
 /// Which pieces are left once each has been tried in turn.
-fn brute_force(set: &Set<'_, Exact>, order: &[usize]) -> Vec<bool> {
+fn brute_force(set: &Set<'_>, order: &[usize]) -> Vec<bool> {
     let mut left = vec![true; set.len()];
     for &piece in order {
         if !left[piece] || left.iter().filter(|&&is_left| is_left).count() < 2 {
             continue;
         }
-        let splitter = set.splitter(set.own_plane(piece));
-        let sides: Vec<_> = (0..set.len()).map(|other| set.classify(&splitter, other)).collect();
+        let prepared = set.prepare(set.own_plane(piece));
+        let sides: Vec<_> = (0..set.len()).map(|other| set.classify(&prepared, other)).collect();
         let reaches = |side| {
             (0..set.len()).any(|i| left[i] && (sides[i] == side || sides[i] == Side::Spanning))
         };

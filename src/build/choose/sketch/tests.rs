@@ -1,14 +1,14 @@
-//! The sketch against the exact kernel.
+//! The sketch against exact decisions.
 
 use glam::DVec3;
 
 use super::super::set::Set;
 use super::super::tests::{Fixture, grid, triangles};
 use super::{LANES, Sketch};
-use crate::exact::{Exact, PlaneId, Side};
+use crate::exact::{PlaneId, Side};
 use crate::random::SplitMix64;
 
-fn sketched(set: &Set<'_, Exact>) -> Sketch {
+fn sketched(set: &Set<'_>) -> Sketch {
     let mut sketch = Sketch::default();
     sketch.reset(set);
     sketch.extend(set, 0..set.len()).unwrap();
@@ -22,12 +22,12 @@ fn assert_certain(name: &str, fixture: &Fixture) -> usize {
     let mut certain = 0;
     for own in 0..set.len() {
         let plane = sketch.plane(&set, own);
-        let splitter = set.splitter(set.own_plane(own));
+        let prepared = set.prepare(set.own_plane(own));
         for piece in 0..set.len() {
             let reach = sketch.reach(&plane, piece / LANES);
             let [front, back, near] =
                 [reach.front, reach.back, reach.near].map(|bits| bits >> (piece % LANES) & 1 == 1);
-            let is_certain = match set.classify(&splitter, piece) {
+            let is_certain = match set.classify(&prepared, piece) {
                 Side::Front => !back,
                 Side::Back => !front,
                 Side::Coplanar => !front && !back && near,
@@ -36,7 +36,7 @@ fn assert_certain(name: &str, fixture: &Fixture) -> usize {
             assert!(is_certain, "{name}: piece {piece} at the plane of {own}: {reach:?}");
             assert!(front || back || near, "{name}: {piece} is nowhere");
             let may_be_on = sketch.may_be_on(&set, own, piece);
-            assert!(may_be_on || set.classify(&splitter, piece) != Side::Coplanar, "{name}");
+            assert!(may_be_on || set.classify(&prepared, piece) != Side::Coplanar, "{name}");
             certain += usize::from(!near);
         }
     }
@@ -75,7 +75,7 @@ fn rounding_makes_nothing_certain() {
 }
 
 /// The largest rounded distance of a piece but the last from the plane of another, by the slack.
-fn error(set: &Set<'_, Exact>) -> f32 {
+fn error(set: &Set<'_>) -> f32 {
     let sketch = sketched(set);
     let others = || 0..set.len() - 1;
     let mut most = 0_f32;
@@ -165,10 +165,10 @@ fn counts_are_those_of_a_plain_loop() {
         let sketch = sketched(&set);
         for own in 0..n {
             let plane = sketch.plane(&set, own);
-            let splitter = set.splitter(set.own_plane(own));
+            let prepared = set.prepare(set.own_plane(own));
             for first in 0..sketch.groups() {
                 let counts = sketch.count(&plane, first..sketch.groups());
-                let sides = (first * LANES..n).map(|piece| set.classify(&splitter, piece));
+                let sides = (first * LANES..n).map(|piece| set.classify(&prepared, piece));
                 let sides: Vec<_> = sides.collect();
                 let count = |side| sides.iter().filter(|&&other| other == side).count() as u32;
                 let expected = [Side::Front, Side::Back, Side::Spanning].map(count);

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::{ERROR, View};
-use crate::exact::{Exact, Kernel, LATTICE_LIMIT};
+use crate::exact::LATTICE_LIMIT;
 use crate::random::mix;
 use crate::viewpoint::Viewpoint;
 use crate::{BspTree, BuildOptions, Heuristic};
@@ -49,7 +49,7 @@ fn error(tree: &BspTree, eye: Viewpoint) -> f64 {
     let view = View::new(tree, eye);
     let distance = view.distances(&tree.planes.0[0])[0];
     let rounded = distance.total_cmp(&0.0);
-    let exact = Exact.eye_side(&tree.faces, tree.nodes[0].plane, &view.eye);
+    let exact = tree.faces.eye_side(tree.nodes[0].plane, &view.eye);
     assert_eq!(view.is_in_front(tree, 0), exact == Ordering::Greater, "{eye:?}");
     let mut words = vec![0; tree.planes.words()];
     view.write_signs(tree, &mut words);

@@ -4,7 +4,7 @@ use super::{
     Dismantled, Stored, assert_fault, build, crossing, decals, square, tilted, trees, verdict,
 };
 use crate::build::{BuildOptions, Heuristic};
-use crate::exact::{Exact, Kernel, Line, PlaneId, Symbol, Vertex};
+use crate::exact::{Line, PlaneId, PreparedPlane, Symbol};
 use crate::tree::BspTree;
 use crate::tree::parts::{RawChild, RawNode};
 
@@ -186,18 +186,17 @@ fn change_vertices(tree: &BspTree, change: impl Fn(u32, &Stored) -> Stored) -> u
 #[test]
 fn lines_that_name_the_wrong_side_or_plane_or_edge_are_found() {
     for tree in [crossing(6), build(&decals(), Heuristic::First)] {
-        let restored = |face, vertex: &Stored| Exact.restore(&tree.faces, face, vertex);
-        let with =
-            |face, vertex: &Stored, line| Exact.store(&restored(face, vertex).with_line(line));
-        let turned = change_vertices(&tree, |face, vertex| match Exact::line(vertex).as_cut() {
-            Some(plane) => with(face, vertex, Line::cut(plane, !Exact::line(vertex).is_behind())),
+        let restored = |face, vertex: &Stored| vertex.restored(&tree.faces, face);
+        let with = |face, vertex: &Stored, line| (restored(face, vertex).with_line(line)).stored();
+        let turned = change_vertices(&tree, |face, vertex| match vertex.line().as_cut() {
+            Some(plane) => with(face, vertex, Line::cut(plane, !vertex.line().is_behind())),
             None => *vertex,
         });
-        let planes = change_vertices(&tree, |face, vertex| match Exact::line(vertex).as_cut() {
+        let planes = change_vertices(&tree, |face, vertex| match vertex.line().as_cut() {
             Some(_) => with(face, vertex, Line::cut(PlaneId::face(3), false)),
             None => with(face, vertex, Line::cut(PlaneId::face(0), true)),
         });
-        let edges = change_vertices(&tree, |face, vertex| match Exact::line(vertex).as_edge() {
+        let edges = change_vertices(&tree, |face, vertex| match vertex.line().as_edge() {
             Some(edge) => with(face, vertex, Line::edge((edge + 1) % 4)),
             None => with(face, vertex, Line::edge(0)),
         });
@@ -213,13 +212,11 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     let tree = options.build([upright, square(1.0, 0.0)]).expect("finite");
     assert_eq!((tree.len(), verdict(&tree)), (3, String::new()));
     let plane = PlaneId::face(0);
-    let splitter = Exact.splitter(&tree.faces, plane);
+    let prepared = PreparedPlane::new(&tree.faces, plane);
     let renamed = |vertex: &Stored, edge: u32| {
-        let vertex = Exact.restore(&tree.faces, 1, vertex);
+        let vertex = vertex.restored(&tree.faces, 1);
         let on_edge = vertex.with_line(Line::edge(edge));
-        Exact.store(
-            &Exact.cut(&tree.faces, &splitter, 1, [&on_edge, &on_edge]).with_line(vertex.line()),
-        )
+        on_edge.cut(&tree.faces, 1, &prepared).with_line(vertex.line()).stored()
     };
     // Corner 0 as the place where the diagonal crosses the edge that ends or begins there: in one
     // piece, and in both.
@@ -228,7 +225,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
             let edit = |parts: &mut Dismantled| {
                 for &piece in &pieces {
                     for vertex in &mut parts.pieces[piece].1 {
-                        if Exact::symbol(vertex) == Symbol::corner(0) {
+                        if vertex.symbol() == Symbol::corner(0) {
                             *vertex = renamed(vertex, edge);
                         }
                     }
@@ -247,20 +244,20 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     for long in [0, 3] {
         let edit = |parts: &mut Dismantled| {
             for (_, vertices) in &mut parts.pieces[1..] {
-                let at = vertices.iter().position(|v| Exact::symbol(v) == Symbol::corner(0));
+                let at = vertices.iter().position(|v| v.symbol() == Symbol::corner(0));
                 let at = at.expect("the corner");
-                let corner = Exact.restore(&tree.faces, 1, &vertices[at]);
-                let made = Exact.restore(&tree.faces, 1, &renamed(&vertices[at], long));
+                let corner = vertices[at].restored(&tree.faces, 1);
+                let made = (renamed(&vertices[at], long)).restored(&tree.faces, 1);
                 let begins_edge = corner.line() == Line::edge(0);
                 match (long, begins_edge) {
                     // The edge goes on to the corner, and from there to the cut.
                     (0, false) => {
-                        vertices[at] = Exact.store(&corner.with_line(Line::edge(0)));
-                        vertices.insert(at + 1, Exact.store(&made.with_line(corner.line())));
+                        vertices[at] = corner.with_line(Line::edge(0)).stored();
+                        vertices.insert(at + 1, made.with_line(corner.line()).stored());
                     }
                     // The cut goes to an edge that ends at the corner.
-                    (3, true) => vertices.insert(at, Exact.store(&made.with_line(Line::edge(3)))),
-                    _ => vertices[at] = Exact.store(&made),
+                    (3, true) => vertices.insert(at, made.with_line(Line::edge(3)).stored()),
+                    _ => vertices[at] = made.stored(),
                 }
             }
         };
@@ -278,15 +275,15 @@ fn a_vertex_that_both_pieces_call_by_the_name_of_the_other_end_of_the_cut_is_fou
     let halves: Vec<usize> = (0..3).filter(|&piece| !symbols(piece).is_empty()).collect();
     let on_cut: Vec<Stored> = symbols(halves[0])
         .into_iter()
-        .filter(|v| symbols(halves[1]).iter().any(|w| Exact::symbol(w) == Exact::symbol(v)))
+        .filter(|v| symbols(halves[1]).iter().any(|w| w.symbol() == v.symbol()))
         .collect();
     let [p, q] = on_cut[..] else { panic!("two vertices on the cut") };
     let edit = |parts: &mut Dismantled| {
         for &half in &halves {
             for vertex in &mut parts.pieces[half].1 {
-                if Exact::symbol(vertex) == Exact::symbol(&p) {
-                    let other = Exact.restore(&tree.faces, 1, &q);
-                    *vertex = Exact.store(&other.with_line(Exact::line(vertex)));
+                if vertex.symbol() == p.symbol() {
+                    let other = q.restored(&tree.faces, 1);
+                    *vertex = other.with_line(vertex.line()).stored();
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Orders laid out wrongly.
 
 use super::{trees, verdict};
-use crate::exact::{Exact, Kernel};
+use crate::exact::StoredVertex;
 use crate::tree::BspTree;
 
 const SCHEDULE: &str = "the layout for orders does not match the nodes";
@@ -102,7 +102,7 @@ fn rounded_planes_of_other_nodes_are_found() {
 /// Keeps the positions of a tree's vertices, as a tree for one view does.
 fn keep_positions(tree: &mut BspTree) -> Option<()> {
     let of = |fragment: crate::Fragment<'_>| {
-        let place = |stored| tree.faces.position(fragment.face(), Exact::symbol(stored));
+        let place = |stored: &StoredVertex| tree.faces.position(fragment.face(), stored.symbol());
         fragment.stored().iter().map(place).collect::<Vec<_>>()
     };
     let positions: Vec<_> = tree.fragments().flat_map(of).collect();

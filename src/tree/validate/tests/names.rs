@@ -2,7 +2,7 @@
 
 use super::{Dismantled, Stored, assert_fault, build, crossing, verdict};
 use crate::build::Heuristic;
-use crate::exact::{Exact, Kernel, Line, PlaneId, Vertex};
+use crate::exact::{Line, PlaneId, PreparedPlane, Vertex};
 use crate::scene;
 use crate::tree::BspTree;
 
@@ -62,20 +62,20 @@ fn faces_and_vertices_that_name_nothing_are_found() {
     let other = BspTree::build([octagon]).expect("finite");
     if let Some(beyond) = (0..other.faces.len() as u32).find(|&f| other.faces.corners(f).len() > 5)
     {
-        assert_unknown(&tree, Exact.store(&Exact.corner(&other.faces, beyond, 5)));
+        assert_unknown(&tree, (Vertex::corner(&other.faces, beyond, 5)).stored());
     }
-    let corner = Exact.corner(&large.faces, 1, 0);
+    let corner = Vertex::corner(&large.faces, 1, 0);
     let on = |plane| {
-        let splitter = Exact.splitter(&large.faces, plane);
-        Exact.cut(&large.faces, &splitter, 1, [&corner, &corner])
+        let prepared = PreparedPlane::new(&large.faces, plane);
+        corner.cut(&large.faces, 1, &prepared)
     };
     let on_edge = on(PlaneId::face(8));
-    assert_unknown(&tree, Exact.store(&on_edge));
-    assert_unknown(&tree, Exact.store(&on(PlaneId::axis(1, 35))));
+    assert_unknown(&tree, on_edge.stored());
+    assert_unknown(&tree, (on(PlaneId::axis(1, 35))).stored());
     let along_cut = corner.with_line(Line::cut(PlaneId::axis(2, 0), true));
-    let splitter = Exact.splitter(&large.faces, PlaneId::face(8));
-    let inside = Exact.cut(&large.faces, &splitter, 1, [&along_cut, &along_cut]);
-    assert_unknown(&tree, Exact.store(&inside.with_line(Line::edge(0))));
+    let prepared = PreparedPlane::new(&large.faces, PlaneId::face(8));
+    let inside = along_cut.cut(&large.faces, 1, &prepared);
+    assert_unknown(&tree, inside.with_line(Line::edge(0)).stored());
     // A vertex of a known plane and an unknown one, whichever of the two comes first.
     for (known, unknown) in [
         (PlaneId::face(0), PlaneId::face(8)),
@@ -83,9 +83,9 @@ fn faces_and_vertices_that_name_nothing_are_found() {
         (PlaneId::axis(0, 0), PlaneId::face(8)),
     ] {
         let along_cut = corner.with_line(Line::cut(known, true));
-        let splitter = Exact.splitter(&large.faces, unknown);
-        let inside = Exact.cut(&large.faces, &splitter, 1, [&along_cut, &along_cut]);
-        assert_unknown(&tree, Exact.store(&inside.with_line(Line::edge(0))));
+        let prepared = PreparedPlane::new(&large.faces, unknown);
+        let inside = along_cut.cut(&large.faces, 1, &prepared);
+        assert_unknown(&tree, inside.with_line(Line::edge(0)).stored());
     }
 }
 
@@ -93,7 +93,7 @@ fn faces_and_vertices_that_name_nothing_are_found() {
 fn corners_and_lines_beyond_a_face_are_found() {
     let tree = crossing(5);
     let piece = cut_piece(&Dismantled::of(&tree));
-    let vertex = Exact.restore(&tree.faces, 1, &Dismantled::of(&tree).pieces[piece].1[0]);
+    let vertex = Dismantled::of(&tree).pieces[piece].1[0].restored(&tree.faces, 1);
     for line in [
         Line::edge(4),
         Line::edge(u32::MAX >> 4),
@@ -102,13 +102,13 @@ fn corners_and_lines_beyond_a_face_are_found() {
         Line::cut(PlaneId::axis(0, 20), false),
         Line::cut(PlaneId::axis(4, 0), false),
     ] {
-        assert_unknown(&tree, Exact.store(&vertex.with_line(line)));
+        assert_unknown(&tree, vertex.with_line(line).stored());
     }
     // Corner 3 of a square in a piece of a triangle.
     let triangles = build(&scene::random_triangles(40, 3), Heuristic::First);
     assert_unknown(
         &triangles,
-        Exact.store(&Exact.corner(&tree.faces, 0, 3).with_line(Line::edge(0))),
+        (Vertex::corner(&tree.faces, 0, 3).with_line(Line::edge(0))).stored(),
     );
 }
 
@@ -154,7 +154,7 @@ fn a_whole_face_that_lists_its_corners_is_found() {
     let whole = tree.fragments().find(|fragment| fragment.is_whole()).expect("one");
     let edit = |parts: &mut Dismantled| {
         let (face, vertices) = &mut parts.pieces[whole.index() as usize];
-        let corner = |k| Exact.store(&Exact.corner(&tree.faces, *face, k));
+        let corner = |k| (Vertex::corner(&tree.faces, *face, k)).stored();
         vertices.extend((0..3).map(corner));
     };
     assert_fault(&tree, edit, "was never cut, but is stored as a cut piece");

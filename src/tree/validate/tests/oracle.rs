@@ -2,14 +2,14 @@
 
 use super::{Dismantled, Stored, build, crossing, decals, tilted, verdict};
 use crate::build::Heuristic;
-use crate::exact::{Exact, ExactVertex, Kernel, Line, Piece, PlaneId, Side, Vertex, split};
+use crate::exact::{Line, PlaneId, PreparedPlane, Side, Vertex, split};
 use crate::random::SplitMix64;
 use crate::scene;
 use crate::tree::BspTree;
 use crate::tree::parts::{RawChild, RawNode};
 
 /// A piece of a face; all of it, if it has no vertices.
-type Live = (u32, Vec<ExactVertex>);
+type Live = (u32, Vec<Vertex>);
 
 /// Whether a tree is what its planes make of its faces: by cutting them from the root down.
 fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
@@ -22,20 +22,20 @@ fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
     while let Some(set) = stack.pop() {
         let Some(node) = nodes.next() else { return set.is_empty() && pieces.next().is_none() };
         let (mut own, mut front, mut back) = (vec![], vec![], vec![]);
-        let splitter = Exact.splitter(faces, node.plane);
+        let prepared = PreparedPlane::new(faces, node.plane);
         for (face, vertices) in set {
             let cut = (!vertices.is_empty()).then_some(&vertices[..]);
-            match Exact.classify(faces, &splitter, Piece { face, cut }) {
+            match prepared.classify(faces, face, cut) {
                 Side::Coplanar => own.push((face, vertices)),
                 Side::Front => front.push((face, vertices)),
                 Side::Back => back.push((face, vertices)),
                 Side::Spanning => {
                     let corners = 0..faces.corners(face).len() as u32;
-                    let all: Vec<ExactVertex> =
-                        corners.map(|k| Exact.corner(faces, face, k)).collect();
+                    let all: Vec<Vertex> =
+                        corners.map(|k| Vertex::corner(faces, face, k)).collect();
                     let outline = if vertices.is_empty() { &all } else { &vertices };
                     let [mut before, mut behind] = [vec![], vec![]];
-                    split(&Exact, faces, &splitter, face, outline, &mut before, &mut behind);
+                    split(faces, &prepared, face, outline, &mut before, &mut behind);
                     front.push((face, before));
                     back.push((face, behind));
                     cuts += 1;
@@ -73,7 +73,7 @@ fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
 
 /// Whether a stored piece has a face and an outline, wherever it begins.
 fn same((face, stored): &(u32, Vec<Stored>), (expected, vertices): &Live) -> bool {
-    let outline: Vec<Stored> = vertices.iter().map(|vertex| Exact.store(vertex)).collect();
+    let outline: Vec<Stored> = vertices.iter().map(|vertex| vertex.stored()).collect();
     let n = outline.len();
     let turned = |by: usize| (0..n).all(|k| outline[(k + by) % n] == stored[k]);
     face == expected && stored.len() == n && (n == 0 || (0..n).any(turned))
@@ -106,16 +106,16 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
         12 | 13 if n > 1 && !from.is_empty() => {
             // A line of a vertex, or a vertex but for its line, from another piece.
             let [here, there] = [vertices[k % n], from[other % from.len()]]
-                .map(|vertex| Exact.restore(faces, face, &vertex));
+                .map(|vertex| vertex.restored(faces, face));
             let (vertex, line) =
                 if kind == 12 { (here, there.line()) } else { (there, here.line()) };
-            vertices[k % n] = Exact.store(&vertex.with_line(line));
+            vertices[k % n] = vertex.with_line(line).stored();
         }
         14 if n > 1 => {
-            let here = Exact.restore(faces, face, &vertices[k % n]);
+            let here = (vertices[k % n]).restored(faces, face);
             if let Some(plane) = here.line().as_cut() {
                 let line = Line::cut(plane, !here.line().is_behind());
-                vertices[k % n] = Exact.store(&here.with_line(line));
+                vertices[k % n] = here.with_line(line).stored();
             }
         }
         _ => {

@@ -4,10 +4,10 @@ mod attributes;
 mod depth;
 mod field;
 mod hand;
-mod kernels;
 mod nasty;
 mod newell;
 mod oracle;
+mod rounded;
 mod rules;
 
 use glam::DVec3;

@@ -1,16 +1,41 @@
-//! The filter: signs of rounded distances where they are certain, and integers where they are not.
+//! On which side of a plane a piece of a face lies: by rounded distances where their sign is certain
+//! (a floating-point filter: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
+//! geometric predicates", 1997), and by integers elsewhere.
+//!
+//! These rules classify a piece against a plane. τ is the coplanar tolerance, and *corners* are those of
+//! the whole face:
+//!
+//! - if no corner is further than τ from the plane, the piece is coplanar;
+//! - if corners are further than τ in front, but none behind, the piece is in front, and likewise
+//!   behind: it is not cut for less than τ;
+//! - otherwise the exact signs of the piece's own vertices decide, and it is cut where they differ.
+//!
+//! With τ = 0 every decision is that of real arithmetic.
 
 use std::cmp::Ordering;
 
-use super::kernel::{Side, Vertex};
-use super::label::{Line, PlaneId, PlaneKind, Symbol};
+use super::label::{PlaneId, PlaneKind, Symbol};
 use super::lattice::LIMIT;
 use super::normal::RoundedNormal;
+use super::split::Vertex;
 use super::{Faces, Int};
 
-/// A plane prepared for the filter, and for integers where the filter is not certain.
+/// Where a piece of a face lies against a plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// No part of it is behind the plane.
+    Front,
+    /// No part of it is in front of the plane.
+    Back,
+    /// All of it is on the plane.
+    Coplanar,
+    /// It has to be cut.
+    Spanning,
+}
+
+/// A plane prepared for many decisions: its rounded equation, and the error bound of the filter.
 #[derive(Clone, Copy, Debug)]
-pub struct ExactSplitter {
+pub struct PreparedPlane {
     pub(super) plane: PlaneId,
     normal: [f64; 3],
     offset: f64,
@@ -21,16 +46,16 @@ pub struct ExactSplitter {
     pub(super) band: f64,
 }
 
-impl ExactSplitter {
+impl PreparedPlane {
     /// Prepares a plane.
-    pub(super) fn new(faces: &Faces, plane: PlaneId) -> Self {
+    pub fn new(faces: &Faces, plane: PlaneId) -> Self {
         match plane.kind() {
             PlaneKind::Axis(axis, corner) => {
                 let mut normal = [0.0; 3];
                 normal[axis] = 1.0;
                 let offset = faces.corner(corner)[axis];
                 let band = faces.tolerance().floor();
-                ExactSplitter { plane, normal, offset, bound: AXIS_ERROR, band }
+                PreparedPlane { plane, normal, offset, bound: AXIS_ERROR, band }
             }
             PlaneKind::Face(face) => {
                 let corners = faces.triangle(face);
@@ -39,7 +64,7 @@ impl ExactSplitter {
                 let ([x, y, z], p) = (normal, corners[0]);
                 let offset = x * p[0] + y * p[1] + z * p[2];
                 let band = (faces.tolerance() * faces.normal_length(face, &rounded)).floor();
-                ExactSplitter { plane, normal, offset, bound: FACE_ERROR * size, band }
+                PreparedPlane { plane, normal, offset, bound: FACE_ERROR * size, band }
             }
         }
     }
@@ -52,7 +77,7 @@ impl ExactSplitter {
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
     }
 
-    /// The side of the plane, by the rules of [`Exact`](super::Exact), of every piece whose rounded
+    /// The side of the plane, of every piece whose rounded
     /// vertices lie in a box; `None` if the box does not tell.
     pub(crate) fn side_of_box(&self, [low, high]: [[f64; 3]; 2]) -> Option<Side> {
         let lowest = std::array::from_fn(|i| if self.normal[i] > 0.0 { low[i] } else { high[i] });
@@ -100,29 +125,87 @@ impl ExactSplitter {
     }
 }
 
-/// A vertex with its rounded position.
-#[derive(Clone, Copy, Debug)]
-pub struct ExactVertex {
-    pub(super) position: [f64; 3],
-    pub(super) symbol: Symbol,
-    pub(super) line: Line,
-}
+impl PreparedPlane {
+    /// Where a piece of a face lies against the plane, by the rules at the head of this file. `cut` has the
+    /// vertices of a piece that was cut, in order around it; it is `None` for the whole face.
+    #[inline]
+    pub fn classify(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
+        if self.plane == PlaneId::face(face) {
+            return Side::Coplanar;
+        }
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut see = |position| {
+            // Not `min` and `max`, which take more instructions because of NaN.
+            let s = self.distance(position);
+            low = if s < low { s } else { low };
+            high = if s > high { s } else { high };
+        };
+        match cut {
+            None => faces.corners(face).iter().for_each(|&corner| see(corner)),
+            Some(vertices) => vertices.iter().for_each(|vertex| see(vertex.position)),
+        }
+        // Certainly off the plane, and certainly further than the tolerance from it.
+        let (near, far) = (self.bound, self.band + self.bound);
+        // The tolerance applies to the corners of the whole face. So a whole face may reach behind by
+        // the tolerance and still be in front. For a piece, its face's corners would have to be tested:
+        // `classify_exactly` does.
+        let allowed = if cut.is_none() { near - self.band } else { near };
+        if high > far && low >= allowed {
+            Side::Front
+        } else if low < -far && high <= -allowed {
+            Side::Back
+        } else if high > far && low < -far {
+            Side::Spanning
+        } else if cut.is_none() && high.max(-low) <= self.band - near {
+            Side::Coplanar
+        } else {
+            self.classify_exactly(faces, face, cut)
+        }
+    }
 
-impl Vertex for ExactVertex {
-    #[inline]
-    fn position(&self) -> [f64; 3] {
-        self.position
+    /// The same, with every comparison certified.
+    #[cold]
+    fn classify_exactly(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
+        let corners = faces.corners(face);
+        let corner = |k: usize, threshold| {
+            compare(faces, self, face, Symbol::corner(k as u32), corners[k], threshold)
+        };
+        // The third corner of a segment is no part of it.
+        let count = faces.reach(face);
+        let band = self.band;
+        // First the whole face decides, so that all of its pieces are treated alike: pieces that are
+        // tested one by one would be coplanar here and spanning there.
+        let in_front = (0..count).any(|k| corner(k, band).is_gt());
+        let behind = (0..count).any(|k| corner(k, -band).is_lt());
+        match (in_front, behind) {
+            (false, false) => return Side::Coplanar,
+            (true, false) => return Side::Front,
+            (false, true) => return Side::Back,
+            (true, true) => {}
+        }
+        let Some(vertices) = cut else { return Side::Spanning };
+        // The face spans the plane by more than the tolerance, so its pieces are decided exactly.
+        let (mut in_front, mut behind) = (false, false);
+        for vertex in vertices {
+            match compare(faces, self, face, vertex.symbol, vertex.position, 0.0) {
+                Ordering::Greater => in_front = true,
+                Ordering::Less => behind = true,
+                Ordering::Equal => {}
+            }
+        }
+        match (in_front, behind) {
+            (true, true) => Side::Spanning,
+            (true, false) => Side::Front,
+            (false, true) => Side::Back,
+            // Not reached: a convex piece with an area lies in the plane only if its face does.
+            (false, false) => Side::Coplanar,
+        }
     }
-    fn symbol(&self) -> Symbol {
-        self.symbol
-    }
+
+    /// On which side of the plane a vertex of a face's piece lies, exactly.
     #[inline]
-    fn line(&self) -> Line {
-        self.line
-    }
-    #[inline]
-    fn with_line(self, line: Line) -> Self {
-        Self { line, ..self }
+    pub fn side(&self, faces: &Faces, face: u32, vertex: &Vertex) -> Ordering {
+        compare(faces, self, face, vertex.symbol, vertex.position, 0.0)
     }
 }
 
@@ -168,21 +251,21 @@ const AXIS_ERROR: f64 = 3.1 * (f64::EPSILON / 2.0) * LIMIT;
 #[inline]
 pub(super) fn compare(
     faces: &Faces,
-    splitter: &ExactSplitter,
+    prepared: &PreparedPlane,
     face: u32,
     vertex: Symbol,
     position: [f64; 3],
     threshold: f64,
 ) -> Ordering {
-    let excess = splitter.distance(position) - threshold;
+    let excess = prepared.distance(position) - threshold;
     // The threshold is an integer, hence exact. The subtraction loses at most one ulp of the larger
     // number, and the bound has room for it.
-    if excess > splitter.bound {
+    if excess > prepared.bound {
         Ordering::Greater
-    } else if excess < -splitter.bound {
+    } else if excess < -prepared.bound {
         Ordering::Less
     } else {
-        compare_exactly(faces, splitter, face, vertex, threshold)
+        compare_exactly(faces, prepared, face, vertex, threshold)
     }
 }
 
@@ -190,12 +273,12 @@ pub(super) fn compare(
 #[cold]
 fn compare_exactly(
     faces: &Faces,
-    splitter: &ExactSplitter,
+    prepared: &PreparedPlane,
     face: u32,
     vertex: Symbol,
     threshold: f64,
 ) -> Ordering {
-    let plane = faces.plane(splitter.plane);
+    let plane = faces.plane(prepared.plane);
     // A vertex on an edge was made between the edge's ends. Where both are on one side of the
     // plane, so is the vertex, and its weights need not be computed.
     if let Some([a, b]) = faces.edge_ends(face, vertex) {
@@ -206,7 +289,7 @@ fn compare_exactly(
             _ => {}
         }
     }
-    faces.compare(splitter.plane, &plane, face, vertex, threshold)
+    faces.compare(prepared.plane, &plane, face, vertex, threshold)
 }
 
 #[cfg(test)]
@@ -214,7 +297,6 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::exact::{Exact, Kernel};
     use crate::random::SplitMix64;
 
     /// Boxes of one lattice point, so near a plane that floats get its side wrong.
@@ -225,7 +307,7 @@ mod tests {
             let triangle = [(); 3].map(|()| random.point(-1.0, 1.0));
             let all = [DVec3::NEG_ONE, DVec3::ONE, DVec3::X];
             let (faces, _) = Faces::new([triangle, all], Some(0.0)).unwrap();
-            let splitter = Exact.splitter(&faces, PlaneId::face(0));
+            let prepared = PreparedPlane::new(&faces, PlaneId::face(0));
             let plane = faces.plane(PlaneId::face(0));
             let (normal, main) = (plane.normal_f64(), plane.main_axis());
             for step in 0..50 {
@@ -237,9 +319,9 @@ mod tests {
                     continue;
                 }
                 let exact = plane.at(&point).sign();
-                let rounded = splitter.distance(point).total_cmp(&0.0);
+                let rounded = prepared.distance(point).total_cmp(&0.0);
                 wrong += usize::from(exact.is_ne() && rounded != exact);
-                let side = splitter.side_of_box([point; 2]);
+                let side = prepared.side_of_box([point; 2]);
                 told += usize::from(side.is_some());
                 assert!(side != Some(Side::Front) || exact.is_gt(), "{point:?}");
                 assert!(side != Some(Side::Back) || exact.is_lt(), "{point:?}");
@@ -265,7 +347,7 @@ mod tests {
         for tolerance in [None, Some(0.0), Some(1e-3)] {
             let faces = with_sliver(tolerance);
             let length = faces.tolerance();
-            let splitter = Exact.splitter(&faces, PlaneId::face(0));
+            let prepared = PreparedPlane::new(&faces, PlaneId::face(0));
             let near = (length * (1.0 - 1e-9)).floor();
             let far = (length * (1.0 + 1e-9)).floor() + 1.0;
             let up = faces.plane(PlaneId::face(0)).normal()[2].signum() as f64;
@@ -276,7 +358,7 @@ mod tests {
                 (-near, Ordering::Equal),
                 (2f64.powi(48), Ordering::Greater),
             ] {
-                let side = splitter.side_beyond(&faces, &[12345.0, -678.0, z * up]);
+                let side = prepared.side_beyond(&faces, &[12345.0, -678.0, z * up]);
                 assert_eq!(side, expected, "{z} of {length}");
             }
         }
@@ -287,11 +369,11 @@ mod tests {
         for tolerance in [None, Some(1e-3)] {
             let faces = with_sliver(tolerance);
             for plane in [PlaneId::face(0), PlaneId::face(1), PlaneId::axis(1, 2)] {
-                let splitter = Exact.splitter(&faces, plane);
-                assert!(splitter.has_length_of(&faces));
+                let prepared = PreparedPlane::new(&faces, plane);
+                assert!(prepared.has_length_of(&faces));
                 for share in [0.0, 1.0 - 1e-6, 1.0 + 1e-6, 2.0] {
-                    let band = (splitter.band * share).floor();
-                    let other = ExactSplitter { band, ..splitter };
+                    let band = (prepared.band * share).floor();
+                    let other = PreparedPlane { band, ..prepared };
                     assert!(!other.has_length_of(&faces), "{share} at {plane:?}");
                 }
             }

@@ -1,14 +1,14 @@
-//! Pieces of faces while the tree is built.
+//! Pieces of faces while the tree is built, and how one is cut in two.
 
 use glam::DVec3;
 
 use crate::Error;
-use crate::exact::{Faces, Kernel, Piece, SymbolKind, Vertex};
+use crate::exact::{Faces, PreparedPlane, Side, SymbolKind, Vertex, split};
 use crate::memory::reserve;
 
 /// A piece of a face on its way down the tree.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Live {
+pub(crate) struct Piece {
     /// The bounding box in lattice units, from rounded vertices.
     pub(crate) min: [f64; 3],
     pub(crate) max: [f64; 3],
@@ -23,7 +23,7 @@ pub(crate) struct Live {
     on_corner: u8,
 }
 
-impl Live {
+impl Piece {
     /// A whole face.
     pub(crate) fn whole(faces: &Faces, face: u32) -> Self {
         let mut live = Self::empty(face, 0, 0);
@@ -35,7 +35,7 @@ impl Live {
     }
 
     /// A part of a piece that was cut, by its vertices, and where these begin in the arena.
-    pub(crate) fn cut<K: Kernel>(whole: &Self, vertices: &[K::Vertex], start: usize) -> Self {
+    pub(crate) fn part(whole: &Self, vertices: &[Vertex], start: usize) -> Self {
         let mut live = Self::empty(whole.face, start as u32, vertices.len() as u32);
         live.cuts = whole.cuts.saturating_add(1);
         for vertex in vertices {
@@ -62,7 +62,7 @@ impl Live {
     }
 
     /// A segment or a point, by its vertices, and where these begin in the arena.
-    pub(crate) fn thin<V: Vertex>(face: u32, vertices: &[V], start: usize) -> Self {
+    pub(crate) fn thin(face: u32, vertices: &[Vertex], start: usize) -> Self {
         let mut live = Self::empty(face, start as u32, vertices.len() as u32);
         vertices.iter().for_each(|vertex| live.include(vertex.position()));
         live
@@ -87,23 +87,28 @@ impl Live {
         self.len == 0
     }
 
-    /// The piece with its vertices in the arena.
+    /// Its vertices in the arena; `None` if it was never cut.
     #[inline]
-    pub(crate) fn piece<'a, V>(&self, arena: &'a [V]) -> Piece<'a, V> {
+    pub(crate) fn cut_vertices<'a>(&self, arena: &'a [Vertex]) -> Option<&'a [Vertex]> {
         let start = self.start as usize;
-        let cut = (self.len > 0).then(|| &arena[start..start + self.len as usize]);
-        Piece { face: self.face, cut }
+        (self.len > 0).then(|| &arena[start..start + self.len as usize])
+    }
+
+    /// Where it lies against a plane.
+    #[inline]
+    pub(crate) fn side(&self, faces: &Faces, plane: &PreparedPlane, arena: &[Vertex]) -> Side {
+        plane.classify(faces, self.face, self.cut_vertices(arena))
     }
 
     /// Calls a function with each vertex, in lattice units, rounded.
     #[inline]
-    pub(crate) fn for_each_vertex<V: Vertex>(
+    pub(crate) fn for_each_vertex(
         &self,
         faces: &Faces,
-        arena: &[V],
+        arena: &[Vertex],
         mut see: impl FnMut([f64; 3]),
     ) {
-        match self.piece(arena).cut {
+        match self.cut_vertices(arena) {
             None => faces.corners(self.face).iter().for_each(|&corner| see(corner)),
             Some(cut) => cut.iter().for_each(|vertex| see(vertex.position())),
         }
@@ -111,8 +116,8 @@ impl Live {
 
     /// A point on the plane of its face: a vertex of the piece, as of one far away the rounding of the
     /// normal would count.
-    pub(crate) fn point<V: Vertex>(&self, faces: &Faces, arena: &[V]) -> DVec3 {
-        DVec3::from_array(match self.piece(arena).cut {
+    pub(crate) fn point(&self, faces: &Faces, arena: &[Vertex]) -> DVec3 {
+        DVec3::from_array(match self.cut_vertices(arena) {
             // On the plane, or within half a step of it.
             None => faces.corners(self.face)[0],
             Some(cut) => cut[0].position(),
@@ -120,9 +125,9 @@ impl Live {
     }
 
     /// The same piece, with its vertices copied from one arena to the end of another.
-    pub(crate) fn copied<V: Copy>(self, from: &[V], to: &mut Vec<V>) -> Result<Self, Error> {
+    pub(crate) fn copied(self, from: &[Vertex], to: &mut Vec<Vertex>) -> Result<Self, Error> {
         let start = to.len() as u32;
-        let vertices = self.piece(from).cut.unwrap_or_default();
+        let vertices = self.cut_vertices(from).unwrap_or_default();
         reserve(to, vertices.len())?;
         to.extend_from_slice(vertices);
         Ok(Self { start, ..self })
@@ -156,5 +161,46 @@ impl Live {
     pub(crate) fn corner_at(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
         let mut range = faces.corner_range(self.face);
         range.find(|&corner| faces.corner(corner as u32)[axis] == coordinate).map(|c| c as u32)
+    }
+}
+
+/// Lists that are reused for every cut.
+#[derive(Debug, Default)]
+pub(crate) struct Splitter {
+    outline: Vec<Vertex>,
+    front: Vec<Vertex>,
+    back: Vec<Vertex>,
+}
+
+impl Splitter {
+    /// Cuts a piece that spans a plane. Appends the vertices of its parts to the arena, and gives the
+    /// parts in front and behind.
+    pub(crate) fn cut(
+        &mut self,
+        faces: &Faces,
+        plane: &PreparedPlane,
+        piece: &Piece,
+        arena: &mut Vec<Vertex>,
+    ) -> Result<[Piece; 2], Error> {
+        let Self { outline, front, back } = self;
+        // Copied, because the parts are appended to the arena that the piece's vertices are in.
+        outline.clear();
+        match piece.cut_vertices(arena) {
+            Some(vertices) => outline.extend_from_slice(vertices),
+            None => {
+                let corners = 0..faces.corners(piece.face).len() as u32;
+                outline.extend(corners.map(|k| Vertex::corner(faces, piece.face, k)));
+            }
+        }
+        front.clear();
+        back.clear();
+        split(faces, plane, piece.face, outline, front, back);
+        // The piece's own vertices stay behind as garbage until the arena is compacted or truncated.
+        let start = arena.len();
+        reserve(arena, front.len() + back.len())?;
+        arena.extend_from_slice(front);
+        arena.extend_from_slice(back);
+        let front_part = Piece::part(piece, front, start);
+        Ok([front_part, Piece::part(piece, back, start + front.len())])
     }
 }

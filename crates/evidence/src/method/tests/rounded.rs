@@ -1,20 +1,13 @@
-//! Kernels with an epsilon against the exact one.
+//! Rounded planes and an epsilon against exact decisions.
 
 use glam::DVec3;
 
 use super::{cameras, disjoint, faces, judge};
-use crate::Float;
 use crate::method::Bsp;
+use crate::{Precision, RoundedPiece, RoundedPlane};
 use binspace::BuildOptions;
-use binspace::internals::SplitMix64;
-use binspace::internals::{Exact, Faces, Kernel, Piece, PlaneId, Side, Vertex, split};
+use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, SplitMix64, Vertex, split};
 use binspace::scene;
-
-/// Where a whole face lies against the plane of another.
-fn side<K: Kernel>(kernel: K, faces: &Faces, face: u32, plane: u32) -> Side {
-    let splitter = kernel.splitter(faces, PlaneId::face(plane));
-    kernel.classify(faces, &splitter, Piece { face, cut: None })
-}
 
 /// The least distance of positions from the plane of a face, as a share of half the extent and of
 /// up to four times that: what an epsilon is a share of.
@@ -35,14 +28,17 @@ fn reach(faces: &Faces, plane: u32) -> f64 {
     2f64.powi(53) / width
 }
 
-/// Asserts that a kernel agrees with the exact one wherever no distance is within the epsilon and
-/// its own rounding, and gives back how many times it does not elsewhere.
-fn disagreements<K: Kernel>(kernel: K, epsilon: f64, rounding: f64, faces: &Faces) -> usize {
+/// Asserts that rounded sides are the exact ones wherever no distance is within the epsilon and the
+/// plane's rounding. Returns how many of the others differ.
+fn disagreements<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
     let (mut agreed, mut differ) = (0, 0);
     for plane in 0..faces.len() as u32 {
         let slack = epsilon + rounding * reach(faces, plane);
+        let exact = PreparedPlane::new(faces, PlaneId::face(plane));
+        let rounded = RoundedPlane::<T>::new(faces, plane, epsilon);
         for face in (0..faces.len() as u32).filter(|&face| face != plane) {
-            let same = side(kernel, faces, face, plane) == side(Exact, faces, face, plane);
+            let piece = RoundedPiece::whole::<T>(faces, face);
+            let same = rounded.classify(&piece) == exact.classify(faces, face, None);
             if least_distance(faces, faces.corners(face), plane) > slack {
                 assert!(same, "face {face} against {plane}");
                 agreed += 1;
@@ -74,85 +70,63 @@ fn with_close_calls() -> Faces {
 fn beyond_the_epsilon_rounded_sides_are_the_exact_ones() {
     let faces = with_close_calls();
     for epsilon in [1e-3, 1e-6, 1e-9, 1e-12] {
-        let count = disagreements(Float::<f64>::new(epsilon), epsilon, 1e-15, &faces);
+        let count = disagreements::<f64>(epsilon, 1e-15, &faces);
         assert_eq!(count > 0, epsilon > 1e-11, "{epsilon:e}: {count}");
     }
     for epsilon in [1e-3, 1e-4, 1e-5, 1e-6] {
-        assert!(disagreements(Float::<f32>::new(epsilon), epsilon, 4e-7, &faces) > 0);
+        assert!(disagreements::<f32>(epsilon, 4e-7, &faces) > 0);
     }
 }
 
-/// A face's pieces, by the exact kernel and by a rounded one, as the same planes cut them.
-struct Twins<K: Kernel> {
+/// A piece of a face, by exact and by rounded arithmetic, as the same planes cut it.
+struct Twins {
     face: u32,
-    exact: Vec<<Exact as Kernel>::Vertex>,
-    rounded: Vec<K::Vertex>,
+    exact: Vec<Vertex>,
+    rounded: RoundedPiece,
     cuts: usize,
 }
 
-impl<K: Kernel> Twins<K> {
-    fn new(kernel: K, faces: &Faces, face: u32) -> Self {
+impl Twins {
+    fn new<T: Precision>(faces: &Faces, face: u32) -> Self {
         let count = faces.corners(face).len() as u32;
-        let exact = (0..count).map(|k| Exact.corner(faces, face, k)).collect();
-        let rounded = (0..count).map(|k| kernel.corner(faces, face, k)).collect();
-        Self { face, exact, rounded, cuts: 0 }
+        let exact = (0..count).map(|k| Vertex::corner(faces, face, k)).collect();
+        Self { face, exact, rounded: RoundedPiece::whole::<T>(faces, face), cuts: 0 }
     }
 
-    /// How far apart the two are, as a share of half the extent, at most.
+    /// The largest distance between the two positions of a vertex, as a share of half the extent.
     fn drift(&self) -> f64 {
-        let pairs = self.exact.iter().zip(&self.rounded);
-        let apart = |(a, b): (&<Exact as Kernel>::Vertex, &K::Vertex)| {
-            (DVec3::from(a.position()) - DVec3::from(b.position())).length() / 2f64.powi(51)
-        };
+        let pairs = self.exact.iter().map(Vertex::position).zip(self.rounded.positions());
+        let apart = |(a, b)| (DVec3::from(a) - DVec3::from(b)).length() / 2f64.powi(51);
         pairs.map(apart).fold(0.0, f64::max)
     }
 
-    /// The sides of both against a plane.
-    fn sides(&self, kernel: K, faces: &Faces, plane: PlaneId) -> [Side; 2] {
-        let piece = Piece { face: self.face, cut: Some(&self.exact[..]) };
-        let exact = Exact.classify(faces, &Exact.splitter(faces, plane), piece);
-        let piece = Piece { face: self.face, cut: Some(&self.rounded[..]) };
-        [exact, kernel.classify(faces, &kernel.splitter(faces, plane), piece)]
-    }
-
-    /// Cuts both, and keeps the part in front or that behind.
-    fn cut(&mut self, kernel: K, faces: &Faces, plane: PlaneId, in_front: bool) {
-        self.exact = part(Exact, faces, plane, self.face, &self.exact, in_front);
-        self.rounded = part(kernel, faces, plane, self.face, &self.rounded, in_front);
+    /// Cuts both, and keeps the parts in front or those behind.
+    fn cut<T: Precision>(
+        &mut self,
+        faces: &Faces,
+        exact: &PreparedPlane,
+        rounded: &RoundedPlane<T>,
+        in_front: bool,
+    ) {
+        let (mut front, mut back) = (Vec::new(), Vec::new());
+        split(faces, exact, self.face, &self.exact, &mut front, &mut back);
+        let [rounded_front, rounded_back] = rounded.split(&self.rounded);
+        (self.exact, self.rounded) =
+            if in_front { (front, rounded_front) } else { (back, rounded_back) };
         self.cuts += 1;
-        let symbols = self.exact.iter().map(Vertex::symbol);
-        assert!(symbols.eq(self.rounded.iter().map(Vertex::symbol)), "{plane:?}");
+        assert!(self.exact.iter().map(Vertex::symbol).eq(self.rounded.symbols()));
     }
 }
 
-fn part<K: Kernel>(
-    kernel: K,
-    faces: &Faces,
-    plane: PlaneId,
-    face: u32,
-    vertices: &[K::Vertex],
-    in_front: bool,
-) -> Vec<K::Vertex> {
-    let (mut front, mut back) = (Vec::new(), Vec::new());
-    let splitter = kernel.splitter(faces, plane);
-    split(&kernel, faces, &splitter, face, vertices, &mut front, &mut back);
-    if in_front { front } else { back }
-}
-
-/// Cuts every face again and again, and asserts that the kernels agree on each piece wherever none
-/// of its vertices is within the epsilon, what it was moved by rounding, and the kernel's own
-/// rounding of a plane. Gives back how many times they do not elsewhere.
-fn disagreements_on_pieces<K: Kernel>(
-    kernel: K,
-    epsilon: f64,
-    rounding: f64,
-    faces: &Faces,
-) -> usize {
+/// Cuts every face several times, and asserts that rounded sides are the exact ones of each piece
+/// wherever none of its vertices is within the epsilon, its drift and the plane's rounding. Returns
+/// how many of the others differ.
+fn disagreements_on_pieces<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
     let mut random = SplitMix64::new(5);
     let count = faces.len() as u32;
     let (mut agreed, mut differ) = ([0; 7], 0);
     for face in 0..count {
-        let mut twins = Twins::new(kernel, faces, face);
+        let mut twins = Twins::new::<T>(faces, face);
         for _ in 0..60 {
             let plane = (random.next() % u64::from(count)) as u32;
             if plane == face || twins.cuts == 6 {
@@ -161,16 +135,19 @@ fn disagreements_on_pieces<K: Kernel>(
             let positions: Vec<[f64; 3]> = twins.exact.iter().map(Vertex::position).collect();
             let least = least_distance(faces, &positions, plane);
             let slack = epsilon + rounding * reach(faces, plane) + twins.drift();
-            let [exact, rounded] = twins.sides(kernel, faces, PlaneId::face(plane));
+            let exact = PreparedPlane::new(faces, PlaneId::face(plane));
+            let rounded = RoundedPlane::<T>::new(faces, plane, epsilon);
+            let side = exact.classify(faces, face, Some(&twins.exact));
+            let rounded_side = rounded.classify(&twins.rounded);
             if least <= slack {
-                differ += usize::from(exact != rounded);
+                differ += usize::from(side != rounded_side);
                 continue;
             }
-            assert_eq!(exact, rounded, "face {face} against {plane}, {} cuts", twins.cuts);
+            assert_eq!(side, rounded_side, "face {face} against {plane}, {} cuts", twins.cuts);
             agreed[twins.cuts] += 1;
-            if exact == Side::Spanning {
+            if side == Side::Spanning {
                 let in_front = random.range(-1.0, 1.0) > 0.0;
-                twins.cut(kernel, faces, PlaneId::face(plane), in_front);
+                twins.cut(faces, &exact, &rounded, in_front);
             }
         }
     }
@@ -182,13 +159,11 @@ fn disagreements_on_pieces<K: Kernel>(
 fn beyond_the_epsilon_rounded_sides_of_cut_pieces_are_the_exact_ones() {
     let faces = with_close_calls();
     for epsilon in [1e-3, 1e-6, 1e-9, 1e-12] {
-        let kernel = Float::<f64>::new(epsilon);
-        let count = disagreements_on_pieces(kernel, epsilon, 1e-15, &faces);
+        let count = disagreements_on_pieces::<f64>(epsilon, 1e-15, &faces);
         assert_eq!(count > 0, epsilon > 1e-11, "{epsilon:e}: {count}");
     }
     for epsilon in [1e-3, 1e-4, 1e-5, 1e-6] {
-        let kernel = Float::<f32>::new(epsilon);
-        assert!(disagreements_on_pieces(kernel, epsilon, 4e-7, &faces) > 0, "{epsilon:e}");
+        assert!(disagreements_on_pieces::<f32>(epsilon, 4e-7, &faces) > 0, "{epsilon:e}");
     }
 }
 
