@@ -3,22 +3,24 @@
 use std::mem::take;
 use std::ops::ControlFlow;
 
-use super::builder::{Memory, Shared};
+use glam::DVec3;
+
 use super::choose::Tuning;
-use super::job::Job;
+use super::jobs;
+use super::jobs::Job;
 use super::options::BuildOptions;
 use super::piece::Piece;
 use super::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
-use super::threads;
+use super::subtree::{Memory, Shared};
 use crate::error::Error;
 use crate::exact::Faces;
 use crate::exact::cell::Clipper;
 use crate::faces::{Listener, Preparation, Preparer};
-use crate::input::Polygon;
+use crate::input::{Point, Polygon};
 use crate::memory::{push, reserve};
+use crate::partition::{Extent, Partition};
 use crate::tree::BspTree;
-use crate::tree::node_record::Sizes;
-use crate::tree::parts::{Parts, RawNode};
+use crate::tree::parts::Parts;
 
 impl BspTree {
     /// Builds a tree with the default options.
@@ -112,7 +114,7 @@ pub(super) fn tree_of_faces(
         preparation.dropped = faces.dropped(preparation.polygons).count();
         watch.expect(faces.len())?;
         let shared = Shared::new(&faces, options, &Tuning::DEFAULT, watch)?;
-        threads::run(&shared, job, &mut Memory::default())?
+        jobs::run(&shared, job, &mut Memory::default())?
     };
     watch.end()?;
     BspTree::new(faces, preparation, parts)
@@ -157,54 +159,6 @@ fn prepared<P: Polygon>(
     Ok((faces, preparation))
 }
 
-/// Memory that trees are built in, one frame after the other.
-#[derive(Default)]
-pub(super) struct FrameMemory {
-    preparer: Preparer,
-    memory: Memory,
-    nodes: Vec<RawNode>,
-    sizes: Vec<Sizes>,
-}
-
-/// Puts faces into planes that several of them share.
-pub(super) type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
-
-impl FrameMemory {
-    /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
-    /// layout that makes many orders fast. After an error the tree is empty.
-    ///
-    /// With `arrange`, polygons are flat by definition, and it puts their faces into planes.
-    pub(super) fn rebuild<P: Polygon>(
-        &mut self,
-        tree: &mut BspTree,
-        options: &BuildOptions,
-        polygons: impl IntoIterator<Item = P>,
-        arrange: Option<Arrange<'_>>,
-    ) -> Result<(), Error> {
-        let Self { preparer, memory, nodes, sizes } = self;
-        let (mut faces, parts) = tree.take_parts();
-        memory.output.parts = Parts { nodes: take(nodes), ..parts };
-        let watch = Watch::default();
-        preparer.hold(options.bounds)?;
-        preparer.are_flat = arrange.is_some();
-        let preparation = preparer.prepare(
-            &mut faces,
-            polygons,
-            options.tolerance,
-            options.max_fragments,
-            &watch,
-        )?;
-        if let Some(arrange) = arrange {
-            arrange(&mut faces)?;
-        }
-        let tuning = &Tuning::FRAMES;
-        let shared = Shared::new(&faces, options, tuning, &watch)?;
-        let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;
-        *nodes = tree.refill(faces, preparation, parts, sizes)?;
-        Ok(())
-    }
-}
-
 /// Builds a tree of prepared faces. Their tolerance counts, not that of the options.
 ///
 /// # Errors
@@ -245,7 +199,7 @@ fn parts(
 }
 
 /// Divides the set of all faces, down to the leaves.
-fn divide_all(
+pub(super) fn divide_all(
     shared: &Shared<'_>,
     faces: &Faces,
     memory: &mut Memory,
@@ -261,5 +215,224 @@ fn divide_all(
         watch.work(some.len())?;
         pieces.extend(some.map(|face| Piece::whole(faces, face)));
     }
-    threads::run(shared, Job { pieces, arena, depth: 0 }, memory)
+    jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
+}
+
+impl BspTree {
+    /// Adds polygons for good, with the default options. Their numbers follow those of the tree's.
+    ///
+    /// The tree is built anew, of its own polygons and the others: it is the tree of all of them, on
+    /// the grid and with the tolerance that it has. Its fragments have other numbers than before, and
+    /// [overlays](crate::overlay::Overlay), [meshes](crate::mesh::Mesh) and [bounds](crate::Bounds) have to be made
+    /// anew. It takes as long as a build; what moves belongs into an overlay. Duplicates among the new
+    /// polygons, and of old ones, are kept and counted as always. (Of an old polygon that was triangulated,
+    /// a corner that no triangle has is not known, as on a straight run or where it crosses itself, in space
+    /// or along the axis on which it was triangulated: its duplicates are not found then, and a polygon
+    /// without that corner counts as one.)
+    ///
+    /// ```
+    /// use binspace::{BspTree, BuildOptions, glam::DVec3};
+    ///
+    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    /// let room = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::ONE);
+    /// let mut tree = room.build([square(0.0), square(0.5)])?;
+    /// tree.extend([square(0.25)])?;
+    /// assert_eq!(tree.fragments().map(|f| f.polygon()).max(), Some(2));
+    /// # assert_eq!(tree.len(), 3);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As for [`build`](Self::build), and if a polygon reaches beyond the grid:
+    /// [`BuildOptions::with_bounds`] makes it larger. The error names the polygon by its index among
+    /// the new ones. The tree is as it was then.
+    pub fn extend<P: Polygon>(
+        &mut self,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<(), Error> {
+        BuildOptions::DEFAULT.extend(self, polygons)
+    }
+}
+
+impl BuildOptions {
+    /// Adds polygons to a tree with these options, of which the tolerance and the bounds do not count;
+    /// see [`BspTree::extend`].
+    ///
+    /// # Errors
+    ///
+    /// As for [`BspTree::extend`], and if a budget runs out.
+    pub fn extend<P: Polygon>(
+        &self,
+        tree: &mut BspTree,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<(), Error> {
+        extend(self, tree, polygons, &Watch::default())
+    }
+
+    /// The same, with progress reported to a callback that can cancel, as
+    /// [`build_with_progress`](Self::build_with_progress) does.
+    ///
+    /// # Errors
+    ///
+    /// As for [`extend`](Self::extend), and if it is cancelled.
+    pub fn extend_with_progress<P: Polygon>(
+        &self,
+        tree: &mut BspTree,
+        polygons: impl IntoIterator<Item = P>,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<(), Error> {
+        let progress = one_at_a_time(progress);
+        extend(self, tree, polygons, &Watch::new(&progress))
+    }
+}
+
+fn extend<P: Polygon>(
+    options: &BuildOptions,
+    tree: &mut BspTree,
+    polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
+) -> Result<(), Error> {
+    let (mut faces, mut preparation) = (tree.faces.try_clone()?, tree.preparation);
+    let (before, mut preparer) = (faces.len(), Preparer::default());
+    let mut added =
+        preparer.append(&mut faces, polygons, preparation.polygons, usize::MAX, watch)?;
+    added.duplicates = preparer.duplicates_added(&faces, before, watch)?;
+    preparation.add(&added);
+    faces.shrink_to_fit();
+    *tree = tree_of_faces(options, faces, preparation, watch)?;
+    Ok(())
+}
+
+impl BuildOptions {
+    /// Divides a scene into cells, each of about as many of some samples of it, such as one corner of every
+    /// polygon, or of some of them. Takes O(n log cells) time for n samples.
+    ///
+    /// Each plane goes through a sample, and divides those on the axis along which they reach furthest. The
+    /// same samples, in whatever order, give the same cells. No cell is left out, but there may be nothing
+    /// in some: with fewer samples than cells, or most of them in one place, planes lie where there is room
+    /// for them. 0 cells count as 1.
+    ///
+    /// The extent must hold all polygons: it defines the grid that their corners are rounded to, as the
+    /// [bounds](Self::bounds) do that these options may have. The tolerance of these options is that of all
+    /// cells; the default follows the extent.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate of the extent or the bounds is NaN or infinite, the tolerance is negative or NaN, or
+    /// memory runs out.
+    pub fn partition<P: Point>(
+        &self,
+        extent: &Extent,
+        samples: impl IntoIterator<Item = P>,
+        cells: usize,
+    ) -> Result<Partition, Error> {
+        let mut room = Extent::default();
+        if let Some([corner, opposite]) = self.bounds {
+            let is_finite = corner.is_finite() && opposite.is_finite();
+            let whole = |c: DVec3| if is_finite { c } else { DVec3::NAN };
+            let [low, high] = [corner.min(opposite), corner.max(opposite)].map(whole);
+            room = Extent { low, high, ..room };
+        }
+        Partition::new(extent, &room, self.tolerance, samples, cells)
+    }
+
+    /// Builds the tree of a cell, of the polygons that [reach](Partition::reached_by) it, or more. Their
+    /// order counts where they are coplanar, so it must be the same for all cells; the tree names them by
+    /// their places in this list.
+    ///
+    /// The tolerance and the bounds of the options do not count: the partition has both.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build`](Self::build), and if a polygon reaches beyond the partition's grid.
+    ///
+    /// # Panics
+    ///
+    /// If `cell` is not less than [`Partition::cells`].
+    pub fn build_cell<P: Polygon>(
+        &self,
+        partition: &Partition,
+        cell: usize,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<BspTree, Error> {
+        tree_of_cell(self, partition, cell, polygons, &Watch::default())
+    }
+
+    /// The same, with progress reported to a callback that can cancel, as
+    /// [`build_with_progress`](Self::build_with_progress) does.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build_cell`](Self::build_cell), and if it is cancelled.
+    ///
+    /// # Panics
+    ///
+    /// As for [`build_cell`](Self::build_cell).
+    pub fn build_cell_with_progress<P: Polygon>(
+        &self,
+        partition: &Partition,
+        cell: usize,
+        polygons: impl IntoIterator<Item = P>,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
+    ) -> Result<BspTree, Error> {
+        let progress = one_at_a_time(progress);
+        tree_of_cell(self, partition, cell, polygons, &Watch::new(&progress))
+    }
+}
+
+impl Partition {
+    /// What becomes of polygons in the trees of cells: what these count in their
+    /// [preparations](BspTree::preparation), but each polygon once, however many cells it reaches. For
+    /// totals of a scene, whose polygons may be given in lists, as long as those with the same corners are
+    /// in one. [`dropped`](crate::Preparation::dropped) are those without area. It takes as long as
+    /// [`build_cell`](BuildOptions::build_cell) takes to prepare them, and cannot be cancelled.
+    ///
+    /// # Errors
+    ///
+    /// As for [`build_cell`](BuildOptions::build_cell), but for its budgets.
+    pub fn preparation<P: Polygon>(
+        &self,
+        polygons: impl IntoIterator<Item = P>,
+    ) -> Result<Preparation, Error> {
+        let mut faces = self.faces(0);
+        prepared_in_cell(&mut faces, polygons, usize::MAX, &Watch::default())
+    }
+
+    /// Whether a tree is one of this cell: on the partition's grid, with its tolerance, and cut to the cell.
+    /// One that was built of other polygons is, too.
+    ///
+    /// # Panics
+    ///
+    /// If `cell` is not less than [`cells`](Self::cells).
+    pub fn is_tree_of(&self, cell: usize, tree: &BspTree) -> bool {
+        let [own, found] = [&self.faces(cell), tree.faces()];
+        let key = |faces: &Faces| (*faces.lattice(), faces.tolerance());
+        key(own) == key(found) && own.cell() == found.cell()
+    }
+}
+
+fn tree_of_cell<P: Polygon>(
+    options: &BuildOptions,
+    partition: &Partition,
+    cell: usize,
+    polygons: impl IntoIterator<Item = P>,
+    watch: &Watch<'_>,
+) -> Result<BspTree, Error> {
+    let mut faces = partition.faces(cell);
+    let preparation = prepared_in_cell(&mut faces, polygons, options.max_fragments, watch)?;
+    tree_of_faces(options, faces, preparation, watch)
+}
+
+/// Prepares the polygons of a cell. What that needs is freed before the faces are divided.
+fn prepared_in_cell<P: Polygon>(
+    faces: &mut Faces,
+    polygons: impl IntoIterator<Item = P>,
+    limit: usize,
+    watch: &Watch<'_>,
+) -> Result<Preparation, Error> {
+    let mut preparer = Preparer::default();
+    let mut preparation = preparer.append(faces, polygons, 0, limit, watch)?;
+    preparation.duplicates = preparer.duplicates_added(faces, 0, watch)?;
+    Ok(preparation)
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::anchors::Anchors;
 use super::region::{CellTree, Region};
 use super::skeleton::{Place, Skeleton};
-use crate::build::overlay_builder::OverlayBuilder;
+use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::build::progress::Watch;
 use crate::exact::{Faces, Vertex};

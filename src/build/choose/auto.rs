@@ -1,15 +1,15 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
+use super::axis_planes::FreePlanes;
 use super::cost::{Candidate, Terms};
-use super::free::FreePlanes;
+use super::cost::{Quick, Tuning};
 use super::own::Contest;
+use super::own::Sample;
 use super::peel::{Peeler, arrange};
 use super::quick::{Middle, even_plane};
-use super::rules::{Choice, Rules};
-use super::sample::Sample;
+use super::set::LANES;
 use super::set::Set;
-use super::sketch::LANES;
-use super::tuning::{Quick, Tuning};
+use super::{Choice, Rules};
 use crate::Error;
 use crate::build::piece::Piece;
 use crate::build::progress::PIECES_AT_ONCE;
@@ -211,8 +211,8 @@ fn better(set: &Set<'_>, terms: &Terms, own: Option<Candidate>, free: Option<Can
 #[cfg(test)]
 mod tests {
     use super::super::tests::{Fixture, grid, triangles};
-    use super::super::tuning::Tuning;
     use super::{Auto, plane_of_pair};
+    use crate::build::choose::cost::Tuning;
     use crate::exact::Side;
     use crate::random::SplitMix64;
 

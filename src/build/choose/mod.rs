@@ -1,48 +1,30 @@
-//! Choosing the prepared of a set of pieces.
+//! Choosing the plane that divides a set of pieces.
 //!
-//! | file | decides |
-//! |---|---|
-//! | `auto` | the default heuristic: what is tried, and in which order |
-//! | `cost` | what a plane costs; the lowest cost wins |
-//! | `free` | which planes perpendicular to the axes are candidates |
-//! | `own` | which of the pieces' own planes is best, by successive halving |
-//! | `quick` | in frames: which own plane of a small set is good enough to end the search |
-//! | `peel` | which pieces are taken off one after the other, cutting nothing |
-//! | `sample`, `sketch` | with which pieces planes are compared, and on which side these are, rounded |
-//! | `scored` | the heuristics that count what each own plane does to all pieces |
-//! | `set` | what is known of a set and of its pieces |
-//! | `crossing` | whether two pieces cross |
-//! | `rules` | what the chooser is told, and what it answers |
-//! | `tuning` | the numbers |
+//! `auto` is the default heuristic; `own` has those that only try the pieces' own planes, and the contest of
+//! these planes. `axis_planes` finds planes perpendicular to the axes, `quick` in frames an own plane of a
+//! small set that is good enough, `peel` pieces that planes at the border of a set take off without a cut.
+//! `cost` compares planes and has the numbers of all this; `set` has a set's pieces, exact and rounded.
 
 mod auto;
+mod axis_planes;
 mod cost;
-mod crossing;
-mod free;
 mod own;
 mod peel;
 mod quick;
-mod rules;
-mod sample;
-mod scored;
 mod set;
-mod sketch;
-#[cfg(test)]
-mod tests;
-mod tuning;
 
-use super::heuristic::{DEFAULT_WEIGHTS, Heuristic};
+use super::options::{DEFAULT_WEIGHTS, Heuristic};
+use super::progress::Watch;
 use crate::Error;
 use crate::exact::PlaneId;
 use crate::random::mix;
 use auto::Auto;
-pub(super) use crossing::crosses;
+use own::Scored;
+
+pub use cost::{Quick, Tuning};
 pub(super) use peel::Peeled;
-pub(super) use quick::Best;
-pub(super) use rules::{Choice, MOST_IN_TABLE, Rules};
-use scored::Scored;
+pub(super) use quick::{Best, crosses};
 pub(super) use set::Set;
-pub use tuning::{Quick, Tuning};
 
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -118,3 +100,37 @@ impl Chooser {
         })
     }
 }
+
+/// The most pieces of a set that is divided from a table: half as many as a table has room for.
+pub(in crate::build) const MOST_IN_TABLE: usize = 32;
+
+/// What is to be done with a set.
+#[derive(Debug)]
+pub(in crate::build) enum Choice {
+    /// It is divided by this plane.
+    Split(PlaneId),
+    /// These pieces are taken off it.
+    Peel(Peeled),
+}
+
+/// The settings of the chooser.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::build) struct Rules<'a> {
+    pub(in crate::build) heuristic: Heuristic,
+    pub(in crate::build) tuning: &'a Tuning,
+    /// Once a build is cancelled, any plane is chosen, quickly.
+    pub(in crate::build) watch: &'a Watch<'a>,
+}
+
+impl<'a> Rules<'a> {
+    /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
+    pub(in crate::build) fn tabled(&self, pieces: usize) -> Option<&'a Quick> {
+        let quick = self.tuning.quick.as_ref()?;
+        let is_tabled =
+            self.heuristic == Heuristic::Auto && pieces <= quick.table.min(MOST_IN_TABLE);
+        is_tabled.then_some(quick)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,266 @@
-//! The pieces of a set, with what they are pieces of.
+//! Pieces in single precision, four at a time: enough to choose a plane by.
 
-use glam::{DVec3, Vec3};
+use std::ops::Range;
 
-use super::crossing::crosses;
+use glam::{DVec3, Vec3, Vec4};
+
+use super::cost::Counts;
+use super::quick::crosses;
+use crate::Error;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
+use crate::memory::reserve;
+
+/// Pieces compared with a plane at once.
+pub(super) const LANES: usize = 4;
+
+/// Pieces of a set, moved to its middle and rounded to `f32`.
+///
+/// Used to rank planes, which may err. What it calls certain holds exactly, beyond the tolerance.
+#[derive(Debug, Default)]
+pub(super) struct Sketch {
+    middle: DVec3,
+    /// What a distance may be off by, and the tolerance: in lattice units, as all coordinates.
+    slack: f32,
+    /// The vertices of each group of pieces: the first of all four, the second of all four, and so
+    /// on. Of a piece that has fewer than others, the last is repeated.
+    rows: Vec<[Vec4; 3]>,
+    /// Where the rows of each group end.
+    ends: Vec<u32>,
+    /// The number of each piece in its set, group by group.
+    numbers: Vec<u32>,
+    /// For each group, 1 where there is a piece, and 0 where the last group is not full.
+    lanes: Vec<Vec4>,
+}
+
+/// A plane in the coordinates of a sketch: a unit normal, and its distance from the middle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SketchPlane {
+    normal: [f32; 3],
+    offset: f32,
+}
+
+/// Which pieces of a group certainly reach in front of a plane, which behind it, and which are
+/// within the slack of it, wholly or in part: a bit each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    pub(super) front: u8,
+    pub(super) back: u8,
+    pub(super) near: u8,
+}
+
+/// A box around some pieces: its middle, and half its size.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct SketchBox {
+    middle: Vec3,
+    half: Vec3,
+}
+
+impl Sketch {
+    /// Forgets all pieces.
+    pub(super) fn clear(&mut self) {
+        self.rows.clear();
+        self.ends.clear();
+        self.numbers.clear();
+        self.lanes.clear();
+    }
+
+    /// Forgets all pieces, and takes the extent of another set.
+    pub(super) fn reset(&mut self, set: &Set<'_>) {
+        self.clear();
+        let (min, max) = (DVec3::from_array(set.min), DVec3::from_array(set.max));
+        self.middle = 0.5 * (min + max);
+        let size = (max - self.middle).max(self.middle - min).max_element();
+        // With u = 2⁻²⁴, half an ε, and in units of u · size: the normal is off by 2√3 between a
+        // vertex and the plane's point, both in the box; the vertex by √3, its products by √3, their
+        // two sums by √2 + √3, the offset and its sum with the slack by √3 each. That is 13.5, less
+        // than 7 ε. Vertex and point are off by 1.5 lattice units in each coordinate: 3√3.
+        // The tolerance is rounded to `f32` and in two sums: 3 u of it, less than 2 ε.
+        let tolerance = set.faces.tolerance() * (1.0 + 2.0 * f64::from(f32::EPSILON));
+        self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + tolerance as f32;
+    }
+
+    /// Adds pieces of the set, by number.
+    pub(super) fn extend(
+        &mut self,
+        set: &Set<'_>,
+        numbers: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<(), Error> {
+        debug_assert!(self.numbers.len().is_multiple_of(LANES), "the last group is full");
+        let first = self.numbers.len();
+        reserve(&mut self.numbers, numbers.len())?;
+        self.numbers.extend(numbers.map(|number| number as u32));
+        for start in (first..self.numbers.len()).step_by(LANES) {
+            self.add_group(set, start)?;
+        }
+        Ok(())
+    }
+
+    fn add_group(&mut self, set: &Set<'_>, start: usize) -> Result<(), Error> {
+        let group = &self.numbers[start..self.numbers.len().min(start + LANES)];
+        let vertices = group.iter().map(|&piece| set.vertices(piece as usize)).max().unwrap_or(0);
+        let row = self.rows.len();
+        reserve(&mut self.rows, vertices)?;
+        self.rows.resize(row + vertices, [Vec4::ZERO; 3]);
+        let rows = &mut self.rows[row..];
+        for lane in 0..LANES {
+            let piece = group[lane.min(group.len() - 1)] as usize;
+            let mut next = 0;
+            let mut last = [0.0; 3];
+            set.for_each_vertex(piece, |vertex| {
+                last = (DVec3::from_array(vertex) - self.middle).as_vec3().to_array();
+                for (column, c) in rows[next].iter_mut().zip(last) {
+                    column[lane] = c;
+                }
+                next += 1;
+            });
+            for row in &mut rows[next..] {
+                for (column, c) in row.iter_mut().zip(last) {
+                    column[lane] = c;
+                }
+            }
+        }
+        reserve(&mut self.ends, 1)?;
+        self.ends.push(self.rows.len() as u32);
+        let lane = |lane| if lane < group.len() { 1.0 } else { 0.0 };
+        reserve(&mut self.lanes, 1)?;
+        self.lanes.push(Vec4::from_array([0, 1, 2, 3].map(lane)));
+        Ok(())
+    }
+
+    /// How many pieces there are.
+    pub(super) fn len(&self) -> usize {
+        self.numbers.len()
+    }
+
+    pub(super) fn groups(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The rows of some groups, at least one.
+    #[inline]
+    fn rows_of(&self, groups: Range<usize>) -> Range<usize> {
+        let start = groups.start.checked_sub(1).map_or(0, |before| self.ends[before] as usize);
+        start..self.ends[groups.end - 1] as usize
+    }
+
+    /// The number in the set of a piece of the sketch.
+    pub(super) fn number(&self, piece: usize) -> usize {
+        self.numbers[piece] as usize
+    }
+
+    /// The plane of a piece of the set in the coordinates of the sketch.
+    #[inline]
+    pub(super) fn plane(&self, set: &Set<'_>, piece: usize) -> SketchPlane {
+        let (normal, point) = set.rounded_plane(piece);
+        let offset = normal.as_dvec3().dot(point - self.middle);
+        SketchPlane { normal: normal.to_array(), offset: offset as f32 }
+    }
+
+    /// Whether a piece of the set may lie on the plane of another.
+    pub(super) fn may_be_on(&self, set: &Set<'_>, own: usize, piece: usize) -> bool {
+        let (normal, point) = set.rounded_plane(own);
+        let (normal, mut is_near) = (normal.as_dvec3(), true);
+        set.for_each_vertex(piece, |vertex| {
+            let distance = normal.dot(DVec3::from_array(vertex) - point);
+            is_near &= distance.abs() <= f64::from(self.slack);
+        });
+        is_near
+    }
+
+    /// Where the pieces of a group lie against a plane; lanes that hold none say nothing.
+    #[inline]
+    pub(super) fn reach(&self, plane: &SketchPlane, group: usize) -> Reach {
+        let plane = Splat::new(plane, self.slack);
+        let (low, high) = plane.extents(&self.rows[self.rows_of(group..group + 1)]);
+        Reach {
+            front: high.cmpgt(plane.above).bitmask() as u8,
+            back: low.cmplt(plane.below).bitmask() as u8,
+            near: (low.cmple(plane.above).bitmask() & high.cmpge(plane.below).bitmask()) as u8,
+        }
+    }
+
+    /// Which lanes of a group hold a piece: a bit each.
+    pub(super) fn lanes(&self, group: usize) -> u8 {
+        self.lanes[group].cmpgt(Vec4::ZERO).bitmask() as u8
+    }
+
+    /// The box around the pieces of some groups.
+    pub(super) fn bounds(&self, groups: Range<usize>) -> SketchBox {
+        let mut min = [Vec4::INFINITY; 3];
+        let mut max = [Vec4::NEG_INFINITY; 3];
+        for row in &self.rows[self.rows_of(groups)] {
+            min = [0, 1, 2].map(|axis| min[axis].min(row[axis]));
+            max = [0, 1, 2].map(|axis| max[axis].max(row[axis]));
+        }
+        let min = Vec3::from_array(min.map(|column| column.min_element()));
+        let max = Vec3::from_array(max.map(|column| column.max_element()));
+        SketchBox { middle: 0.5 * (min + max), half: 0.5 * (max - min) }
+    }
+
+    /// On which side of a plane a box certainly lies: 0 in front, 1 behind; none if it may reach it.
+    #[inline]
+    pub(super) fn side_of_box(&self, plane: &SketchPlane, around: &SketchBox) -> Option<usize> {
+        let normal = Vec3::from_array(plane.normal);
+        let distance = normal.dot(around.middle) - plane.offset;
+        // The box is rounded once more, and so is its distance.
+        let radius = normal.abs().dot(around.half) + 2.0 * self.slack;
+        (distance.abs() > radius).then_some(usize::from(distance < 0.0))
+    }
+
+    /// Counts the pieces of some groups against a plane.
+    #[inline]
+    pub(super) fn count(&self, plane: &SketchPlane, groups: Range<usize>) -> Counts {
+        let plane = Splat::new(plane, self.slack);
+        // Sums above 2²⁴ are rounded in `f32`; they only rank planes.
+        let (mut front, mut back, mut both) = (Vec4::ZERO, Vec4::ZERO, Vec4::ZERO);
+        let mut start = groups.start.checked_sub(1).map_or(0, |before| self.ends[before] as usize);
+        for (&end, &lanes) in self.ends[groups.clone()].iter().zip(&self.lanes[groups]) {
+            let (low, high) = plane.extents(&self.rows[start..end as usize]);
+            start = end as usize;
+            let in_front = Vec4::select(high.cmpgt(plane.above), lanes, Vec4::ZERO);
+            let behind = Vec4::select(low.cmplt(plane.below), lanes, Vec4::ZERO);
+            front += in_front;
+            back += behind;
+            both += in_front * behind;
+        }
+        let [front, back, both] = [front, back, both].map(|sum| sum.element_sum() as u32);
+        Counts { front: front - both, back: back - both, splits: both }
+    }
+}
+
+/// A plane, each number of it four times.
+struct Splat {
+    normal: [Vec4; 3],
+    /// Along the normal, what is certainly in front of it is above that, and what is behind below
+    /// that.
+    above: Vec4,
+    below: Vec4,
+}
+
+impl Splat {
+    #[inline]
+    fn new(plane: &SketchPlane, slack: f32) -> Self {
+        Self {
+            normal: plane.normal.map(Vec4::splat),
+            above: Vec4::splat(plane.offset + slack),
+            below: Vec4::splat(plane.offset - slack),
+        }
+    }
+
+    /// How far a group's pieces reach along the normal, rounded: the least, and the greatest.
+    #[inline]
+    fn extents(&self, rows: &[[Vec4; 3]]) -> (Vec4, Vec4) {
+        let [a, b, c] = self.normal;
+        let (mut low, mut high) = (Vec4::INFINITY, Vec4::NEG_INFINITY);
+        for [x, y, z] in rows {
+            let along = *x * a + *y * b + *z * c;
+            low = low.min(along);
+            high = high.max(along);
+        }
+        (low, high)
+    }
+}
 
 /// A set of pieces that is to be divided: at least one.
 #[derive(Debug)]
@@ -126,3 +382,6 @@ impl<'a> Set<'a> {
         (0..count).map(move |i| i * n / count)
     }
 }
+
+#[cfg(test)]
+mod tests;

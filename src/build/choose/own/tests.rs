@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::super::cost::{Candidate, Cost, work};
-use super::super::sample::Sample;
-use super::super::set::Set;
 use super::super::tests::{Fixture, triangles};
-use super::super::tuning::Tuning;
+use super::Sample;
 use super::{Contest, Terms};
+use crate::build::choose::cost::Tuning;
+use crate::build::choose::set::Set;
 use crate::exact::{PlaneKind, Side};
 use crate::random::SplitMix64;
 

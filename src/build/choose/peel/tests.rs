@@ -2,11 +2,11 @@
 
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::super::set::Set;
-use super::super::sketch::Sketch;
+use super::super::set::Sketch;
 use super::super::tests::{Fixture, grid, triangles};
-use super::super::tuning::Tuning;
 use super::{Peeled, Peeler, arrange};
+use crate::build::choose::cost::Tuning;
+use crate::build::choose::set::Set;
 use crate::build::progress::Watch;
 use crate::exact::Side;
 use crate::random::SplitMix64;

@@ -1,14 +1,24 @@
 //! Trees that are built anew every frame.
 
 use std::fmt;
+use std::mem::take;
 
-use super::driver::FrameMemory;
+use super::choose::Tuning;
+use super::driver::divide_all;
+use super::jobs;
+use super::jobs::Job;
 use super::options::BuildOptions;
+use super::piece::Piece;
+use super::progress::Watch;
+use super::subtree::{Memory, Shared};
 use crate::error::Error;
-#[cfg(feature = "layers")]
-use crate::exact::Faces;
+use crate::exact::{Faces, Vertex};
+use crate::faces::Preparer;
 use crate::input::Polygon;
+use crate::memory::reserve;
 use crate::tree::BspTree;
+use crate::tree::node_record::{MOST_FRAGMENTS, Sizes};
+use crate::tree::parts::{Parts, RawNode};
 
 /// Builds a tree for every frame, in memory that it keeps.
 ///
@@ -101,5 +111,94 @@ impl fmt::Debug for FrameBuilder {
             .field("options", &self.options)
             .field("tree", &self.tree)
             .finish_non_exhaustive()
+    }
+}
+
+/// Memory that trees are built in, one frame after the other.
+#[derive(Default)]
+pub(super) struct FrameMemory {
+    preparer: Preparer,
+    memory: Memory,
+    nodes: Vec<RawNode>,
+    sizes: Vec<Sizes>,
+}
+
+/// Puts faces into planes that several of them share.
+pub(super) type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
+
+impl FrameMemory {
+    /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
+    /// layout that makes many orders fast. After an error the tree is empty.
+    ///
+    /// With `arrange`, polygons are flat by definition, and it puts their faces into planes.
+    pub(super) fn rebuild<P: Polygon>(
+        &mut self,
+        tree: &mut BspTree,
+        options: &BuildOptions,
+        polygons: impl IntoIterator<Item = P>,
+        arrange: Option<Arrange<'_>>,
+    ) -> Result<(), Error> {
+        let Self { preparer, memory, nodes, sizes } = self;
+        let (mut faces, parts) = tree.take_parts();
+        memory.output.parts = Parts { nodes: take(nodes), ..parts };
+        let watch = Watch::default();
+        preparer.hold(options.bounds)?;
+        preparer.are_flat = arrange.is_some();
+        let preparation = preparer.prepare(
+            &mut faces,
+            polygons,
+            options.tolerance,
+            options.max_fragments,
+            &watch,
+        )?;
+        if let Some(arrange) = arrange {
+            arrange(&mut faces)?;
+        }
+        let tuning = &Tuning::FRAMES;
+        let shared = Shared::new(&faces, options, tuning, &watch)?;
+        let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;
+        *nodes = tree.refill(faces, preparation, parts, sizes)?;
+        Ok(())
+    }
+}
+
+/// Builds a tree of the pieces in each cell, in memory that it keeps.
+#[derive(Default)]
+pub(crate) struct OverlayBuilder {
+    memory: Memory,
+}
+
+impl OverlayBuilder {
+    /// A tree of some pieces, with the positions of its vertices. Give the parts back to
+    /// [`keep`](Self::keep) when they are read.
+    ///
+    /// # Errors
+    ///
+    /// If there are too many fragments, if it is cancelled, or if memory runs out.
+    pub(crate) fn build(
+        &mut self,
+        faces: &Faces,
+        pieces: &[Piece],
+        arena: &[Vertex],
+        watch: &Watch<'_>,
+    ) -> Result<Parts, Error> {
+        let Self { memory } = self;
+        let mut job =
+            Job { pieces: take(&mut memory.pieces), arena: take(&mut memory.arena), depth: 0 };
+        job.pieces.clear();
+        job.arena.clear();
+        reserve(&mut job.pieces, pieces.len())?;
+        for piece in pieces {
+            job.pieces.push(piece.copied(arena, &mut job.arena)?);
+        }
+        // The budget counts all faces, the tree's among them.
+        let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
+        let shared = Shared::new(faces, &options, &Tuning::FRAMES, watch)?;
+        jobs::run(&shared.with_positions(), job, memory)
+    }
+
+    /// Keeps the memory of a tree for the next.
+    pub(crate) fn keep(&mut self, parts: Parts) {
+        self.memory.output.parts = parts;
     }
 }

@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::super::cost::{Candidate, Cost, work};
-use super::super::set::Set;
 use super::super::tests::Fixture;
-use super::super::tuning::Tuning;
 use super::FreePlanes;
+use crate::build::choose::cost::Tuning;
+use crate::build::choose::set::Set;
 use crate::build::piece::Piece;
 use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId, PlaneKind, Side};

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::super::set::Set;
 use super::super::tests::{Fixture, grid, triangles};
+use super::Set;
 use super::{LANES, Sketch};
 use crate::exact::{PlaneId, Side};
 use crate::random::SplitMix64;
