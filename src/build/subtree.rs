@@ -478,7 +478,14 @@ impl Builder<'_> {
 type Tried = SmallVec<[u32; 4]>;
 
 impl Builder<'_> {
-    /// Classifies the set on top of the stack by a plane, or by the one that divides it instead.
+    /// Classifies the set on top of the stack by a plane, or by the one that divides it instead: polygons
+    /// that are treated as coplanar do not cut each other.
+    ///
+    /// The corners of a small polygon are rounded by as much as those of a large one, so its plane is
+    /// less certain: extended across a large polygon in the same plane, it can leave the tolerance on
+    /// both sides. The plane of the large one has the small one within the tolerance, and divides the
+    /// set instead. In frames it also does where the plane of the small one passes beside the large one
+    /// and cuts nothing: it would come between the large one and others of its plane.
     fn settle(&mut self, start: usize, mut plane: PlaneId) -> Result<PlaneId, Error> {
         let mut tried = Tried::new();
         loop {

@@ -1,11 +1,11 @@
 //! The scene lattice: corners are rounded to it once, and everything after that is exact.
 
-mod fine;
-pub(crate) mod half_space;
 #[cfg(feature = "save")]
 mod saved;
 
 use glam::DVec3;
+
+use super::Int;
 
 /// The largest magnitude of a lattice coordinate.
 pub const LIMIT: f64 = (1u64 << 51) as f64;
@@ -207,6 +207,159 @@ impl PowerOfTwo {
     }
 }
 
+/// Points in units of 2^−`bits` lattice steps. Coordinates are below 2¹²⁴ in magnitude, and so are
+/// those of all lattice points in this unit.
+pub(crate) struct FinePoints<const N: usize> {
+    pub(crate) points: [[i128; 3]; N],
+    pub(crate) bits: u32,
+}
+
+/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so that they
+/// take as many bits of an `i128`. A difference of two points, and of two such, takes three more.
+const FINE_BITS: i32 = 123;
+
+impl Lattice {
+    /// Points in the finest unit in which they all are below 2¹²⁴, rounded to the nearest. `None` if a
+    /// coordinate is NaN, infinite, or 2¹²³ lattice steps or more.
+    pub(crate) fn fine_points<const N: usize>(&self, points: [DVec3; N]) -> Option<FinePoints<N>> {
+        let largest = self.largest_in_steps(&points)?;
+        let bits = (FINE_BITS - 1 - exponent_of(largest)) as u32;
+        let origin = self.origin.map(|c| fixed(c, bits));
+        let points = points.map(|point| {
+            let steps = self.in_steps(point);
+            std::array::from_fn(|axis| {
+                let [sum, lost] = steps[axis].map(|part| fixed(part, bits));
+                sum + lost - origin[axis]
+            })
+        });
+        Some(FinePoints { points, bits })
+    }
+
+    /// The largest of the coordinates that say how fine the grid of some points is: it has steps of at
+    /// most 2⁻¹²² of this. `None` where [`fine_points`](Self::fine_points) has none.
+    pub(crate) fn largest_in_steps(&self, points: &[DVec3]) -> Option<f64> {
+        let mut largest = self.origin.iter().fold(2.0 * LIMIT, |largest, c| largest.max(c.abs()));
+        for [c, _] in points.iter().flat_map(|&point| self.in_steps(point)) {
+            if !c.is_finite() {
+                return None;
+            }
+            largest = largest.max(c.abs());
+        }
+        (exponent_of(largest) < FINE_BITS).then_some(largest)
+    }
+
+    /// The exponent of the steps in a unit of length: there are two to the power of this many.
+    pub(crate) fn exponent(&self) -> i32 {
+        self.steps.factors.map(exponent_of).iter().sum()
+    }
+
+    /// A point in lattice steps from the world's origin, or along an axis along which the scene is far
+    /// out, from the scene: each coordinate as a number and what its rounding has lost.
+    fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
+        let world = point.to_array();
+        std::array::from_fn(|axis| {
+            let (sum, lost) = two_sum(world[axis], -self.far[axis]);
+            [sum, lost].map(|part| self.steps.times(part))
+        })
+    }
+}
+
+/// A number times 2^`bits`, which is below 2¹²³ in magnitude, rounded to the nearest integer.
+fn fixed(value: f64, bits: u32) -> i128 {
+    (value * (1u128 << bits) as f64).round() as i128
+}
+
+/// A half-space in integers: it has the lattice points p with normal·p ≥ offset. Components of the
+/// normal are at most 2¹¹⁷ in magnitude, and the offset is at most 2¹⁸⁰.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfSpaceNumbers {
+    pub(crate) normal: [i128; 3],
+    pub(crate) offset: Int<3>,
+}
+
+/// The largest component of a normal is from 2¹¹⁶ to 2¹¹⁷.
+const NORMAL_BITS: i32 = 116;
+/// Offsets beyond two to this power are cut to it: normal·p is below 2¹⁷¹ at all points of a scene.
+const FAR_BITS: u32 = 180;
+/// Offsets beyond two to this power stay far beyond, whatever the lattice's origin takes off: it is below
+/// 2¹¹⁰, so its part is below 2²³⁰.
+const BEYOND: f64 = (1u128 << 120) as f64 * (1u128 << 120) as f64;
+
+impl Lattice {
+    /// The points p with `normal.dot(p) >= offset`. `None` if a number is infinite or NaN.
+    pub(crate) fn half_space(&self, normal: DVec3, offset: f64) -> Option<HalfSpaceNumbers> {
+        if !normal.is_finite() || !offset.is_finite() {
+            return None;
+        }
+        let size = normal.abs().max_element();
+        let up = if size > 0.0 { -exponent_of(size) } else { 0 };
+        let unit = normal.to_array().map(|c| scaled(c, up));
+        let normal = unit.map(|c| scaled(c, NORMAL_BITS).round() as i128);
+        // The offset less the far coordinates' part: in a unit in which none of them is beyond 1, so that
+        // no product is beyond the range of `f64`, and none that matters below it.
+        let exponent = |value: f64, up| (value != 0.0).then(|| exponent_of(value.abs()) + up);
+        let far = self.far.into_iter().map(|far| exponent(far, 0));
+        let most = far.chain([exponent(offset, up)]).flatten().max().unwrap_or(0) + 1;
+        let mut sum = Sum::default();
+        sum.add(scaled(offset, up - most));
+        for (unit, far) in unit.into_iter().zip(self.far) {
+            let far = scaled(far, -most);
+            let part = unit * far;
+            sum.add(-part);
+            sum.add(-unit.mul_add(far, -part));
+        }
+        let parts = sum.parts.map(|part| scaled(part, NORMAL_BITS + self.exponent() + most));
+        // The last that is not 0 is the largest, and nearly the sum.
+        let largest = parts.into_iter().rev().find(|&part| part != 0.0).unwrap_or(0.0);
+        let steps = if largest.abs() < BEYOND {
+            let part = |axis: usize| {
+                Int::<2>::from(normal[axis]).times::<2, 5>(&Int::from(self.origin[axis] as i128))
+            };
+            let origin = part(0) + part(1) + part(2);
+            parts.into_iter().fold(-origin, |sum, c| sum + Int::from_f64(c.round()))
+        } else if largest > 0.0 {
+            Int::<2>::from(1_i128).shifted(FAR_BITS + 1)
+        } else {
+            -Int::<2>::from(1_i128).shifted::<5>(FAR_BITS + 1)
+        };
+        Some(HalfSpaceNumbers { normal, offset: cut(steps) })
+    }
+}
+
+/// An exact sum of up to seven numbers: parts that do not overlap, from the smallest to the largest, but
+/// for zeros (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+/// predicates", 1997, grow-expansion).
+struct Sum {
+    parts: [f64; 7],
+    /// How many have been added.
+    len: usize,
+}
+
+impl Default for Sum {
+    fn default() -> Self {
+        Self { parts: [0.0; 7], len: 0 }
+    }
+}
+
+impl Sum {
+    fn add(&mut self, value: f64) {
+        let mut value = value;
+        for part in &mut self.parts[..self.len] {
+            (value, *part) = two_sum(value, *part);
+        }
+        self.parts[self.len] = value;
+        self.len += 1;
+    }
+}
+
+/// An offset, cut to what all points of a scene are this side of.
+fn cut(offset: Int<5>) -> Int<3> {
+    let far = Int::<2>::from(1_i128).shifted::<5>(FAR_BITS);
+    let within = if (offset - far).is_negative() { offset } else { far };
+    let within = if (within + far).is_negative() { -far } else { within };
+    within.resize()
+}
+
 #[cfg(test)]
 mod tests {
     use super::{LIMIT, Lattice};
@@ -306,6 +459,42 @@ mod tests {
                 let ulp = corner.abs().max_element() * f64::EPSILON;
                 prop_assert!((back - corner).abs().max_element() <= extent * 2f64.powi(-50) + ulp);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod fine_tests {
+    use super::*;
+
+    #[test]
+    fn points_of_any_size_keep_120_bits() {
+        let lattice = Lattice::new(DVec3::splat(-1.0), DVec3::splat(1.0));
+        let step = lattice.length_to_world(1.0);
+        for size in [1e-18, 1e-3, 0.7, 3.0, 1e5, 1e15, 4e20] {
+            let points = [DVec3::new(size, -size, 0.0), DVec3::new(0.5, 0.25, 0.1)];
+            let fine = lattice.fine_points(points).expect("within reach");
+            let unit = step / (1u128 << fine.bits) as f64;
+            assert!(unit <= size.max(1.0) * 2f64.powi(-120), "{size}: {unit:e}");
+            for (fine, point) in fine.points.iter().zip(points) {
+                let back = DVec3::from(fine.map(|c| c as f64 * unit));
+                let slack = DVec3::splat(unit) + point.abs() * f64::EPSILON;
+                assert!((back - point).abs().cmple(slack).all(), "{size}: {point}, {back}");
+            }
+        }
+        for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e30, f64::MAX] {
+            assert!(lattice.fine_points([DVec3::ZERO, DVec3::new(0.0, bad, 0.0)]).is_none());
+        }
+    }
+
+    #[test]
+    fn lattice_points_are_multiples_of_the_steps() {
+        let (low, high) = (DVec3::new(1e6, -3.0, 2e-9), DVec3::new(1e6 + 0.3, -1.0, 7e-9));
+        let lattice = Lattice::new(low, high);
+        for point in [low, high, high * 0.25 + low * 0.75] {
+            let on_lattice = lattice.snap(point);
+            let fine = lattice.fine_points([lattice.to_world(on_lattice)]).expect("within reach");
+            assert_eq!(fine.points[0], on_lattice.map(|c| (c as i128) << fine.bits));
         }
     }
 }

@@ -5,7 +5,7 @@ use super::filter::{Guess, guess};
 use super::probe::Probe;
 use super::walk::Walk;
 use crate::exact::Faces;
-use crate::exact::exact_ray::{ExactRay, Parameter};
+use crate::exact::eye::{ExactRay, Parameter};
 use crate::ray::Ray;
 use crate::tree::{Bounds, BspTree, Fragment};
 

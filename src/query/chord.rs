@@ -6,7 +6,7 @@
 
 use std::cmp::Ordering;
 
-use crate::exact::exact_ray::{AtRay, ExactRay, Parameter};
+use crate::exact::eye::{AtRay, ExactRay, Parameter};
 use crate::exact::integers;
 use crate::exact::{Faces, Line, Plane, PlaneId};
 use crate::tree::Fragment;

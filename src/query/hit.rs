@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::chord::Spot;
-use crate::exact::exact_ray::{ExactRay, Parameter};
+use crate::exact::eye::{ExactRay, Parameter};
 use crate::ray::Ray;
 use crate::tree::{BspTree, Fragment};
 

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use super::filter::is_off_plane;
 use super::probe::Probe;
 use crate::exact::PlaneId;
-use crate::exact::exact_ray::ExactRay;
+use crate::exact::eye::ExactRay;
 use crate::ray::Ray;
 use crate::tree::{BspTree, Child, Node};
 

@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::exact::Lattice;
-use crate::exact::exact_ray::{ExactRay, Parameter};
+use crate::exact::eye::{ExactRay, Parameter};
 use crate::exact::lattice::{MAX_CORNER, exponent_of, scaled};
 use crate::ray::Ray;
 

@@ -7,7 +7,7 @@ use num_traits::{FromPrimitive, Signed};
 
 use super::{Probe, SPEED_BITS};
 use crate::exact::Lattice;
-use crate::exact::exact_ray::ExactRay;
+use crate::exact::eye::ExactRay;
 use crate::random::SplitMix64;
 use crate::ray::Ray;
 

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::survey::{Node, Survey, ends};
 use crate::Error;
-use crate::exact::along::Fraction;
+use crate::exact::vertex::Fraction;
 use crate::exact::{POSITION_OFF, Symbol, SymbolKind};
 use crate::memory::reserve;
 use crate::union::Union;
