@@ -17,7 +17,7 @@ use crate::faces::Preparer;
 use crate::input::Polygon;
 use crate::memory::reserve;
 use crate::tree::BspTree;
-use crate::tree::node_record::{MOST_FRAGMENTS, Sizes};
+use crate::tree::node::{MOST_FRAGMENTS, Sizes};
 use crate::tree::parts::{Parts, RawNode};
 
 /// Builds a tree for every frame, in memory that it keeps.

@@ -17,7 +17,7 @@ use crate::bits::bits;
 use crate::error::{Error, Limit};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 use crate::memory::{collect, push, reserve};
-use crate::tree::node_record::MOST_FRAGMENTS;
+use crate::tree::node::MOST_FRAGMENTS;
 use crate::tree::parts::{RawChild, RawNode};
 
 /// Builds the subtree of a job. Large sets are passed to `hand_over`, which returns the number of the

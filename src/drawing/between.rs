@@ -16,7 +16,7 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::push;
 use crate::overlay::Overlay;
-use crate::overlay::given::GivenSegment;
+use crate::overlay::place::GivenSegment;
 
 /// An overlay's lines and points, each with how many parts of the drawing come before it: in input order, lines
 /// first.

@@ -15,7 +15,7 @@ use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, push, reserve};
 use crate::overlay::Overlay;
-use crate::overlay::given::GivenSegment;
+use crate::overlay::place::GivenSegment;
 
 /// A part of a segment of an overlay's line, visible or hidden from one end to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]

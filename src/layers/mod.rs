@@ -111,12 +111,10 @@
 //! that of the [tree](crate::BspTree#exactness).
 
 mod clip;
-mod layer;
 mod page;
 mod piece;
-mod vertex;
 
-pub use layer::Layer;
 pub use page::Layers;
+pub use piece::Layer;
 pub use piece::LayerPiece;
-pub use vertex::LayerVertex;
+pub use piece::LayerVertex;

@@ -1,9 +1,7 @@
 //! What a page is painted by.
 
-use glam::DVec2;
+use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
-use super::layer::Layer;
-use super::vertex::{ClippedCorner, LayerVertex, interpolated};
 use crate::tree::Fragment;
 
 /// A convex piece of a layer, or all that is seen of it.
@@ -83,5 +81,176 @@ impl<'p> LayerPiece<'p> {
             from = to;
         }
         is_inside
+    }
+}
+
+/// A corner of a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LayerVertex {
+    /// Its place on the screen, and its depth: (x/w, y/w, z/w).
+    pub position: DVec3,
+    /// The w that it was divided by; positive.
+    pub w: f64,
+    /// Its place (u, v) in the layer's own rectangle.
+    pub local: DVec2,
+}
+
+impl LayerVertex {
+    /// (x, y, z, w), for a graphics card that divides by w itself.
+    pub fn homogeneous(&self) -> DVec4 {
+        (self.position * self.w).extend(self.w)
+    }
+
+    /// (u/w, v/w, 1/w). All three are linear over the piece on the screen, which u and v are not:
+    /// interpolate them and divide the first two by the third.
+    pub fn perspective(&self) -> DVec3 {
+        self.local.extend(1.0) / self.w
+    }
+}
+
+/// A corner of a clipped layer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClippedCorner {
+    pub(super) vertex: LayerVertex,
+    /// Which edge of the rectangle begins here, if clipping did not make it.
+    pub(super) edge: Option<u8>,
+}
+
+/// The vertex at a point of the screen, by its weights over corners.
+pub(super) fn interpolated(
+    layer: &Layer,
+    outline: &[ClippedCorner],
+    position: DVec3,
+    weights: &[(u32, f64)],
+) -> LayerVertex {
+    let corner = |k: u32| outline[k as usize].vertex;
+    // As shares of one corner's w, so that no w is too small or too large.
+    let unit = weights.first().map_or(1.0, |&(k, _)| corner(k).w);
+    let term =
+        |&(k, weight): &(u32, f64)| corner(k).local.extend(1.0) * (weight * (unit / corner(k).w));
+    let sum: DVec3 = weights.iter().map(term).sum();
+    let local = layer.clamp(sum.truncate() / sum.z);
+    LayerVertex { position, w: unit / sum.z, local }
+}
+
+/// A rectangle in coordinates of its own, and a matrix that maps it to the screen.
+///
+/// Two layers are equal if their numbers are: an equal list of layers is an unchanged frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    low: DVec2,
+    high: DVec2,
+    /// What x, y, z and w are made of: coefficients of u, of v and of 1.
+    rows: [DVec3; 4],
+    /// The distance from 1 to the next number that the matrix could hold.
+    step: f64,
+}
+
+impl Layer {
+    /// The rectangle from `low` to `high`, in the layer's own coordinates (u, v), and a matrix from
+    /// (u, v, 0, 1) to homogeneous screen coordinates (x, y, z, w). Its z column is not used.
+    pub fn new([low, high]: [[f64; 2]; 2], matrix: DMat4) -> Self {
+        Self::with_step([low, high], matrix, f64::EPSILON)
+    }
+
+    /// Like [`new`](Self::new), with a matrix that was computed in `f32`: layers that it puts into
+    /// one plane up to its rounding count as coplanar.
+    pub fn from_f32([low, high]: [[f64; 2]; 2], matrix: Mat4) -> Self {
+        Self::with_step([low, high], matrix.as_dmat4(), f64::from(f32::EPSILON))
+    }
+
+    fn with_step([low, high]: [[f64; 2]; 2], matrix: DMat4, step: f64) -> Self {
+        let row = |k: usize| DVec3::new(matrix.x_axis[k], matrix.y_axis[k], matrix.w_axis[k]);
+        Self { low: low.into(), high: high.into(), rows: [0, 1, 2, 3].map(row), step }
+    }
+
+    /// The point (u, v) of the layer's plane that appears at a point of the screen: by this, a layer
+    /// is drawn pixel by pixel. It may be outside the layer's rectangle. `None` where the plane does
+    /// not appear or appears as a line.
+    ///
+    /// Where u and v run linearly over the screen, as without perspective, so does this; otherwise
+    /// u/w, v/w and 1/w do.
+    pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        let [of_x, of_y, _, of_w] = self.rows;
+        // Both are 0 at (u, v, 1): the point is where their lines meet.
+        let point = (of_x - of_w * x).cross(of_y - of_w * y);
+        let local = point.truncate() / point.z;
+        let is_seen = of_w.dot(local.extend(1.0)) > 0.0 && local.is_finite();
+        is_seen.then_some(local.to_array())
+    }
+
+    /// A number that is the same for layers of [one plane](Self::shares_plane), and rarely for others.
+    pub(super) fn plane_key(&self) -> u64 {
+        let numbers = self.rows.iter().flat_map(|row| row.to_array());
+        // 0 and −0 are equal.
+        let add = |key: u64, number: f64| {
+            (key.rotate_left(5) ^ (number + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        };
+        numbers.fold(0, add)
+    }
+
+    /// Whether its plane is another layer's by definition: their matrices are equal.
+    pub(super) fn shares_plane(&self, other: &Self) -> bool {
+        self.rows == other.rows
+    }
+
+    /// The corners (u, v) of the rectangle; edge k runs from corner k to the next.
+    pub(super) fn corners(&self) -> [DVec2; 4] {
+        let Self { low, high, .. } = *self;
+        [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
+    }
+
+    /// (u, v), moved into the rectangle if rounding put it outside.
+    pub(super) fn clamp(&self, local: DVec2) -> DVec2 {
+        local.clamp(self.low, self.high)
+    }
+
+    /// Whether its numbers are finite, and what it is made of as well.
+    pub(super) fn is_finite(&self) -> bool {
+        let numbers = self.low.is_finite() && self.high.is_finite();
+        numbers && self.rows.iter().all(|row| row.is_finite() && self.size_of(*row).is_finite())
+    }
+
+    /// Whether the rectangle has no area.
+    pub(super) fn is_empty(&self) -> bool {
+        !(self.low.x < self.high.x && self.low.y < self.high.y)
+    }
+
+    /// The most that the terms of a row add up to in the rectangle.
+    fn size_of(&self, row: DVec3) -> f64 {
+        let largest = self.low.abs().max(self.high.abs()).extend(1.0);
+        row.abs().dot(largest)
+    }
+
+    /// What (x, y, z, w) are made of, scaled by a power of two so that the largest is about 1: no
+    /// product overflows. Homogeneous coordinates mean the same at any scale. The scale comes last.
+    pub(super) fn scaled_rows(&self) -> ([DVec3; 4], f64) {
+        let largest = self.rows.iter().fold(0.0, |size: f64, &row| size.max(self.size_of(row)));
+        let exponent = largest.log2().floor().clamp(-1000.0, 1000.0);
+        let scale = (-exponent).exp2();
+        (self.rows.map(|row| row * scale), scale)
+    }
+
+    /// Bounds on the terms of a row that is centred.
+    pub(super) fn terms(&self, row: DVec3) -> DVec3 {
+        let half = self.high * 0.5 - self.low * 0.5;
+        (row.truncate().abs() * half).extend(self.size_of(row))
+    }
+
+    /// Rows with the middle of the rectangle as origin and its half sides as units.
+    pub(super) fn centred(&self, rows: [DVec3; 4]) -> [DVec3; 4] {
+        let (middle, half) = (self.low * 0.5 + self.high * 0.5, self.high * 0.5 - self.low * 0.5);
+        rows.map(|row| (row.truncate() * half).extend(row.dot(middle.extend(1.0))))
+    }
+
+    /// Bounds on the rounding of x, y, z and w in a point, made of rows as the matrix has them.
+    pub(super) fn rounding(&self, rows: [DVec3; 4], local: DVec2) -> DVec4 {
+        let largest = local.abs().extend(1.0);
+        DVec4::from_array(rows.map(|row| row.abs().dot(largest))) * self.step
+    }
+
+    /// The distance from 1 to the next number that the matrix could hold.
+    pub(super) fn step(&self) -> f64 {
+        self.step
     }
 }

@@ -1,24 +1,16 @@
 //! Polygons that move, lines and points, beside a tree that stays as it is.
 
-mod anchors;
-#[cfg(feature = "drawing")]
-pub(crate) mod given;
-mod indices;
 mod order;
-mod place;
-mod placer;
+pub(crate) mod place;
 mod planes;
-mod region;
 mod replace;
-mod shapes;
 mod skeleton;
-mod store;
 
 use std::fmt;
 
 pub use order::Overlaid;
-use placer::Placer;
-pub use shapes::{Marker, Segment, Shape, Shapes};
+use place::Placer;
+pub use replace::{Marker, Segment, Shape, Shapes};
 use skeleton::Skeleton;
 
 use crate::error::{Error, Kind};

@@ -2,18 +2,19 @@
 
 use std::ops::Range;
 
-use super::placer::{Pending, Placer, Work};
-use super::planes;
-use super::region::{Opened, Region, Whose};
-use super::skeleton::{Place, Skeleton};
-use crate::build::piece::Piece;
+use super::planes::{CellTree, Opened, Region, Whose};
+use super::skeleton::Anchors;
+use super::skeleton::{Place, Skeleton, SlotSide};
+use super::{Overlay, planes};
+use crate::build::frames::OverlayBuilder;
+use crate::build::piece::{Piece, Splitter};
 use crate::build::progress::Watch;
-use crate::error::{Error, Limit};
-use crate::exact::{Faces, Line, PreparedPlane, Side, Vertex};
+use crate::error::{Error, InputFault, Limit};
+use crate::exact::{Faces, Line, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::memory::reserve;
 use crate::tree::BspTree;
-use crate::tree::node_record::MOST_FRAGMENTS;
-use crate::tree::parts::Parts;
+use crate::tree::node::MOST_FRAGMENTS;
+use crate::tree::parts::{Parts, Record};
 
 /// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
 /// time to look at boxes of what is scattered; larger: time to look at the pieces of a body one by one.
@@ -219,4 +220,155 @@ impl Work<'_> {
         self.placer.cells.keep(tree);
         Ok(None)
     }
+}
+
+/// A set of pieces that is still to be divided: a range of the stack of pieces.
+#[derive(Debug)]
+pub(super) struct Pending {
+    pub(super) pieces: Range<usize>,
+    /// The length of the arena that it needs.
+    pub(super) arena: usize,
+    pub(super) region: Region,
+    pub(super) place: Place,
+}
+
+/// Places polygons, lines and points in a tree; its lists are kept to be used again.
+#[derive(Default)]
+pub(super) struct Placer {
+    pub(super) cells: OverlayBuilder,
+    pub(super) cell: CellTree,
+    pub(super) anchors: Anchors,
+    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
+    /// polygons, then lines, then points.
+    pub(super) pieces: Vec<Piece>,
+    /// The vertices of cut pieces, in the order of the cuts.
+    pub(super) arena: Vec<Vertex>,
+    pub(super) pending: Vec<Pending>,
+    pub(super) front: Vec<Piece>,
+    pub(super) own: Vec<Piece>,
+    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
+    pub(super) crowd: Option<[[f64; 3]; 2]>,
+    pub(super) splitter: Splitter,
+    /// The face to begin with: those before it are the tree's.
+    pub(super) first: u32,
+    /// The first face without area.
+    pub(super) thin: u32,
+}
+
+/// What one placing reads and writes.
+pub(super) struct Work<'a> {
+    pub(super) tree: &'a BspTree,
+    pub(super) faces: &'a Faces,
+    pub(super) placer: &'a mut Placer,
+    pub(super) pieces: &'a mut Parts,
+    pub(super) skeleton: &'a mut Skeleton,
+    pub(super) watch: &'a Watch<'a>,
+}
+
+/// A segment of a line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GivenSegment {
+    pub(crate) line: usize,
+    /// Its number in its line.
+    pub(crate) number: usize,
+    /// Its ends on the grid.
+    pub(crate) ends: [[f64; 3]; 2],
+}
+
+impl Overlay {
+    /// An error if the overlay is not one for the tree, or has polygons.
+    pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
+        self.expect(tree)?;
+        if self.base.faces < self.first_thin() {
+            let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
+            return Err(InputFault::InOverlay.of_polygon(number));
+        }
+        Ok(())
+    }
+
+    /// All segments of its lines, in input order.
+    pub(crate) fn given_segments(&self) -> impl ExactSizeIterator<Item = GivenSegment> {
+        let first = self.first_thin();
+        (0..self.faces.thin.segments).map(move |i| {
+            let face = (first + i) as u32;
+            let corners = self.faces.corners(face);
+            let (line, number) = (self.faces.polygon(face), self.segments[i] as usize);
+            GivenSegment { line, number, ends: [corners[0], corners[1]] }
+        })
+    }
+
+    /// All its points on the grid, in input order.
+    pub(crate) fn given_points(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        let first = self.faces.len() - self.faces.thin.points;
+        (0..self.faces.thin.points).map(move |i| self.faces.corners((first + i) as u32)[0])
+    }
+
+    /// The first face that has no area.
+    fn first_thin(&self) -> usize {
+        self.faces.len() - self.faces.thin.segments - self.faces.thin.points
+    }
+}
+
+impl Work<'_> {
+    /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
+    /// order.
+    pub(super) fn store_all(
+        &mut self,
+        fragments: Range<u32>,
+        own: usize,
+    ) -> Result<SlotSide, Error> {
+        let first = self.pieces.records.len() as u32;
+        for fragment in fragments {
+            let fragment = fragment as usize;
+            let Parts { records, vertices, positions, .. } = &self.placer.cell.parts;
+            let end =
+                records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
+            let range = records[fragment].vertices as usize..end;
+            let (symbols, places) = (&vertices[range.clone()], &positions[range]);
+            let face = records[fragment].face;
+            add(self.pieces, face, symbols.iter().copied(), places.iter().copied())?;
+        }
+        let Placer { own: list, arena, .. } = &*self.placer;
+        // Coplanar polygons are painted in input order, which sets keep when they are divided.
+        debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
+        for live in &list[..own] {
+            let cut = live.cut_vertices(arena).unwrap_or_default();
+            let symbols = cut.iter().map(|vertex| vertex.stored());
+            add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position))?;
+            self.watch.finish(live.cuts);
+        }
+        self.skeleton.group(first..self.pieces.records.len() as u32)
+    }
+
+    /// Appends the fragments of a small tree to the overlay's pieces, and gives the number of the first.
+    pub(super) fn store_tree(&mut self, tree: &Parts) -> Result<u32, Error> {
+        let pieces = &mut *self.pieces;
+        let first = pieces.records.len() as u32;
+        let shift = pieces.vertices.len() as u32;
+        reserve(&mut pieces.records, tree.records.len())?;
+        let moved = |record: &Record| Record { vertices: record.vertices + shift, ..*record };
+        pieces.records.extend(tree.records.iter().map(moved));
+        reserve(&mut pieces.vertices, tree.vertices.len())?;
+        pieces.vertices.extend_from_slice(&tree.vertices);
+        reserve(&mut pieces.positions, tree.positions.len())?;
+        pieces.positions.extend_from_slice(&tree.positions);
+        Ok(first)
+    }
+}
+
+/// Adds a piece to those that are in place.
+fn add(
+    pieces: &mut Parts,
+    face: u32,
+    symbols: impl ExactSizeIterator<Item = StoredVertex>,
+    places: impl ExactSizeIterator<Item = [f64; 3]>,
+) -> Result<(), Error> {
+    let Parts { records, vertices, positions, .. } = pieces;
+    reserve(records, 1)?;
+    records.push(Record { face, vertices: vertices.len() as u32 });
+    reserve(vertices, symbols.len())?;
+    vertices.extend(symbols);
+    reserve(positions, places.len())?;
+    positions.extend(places);
+    Ok(())
 }

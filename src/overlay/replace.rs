@@ -2,13 +2,15 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
+
 use super::Overlay;
-use super::shapes::Shapes;
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
 use crate::error::Error;
+use crate::exact::SymbolKind;
 use crate::input::{Point, Polygon};
-use crate::tree::BspTree;
+use crate::tree::{BspTree, Fragment};
 
 impl Overlay {
     /// Replaces all that the overlay has by polygons, and cuts them down to the leaves of the tree.
@@ -126,5 +128,181 @@ impl Drop for Filling<'_> {
         if !self.is_done {
             self.overlay.clear();
         }
+    }
+}
+
+/// Polygons, lines and points for [`Overlay::replace_with`](crate::overlay::Overlay::replace_with).
+///
+/// ```
+/// use binspace::overlay::Shapes;
+///
+/// let axis = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+/// let curve: Vec<_> = (0..9).map(|k| [0.1 * f64::from(k), 0.5, 0.0]).collect();
+/// let shapes = Shapes::NONE.with_lines([&axis[..], &curve]).with_points(curve.iter().copied());
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Shapes<P, L, Q> {
+    pub(super) polygons: P,
+    pub(super) lines: L,
+    pub(super) points: Q,
+}
+
+impl Shapes<[[DVec3; 3]; 0], [[DVec3; 2]; 0], [DVec3; 0]> {
+    /// Nothing.
+    pub const NONE: Self = Self { polygons: [], lines: [], points: [] };
+}
+
+impl<P, L, Q> Shapes<P, L, Q> {
+    /// Sets the polygons: an iterator of any type of [`Polygon`](crate::Polygon).
+    #[must_use]
+    pub fn with_polygons<T>(self, polygons: T) -> Shapes<T, L, Q> {
+        let Self { lines, points, .. } = self;
+        Shapes { polygons, lines, points }
+    }
+
+    /// Sets the lines: an iterator of any type of [`Polygon`](crate::Polygon), whose corners are joined
+    /// in order. The last is not joined to the first: to close a line, repeat its first corner. Of one
+    /// corner there is no line.
+    #[must_use]
+    pub fn with_lines<T>(self, lines: T) -> Shapes<P, T, Q> {
+        let Self { polygons, points, .. } = self;
+        Shapes { polygons, lines, points }
+    }
+
+    /// Sets the points: an iterator of any type of [`Point`](crate::Point).
+    #[must_use]
+    pub fn with_points<T>(self, points: T) -> Shapes<P, L, T> {
+        let Self { polygons, lines, .. } = self;
+        Shapes { polygons, lines, points }
+    }
+}
+
+/// An item of a merged order: a fragment of the tree, or a piece of the overlay's input.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Shape<'a> {
+    /// A fragment of the tree, or a piece of a polygon of the overlay.
+    Fragment(Fragment<'a>),
+    /// A piece of a segment of a line.
+    Segment(Segment<'a>),
+    /// A point.
+    Marker(Marker),
+}
+
+impl<'a> Shape<'a> {
+    /// Its number, as in [`Overlay::back_to_front_into`].
+    pub fn index(&self) -> u32 {
+        match self {
+            Self::Fragment(fragment) => fragment.index(),
+            Self::Segment(segment) => segment.index(),
+            Self::Marker(marker) => marker.index(),
+        }
+    }
+
+    /// The fragment or piece of a polygon, if it is one.
+    pub fn fragment(self) -> Option<Fragment<'a>> {
+        match self {
+            Self::Fragment(fragment) => Some(fragment),
+            _ => None,
+        }
+    }
+}
+
+/// A piece of a segment, which joins two corners of a line of an overlay.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<'a> {
+    /// Two vertices on the segment's face.
+    piece: Fragment<'a>,
+    number: u32,
+}
+
+impl Segment<'_> {
+    /// Its number, as in [`Overlay::back_to_front_into`].
+    pub fn index(&self) -> u32 {
+        self.piece.index()
+    }
+
+    /// The index of the line among the lines that were given.
+    pub fn line(&self) -> usize {
+        self.piece.polygon()
+    }
+
+    /// The number of the segment in its line: it joins the corners of this number and the next.
+    pub fn number(&self) -> usize {
+        self.number as usize
+    }
+
+    /// Its two ends, in the direction of the line. A corner of the line is rounded to the
+    /// grid; a cut end is rounded as [`Fragment::vertices`] are. The two pieces at a cut have the same
+    /// bits there.
+    pub fn ends(&self) -> [DVec3; 2] {
+        let mut ends = self.piece.vertices();
+        [(); 2].map(|()| ends.next().unwrap_or_default())
+    }
+
+    /// Where its ends are on the segment, from 0 at the first corner to 1 at the second, rounded: of a
+    /// piece shorter than a rounding, the first may be larger than the second.
+    pub fn shares(&self) -> [f64; 2] {
+        let mut ends = self.piece.weights().map(|weights| {
+            weights.iter().map(|&(corner, weight)| f64::from(corner) * weight).sum()
+        });
+        [(); 2].map(|()| ends.next().unwrap_or_default())
+    }
+
+    /// Whether each of its ends was cut, and so is no corner of the line.
+    pub fn cuts(&self) -> [bool; 2] {
+        let mut ends = self.piece.symbols();
+        [(); 2]
+            .map(|()| ends.next().is_some_and(|end| !matches!(end.kind(), SymbolKind::Corner(_))))
+    }
+}
+
+/// A point of an overlay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marker {
+    index: u32,
+    point: u32,
+    position: DVec3,
+}
+
+impl Marker {
+    /// Its number, as in [`Overlay::back_to_front_into`].
+    pub fn index(&self) -> u32 {
+        self.index
+    }
+
+    /// The index of the point among the points that were given.
+    pub fn point(&self) -> usize {
+        self.point as usize
+    }
+
+    /// The given point, rounded to the grid.
+    pub fn position(&self) -> DVec3 {
+        self.position
+    }
+}
+
+impl Overlay {
+    /// What a number stands for; `None` if it is that of a fragment of the tree, or of nothing.
+    pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
+        let face = self.record(number)?.face;
+        let piece = self.stored(number);
+        let thin = self.faces.thin;
+        let from_end = self.faces.len() - face as usize;
+        Some(if from_end <= thin.points {
+            let position = piece.vertices().next().unwrap_or_default();
+            let point = self.faces.polygon(face) as u32;
+            Shape::Marker(Marker { index: number, point, position })
+        } else if from_end <= thin.points + thin.segments {
+            let at = thin.points + thin.segments - from_end;
+            Shape::Segment(Segment { piece, number: self.segments[at] })
+        } else {
+            Shape::Fragment(piece)
+        })
+    }
+
+    /// The piece of a polygon by its number; `None` if it is that of anything else.
+    pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
+        self.shape(number)?.fragment()
     }
 }

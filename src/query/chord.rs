@@ -10,7 +10,7 @@ use crate::exact::eye::{AtRay, ExactRay, Parameter};
 use crate::exact::integers;
 use crate::exact::{Faces, Line, Plane, PlaneId};
 use crate::tree::Fragment;
-use crate::tree::grid::{along, plane_points};
+use crate::tree::fragment::{along, plane_points};
 
 /// A point of a ray by what defines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

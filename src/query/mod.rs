@@ -14,21 +14,16 @@
 //! | `locate` | in which leaf a point is, and whose planes it is on |
 //! | `region` | which fragments have points in a region |
 
-mod blocked;
-mod boxes;
 mod chord;
 mod filter;
-mod found;
-mod hit;
 mod hits;
 mod locate;
-mod meeting;
 mod probe;
 mod region;
 mod walk;
 
 pub use chord::Spot;
-pub use hit::Hit;
+pub use hits::Hit;
 pub use hits::Hits;
 pub use locate::Location;
 pub use region::FragmentsIn;

@@ -1,11 +1,18 @@
 //! The lines that bound a piece of a face, as the rays see them.
+//!
+//! Planes are functions of the pixel, too. Two numbers decide where the ray of pixel (x, y) meets a plane with
+//! normal n through p. For a perspective, κ = n·(eye − p) is constant and φ(x, y) = n·direction(x, y) is
+//! linear in the pixel; for a parallel projection κ = n·direction is constant and φ(x, y) =
+//! n·(point(x, y) − p) is linear. The ray meets the plane after −κ/φ of its direction (perspective) or
+//! −φ/κ (parallel). If the divisor is 0, the ray is within the plane or never meets it. The point where
+//! the ray meets a plane f lies in front of another plane h if sgn κ_f · (κ_f φ_h − κ_h φ_f) is positive,
+//! provided that f is met ahead of the eye.
 
 use std::cmp::Ordering;
 
 use super::exact::{Plane, determinant, volume};
 use super::rays::{Given, Pencil, Rays, float};
-use super::sheet::{ROUNDING, Sheet};
-use crate::exact::{Faces, Line};
+use crate::exact::{Faces, Line, PlaneId, PlaneKind};
 
 /// Where a boundary line comes from.
 #[derive(Clone, Copy, Debug)]
@@ -131,4 +138,113 @@ pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
         size += (p.abs() + q.abs()) * reach;
     }
     (k, 24.0 * ROUNDING * size)
+}
+
+/// Half an ulp of 1: the largest relative error of one rounding.
+pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// κ and φ of a plane, rounded; φ(x, y) = φ₀ + x·φ₁ + y·φ₂.
+///
+/// Errors, with π the sizes of the normal's components (see [`normal_of`]): κ is off by at most 8
+/// roundings of `kappa_size` = Σ π|eye − p|. A value of φ, its evaluation included, is off by at
+/// most 12 roundings of `phi_size`, which is the same sum over the largest terms that occur in φ.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sheet {
+    pub(super) kappa: f64,
+    pub(super) phi: [f64; 3],
+    pub(super) kappa_size: f64,
+    pub(super) phi_size: f64,
+}
+
+impl Sheet {
+    /// A plane of the scene.
+    pub(crate) fn new(rays: &Rays, faces: &Faces, plane: PlaneId) -> Self {
+        match plane.kind() {
+            PlaneKind::Face(face) => {
+                let triangle = faces.triangle(face);
+                let (normal, size) = normal_of(triangle);
+                Self::with(rays, normal, size, triangle[0])
+            }
+            PlaneKind::Axis(axis, corner) => {
+                let mut normal = [0.0; 3];
+                normal[axis] = 1.0;
+                Self::with(rays, normal, normal, faces.corner(corner))
+            }
+        }
+    }
+
+    /// The plane through two lattice points and along an axis, as
+    /// [`Plane::upright`](crate::raster::exact::Plane::upright) has it.
+    pub(crate) fn upright(rays: &Rays, a: [f64; 3], b: [f64; 3], axis: usize) -> Self {
+        let (mut normal, (j, k)) = ([0.0; 3], ((axis + 1) % 3, (axis + 2) % 3));
+        normal[j] = b[k] - a[k];
+        normal[k] = a[j] - b[j];
+        Self::with(rays, normal, normal.map(f64::abs), a)
+    }
+
+    fn with(rays: &Rays, normal: [f64; 3], size: [f64; 3], point: [f64; 3]) -> Self {
+        let sum = |m: [f64; 3], v: [f64; 3]| m[0] * v[0] + m[1] * v[1] + m[2] * v[2];
+        let (right, down) = (float(rays.right).to_array(), float(rays.down).to_array());
+        let from = rays.origin_from(point);
+        let [width, height] = rays.size.map(f64::from);
+        let reach = |start: [f64; 3]| -> [f64; 3] {
+            std::array::from_fn(|i| {
+                start[i].abs() + width * right[i].abs() + height * down[i].abs()
+            })
+        };
+        // φ₀ and κ are scalar products of the normal. One of the two uses the eye, or the first
+        // pixel's point, relative to the plane.
+        let (first, common) = match rays.pencil {
+            Pencil::From { .. } => (float(rays.base).to_array(), from),
+            Pencil::Along { direction } => (from, float(direction).to_array()),
+        };
+        Self {
+            kappa: sum(normal, common),
+            phi: [sum(normal, first), sum(normal, right), sum(normal, down)],
+            kappa_size: sum(size, common.map(f64::abs)),
+            phi_size: sum(size, reach(first)),
+        }
+    }
+
+    /// The line in which rays meet this plane, f, and another, h: κ_f φ_h − κ_h φ_f, and a bound on the error
+    /// of its values.
+    ///
+    /// Each product is off by 21 roundings of the sizes' product at most: 8 for κ, 7 for a coefficient of
+    /// φ, 2 for the product and the difference, 4 for the evaluation.
+    pub(crate) fn cut(&self, h: &Self) -> ([f64; 3], f64) {
+        let k = std::array::from_fn(|i| self.kappa * h.phi[i] - h.kappa * self.phi[i]);
+        let size = self.kappa_size * h.phi_size + h.kappa_size * self.phi_size;
+        (k, 40.0 * ROUNDING * size)
+    }
+
+    /// The line of rays along the plane, φ, and a bound on the error of its values.
+    pub(crate) fn horizon(&self) -> ([f64; 3], f64) {
+        (self.phi, 24.0 * ROUNDING * self.phi_size)
+    }
+
+    /// The sign of κ, if the rounded one is certain.
+    pub(crate) fn certain_side(&self) -> Option<Ordering> {
+        let bound = 9.0 * ROUNDING * self.kappa_size;
+        if self.kappa > bound {
+            Some(Ordering::Greater)
+        } else if self.kappa < -bound {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+}
+
+/// The normal of a triangle of lattice points, and its components' sizes |u_j w_k| + |u_k w_j|:
+/// each component is off by at most 2.01 roundings of its size.
+pub(crate) fn normal_of([p, q, r]: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
+    let (mut normal, mut size) = ([0.0; 3], [0.0; 3]);
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let a = (q[j] - p[j]) * (r[k] - p[k]);
+        let b = (q[k] - p[k]) * (r[j] - p[j]);
+        normal[i] = a - b;
+        size[i] = a.abs() + b.abs();
+    }
+    (normal, size)
 }

@@ -15,16 +15,12 @@
 mod bounds;
 mod compare_pictures;
 mod coverage;
-mod depth_error;
 mod digits;
 mod exact;
-mod image;
 mod line;
-mod mask;
 mod painter;
 mod picture;
 mod rays;
-mod sheet;
 #[cfg(test)]
 pub(crate) mod tests;
 mod zbuffer;
@@ -33,21 +29,21 @@ pub use crate::exact::Faces;
 #[cfg(feature = "drawing")]
 pub(crate) use bounds::VERTEX_ERROR;
 pub use compare_pictures::{Comparison, Verdict, compare};
+pub use compare_pictures::{DepthError, depth_error};
 pub(crate) use compare_pictures::{compare_by, is_open};
-pub use depth_error::{DepthError, depth_error};
-pub(crate) use image::Layers;
-pub use image::{Image, NONE};
+pub(crate) use coverage::Mask;
 #[cfg(feature = "drawing")]
 pub(crate) use line::edge;
-pub(crate) use mask::Mask;
+#[cfg(feature = "drawing")]
+pub(crate) use line::{Sheet, normal_of};
+pub(crate) use painter::Layers;
 pub(crate) use painter::covers;
+pub use painter::{Image, NONE};
 pub(crate) use picture::for_each_shaded;
 pub use picture::{blend, brightness, colour_of, depth_map, difference, picture};
 #[cfg(feature = "drawing")]
 pub(crate) use rays::Pencil;
 pub use rays::Rays;
-#[cfg(feature = "drawing")]
-pub(crate) use sheet::{Sheet, normal_of};
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::compare_pictures::{Comparison, Verdict};
 use super::coverage::{Coverage, Piece};
-use super::image::{Image, NONE};
+use super::painter::{Image, NONE};
 use super::rays::Rays;
 use super::zbuffer::DepthImage;
 use crate::exact::Faces;

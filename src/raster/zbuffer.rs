@@ -6,10 +6,10 @@ use std::ops::Range;
 use super::coverage::{Coverage, Outline};
 use super::digits;
 use super::exact::Plane;
-use super::image::{Image, Layers, NONE};
+use super::line::ROUNDING;
 use super::line::Seen;
+use super::painter::{Image, Layers, NONE};
 use super::rays::Rays;
-use super::sheet::ROUNDING;
 use crate::exact::Faces;
 
 /// Which face is nearest in each pixel, and how near it is.

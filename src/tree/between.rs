@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::BspTree;
-use super::node_record::Ranges;
+use super::node::Ranges;
 use crate::exact::PlaneId;
 
 impl BspTree {

@@ -1,23 +1,17 @@
 //! Bounding boxes of a tree's subtrees and fragments.
 
-pub(crate) mod boxes;
-pub(crate) mod half_space;
-pub(super) mod normals;
-
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3, Vec4};
 
-use super::order::planes::{Planes, rounded};
+use super::order::eye::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
-use crate::Error;
-use crate::exact::{Eye, Lattice, PlaneId, StoredVertex, SymbolKind};
+use crate::exact::lattice::{exponent_of, scaled};
+use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, SymbolKind};
 use crate::memory::{collect, reserve};
-use crate::parallel_map;
 use crate::viewpoint::Viewpoint;
-use boxes::{BLOCK, Block, Flat, NOTHING, in_lattice, outwards, union};
-use normals::{Arms, Normals};
+use crate::{Error, parallel_map};
 
 /// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common:
 /// [`BspTree::bounds`].
@@ -257,5 +251,254 @@ impl Bounds {
             + size_of_val(&*self.normals)
             + self.levels.iter().map(|level| size_of_val(&**level)).sum::<usize>()
             + self.planes.bytes()
+    }
+}
+
+/// The least coordinates of a box, then the largest.
+///
+/// The unit is 2⁵¹ lattice steps, so coordinates are hardly larger than 1 in every scene.
+pub(crate) type Flat = [f32; 6];
+
+/// The box of nothing.
+const NOTHING: Flat = [
+    f32::INFINITY,
+    f32::INFINITY,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::NEG_INFINITY,
+    f32::NEG_INFINITY,
+];
+
+/// How many boxes are summed up in one. Smaller: more memory; larger: more boxes are looked at where few
+/// are met.
+pub(crate) const BLOCK: usize = 16;
+
+/// Boxes that are compared with a plane at once.
+const GROUP: usize = 4;
+
+/// [`BLOCK`] boxes by fours: the least x of four of them, their least y, and so on. The last of a list is
+/// filled up with zeros.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Block([[Vec4; 6]; BLOCK / GROUP]);
+
+impl Block {
+    fn new(boxes: impl Iterator<Item = Flat>) -> Self {
+        let mut block = Self::default();
+        for (k, bounds) in boxes.take(BLOCK).enumerate() {
+            for (row, side) in block.0[k / GROUP].iter_mut().zip(bounds) {
+                row[k % GROUP] = side;
+            }
+        }
+        block
+    }
+
+    /// The box of some number, less than [`BLOCK`].
+    #[inline]
+    pub(crate) fn get(&self, k: usize) -> Flat {
+        self.0[k / GROUP % (BLOCK / GROUP)].map(|row| row[k % GROUP])
+    }
+
+    /// The box of the first ones, up to so many.
+    fn all(&self, len: usize) -> Flat {
+        (0..len.min(BLOCK)).map(|k| self.get(k)).fold(NOTHING, union)
+    }
+}
+
+/// A box that contains one in lattice units.
+fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
+    std::array::from_fn(|i| {
+        let exact = if i < 3 { low[i] } else { high[i - 3] } / LATTICE_LIMIT;
+        let rounded = exact as f32;
+        match f64::from(rounded) - exact {
+            lost if i < 3 && lost > 0.0 => rounded.next_down(),
+            lost if i >= 3 && lost < 0.0 => rounded.next_up(),
+            _ => rounded,
+        }
+    })
+}
+
+/// Its least and its largest coordinates in lattice units.
+fn in_lattice(bounds: &Flat) -> [[f64; 3]; 2] {
+    let [a, b, c, d, e, f] = bounds.map(|side| f64::from(side) * LATTICE_LIMIT);
+    [[a, b, c], [d, e, f]]
+}
+
+fn union(a: Flat, b: Flat) -> Flat {
+    std::array::from_fn(|i| if i < 3 { a[i].min(b[i]) } else { a[i].max(b[i]) })
+}
+
+/// The front of a plane, prepared to be compared with many boxes of one scene.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfSpace {
+    normal: [f32; 3],
+    /// Less than the offset, by more than the rounding of all that it is compared with.
+    offset: f32,
+    /// The coordinates of a box's furthest corner along the normal, and of its nearest.
+    far: [usize; 3],
+    near: [usize; 3],
+}
+
+/// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's
+/// magnitudes: coordinates are at most 1.014, and the normal, products and sums are rounded, which makes
+/// 4 · 1.014 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off.
+/// Smaller: boxes that reach over the plane are behind; larger: more of those near it are not.
+const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
+
+/// Roundings in the place of the plane, by `f64`.
+const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
+
+/// More than the distance of any corner from the scene's middle, along a normal whose largest coordinate
+/// is 1.
+const OUTSIDE: f64 = 4.0;
+
+impl HalfSpace {
+    /// A plane with a number that is infinite or NaN has all boxes in front.
+    pub(crate) fn new((normal, offset): (DVec3, f64), lattice: &Lattice) -> Self {
+        // By a power of two first, which is exact, so that no digit is lost where numbers are subnormal.
+        let largest = normal.abs().max_element();
+        let up = if largest > 0.0 { -exponent_of(largest) } else { 0 };
+        let normal = DVec3::from_array(normal.to_array().map(|c| scaled(c, up)));
+        let offset = scaled(offset, up);
+        let size = normal.abs().max_element().max(f64::MIN_POSITIVE);
+        let normal = normal / size;
+        // An eighth of all lengths, so that none overflows.
+        let middle = lattice.to_world([0.0; 3]) / 8.0;
+        let unit = lattice.length_to_world(LATTICE_LIMIT / 8.0);
+        let offset = offset / 8.0 / size;
+        let sum = offset.abs() + normal.abs().dot(middle.abs());
+        let margin = (sum * ROUNDINGS + f64::MIN_POSITIVE) / unit;
+        let margin = margin + normal.abs().element_sum() * DISTANCE_ERROR;
+        let least = ((offset - normal.dot(middle)) / unit - margin).clamp(-OUTSIDE, OUTSIDE);
+        // The same margin for all boxes: so a box inside another never is on the front of a plane that the
+        // larger one is behind.
+        let offset = if least.is_nan() { f32::NEG_INFINITY } else { (least as f32).next_down() };
+        let normal = if least.is_nan() { [0.0; 3] } else { normal.as_vec3().to_array() };
+        let sides = |is_far| [0, 1, 2].map(|i| if (normal[i] > 0.0) == is_far { i + 3 } else { i });
+        Self { normal, offset, far: sides(true), near: sides(false) }
+    }
+
+    /// A bit for each box that is not behind, at least as far as certain.
+    #[inline]
+    pub(crate) fn meets(&self, block: &Block) -> u32 {
+        self.fronts(block, self.far)
+    }
+
+    /// A bit for each box that is in front.
+    #[inline]
+    pub(crate) fn holds(&self, block: &Block) -> u32 {
+        self.fronts(block, self.near)
+    }
+
+    /// A bit for each box that has a corner in front.
+    #[inline]
+    fn fronts(&self, Block(groups): &Block, [x, y, z]: [usize; 3]) -> u32 {
+        let [a, b, c] = self.normal;
+        let mut fronts = 0;
+        for (g, group) in groups.iter().enumerate() {
+            let along = group[x] * a + group[y] * b + group[z] * c;
+            fronts |= along.cmpge(Vec4::splat(self.offset)).bitmask() << (4 * g);
+        }
+        fronts
+    }
+
+    /// Whether all of a box is behind.
+    #[inline]
+    pub(crate) fn is_behind(&self, bounds: &Flat) -> bool {
+        let [a, b, c] = self.normal;
+        let [x, y, z] = self.far;
+        bounds[x] * a + bounds[y] * b + bounds[z] * c < self.offset
+    }
+}
+
+/// The least and the largest coordinates of unit normals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Normals {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+/// A bound on the error of a unit normal's coordinate in `f32`, and of adding this to it. With ε = 2⁻²³: a
+/// normal is within 2⁻³⁴ of its longest coordinate and is made a unit one in `f64`, which leaves less than
+/// ε / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
+/// more than 1. So this is more than twice as much as is needed. Smaller: a box may be without the exact
+/// normal; larger: fewer subtrees are decided at once.
+const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
+
+impl Normals {
+    const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    /// Of one, whose unit normal is given rounded.
+    fn of(normal: Vec3) -> Self {
+        let normal = normal.to_array();
+        Self { low: normal.map(|c| c - NORMAL_ERROR), high: normal.map(|c| c + NORMAL_ERROR) }
+    }
+
+    fn union(self, other: Self) -> Self {
+        let pick = |of: fn(f32, f32) -> f32, a: [f32; 3], b: [f32; 3]| {
+            std::array::from_fn(|i| of(a[i], b[i]))
+        };
+        Self {
+            low: pick(f32::min, self.low, other.low),
+            high: pick(f32::max, self.high, other.high),
+        }
+    }
+
+    /// Which side all polygons show to an eye that have such normals and vertices in a box; `None`
+    /// if these do not tell.
+    ///
+    /// A polygon's plane is at n·(e − p) from the eye e, with n its normal and p any point of it. The
+    /// bounds of n and p bound each product, and so the sum.
+    fn facing(&self, arms: &Arms, bounds: &Flat) -> Option<Ordering> {
+        let [least, most] = arms.to(bounds);
+        let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
+        for axis in 0..3 {
+            let [a, b] = [self.low[axis], self.high[axis]].map(f64::from);
+            let [c, d] = [least[axis], most[axis]];
+            let products = [a * c, a * d, b * c, b * d];
+            low += products.into_iter().fold(f64::INFINITY, f64::min);
+            high += products.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            size += products.into_iter().fold(0.0, |size, product| product.abs().max(size));
+        }
+        // With ε = 2⁻⁵²: each product has a rounding, ε / 2 of it, and each sum one of its terms'. There are
+        // two sums that round (the first adds to 0), so ε / 2 + ε / 2 + ε / 2 of the size is enough.
+        let margin = 4.0 * f64::EPSILON * size;
+        if low > margin {
+            Some(Ordering::Greater)
+        } else if high < -margin {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+}
+
+/// The eye relative to points of boxes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::tree) struct Arms {
+    eye: [f64; 3],
+    /// 1, or 0 for an eye at infinity.
+    w: f64,
+}
+
+impl Arms {
+    pub(in crate::tree) fn new(eye: &Eye) -> Self {
+        let (eye, w) = eye.homogeneous();
+        Self { eye, w }
+    }
+
+    /// The least and largest coordinates of the eye less a point of a box, in lattice units, or of
+    /// the direction towards the eye.
+    fn to(&self, bounds: &Flat) -> [[f64; 3]; 2] {
+        let [low, high] = in_lattice(bounds);
+        let bound = |corner: [f64; 3], sign: f64| {
+            std::array::from_fn(|axis| {
+                let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
+                // The eye and the difference are rounded, by ε / 2 of the eye, and of the eye and the corner; and
+                // so is the sum below, by as much again. (A direction and corners of boxes are exact.)
+                let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
+                eye - corner + sign * rounded
+            })
+        };
+        [bound(high, -1.0), bound(low, 1.0)]
     }
 }

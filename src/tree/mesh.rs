@@ -1,17 +1,20 @@
 //! A tree's fragments as vertices and triangles, for renderers.
 
-mod assemble;
-mod lines;
-mod outline;
-mod points;
 mod survey;
 mod triangles;
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
-use self::assemble::{Assembled, assemble};
 use super::BspTree;
-use crate::Error;
+use crate::error::{Error, Limit};
+use crate::exact::{Symbol, SymbolKind};
+use crate::memory::{empty, reserve};
+use survey::{FragmentEdge, Node, Survey, ends};
+use survey::{OutlineVertex, triangulate};
+use survey::{Points, coordinate};
+
 pub use triangles::Triangles;
 
 /// The fragments of a tree as vertices and triangles: what a renderer keeps in its buffers.
@@ -193,5 +196,269 @@ impl Mesh {
             + size_of_val(&*self.parts.vertices)
             + size_of_val(&*self.parts.weights)
             + self.triangles.bytes()
+    }
+}
+
+/// What a mesh consists of.
+#[derive(Clone, Debug, Default)]
+struct Assembled {
+    /// Where each point is.
+    positions: Vec<DVec3>,
+    /// For each vertex, its point, its polygon, and where its weights end.
+    vertices: Vec<Record>,
+    weights: Vec<(u32, f64)>,
+}
+
+/// A vertex as a mesh stores it.
+#[derive(Clone, Copy, Debug)]
+struct Record {
+    point: u32,
+    polygon: u32,
+    weights_end: usize,
+}
+
+/// The mesh of a tree, welded or not.
+fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangles), Error> {
+    let survey = Survey::new(tree)?;
+    let points = Points::new(&survey)?;
+    let mut lengths = Vec::new();
+    reserve(&mut lengths, tree.len())?;
+    lengths.resize(tree.len(), 0_u32);
+    for (at, &fragment) in survey.fragments.iter().enumerate() {
+        let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
+        let steps = points.ends[range].iter().map(|&[from, to]| match from.abs_diff(to) {
+            steps if weld => steps,
+            steps => steps.min(1),
+        });
+        let triangles = steps.sum::<u32>().saturating_sub(2);
+        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Limit::Indices.error())?;
+    }
+    let mut triangles = Triangles::with_lengths(tree.generation, lengths.into_iter())?;
+    let mut assembler = Assembler::new(&survey, &points)?;
+    for (at, &fragment) in survey.fragments.iter().enumerate() {
+        assembler.outline(at, weld)?;
+        let mut places = triangles.of_mut(fragment).as_chunks_mut::<3>().0.iter_mut();
+        triangulate(&assembler.outline, |triangle| {
+            if let Some(place) = places.next() {
+                *place = triangle;
+            }
+        });
+    }
+    Ok((assembler.made, triangles))
+}
+
+/// Numbers that name no point, and no corner.
+const NONE: u32 = u32::MAX;
+
+/// What tells two vertices of a polygon apart: the point, and the corners that have weights there.
+/// (A polygon that touches itself has several corners at one point.)
+type Key = (u32, [u32; 3]);
+
+struct Assembler<'s, 't> {
+    survey: &'s Survey<'t>,
+    points: &'s Points,
+    made: Assembled,
+    /// The number of each node's point, if the node names it and it has one.
+    numbers: Vec<u32>,
+    /// The vertices of the current polygon.
+    known: HashMap<Key, u32>,
+    polygon: usize,
+    /// The outline of the current fragment.
+    outline: Vec<OutlineVertex>,
+}
+
+impl<'s, 't> Assembler<'s, 't> {
+    fn new(survey: &'s Survey<'t>, points: &'s Points) -> Result<Self, Error> {
+        let mut numbers = Vec::new();
+        reserve(&mut numbers, survey.nodes())?;
+        numbers.resize(survey.nodes(), NONE);
+        let (made, known) = (Assembled::default(), HashMap::new());
+        let (polygon, outline) = (usize::MAX, Vec::new());
+        Ok(Self { survey, points, made, numbers, known, polygon, outline })
+    }
+
+    /// Makes the outline of a fragment, given its place among the fragments face by face.
+    fn outline(&mut self, at: usize, weld: bool) -> Result<(), Error> {
+        let (survey, points) = (self.survey, self.points);
+        let face = survey.tree.records[survey.fragments[at] as usize].face;
+        if survey.tree.faces.polygon(face) != self.polygon {
+            self.polygon = survey.tree.faces.polygon(face);
+            empty(&mut self.known);
+        }
+        self.outline.clear();
+        let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
+        let edges = &survey.edges[range.clone()];
+        let lines = survey.tree.fragment(survey.fragments[at]).lines();
+        let places = &points.ends[range];
+        let mut before = last_carrier(edges, places);
+        for ((edge, &[from, to]), line) in edges.iter().zip(places).zip(lines) {
+            // Two edges on one line: the polygon's outline runs straight on here.
+            let straight = before == Some(edge.carrier);
+            if from == to {
+                continue;
+            }
+            before = Some(edge.carrier);
+            let vertex = self.own_vertex(face, edge.from)?;
+            reserve(&mut self.outline, 1 + from.abs_diff(to) as usize)?;
+            self.outline.push(OutlineVertex { vertex, straight });
+            if weld {
+                let inside = from.min(to) + 1..from.max(to);
+                for k in 0..inside.len() as u32 {
+                    let place = if from < to { inside.start + k } else { inside.end - 1 - k };
+                    let node = points.on_lines[place as usize];
+                    let vertex = match line.as_edge() {
+                        Some(k) => self.vertex_on_edge(face, k, edge.carrier, node)?,
+                        None => self.own_vertex(face, node)?,
+                    };
+                    self.outline.push(OutlineVertex { vertex, straight: true });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A vertex that the face itself has.
+    fn own_vertex(&mut self, face: u32, node: Node) -> Result<u32, Error> {
+        let faces = &self.survey.tree.faces;
+        let symbol = match self.survey.cut(node) {
+            Some((_, symbol)) => symbol,
+            None => Symbol::corner(node - faces.corner_range(face).start as u32),
+        };
+        let number = |k: u32| faces.corner_number(face, k);
+        let corners = match symbol.kind() {
+            SymbolKind::Corner(k) => [number(k), NONE, NONE],
+            SymbolKind::OnEdge(k, _) => pair(edge_numbers(self.survey, face, k)),
+            SymbolKind::Inside(..) => {
+                let first = faces.corner_range(face).start as u32;
+                faces.reference_triangle(face).map(|corner| number(corner - first))
+            }
+        };
+        self.vertex(node, corners, || {
+            let weights = faces.barycentric(face, symbol).into_iter();
+            weights.map(|(k, weight)| (number(k), weight)).collect()
+        })
+    }
+
+    /// A vertex inside an edge of the face that another face has there.
+    fn vertex_on_edge(&mut self, face: u32, k: u32, line: u32, node: Node) -> Result<u32, Error> {
+        let survey = self.survey;
+        let numbers = edge_numbers(survey, face, k);
+        self.vertex(node, pair(numbers), || {
+            let axis = survey.carriers[line as usize].axis;
+            let [a, b] = ends(&survey.tree.faces, face, k).map(|end| end[axis]);
+            let share = coordinate(survey, line as usize, node).share(a, b).clamp(0.0, 1.0);
+            vec![(numbers[0], 1.0 - share), (numbers[1], share)]
+        })
+    }
+
+    /// The number of a vertex, which is made if the polygon has none like it.
+    fn vertex(
+        &mut self,
+        node: Node,
+        corners: [u32; 3],
+        weights: impl FnOnce() -> Vec<(u32, f64)>,
+    ) -> Result<u32, Error> {
+        let point = self.point(node)?;
+        if let Some(&vertex) = self.known.get(&(point, corners)) {
+            return Ok(vertex);
+        }
+        let weights = weights();
+        reserve(&mut self.made.weights, weights.len())?;
+        self.made.weights.extend(weights);
+        reserve(&mut self.made.vertices, 1)?;
+        self.known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        let (polygon, weights_end) = (self.polygon as u32, self.made.weights.len());
+        let vertex = self.made.vertices.len() as u32;
+        self.made.vertices.push(Record { point, polygon, weights_end });
+        self.known.insert((point, corners), vertex);
+        Ok(vertex)
+    }
+
+    /// The number of a node's point.
+    fn point(&mut self, node: Node) -> Result<u32, Error> {
+        let root = self.points.root(node);
+        let number = self.numbers[root as usize];
+        if number != NONE {
+            return Ok(number);
+        }
+        let faces = &self.survey.tree.faces;
+        let place = match self.survey.cut(root) {
+            None => faces.given_corner(root),
+            Some((face, symbol)) => place_of_cut(self.survey, face, symbol),
+        };
+        reserve(&mut self.made.positions, 1)?;
+        self.made.positions.push(faces.lattice().to_world(place));
+        let number = self.made.positions.len() as u32 - 1;
+        self.numbers[root as usize] = number;
+        Ok(number)
+    }
+}
+
+/// The line of a fragment's last edge, given the places of each edge's ends. Edges without length are
+/// none.
+fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
+    let long = edges.iter().zip(places).rev().find(|(_, [from, to])| from != to);
+    long.map(|(edge, _)| edge.carrier)
+}
+
+/// Where a vertex is that is no corner, in lattice units: on an edge as given, if it is on one, so
+/// that all faces at the edge agree.
+fn place_of_cut(survey: &Survey<'_>, face: u32, symbol: Symbol) -> [f64; 3] {
+    let faces = &survey.tree.faces;
+    match symbol.kind() {
+        SymbolKind::OnEdge(k, plane) if faces.upright_axis(face).is_some() => {
+            let cut = faces.cut_of_segment(ends(faces, face, k), plane);
+            cut.map_or_else(|| faces.position(face, symbol), |cut| cut.position())
+        }
+        _ => faces.position(face, symbol),
+    }
+}
+
+fn pair([a, b]: [u32; 2]) -> [u32; 3] {
+    [a.min(b), a.max(b), NONE]
+}
+
+/// The numbers, within the polygon, of the corners at the ends of a face's edge.
+fn edge_numbers(survey: &Survey<'_>, face: u32, k: u32) -> [u32; 2] {
+    let faces = &survey.tree.faces;
+    let len = faces.corner_range(face).len() as u32;
+    [k, if k + 1 == len { 0 } else { k + 1 }].map(|k| faces.corner_number(face, k))
+}
+
+#[cfg(test)]
+mod assemble_tests {
+    use super::{Assembler, FragmentEdge, Points, Survey, last_carrier};
+    use crate::{BuildOptions, Heuristic};
+
+    #[test]
+    fn an_edge_without_length_is_not_the_one_before_the_first() {
+        let edges = [7, 8, 9].map(|carrier| FragmentEdge { carrier, from: 0 });
+        assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 3]]), Some(9));
+        assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 2]]), Some(8));
+        assert_eq!(last_carrier(&edges, &[[0, 0], [5, 5], [2, 2]]), None);
+    }
+
+    /// A square under walls whose planes cut it into strips.
+    #[test]
+    fn a_polygon_cut_very_often_costs_the_polygons_after_it_nothing() {
+        const WALLS: u32 = 500;
+        let (side, wide) = (f64::from(WALLS), [-0.5, 1.5]);
+        let square = [(0, 0), (1, 0), (1, 1), (0, 1)];
+        let square = square.map(|(i, j)| [[-0.5, side][i], wide[j], -1.0]);
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let walls = (0..WALLS).map(|k| corners.map(|(y, z)| [f64::from(k), y, z]));
+        let balanced = BuildOptions::DEFAULT.with_heuristic(Heuristic::Balanced);
+        let tree = balanced.build(std::iter::once(square).chain(walls)).unwrap();
+        let survey = Survey::new(&tree).unwrap();
+        let points = Points::new(&survey).unwrap();
+        let mut assembler = Assembler::new(&survey, &points).unwrap();
+        // The largest room for the square's vertices, for those of the first wall after it, and of the rest.
+        let mut most = [0; 3];
+        for at in 0..survey.fragments.len() {
+            assembler.outline(at, true).unwrap();
+            let most = &mut most[assembler.polygon.min(2)];
+            *most = assembler.known.capacity().max(*most);
+        }
+        assert!(most[0] > 1000 && most[2] < 100, "{most:?} vertices");
     }
 }

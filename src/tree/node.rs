@@ -1,16 +1,18 @@
 //! The nodes of a tree, to be looked at.
 
 use std::cmp::Ordering;
+use std::collections::VecDeque;
 use std::fmt;
 use std::iter::FusedIterator;
 use std::ops::Range;
 
 use glam::DVec3;
 
-use super::node_record::Ranges;
-use super::walk::{Visit, Walk};
-use super::{BspTree, grid};
-use crate::exact::{Eye, PlaneId, PlaneKind};
+use super::parts::{RawChild, RawNode};
+use super::{BspTree, fragment};
+use crate::Error;
+use crate::exact::{Eye, PlaneId, PlaneKind, Side};
+use crate::memory::reserve;
 use crate::viewpoint::Viewpoint;
 
 /// A node of a tree: a partition plane, the fragments on it, and what is on its sides.
@@ -57,19 +59,19 @@ impl<'t> Node<'t> {
 
     /// The unit normal, which points to the front.
     pub fn normal(&self) -> DVec3 {
-        grid::unit_normal(&self.tree.faces, self.plane())
+        fragment::unit_normal(&self.tree.faces, self.plane())
     }
 
     /// The distance of the plane from the origin along the normal, in the polygons' unit. Infinite
     /// if it is too large for `f64`.
     pub fn offset(&self) -> f64 {
-        grid::offset(&self.tree.faces, self.plane())
+        fragment::offset(&self.tree.faces, self.plane())
     }
 
     /// The exact plane: three points of the tree's [grid](BspTree::grid) on it, counter-clockwise seen from
     /// its front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
-        grid::plane_points(&self.tree.faces, self.plane())
+        fragment::plane_points(&self.tree.faces, self.plane())
     }
 
     /// The index, in the input, of the polygon in whose plane the node's plane is. If that polygon
@@ -244,4 +246,253 @@ impl BspTree {
     pub fn nodes(&self) -> Nodes<'_> {
         Nodes { tree: self, walk: Walk::new(self), left: self.nodes.len() }
     }
+}
+
+const BACK_IS_NODE: u32 = 1 << 31;
+
+/// The most fragments of a tree. While a [`Schedule`](crate::tree::order::layout::Schedule) is laid out, its
+/// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
+pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
+
+/// A node.
+///
+/// Nodes are stored depth first: the root, its front subtree, its back subtree. Fragments are numbered
+/// in this order: those on the node's plane, those of a front leaf, those of a back leaf, those of the
+/// front subtree, those of the back subtree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct NodeRecord {
+    pub(crate) plane: PlaneId,
+    own: u32,
+    /// How many fragments are in front.
+    pub(crate) front_len: u32,
+    /// How many nodes are in front; if none, the front is a leaf.
+    pub(crate) front_nodes: u32,
+}
+
+impl NodeRecord {
+    /// How many fragments lie on the plane.
+    #[inline]
+    pub(crate) fn own(&self) -> u32 {
+        self.own & !BACK_IS_NODE
+    }
+
+    /// Whether the back is a node rather than a leaf.
+    #[inline]
+    pub(crate) fn back_is_node(&self) -> bool {
+        self.own & BACK_IS_NODE != 0
+    }
+
+    /// The number of the node in front, given that of this one; `None` if the front is a leaf.
+    #[inline]
+    pub(crate) fn front_node(&self, index: usize) -> Option<usize> {
+        (self.front_nodes > 0).then_some(index + 1)
+    }
+
+    /// The number of the node behind, given that of this one; `None` if the back is a leaf.
+    #[inline]
+    pub(crate) fn back_node(&self, index: usize) -> Option<usize> {
+        self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
+    }
+
+    /// Where the fragments of the subtree of this node are, given the numbers of all of them.
+    #[inline]
+    pub(crate) fn ranges(&self, all: Range<u32>) -> Ranges {
+        let own = all.start..all.start + self.own();
+        // A leaf is numbered before a subtree, so it is only here that the back comes first.
+        if self.front_nodes > 0 && !self.back_is_node() {
+            let middle = all.end - self.front_len;
+            return Ranges { front: middle..all.end, back: own.end..middle, own };
+        }
+        let middle = own.end + self.front_len;
+        Ranges { front: own.end..middle, back: middle..all.end, own }
+    }
+}
+
+/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind,
+/// down to the leaves.
+#[derive(Clone, Debug)]
+pub(crate) struct Ranges {
+    pub(crate) own: Range<u32>,
+    pub(crate) front: Range<u32>,
+    pub(crate) back: Range<u32>,
+}
+
+/// How many fragments and nodes a subtree has.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sizes {
+    fragments: u32,
+    nodes: u32,
+}
+
+/// Makes the room that [`finish`] needs for so many nodes.
+pub(crate) fn make_room(
+    raw: usize,
+    sizes: &mut Vec<Sizes>,
+    nodes: &mut Vec<NodeRecord>,
+) -> Result<(), Error> {
+    sizes.clear();
+    nodes.clear();
+    reserve(sizes, raw)?;
+    nodes.try_reserve_exact(raw).map_err(|_| Error::out_of_memory())
+}
+
+/// Computes the sizes of all subtrees, and replaces a list of nodes.
+pub(crate) fn finish(
+    raw: impl DoubleEndedIterator<Item = RawNode> + ExactSizeIterator,
+    sizes: &mut Vec<Sizes>,
+    nodes: &mut Vec<NodeRecord>,
+) {
+    // Nodes are read from the last to the first, so children come before their parents: what waits for
+    // its parent is on a stack, the front above the back.
+    sizes.clear();
+    nodes.clear();
+    nodes.reserve_exact(raw.len());
+    for node in raw.rev() {
+        let mut size = |child| match child {
+            RawChild::Leaf(fragments) => Sizes { fragments, nodes: 0 },
+            RawChild::Node => sizes.pop().unwrap_or_default(),
+        };
+        let (front, back) = (size(node.front), size(node.back));
+        sizes.push(Sizes {
+            fragments: node.own + front.fragments + back.fragments,
+            nodes: 1 + front.nodes + back.nodes,
+        });
+        let back_is_node = if node.back == RawChild::Node { BACK_IS_NODE } else { 0 };
+        let own = node.own | back_is_node;
+        let Sizes { fragments: front_len, nodes: front_nodes } = front;
+        nodes.push(NodeRecord { plane: node.plane, own, front_len, front_nodes });
+    }
+    nodes.reverse();
+}
+
+/// A node on a walk.
+#[derive(Clone, Debug)]
+pub(super) struct Visit {
+    pub(super) node: usize,
+    /// How many nodes there are on the path to it, itself included.
+    pub(super) depth: usize,
+    /// Whether it is in front of its parent.
+    pub(super) is_front: bool,
+    /// The fragments on its plane.
+    pub(super) own: Range<u32>,
+    /// The fragments of a front leaf.
+    pub(super) front: Range<u32>,
+    /// The fragments of a back leaf.
+    pub(super) back: Range<u32>,
+    /// All fragments in front, in a leaf or not.
+    pub(super) in_front: Range<u32>,
+    /// All fragments behind, in a leaf or not.
+    pub(super) behind: Range<u32>,
+}
+
+impl Visit {
+    /// The fragments of the whole subtree.
+    pub(super) fn all(&self) -> Range<u32> {
+        self.own.start..self.in_front.end.max(self.behind.end)
+    }
+
+    /// How many fragments are in its leaves.
+    pub(super) fn leaves(&self) -> usize {
+        self.front.len() + self.back.len()
+    }
+
+    /// The fragments on its plane and in its leaves.
+    pub(super) fn fragments(&self) -> Range<u32> {
+        self.own.start..self.back.end
+    }
+
+    /// The same, by the side of the plane that they are on.
+    pub(super) fn groups(&self) -> [(Range<u32>, Side); 3] {
+        [
+            (self.own.clone(), Side::Coplanar),
+            (self.front.clone(), Side::Front),
+            (self.back.clone(), Side::Back),
+        ]
+    }
+}
+
+/// A subtree still to be walked, or its root alone.
+#[derive(Clone, Debug)]
+struct Subtree {
+    node: usize,
+    depth: usize,
+    is_front: bool,
+    /// The fragments of the whole subtree.
+    fragments: Range<u32>,
+    /// Whether the nodes below are on the walk as subtrees of their own.
+    is_root_alone: bool,
+}
+
+/// The nodes that are still to be visited, from both ends: subtrees in memory order.
+#[derive(Clone, Debug)]
+pub(super) struct Walk {
+    subtrees: VecDeque<Subtree>,
+}
+
+impl Walk {
+    pub(super) fn new(tree: &BspTree) -> Self {
+        let all = Subtree {
+            node: 0,
+            depth: 1,
+            is_front: false,
+            fragments: 0..tree.records.len() as u32,
+            is_root_alone: false,
+        };
+        Self { subtrees: if tree.nodes.is_empty() { [].into() } else { [all].into() } }
+    }
+
+    /// The next node. `None` at the end, and where sizes contradict each other.
+    pub(super) fn next(&mut self, tree: &BspTree) -> Option<Visit> {
+        let subtree = self.subtrees.pop_front()?;
+        let visit = visit(tree, &subtree)?;
+        if !subtree.is_root_alone {
+            let [front, back] = below(tree, &subtree, &visit);
+            for below in [back, front].into_iter().flatten() {
+                self.subtrees.push_front(below);
+            }
+        }
+        Some(visit)
+    }
+
+    /// The last node that has not been visited from either end. `None` as for [`next`](Self::next).
+    pub(super) fn next_back(&mut self, tree: &BspTree) -> Option<Visit> {
+        loop {
+            let mut subtree = self.subtrees.pop_back()?;
+            let visit = visit(tree, &subtree)?;
+            if subtree.is_root_alone {
+                return Some(visit);
+            }
+            // The root comes before everything below it, so from this end it comes last.
+            let below = below(tree, &subtree, &visit);
+            subtree.is_root_alone = true;
+            self.subtrees.push_back(subtree);
+            self.subtrees.extend(below.into_iter().flatten());
+        }
+    }
+}
+
+/// The root of a subtree; `None` if there is no such node, or it has more fragments than the
+/// subtree.
+fn visit(tree: &BspTree, subtree: &Subtree) -> Option<Visit> {
+    let &Subtree { node: index, depth, is_front, ref fragments, .. } = subtree;
+    let node = tree.nodes.get(index)?;
+    let total = fragments.end - fragments.start;
+    total.checked_sub(node.own())?.checked_sub(node.front_len)?;
+    let Ranges { own, front: in_front, back: behind } = node.ranges(fragments.clone());
+    let front = if node.front_nodes == 0 { in_front.clone() } else { own.end..own.end };
+    let back = if node.back_is_node() { front.end..front.end } else { behind.clone() };
+    Some(Visit { node: index, depth, is_front, own, front, back, in_front, behind })
+}
+
+/// The subtrees in front of a root and behind it, where they are not leaves.
+fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2] {
+    let node = &tree.nodes[root.node];
+    let child = |node, is_front, fragments: &Range<u32>| {
+        let (depth, fragments) = (subtree.depth + 1, fragments.clone());
+        Subtree { node, depth, is_front, fragments, is_root_alone: false }
+    };
+    [
+        node.front_node(root.node).map(|front| child(front, true, &root.in_front)),
+        node.back_node(root.node).map(|back| child(back, false, &root.behind)),
+    ]
 }

@@ -7,9 +7,9 @@ use std::io::{self, Read, Write};
 
 use super::BspTree;
 use super::bsp_tree::next_generation;
-use super::node_record::MOST_FRAGMENTS;
-use super::order::planes::Planes;
-use super::order::schedule::Schedule;
+use super::node::MOST_FRAGMENTS;
+use super::order::eye::Planes;
+use super::order::layout::Schedule;
 use super::parts::{Parts, Record, raw_nodes};
 use crate::exact::{Faces, Line, MAX_LABELS, StoredVertex, Symbol};
 use crate::faces::Preparation;

@@ -7,8 +7,8 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
-use super::order::planes::Planes;
-use super::order::schedule::Schedule;
+use super::order::eye::Planes;
+use super::order::layout::Schedule;
 use super::{BspTree, Fragment};
 use fault::Fault;
 pub use fault::Invalid;

@@ -1,6 +1,5 @@
 //! Comparing a tree's picture with a depth buffer's: the only module that knows both.
 
-mod contest;
 mod orders;
 #[cfg(test)]
 mod tests;
@@ -10,8 +9,8 @@ use crate::raster::{Comparison, DepthImage, Image, Layers, Order, Rays, zbuffer_
 use crate::tree::BspTree;
 use crate::view::{Camera, CameraError};
 
-use contest::compare_by_planes;
 use orders::Orders;
+use orders::compare_by_planes;
 
 pub use orders::{OrderFault, check_orders};
 

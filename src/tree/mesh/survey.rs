@@ -1,12 +1,14 @@
 //! Lists the edges of all fragments: between which nodes they run, and along which line.
 
-use std::collections::HashMap;
+use std::cmp::Ordering;
+use std::collections::{HashMap, TryReserveError};
 
-use super::lines::{Carrier, Lines};
 use crate::error::{Error, Limit};
-use crate::exact::{Faces, PlaneId, Symbol, SymbolKind};
+use crate::exact::vertex::Fraction;
+use crate::exact::{Faces, POSITION_OFF, PlaneId, Symbol, SymbolKind};
 use crate::memory::{empty, reserve};
 use crate::tree::BspTree;
+use crate::union::Union;
 
 /// A vertex as one face names it: a corner, or where planes cut the face. The first nodes are the
 /// corners of all faces, the others [`Survey::cuts`].
@@ -168,6 +170,297 @@ fn by_face(tree: &BspTree) -> Result<Vec<u32>, Error> {
     Ok(fragments)
 }
 
+/// A line that carries edges of fragments: that of an edge as given, shared by all faces, or where a
+/// plane cuts one face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carrier {
+    /// An axis along which the line is not constant.
+    pub(super) axis: usize,
+    /// The face that is cut.
+    pub(super) face: Option<u32>,
+}
+
+/// The lines of edges, by their shortest integer direction, the first coordinate that is not zero
+/// positive, and their moment.
+#[derive(Default)]
+pub(super) struct Lines(HashMap<([i64; 3], [i128; 3]), u32>);
+
+impl Lines {
+    pub(super) fn try_reserve(&mut self, more: usize) -> Result<(), TryReserveError> {
+        self.0.try_reserve(more)
+    }
+
+    /// The number of the line through two lattice points; if it is new, it is added to `carriers`.
+    pub(super) fn number(&mut self, ends: [[f64; 3]; 2], carriers: &mut Vec<Carrier>) -> u32 {
+        let [a, b] = ends.map(|end| end.map(|c| c as i64));
+        let arm: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+        let size = |axis: usize| arm[axis].abs();
+        let axis = (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best });
+        let common = arm.into_iter().fold(0, divisor).max(1);
+        let first = arm.into_iter().find(|&c| c != 0).unwrap_or(1);
+        let direction = arm.map(|c| c / common * first.signum());
+        let moment = std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let product = |j: usize, k: usize| i128::from(a[j]) * i128::from(direction[k]);
+            product(j, k) - product(k, j)
+        });
+        *self.0.entry((direction, moment)).or_insert_with(|| {
+            carriers.push(Carrier { axis, face: None });
+            carriers.len() as u32 - 1
+        })
+    }
+}
+
+/// The greatest common divisor (Stein 1967: shifts and differences).
+fn divisor(a: i64, b: i64) -> i64 {
+    let (mut a, mut b) = (a.unsigned_abs(), b.unsigned_abs());
+    if a == 0 || b == 0 {
+        return (a | b) as i64;
+    }
+    let twos = (a | b).trailing_zeros();
+    a >>= a.trailing_zeros();
+    while b != 0 {
+        b >>= b.trailing_zeros();
+        (a, b) = (a.min(b), a.abs_diff(b));
+    }
+    (a << twos) as i64
+}
+
+/// A vertex of an outline.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OutlineVertex {
+    pub(super) vertex: u32,
+    /// Whether the outline runs straight through it.
+    pub(super) straight: bool,
+}
+
+/// Calls `triangle` with two triangles fewer than the outline has vertices. They face as it does,
+/// fill it, and none has all its vertices on one side of the outline, so none is without area.
+///
+/// Each edge of the outline belongs to one triangle. An outline of two vertices or fewer has none.
+pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u32; 3])) {
+    let n = outline.len();
+    let at = |k: usize| outline[k % n];
+    let mut emit = |a: usize, b: usize, c: usize| triangle([a, b, c].map(|k| at(k).vertex));
+    // A fan from any true corner would have flat triangles on the sides next to it, if these have
+    // vertices inside. A fan from a vertex inside a side has them on that side alone.
+    let first = (0..n).find(|&k| at(k).straight && !at(k + n - 1).straight);
+    let apex = first.unwrap_or(0);
+    // How many edges it is to the end of the apex's side.
+    let length = first.and_then(|apex| (1..n).find(|&k| !at(apex + k).straight)).unwrap_or(1);
+    let mut next = apex + 1;
+    if length > 1 && length + 1 < n {
+        // The rest of that side is filled from the first vertex beyond it.
+        next = apex + length + 1;
+        (apex..apex + length).for_each(|k| emit(k, k + 1, next));
+    }
+    (next + 1..apex + n).for_each(|k| emit(apex, k - 1, k));
+}
+
+/// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`]
+/// for both, are in their true order: each is off by three roundings of its own size at most, and
+/// the difference by one. Smaller: wrong orders; larger: more work for the integers.
+const ERROR: f64 = 5.0 * f64::EPSILON;
+
+/// The points of all lines.
+pub(super) struct Points {
+    /// Which nodes are the same point.
+    same: Union,
+    /// A node of each point, line after line, in order along each.
+    pub(super) on_lines: Vec<Node>,
+    /// For each edge, the places of its two ends in `on_lines`.
+    pub(super) ends: Vec<[u32; 2]>,
+}
+
+/// An end of an edge, on the edge's line.
+#[derive(Clone, Copy, Default)]
+struct End {
+    node: Node,
+    /// The edge, doubled, and 1 for its second end.
+    slot: u32,
+    rounded: f64,
+}
+
+impl Points {
+    pub(super) fn new(survey: &Survey<'_>) -> Result<Self, Error> {
+        let same = Union::new(survey.nodes() as u32)?;
+        let mut points = Self { same, on_lines: Vec::new(), ends: Vec::new() };
+        points.unite_corners(survey)?;
+        let (mut all, starts) = by_line(survey)?;
+        reserve(&mut points.ends, survey.edges.len())?;
+        points.ends.resize(survey.edges.len(), [0; 2]);
+        reserve(&mut points.on_lines, all.len() / 2)?;
+        // Lines that faces share come first: where corners were moved onto their planes, an edge as
+        // given decides, not one of its faces.
+        for shared in [true, false] {
+            for (line, range) in starts.windows(2).enumerate() {
+                if survey.carriers[line].face.is_none() == shared {
+                    let ends = &mut all[range[0] as usize..range[1] as usize];
+                    points.order(survey, line, ends)?;
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// The node that names a node's point: the least, a corner if there is one.
+    pub(super) fn root(&self, node: Node) -> Node {
+        self.same.root(node)
+    }
+
+    fn unite_corners(&mut self, survey: &Survey<'_>) -> Result<(), Error> {
+        let faces = &survey.tree.faces;
+        let mut known: HashMap<[u64; 3], Node> = HashMap::new();
+        known.try_reserve(faces.corner_count() / 4).map_err(|_| Error::out_of_memory())?;
+        for corner in faces.corners_of_cell() as u32..faces.corner_count() as u32 {
+            let place = faces.given_corner(corner).map(f64::to_bits);
+            known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+            self.same.unite(*known.entry(place).or_insert(corner), corner);
+        }
+        Ok(())
+    }
+
+    /// Sorts the ends on one line, unites those in one place, and notes the places.
+    fn order(&mut self, survey: &Survey<'_>, line: usize, ends: &mut [End]) -> Result<(), Error> {
+        ends.sort_unstable_by(|a, b| compare(survey, line, a, b));
+        reserve(&mut self.on_lines, ends.len())?;
+        let mut last: Option<End> = None;
+        // What the edges as given have made one point may have two places on a line of a face whose corners
+        // were moved.
+        let is_one = |same: &Union, a: &End, b: &End| {
+            same.root(a.node) == same.root(b.node) || compare(survey, line, a, b).is_eq()
+        };
+        for end in ends.iter() {
+            match last {
+                Some(last) if is_one(&self.same, &last, end) => {
+                    self.same.unite(last.node, end.node);
+                }
+                _ => self.on_lines.push(end.node),
+            }
+            last = Some(*end);
+            let place = self.on_lines.len() as u32 - 1;
+            self.ends[end.slot as usize / 2][end.slot as usize % 2] = place;
+        }
+        Ok(())
+    }
+}
+
+/// How two ends on a line compare: as their [`coordinate`]s there do, whatever is known of their points. So
+/// it is a total order.
+fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
+    let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
+    // A rounded coordinate that is not to be relied on is NaN, and then no difference is large.
+    if (a.rounded - b.rounded).abs() > slack {
+        return a.rounded.total_cmp(&b.rounded);
+    }
+    if a.node == b.node || is_same_place(survey, line, a, b) {
+        return Ordering::Equal;
+    }
+    let [a, b] = [a, b].map(|end| coordinate(survey, line, end.node));
+    a.compare(&b)
+}
+
+/// Whether two ends on a line that faces share are corners given there in one place, or where the same
+/// plane cuts it.
+fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
+    let plane = |(face, symbol): (u32, Symbol)| match symbol.kind() {
+        SymbolKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
+        _ => None,
+    };
+    survey.carriers[line].face.is_none()
+        && match [a, b].map(|end| survey.cut(end.node)) {
+            [None, None] => a.rounded == b.rounded,
+            [Some(a), Some(b)] => plane(a).is_some() && plane(a) == plane(b),
+            _ => false,
+        }
+}
+
+fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
+    survey.tree.faces.upright_axis(face).is_some()
+}
+
+/// The coordinate of a node on a line, along the line's axis.
+///
+/// On the line of an edge as given, it is that of a corner as given, or of the place where the plane
+/// cuts the edge as given, so that all faces agree; on a line inside a face, that of the vertex on
+/// the face's plane.
+pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fraction {
+    let (faces, carrier) = (&survey.tree.faces, survey.carriers[line]);
+    match (survey.cut(node), carrier.face) {
+        (None, None) => Fraction::whole(faces.given_corner(node)[carrier.axis]),
+        (None, Some(face)) => {
+            let first = faces.corner_range(face).start as u32;
+            faces.along(face, Symbol::corner(node - first), carrier.axis)
+        }
+        (Some((face, symbol)), None) => {
+            let given = match symbol.kind() {
+                SymbolKind::OnEdge(k, plane) => faces.cut_of_segment(ends(faces, face, k), plane),
+                _ => None,
+            };
+            // The plane may cut the edge as moved and not as given; then the former decides.
+            given.map_or_else(
+                || faces.along(face, symbol, carrier.axis),
+                |cut| cut.along(carrier.axis),
+            )
+        }
+        (Some((face, symbol)), Some(_)) => faces.along(face, symbol, carrier.axis),
+    }
+}
+
+/// The ends of all edges, line by line, and where each line's begin.
+fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
+    let mut starts = Vec::new();
+    reserve(&mut starts, survey.carriers.len() + 1)?;
+    starts.resize(survey.carriers.len() + 1, 0_u32);
+    survey.edges.iter().for_each(|edge| starts[edge.carrier as usize] += 2);
+    let mut sum = 0;
+    for start in &mut starts {
+        sum += *start;
+        *start = sum;
+    }
+    let mut all = Vec::new();
+    reserve(&mut all, 2 * survey.edges.len())?;
+    all.resize(2 * survey.edges.len(), End::default());
+    let places = rounded_places(survey)?;
+    let faces = &survey.tree.faces;
+    for range in survey.starts.windows(2) {
+        let edges = &survey.edges[range[0] as usize..range[1] as usize];
+        for (i, edge) in edges.iter().enumerate() {
+            let carrier = survey.carriers[edge.carrier as usize];
+            let to = edges[if i + 1 == edges.len() { 0 } else { i + 1 }].from;
+            for (node, second) in [(edge.from, 0), (to, 1)] {
+                let rounded = match survey.cut(node) {
+                    None if carrier.face.is_none() => faces.given_corner(node)[carrier.axis],
+                    None => faces.corner(node)[carrier.axis],
+                    Some(_) => places[node as usize - faces.corner_count()][carrier.axis],
+                };
+                let moved = match (survey.cut(node), carrier.face) {
+                    (Some((face, _)), _) | (None, Some(face)) => is_moved(survey, face),
+                    (None, None) => false,
+                };
+                let rounded = if moved { f64::NAN } else { rounded };
+                let start = &mut starts[edge.carrier as usize];
+                *start -= 1;
+                let slot = 2 * (range[0] + i as u32) + second;
+                all[*start as usize] = End { node, slot, rounded };
+            }
+        }
+    }
+    Ok((all, starts))
+}
+
+/// The rounded places of the cuts on their faces.
+fn rounded_places(survey: &Survey<'_>) -> Result<Vec<[f64; 3]>, Error> {
+    let mut places = Vec::new();
+    reserve(&mut places, survey.cuts.len())?;
+    let faces = &survey.tree.faces;
+    places.extend(survey.cuts.iter().map(|&(face, symbol)| faces.position(face, symbol)));
+    Ok(places)
+}
+
+#[cfg(test)]
+mod points_tests;
+
 #[cfg(test)]
 mod tests {
     use super::{BspTree, Names, PlaneId, Symbol};
@@ -188,5 +481,94 @@ mod tests {
         (1..3).for_each(|face| names.enter(&tree.faces, face).unwrap());
         let room = names.symbols.capacity() + names.planes.capacity();
         assert!(room < 1000, "room for {room} names is emptied for each face");
+    }
+}
+
+#[cfg(test)]
+mod lines_tests {
+    use super::{Lines, divisor};
+
+    #[test]
+    fn edges_on_one_line_have_one_number() {
+        let (mut lines, mut carriers) = (Lines::default(), Vec::new());
+        let mut number = |a, b| lines.number([a, b], &mut carriers);
+        let first = number([1.0, 2.0, 3.0], [3.0, 6.0, -1.0]);
+        assert_eq!(number([3.0, 6.0, -1.0], [1.0, 2.0, 3.0]), first);
+        assert_eq!(number([4.0, 8.0, -3.0], [-1.0, -2.0, 7.0]), first);
+        assert_ne!(number([1.0, 2.0, 4.0], [3.0, 6.0, 0.0]), first);
+        assert_ne!(number([1.0, 2.0, 3.0], [3.0, 6.0, -2.0]), first);
+        assert_eq!(carriers.iter().map(|c| c.axis).collect::<Vec<_>>(), [1, 1, 2]);
+    }
+
+    #[test]
+    fn divisors() {
+        for (a, b, common) in [(0, 0, 0), (0, -6, 6), (12, 18, 6), (-35, 14, 7), (1 << 52, 3, 1)] {
+            assert_eq!((divisor(a, b), divisor(b, a)), (common, common), "{a} {b}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod outline_tests {
+    use super::{OutlineVertex, triangulate};
+    use std::collections::HashSet;
+
+    /// Outlines of integer points on the sides of polygons, with every number of points inside each.
+    #[test]
+    fn triangles_have_area_and_each_edge_of_the_outline_once() {
+        let shapes: [&[[i64; 2]]; 3] = [
+            &[[0, 0], [12, 0], [0, 12]],
+            &[[0, 0], [12, 0], [12, 12], [0, 12]],
+            &[[0, 0], [12, 0], [24, 12], [12, 24], [0, 12]],
+        ];
+        let mut tried = 0;
+        for shape in shapes {
+            let sides = shape.len();
+            for pattern in 0..4_usize.pow(sides as u32) {
+                let mut points = Vec::new();
+                for (side, a) in shape.iter().enumerate() {
+                    let b = shape[(side + 1) % sides];
+                    let inside = (pattern / 4_usize.pow(side as u32) % 4) as i64;
+                    points.push((*a, false));
+                    points.extend((1..=inside).map(|k| {
+                        let part = |i: usize| a[i] + (b[i] - a[i]) * k / (inside + 1);
+                        ([part(0), part(1)], true)
+                    }));
+                }
+                for turned in 0..points.len() {
+                    points.rotate_left(turned.min(1));
+                    check(&points, shape);
+                    tried += 1;
+                }
+            }
+        }
+        assert!(tried > 10_000, "{tried}");
+    }
+
+    fn check(points: &[([i64; 2], bool)], shape: &[[i64; 2]]) {
+        let outline: Vec<OutlineVertex> = (0..)
+            .zip(points)
+            .map(|(vertex, &(_, straight))| OutlineVertex { vertex, straight })
+            .collect();
+        let (mut area, mut count, mut edges) = (0, 0, HashSet::new());
+        triangulate(&outline, |triangle| {
+            let [a, b, c] = triangle.map(|k| points[k as usize].0);
+            let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            assert!(twice > 0, "{points:?}");
+            (area, count) = (area + twice, count + 1);
+            for k in 0..3 {
+                let (from, to) = (triangle[k], triangle[(k + 1) % 3]);
+                assert!(edges.insert((from, to)), "{points:?}");
+            }
+        });
+        let n = points.len() as u32;
+        assert_eq!(count, n - 2);
+        edges.retain(|&(a, b)| b != (a + 1) % n || n == 3 && a == b);
+        // What is left beside the outline is matched.
+        assert!(edges.iter().all(|&(a, b)| edges.contains(&(b, a)) || (b + 1) % n == a));
+        assert_eq!(edges.len() as u32, 2 * (n - 3));
+        let next = shape.iter().cycle().skip(1);
+        let whole: i64 = shape.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum();
+        assert_eq!(area, whole);
     }
 }

@@ -1,12 +1,11 @@
-//! Lays out a tree: divides it into branches, twigs and runs.
+//! Where the fragments of a tree stand in memory, for orders to be written from: branches, twigs that a table
+//! puts in order, and runs.
 
 use std::collections::HashMap;
 
-use super::schedule::{Branch, LIST, NEXT, NOBODY, ROOT, Run, Schedule, Twig};
-use super::twig::{FRAGMENTS, NODES, TwigShape};
 use crate::Error;
 use crate::memory::push;
-use crate::tree::node_record::NodeRecord;
+use crate::tree::node::NodeRecord;
 
 /// Shorter lists are stored as ordinary branches: to branch on a list costs more than a short one
 /// saves.
@@ -194,5 +193,253 @@ impl Layout<'_> {
         let first = self.next;
         self.next += fragments;
         first
+    }
+}
+
+/// Part number for "none".
+pub(in crate::tree) const NOBODY: u32 = 0;
+/// Part number for "the branch that follows in memory".
+pub(in crate::tree) const NEXT: u32 = 1;
+/// Part number of the whole tree.
+pub(in crate::tree) const ROOT: u32 = 2;
+
+/// A tree's fragments, divided into *parts*. The fragments of a part are contiguous in every order.
+///
+/// - A *branch* is a node with everything on its sides.
+/// - A *twig* is a subtree or leaf of at most [`FRAGMENTS`](FRAGMENTS) fragments and
+///   [`NODES`](NODES) nodes.
+/// - A *run* is a longer sequence of fragments that always come in the order of their numbers, such
+///   as many on one plane.
+///
+/// Parts are numbered from [`ROOT`]: branches first, then twigs, then runs, each depth first.
+///
+/// There are fewer than two parts per fragment. Proof: call *ends* the twigs, the runs, and the
+/// fragments that are alone on the plane of a branch. Each end has a fragment of its own, so there
+/// are at most as many ends as fragments. A node has fragments on its plane or on both sides, so a
+/// branch contains at least two ends or branches, and there are fewer branches than ends. The
+/// exception is a branch with nothing beside its plane; it contains one run, which has more than
+/// [`FRAGMENTS`](FRAGMENTS) fragments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::tree) struct Schedule {
+    pub(in crate::tree) branches: Vec<Branch>,
+    pub(in crate::tree) twigs: Vec<Twig>,
+    pub(in crate::tree) runs: Vec<Run>,
+    /// For each shape of twig: how the signs of its nodes permute its fragments.
+    pub(in crate::tree) permutations: Vec<Permutations>,
+}
+
+/// A node whose subtree is too large for a twig, or several such nodes in a row; see [`List`].
+///
+/// The value of `own` decides what `own` and `own_first` mean:
+///
+/// | `own` | meaning | `own_first` |
+/// |---|---|---|
+/// | 0 | no fragment on the plane | unused |
+/// | 1 | one fragment on the plane | its number |
+/// | 2 or more, below [`LIST`] | that many fragments on the plane | their part number |
+/// | [`LIST`] + n | a list of n nodes | the number of the first node's fragment |
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Branch {
+    /// The node, or the first of a list.
+    pub(in crate::tree) node: u32,
+    pub(in crate::tree) own: u32,
+    /// How many fragments are in front and behind, at all levels below; for a list, those of its last
+    /// node.
+    pub(in crate::tree) front: u32,
+    pub(in crate::tree) back: u32,
+    /// Their part numbers. For a list, one is [`NOBODY`].
+    pub(in crate::tree) front_part: u32,
+    pub(in crate::tree) back_part: u32,
+    pub(in crate::tree) own_first: u32,
+}
+
+/// Marks a [`Branch`] that is a list.
+pub(super) const LIST: u32 = 1 << 31;
+
+/// Nodes in a row, each with one fragment on its plane and all others below a single child, always
+/// on the same side. The order is written from both ends inwards; the rest comes in between.
+pub(in crate::tree) struct List {
+    pub(in crate::tree) first_node: u32,
+    pub(in crate::tree) nodes: u32,
+    /// The fragment of the first node; the others follow.
+    pub(in crate::tree) first: u32,
+    /// How many fragments are below the last node.
+    pub(in crate::tree) rest: u32,
+    pub(in crate::tree) rest_is_front: bool,
+}
+
+impl Branch {
+    /// The list, if it is one.
+    #[inline]
+    pub(in crate::tree) fn list(&self) -> Option<List> {
+        (self.own & LIST != 0).then(|| List {
+            first_node: self.node,
+            nodes: self.own & !LIST,
+            first: self.own_first,
+            rest: self.front + self.back,
+            rest_is_front: self.front > 0,
+        })
+    }
+}
+
+/// A subtree or a leaf of few fragments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Twig {
+    /// Its first node; any, if it is a leaf.
+    pub(in crate::tree) node: u32,
+    /// Its first fragment.
+    pub(in crate::tree) first: u32,
+    /// Its row of [`Schedule::permutations`].
+    pub(in crate::tree) row: u32,
+}
+
+/// Fragments in the order of their numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::tree) struct Run {
+    pub(in crate::tree) first: u32,
+    pub(in crate::tree) len: u32,
+}
+
+impl Schedule {
+    /// How many parts there are, [`NOBODY`] and [`NEXT`] included.
+    pub(in crate::tree) fn parts(&self) -> usize {
+        ROOT as usize + self.branches.len() + self.twigs.len() + self.runs.len()
+    }
+
+    /// The resident size in bytes, apart from its own.
+    pub(in crate::tree) fn bytes(&self) -> usize {
+        size_of_val(&*self.branches)
+            + size_of_val(&*self.twigs)
+            + size_of_val(&*self.runs)
+            + size_of_val(&*self.permutations)
+    }
+}
+
+/// The most fragments of a twig: four places of two bits each fit a byte.
+pub(in crate::tree) const FRAGMENTS: usize = 4;
+/// The most nodes of a twig: the builder divides only sets of two pieces or more.
+pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
+
+/// The places of a twig's fragments for every combination of signs of its nodes.
+///
+/// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the
+/// place of fragment k. Fragments that the twig does not have share the place of the first.
+pub(in crate::tree) type Permutations = [u8; 1 << NODES];
+
+/// Everything but the signs that decides the places of a twig's fragments: for each node, how many
+/// fragments are on its plane and in front, how many nodes are in front, and whether the back is one;
+/// how many nodes there are, none for a leaf; and how many fragments. Twigs of the same shape share a
+/// row of the table.
+///
+/// Packed, as there is one to look up for each twig.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(in crate::tree) struct TwigShape(u32);
+
+/// The bits of a node in a shape. Numbers up to [`FRAGMENTS`] take three, up to [`NODES`] two.
+const NODE_BITS: u32 = 3 + 3 + 2 + 1;
+/// The bits of the number of fragments, behind those of the nodes.
+const FRAGMENTS_AT: u32 = NODE_BITS * NODES as u32;
+/// The bits of the number of nodes, behind those.
+const LEN_AT: u32 = FRAGMENTS_AT + 3;
+
+/// A node of a shape.
+struct ShapeNode {
+    own: u8,
+    /// How many fragments are in front, in a leaf or below nodes.
+    front: u8,
+    /// How many nodes are in front; if none, the front is a leaf.
+    front_nodes: u8,
+    back_is_node: bool,
+}
+
+impl TwigShape {
+    /// The shape of a leaf.
+    pub(in crate::tree) fn leaf(fragments: u32) -> Self {
+        Self(fragments << FRAGMENTS_AT)
+    }
+
+    /// The shape of a whole subtree of at most [`NODES`] nodes and [`FRAGMENTS`] fragments.
+    pub(in crate::tree) fn of(subtree: &[NodeRecord], fragments: u32) -> Self {
+        let bits = (subtree.len() as u32) << LEN_AT | fragments << FRAGMENTS_AT;
+        Self(subtree.iter().zip(0..).fold(bits, |bits, (node, k)| {
+            let sides = node.front_nodes << 1 | u32::from(node.back_is_node());
+            bits | (node.own() << 6 | node.front_len << 3 | sides) << (NODE_BITS * k)
+        }))
+    }
+
+    fn fragments(self) -> u8 {
+        (self.0 >> FRAGMENTS_AT & 7) as u8
+    }
+
+    fn len(self) -> usize {
+        (self.0 >> LEN_AT) as usize
+    }
+
+    fn node(self, k: usize) -> ShapeNode {
+        let bits = self.0 >> (NODE_BITS * k as u32);
+        ShapeNode {
+            own: (bits >> 6 & 7) as u8,
+            front: (bits >> 3 & 7) as u8,
+            front_nodes: (bits >> 1 & 3) as u8,
+            back_is_node: bits & 1 == 1,
+        }
+    }
+
+    /// Its row of the table.
+    pub(in crate::tree) fn permutations(self) -> Permutations {
+        std::array::from_fn(|signs| self.places(signs))
+    }
+
+    fn places(self, signs: usize) -> u8 {
+        let mut order = Places::default();
+        if self.len() == 0 {
+            order.put(0, self.fragments());
+        }
+        // Where the fragments of the subtree at each node begin, and how many it has.
+        let (mut begins, mut totals) = ([0; NODES], [self.fragments(); NODES]);
+        for k in 0..self.len() {
+            let (node, begin) = (self.node(k), begins[k]);
+            let in_back = totals[k] - node.own - node.front;
+            let is_in_front = signs >> k & 1 == 1;
+            let far = begin + if is_in_front { in_back } else { node.front };
+            let near = far + node.own;
+            let (front, back) = if is_in_front { (near, begin) } else { (begin, near) };
+            order.put(far, node.own);
+            let front_nodes = node.front_nodes as usize;
+            if front_nodes > 0 {
+                (begins[k + 1], totals[k + 1]) = (front, node.front);
+            } else {
+                order.put(front, node.front);
+            }
+            if node.back_is_node {
+                (begins[k + 1 + front_nodes], totals[k + 1 + front_nodes]) = (back, in_back);
+            } else {
+                order.put(back, in_back);
+            }
+        }
+        order.packed()
+    }
+}
+
+/// The places of fragments, in the order of their numbers.
+#[derive(Default)]
+struct Places {
+    places: [u8; FRAGMENTS],
+    len: usize,
+}
+
+impl Places {
+    /// Assigns the next `len` fragments the places from `begin` on.
+    fn put(&mut self, begin: u8, len: u8) {
+        for place in begin..begin + len {
+            self.places[self.len] = place;
+            self.len += 1;
+        }
+    }
+
+    fn packed(&self) -> u8 {
+        let first = self.places[0];
+        let place = |k: usize| if k < self.len { self.places[k] } else { first };
+        (0..FRAGMENTS).fold(0, |packed, k| packed | place(k) << (2 * k))
     }
 }

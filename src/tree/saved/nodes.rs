@@ -3,7 +3,7 @@
 use crate::exact::PlaneId;
 use crate::exact::label::bits::Known;
 use crate::save::{LoadError, invalid};
-use crate::tree::node_record::{NodeRecord, finish, make_room};
+use crate::tree::node::{NodeRecord, finish, make_room};
 use crate::tree::parts::{RawChild, RawNode, Record};
 
 const EMPTY: u32 = 0;

@@ -21,7 +21,7 @@ use super::fault::{Culprit, Fault, Invalid};
 use crate::exact::cell::Clipper;
 use crate::exact::{Line, PlaneId, PreparedPlane, Symbol, Vertex};
 use crate::tree::BspTree;
-use crate::tree::walk::Visit;
+use crate::tree::node::Visit;
 
 /// The pieces of a node's set, by face: their outlines, empty for a whole face.
 type Set = BTreeMap<u32, Vec<Vertex>>;

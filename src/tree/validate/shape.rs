@@ -3,7 +3,7 @@
 use super::fault::{Fault, Invalid};
 use crate::exact::{Line, PlaneId, PlaneKind, StoredVertex, SymbolKind};
 use crate::tree::BspTree;
-use crate::tree::walk::{Visit, Walk};
+use crate::tree::node::{Visit, Walk};
 
 impl BspTree {
     /// The nodes in memory order, if every node and every fragment is visited exactly once and every

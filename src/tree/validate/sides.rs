@@ -3,7 +3,7 @@
 use super::fault::{Fault, Invalid};
 use crate::exact::{PreparedPlane, Side, Vertex};
 use crate::tree::BspTree;
-use crate::tree::walk::Visit;
+use crate::tree::node::Visit;
 
 impl BspTree {
     /// Holds each fragment against every plane above it, and those on a plane against the order of

@@ -13,8 +13,8 @@ use crate::build::{BuildOptions, Heuristic};
 use crate::exact::StoredVertex;
 use crate::scene::{self, Scene};
 use crate::tree::BspTree;
+use crate::tree::node::Walk;
 use crate::tree::parts::{self, RawChild, RawNode, Record};
-use crate::tree::walk::Walk;
 
 type Stored = StoredVertex;
 

@@ -15,7 +15,7 @@ const CUT: &str = "on its two sides do not fit along the cut";
 /// Which group of its node's a fragment is in: the node, and 0 on the plane, 1 in front, 2 behind.
 fn place(tree: &BspTree, fragment: u32) -> (usize, usize) {
     let is_here = |range: &std::ops::Range<u32>| range.contains(&fragment);
-    let mut walk = crate::tree::walk::Walk::new(tree);
+    let mut walk = crate::tree::node::Walk::new(tree);
     while let Some(visit) = walk.next(tree) {
         let groups = [visit.own, visit.front, visit.back];
         if let Some(group) = groups.iter().position(is_here) {

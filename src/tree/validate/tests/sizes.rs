@@ -4,7 +4,7 @@ use super::{Dismantled, assert_fault, build, crossing, trees, verdict};
 use crate::build::Heuristic;
 use crate::exact::PlaneId;
 use crate::scene;
-use crate::tree::node_record::{NodeRecord, finish};
+use crate::tree::node::{NodeRecord, finish};
 use crate::tree::parts::{RawChild, RawNode};
 
 const COUNTS: &str = "the sizes of its subtrees contradict each other";

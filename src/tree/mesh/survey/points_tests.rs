@@ -4,10 +4,10 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::{Points, by_line, compare};
 use crate::random::SplitMix64;
 use crate::tree::BspTree;
 use crate::tree::mesh::survey::Survey;
+use crate::tree::mesh::survey::{Points, by_line, compare};
 use crate::{BuildOptions, Heuristic};
 
 /// By how much a corner is below the plane of the others.

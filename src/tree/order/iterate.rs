@@ -1,16 +1,255 @@
-//! Orders as lists of fragment numbers, in linear passes over the tree.
+//! Orders one fragment at a time.
 
-#[cfg(test)]
-mod tests;
-
+use std::collections::VecDeque;
 use std::hint::select_unpredictable;
-use std::ops::Range;
+use std::iter::FusedIterator;
+use std::ops::{ControlFlow, Range};
 
-use super::eye_sides::View;
-use super::schedule::{Branch, List, NEXT, ROOT, Run, Schedule};
-use super::twig::{FRAGMENTS, NODES};
-use crate::tree::BspTree;
+use super::eye::View;
+use super::layout::{Branch, FRAGMENTS, List, NEXT, NODES, ROOT, Run, Schedule};
+use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
+
+/// The fragments of a tree in the order of a viewpoint: [`BspTree::back_to_front`] and
+/// [`BspTree::front_to_back`].
+///
+/// It can be read from both ends. To read all n fragments takes O(n) time, from either end or from
+/// both, and O(depth) memory.
+#[derive(Clone, Debug)]
+pub struct Ordered<'t> {
+    tree: &'t BspTree,
+    view: View,
+    /// Whether `next` takes the nearest fragment rather than the furthest.
+    front_to_back: bool,
+    /// The furthest fragments, behind all of `parts`.
+    far: Range<u32>,
+    /// What neither end has come to, back to front. Each end opens subtrees only as far as it must.
+    parts: VecDeque<Child<'t>>,
+    /// The nearest fragments, in front of all of `parts`.
+    near: Range<u32>,
+    left: usize,
+}
+
+impl<'t> Ordered<'t> {
+    fn new(tree: &'t BspTree, viewpoint: Viewpoint, front_to_back: bool) -> Self {
+        let left = tree.records.len();
+        let view = View::new(tree, viewpoint);
+        let parts = [tree.whole()].into();
+        Self { tree, view, front_to_back, far: 0..0, parts, near: 0..0, left }
+    }
+
+    /// The parts of a subtree, back to front.
+    fn open(&self, node: Node<'t>) -> [Child<'t>; 3] {
+        node.parts(self.view.is_in_front(self.tree, node.index()))
+    }
+
+    fn take_furthest(&mut self) -> Option<Fragment<'t>> {
+        while self.far.is_empty() {
+            match self.parts.pop_front() {
+                Some(Child::Leaf(run)) => self.far = run,
+                Some(Child::Node(node)) => {
+                    let parts = self.open(node);
+                    parts.into_iter().rev().for_each(|part| self.parts.push_front(part));
+                }
+                // Only the run that the other end is reading is left: this end reads on in it.
+                None => {
+                    let index = self.near.next()?;
+                    return Some(self.take(index));
+                }
+            }
+        }
+        let index = self.far.next()?;
+        Some(self.take(index))
+    }
+
+    fn take_nearest(&mut self) -> Option<Fragment<'t>> {
+        while self.near.is_empty() {
+            match self.parts.pop_back() {
+                Some(Child::Leaf(run)) => self.near = run,
+                Some(Child::Node(node)) => {
+                    let parts = self.open(node);
+                    self.parts.extend(parts);
+                }
+                None => {
+                    let index = self.far.next_back()?;
+                    return Some(self.take(index));
+                }
+            }
+        }
+        let index = self.near.next_back()?;
+        Some(self.take(index))
+    }
+
+    fn take(&mut self, index: u32) -> Fragment<'t> {
+        self.left -= 1;
+        self.tree.fragment(index)
+    }
+}
+
+impl<'t> Iterator for Ordered<'t> {
+    type Item = Fragment<'t>;
+
+    fn next(&mut self) -> Option<Fragment<'t>> {
+        if self.front_to_back { self.take_nearest() } else { self.take_furthest() }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl DoubleEndedIterator for Ordered<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        if self.front_to_back { self.take_furthest() } else { self.take_nearest() }
+    }
+}
+
+impl ExactSizeIterator for Ordered<'_> {}
+impl FusedIterator for Ordered<'_> {}
+
+impl BspTree {
+    /// The fragments, back to front: none hides one that comes later.
+    pub fn back_to_front(&self, viewpoint: Viewpoint) -> Ordered<'_> {
+        Ordered::new(self, viewpoint, false)
+    }
+
+    /// The fragments, front to back: none is hidden by one that comes later. The reverse of
+    /// [`back_to_front`](Self::back_to_front).
+    pub fn front_to_back(&self, viewpoint: Viewpoint) -> Ordered<'_> {
+        Ordered::new(self, viewpoint, true)
+    }
+
+    /// Calls `visit` with each fragment, back to front, until it returns [`ControlFlow::Break`],
+    /// and returns what it returned last.
+    pub fn visit_back_to_front<B>(
+        &self,
+        viewpoint: Viewpoint,
+        visit: impl FnMut(Fragment<'_>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.back_to_front(viewpoint).try_for_each(visit)
+    }
+
+    /// Calls `visit` with each fragment, front to back, until it returns [`ControlFlow::Break`]
+    /// (say, because every pixel is covered), and returns what it returned last.
+    pub fn visit_front_to_back<B>(
+        &self,
+        viewpoint: Viewpoint,
+        visit: impl FnMut(Fragment<'_>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.front_to_back(viewpoint).try_for_each(visit)
+    }
+}
+
+/// What a walk comes to: [`BspTree::walk_back_to_front`] and [`BspTree::walk_front_to_back`].
+#[derive(Clone, Copy, Debug)]
+pub enum Part<'t> {
+    /// A subtree, before anything in it.
+    Subtree(Node<'t>),
+    /// A fragment, in its place in the order.
+    Fragment(Fragment<'t>),
+}
+
+/// How a walk goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow<B = ()> {
+    /// Into the subtree. After a fragment: to the next part.
+    Descend,
+    /// Past the subtree: nothing in it is visited. After a fragment: to the next part.
+    Skip,
+    /// Not at all: the walk ends and returns the value.
+    Break(B),
+}
+
+impl BspTree {
+    /// Visits subtrees and fragments, back to front, and leaves out the subtrees that `visit`
+    /// skips. Returns what `visit` broke with.
+    ///
+    /// The fragments of subtrees that are not skipped come in the order of
+    /// [`back_to_front`](Self::back_to_front). A subtree comes when the walk reaches it: after all
+    /// that is behind it, before anything in it. Takes O(parts visited) time and O(depth) memory,
+    /// and does not recurse.
+    ///
+    /// With [`Bounds`](crate::Bounds), what lies outside of a region is left out as a whole:
+    ///
+    /// ```
+    /// use binspace::{BspTree, Flow, Part, Viewpoint};
+    ///
+    /// let square = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.5], [x, 1.0, 1.0]];
+    /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
+    /// let bounds = tree.bounds()?;
+    /// let mut seen = Vec::new();
+    /// let mut subtrees = 0;
+    /// let _ = tree.walk_back_to_front(Viewpoint::eye([50.0, -9.0, 3.0]), |part| match part {
+    ///     Part::Subtree(node) => {
+    ///         subtrees += 1;
+    ///         let [low, high] = bounds.of(node);
+    ///         if high.x < 20.0 || low.x > 23.5 { Flow::Skip } else { Flow::<()>::Descend }
+    ///     }
+    ///     Part::Fragment(fragment) => {
+    ///         seen.push(fragment.polygon());
+    ///         Flow::Descend
+    ///     }
+    /// });
+    /// assert!((20..=23).all(|polygon| seen.contains(&polygon)));
+    /// assert!(subtrees < 40);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    pub fn walk_back_to_front<'t, B>(
+        &'t self,
+        viewpoint: Viewpoint,
+        visit: impl FnMut(Part<'t>) -> Flow<B>,
+    ) -> ControlFlow<B> {
+        self.walk(viewpoint, false, visit)
+    }
+
+    /// Visits subtrees and fragments, front to back, and leaves out the subtrees that `visit`
+    /// skips; otherwise as [`walk_back_to_front`](Self::walk_back_to_front). A subtree comes after
+    /// all that is in front of it: skip it if that hides it.
+    pub fn walk_front_to_back<'t, B>(
+        &'t self,
+        viewpoint: Viewpoint,
+        visit: impl FnMut(Part<'t>) -> Flow<B>,
+    ) -> ControlFlow<B> {
+        self.walk(viewpoint, true, visit)
+    }
+
+    fn walk<'t, B>(
+        &'t self,
+        viewpoint: Viewpoint,
+        is_front_to_back: bool,
+        mut visit: impl FnMut(Part<'t>) -> Flow<B>,
+    ) -> ControlFlow<B> {
+        let view = View::new(self, viewpoint);
+        let mut pending = vec![self.whole()];
+        while let Some(next) = pending.pop() {
+            match next {
+                Child::Node(node) => match visit(Part::Subtree(node)) {
+                    Flow::Descend => {
+                        let mut parts = node.parts(view.is_in_front(self, node.index()));
+                        // The last one is taken first.
+                        if !is_front_to_back {
+                            parts.reverse();
+                        }
+                        pending.extend(parts);
+                    }
+                    Flow::Skip => {}
+                    Flow::Break(value) => return ControlFlow::Break(value),
+                },
+                Child::Leaf(mut run) => {
+                    let take = |run: &mut std::ops::Range<u32>| {
+                        if is_front_to_back { run.next_back() } else { run.next() }
+                    };
+                    while let Some(index) = take(&mut run) {
+                        if let Flow::Break(value) = visit(Part::Fragment(self.fragment(index))) {
+                            return ControlFlow::Break(value);
+                        }
+                    }
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
 
 /// Spare places behind an order: a twig always writes as many numbers as the largest has.
 const ROOM: usize = FRAGMENTS;
@@ -200,3 +439,6 @@ fn write_list(list: &List, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u3
 fn is_in_front(signs: &[u32], node: u32) -> bool {
     signs[node as usize / 32] >> (node % 32) & 1 == 1
 }
+
+#[cfg(test)]
+mod tests;

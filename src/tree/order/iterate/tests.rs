@@ -1,9 +1,9 @@
 //! Orders of trees of every shape, against a walk that knows nothing of parts.
 
-use super::{ROOT, Schedule, write_order};
 use crate::exact::PlaneId;
 use crate::random::SplitMix64;
-use crate::tree::node_record::{NodeRecord, finish};
+use crate::tree::node::{NodeRecord, finish};
+use crate::tree::order::iterate::{ROOT, Schedule, write_order};
 use crate::tree::parts::{RawChild, RawNode};
 
 /// A node: how many fragments are on its plane, and what is in front and behind.
