@@ -1,19 +1,24 @@
 //! Lines in which polygons go through one another.
 
+use std::cmp::Ordering;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
 use super::cell::Cell;
-use super::edge_run::{EdgeKind, EdgeRun, SHORTEST};
-use super::frame::compare;
-use super::half::Half;
-use super::halving::VISITED;
-use super::inner_edges::{FaceEdge, InnerEdges};
-use super::map::VisibilityMap;
-use super::near::distance;
-use super::reporter::{each, finish_item, sort_by};
-use super::table::{Table, insert};
-use crate::Error;
+use super::edges::{Depths, EdgeKind, EdgeRun, SHORTEST, in_layers};
+use super::exact_lines::compare;
+use super::lines::{Half, Lines, Table, insert};
+use super::map::{VisibilityMap, each, finish_item, sort_by, sort_unique};
+use super::order::{Found, Pair, add, sorted};
+use super::pen::distance;
+use super::sight::{Sight, parts};
+use super::stock::{Rims, Stock, View};
+use super::tile::{CUT, IN_VAIN, LINES, NARROWED, Tile, VISITED, found_in, in_vain};
 use crate::build::progress::Watch;
-use crate::exact::PlaneId;
-use crate::memory::push;
+use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
+use crate::memory::{collect, push, reserve};
+use crate::{Error, parallel_map};
 
 /// A side of a cell on the line of a cut.
 #[derive(Clone, Copy, Debug)]
@@ -278,4 +283,448 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize, watch: &Watch<'_>) -> Result<(),
         }
     }
     Ok(())
+}
+
+/// So many pairs are looked at by one thread.
+const SHARE: usize = 256;
+
+/// Two faces, and the line in which they go through one another.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    /// As those of [`CommonSide`].
+    faces: [u32; 2],
+    sight: Sight,
+}
+
+impl VisibilityMap<'_> {
+    /// The runs of [`crossings`](Self::crossings), and those that are hidden by others. Of polygons in several
+    /// faces, each pair of faces has runs of its own.
+    ///
+    /// Hidden are those of polygons that both have corners on both sides of the other, further from it than the
+    /// tolerance.
+    ///
+    /// O(n log n) for n faces, unless there are many with overlapping boxes, as at the tip of a cone of many faces.
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    pub fn crossings_with_hidden(&self) -> Result<Vec<EdgeRun>, Error> {
+        self.reporter.watch(4, |watch| {
+            let (crossings, shown) = self.all_crossings(watch)?;
+            self.crossing_runs(&crossings, &shown, None, watch)
+        })
+    }
+
+    /// The runs of [`crossings_with_hidden`](Self::crossings_with_hidden), each with [`EdgeRun::layers`]: as
+    /// [`edges_in_layers`](Self::edges_in_layers) has edges, cut where the number of polygons in front of them
+    /// changes. For each crossing this takes time and memory as for an edge.
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    pub fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
+        self.reporter.watch(6, |watch| {
+            let (crossings, shown) = self.all_crossings(watch)?;
+            let mut sights: Vec<Sight> = Vec::new();
+            reserve(&mut sights, crossings.len())?;
+            for crossing in each(watch, VISITED, &crossings) {
+                sights.push(crossing?.sight);
+            }
+            let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
+            let depths = self.depths(&sights, is_own, watch)?;
+            self.crossing_runs(&crossings, &shown, Some(&depths), watch)
+        })
+    }
+
+    /// All crossings in the picture, and what shows of them, by their faces: four phases.
+    fn all_crossings(&self, watch: &Watch<'_>) -> Result<(Vec<Crossing>, Vec<CommonSide>), Error> {
+        let stock = &self.stock;
+        let inner = InnerEdges::of(stock.frame.faces, watch)?;
+        let mut shown = self.common_sides(&inner, watch)?;
+        sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
+        let mut pairs = straddling(stock, &inner, watch)?;
+        // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
+        for side in each(watch, VISITED, &shown) {
+            let [below, above] = side?.faces;
+            push(&mut pairs, Pair { below, above })?;
+        }
+        sort_unique(&mut pairs, watch)?;
+        Ok((crossings_of(&pairs, stock, &inner, watch)?, shown))
+    }
+
+    /// The runs of crossings, with how many polygons are in front of each if that is known.
+    fn crossing_runs(
+        &self,
+        crossings: &[Crossing],
+        shown: &[CommonSide],
+        depths: Option<&Depths>,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<EdgeRun>, Error> {
+        let faces = self.stock.frame.faces;
+        let (mut runs, mut visible) = (Vec::new(), Vec::new());
+        for numbered in each(watch, VISITED, crossings.iter().enumerate()) {
+            let (i, crossing) = numbered?;
+            let sight = &crossing.sight;
+            let first = shown.partition_point(|side| side.faces < crossing.faces);
+            let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
+            visible.clear();
+            for side in each(watch, VISITED, own) {
+                let [a, b] = side?.ends.map(|end| sight.course.place_on(end));
+                push(&mut visible, [a.min(b), a.max(b)])?;
+            }
+            sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
+            let [a, b] = crossing.faces.map(|face| faces.polygon(face));
+            let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
+            for (ends, is_visible) in parts(&sight.course, visible.iter().copied()) {
+                let run = EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None };
+                let Some(depths) = depths else {
+                    push(&mut runs, run)?;
+                    continue;
+                };
+                for (ends, layers) in
+                    in_layers(ends, is_visible, Some((sight, depths.of(i))), watch)?
+                {
+                    push(&mut runs, EdgeRun { ends, layers: Some(layers), ..run })?;
+                }
+            }
+        }
+        sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
+        Ok(runs)
+    }
+}
+
+/// Those pairs that go through one another in the picture: a phase.
+fn crossings_of(
+    pairs: &[Pair],
+    stock: &Stock<'_>,
+    inner: &InnerEdges,
+    watch: &Watch<'_>,
+) -> Result<Vec<Crossing>, Error> {
+    let shares: Vec<_> = pairs.chunks(SHARE).enumerate().collect();
+    let count = shares.len();
+    let share = |(i, pairs): (usize, &[Pair])| {
+        let (mut rims, mut found) = (Rims::new(stock), Vec::new());
+        for &Pair { below, above } in pairs {
+            let faces = [below, above];
+            let corners: usize = faces.map(|face| stock.edges_work(face)).iter().sum();
+            watch.work(2 * LINES + CUT + corners * LINES / 4)?;
+            let sight = match inner.bend(stock.frame.faces, faces) {
+                Some(bend) => bent(&bend, stock, &mut rims, watch)?,
+                None => straight(faces, stock, &mut rims, watch)?,
+            };
+            if let Some(sight) = sight {
+                push(&mut found, Crossing { faces, sight })?;
+            }
+        }
+        finish_item(watch, i, count);
+        Ok(found)
+    };
+    let mut all = Vec::new();
+    for mut found in parallel_map::map(shares, share)? {
+        reserve(&mut all, found.len())?;
+        all.append(&mut found);
+    }
+    Ok(all)
+}
+
+/// Where two faces go through one another: where both are in the picture, the line along which they are as far
+/// away.
+fn straight(
+    [one, other]: [u32; 2],
+    stock: &Stock<'_>,
+    rims: &mut Rims<'_>,
+    watch: &Watch<'_>,
+) -> Result<Option<Sight>, Error> {
+    let mut halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, one)?);
+    halves.extend_from_slice(rims.outline(stock, other)?);
+    let View { is_positive, .. } = stock.views[one as usize];
+    let cut = rims.lines.cut(one, PlaneId::face(other), true, is_positive)?;
+    let lines = &rims.lines;
+    let Some(common) = picture(stock, lines).within(lines, &halves, None, watch)? else {
+        return Ok(None);
+    };
+    if !common.meets(lines, &[cut.flipped(true)], watch)? {
+        return Ok(None);
+    }
+    let Some(Cell { sides }) = common.within(lines, &[cut], None, watch)? else { return Ok(None) };
+    let Some(i) = sides.iter().position(|side| side.half == cut) else { return Ok(None) };
+    let next = if i + 1 == sides.len() { 0 } else { i + 1 };
+    Ok(Sight::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
+}
+
+/// Where a face goes through a polygon along an edge inside it.
+fn bent(
+    bend: &Bend,
+    stock: &Stock<'_>,
+    rims: &mut Rims<'_>,
+    watch: &Watch<'_>,
+) -> Result<Option<Sight>, Error> {
+    let Bend { edge: (face, k), other, other_edge, .. } = *bend;
+    let faces = stock.frame.faces;
+    let sight = Sight::new(&rims.lines, faces.ends(face, k));
+    // Along a border of the picture, there is nothing on the other side.
+    let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
+    let common = match other_edge {
+        Some(k) => Sight::new(&rims.lines, faces.ends(other, k)).map(|along| {
+            let [a, b] = along.course.places.map(|at| sight.course.place(along.course.at(at)));
+            [a.min(b), a.max(b)]
+        }),
+        None => {
+            let halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, other)?);
+            let cell = picture(stock, &rims.lines).within(&rims.lines, &halves, None, watch)?;
+            cell.and_then(|cell| sight.chord(&rims.lines, &cell))
+        }
+    };
+    Ok(common.and_then(|common| sight.within(common)))
+}
+
+/// All of the picture.
+fn picture(stock: &Stock<'_>, lines: &Lines<'_>) -> Cell {
+    let Tile { low, high } = Tile::picture(stock.frame.rays.size());
+    Cell::rectangle(lines, low, high)
+}
+
+/// Blocks of at most so many faces are not halved. Larger: more pairs are compared; smaller: more blocks.
+const FEW: usize = 16;
+/// A box in the scene: its least and its largest coordinates.
+type Aabb = [[f64; 3]; 2];
+
+/// A part of the scene with the faces that may reach into it.
+struct Block {
+    bounds: Aabb,
+    faces: Vec<u32>,
+    in_vain: u32,
+}
+
+/// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
+/// these than the tolerance, that may go through one another: a phase.
+pub(super) fn straddling(
+    stock: &Stock<'_>,
+    inner: &InnerEdges,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let faces = stock.frame.faces;
+    let boxes: Vec<Aabb> = collect((0..faces.len() as u32).map(|face| aabb(faces.corners(face))))?;
+    let (mut seen, mut all) = (Vec::new(), NOTHING);
+    for face in each(watch, 1, 0..faces.len() as u32) {
+        let face = face?;
+        if stock.sees(face) {
+            push(&mut seen, face)?;
+            all = around(all, boxes[face as usize]);
+        }
+    }
+    let all = Block { bounds: all, faces: seen, in_vain: 0 };
+    let halves = |block: &Block, _: &mut Found| block.halves(&boxes, watch);
+    let leaf = |block: &Block, found: &mut Found| {
+        for (i, &a) in block.faces.iter().enumerate() {
+            for b in each(watch, NARROWED, &block.faces[i + 1..]) {
+                let b = *b?;
+                let is_near = !are_apart(&boxes[a as usize], &boxes[b as usize]);
+                if !is_near || faces.polygon(a) == faces.polygon(b) {
+                    continue;
+                }
+                let is_crossed = faces.straddles(a, b) && faces.straddles(b, a);
+                let bend = || inner.bend(faces, [a, b]).map(|bend| bend.faces);
+                if let Some([below, above]) =
+                    if is_crossed { Some([a.min(b), a.max(b)]) } else { bend() }
+                {
+                    add(found, Pair { below, above })?;
+                }
+            }
+        }
+        Ok(())
+    };
+    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+}
+
+impl Faces {
+    /// Whether a face has corners on both sides of another's plane, further from it than the tolerance.
+    pub(super) fn straddles(&self, face: u32, other: u32) -> bool {
+        let prepared = PreparedPlane::new(self, PlaneId::face(other));
+        let mut sides = self.corners(face).iter().map(|at| prepared.side_beyond(self, at));
+        let Some(first) = sides.find(|side| side.is_ne()) else { return false };
+        sides.any(|side| side == first.reverse())
+    }
+}
+
+impl Block {
+    /// Both halves, across the longest side; `None` of one that is not halved.
+    fn halves(&self, boxes: &[Aabb], watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+        if self.faces.len() <= FEW || self.in_vain == IN_VAIN {
+            return Ok(None);
+        }
+        let [low, high] = self.bounds;
+        let length = |&axis: &usize| high[axis] - low[axis];
+        let longest = (0..3).max_by(|a, b| length(a).total_cmp(&length(b)));
+        let axis = longest.unwrap_or_default();
+        let middle = 0.5 * (low[axis] + high[axis]);
+        let part = || Self { bounds: self.bounds, faces: vec![], in_vain: 0 };
+        let mut parts = [part(), part()];
+        parts[0].bounds[1][axis] = middle;
+        parts[1].bounds[0][axis] = middle;
+        for face in each(watch, NARROWED, &self.faces) {
+            let face = *face?;
+            let [from, to] = boxes[face as usize];
+            if from[axis] <= middle {
+                push(&mut parts[0].faces, face)?;
+            }
+            if to[axis] >= middle {
+                push(&mut parts[1].faces, face)?;
+            }
+        }
+        let counts = parts.each_ref().map(|part| part.faces.len());
+        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, self.faces.len(), counts);
+        Ok(Some(parts))
+    }
+}
+
+const NOTHING: Aabb = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+
+fn aabb(corners: &[[f64; 3]]) -> Aabb {
+    corners.iter().fold(NOTHING, |bounds, &corner| around(bounds, [corner; 2]))
+}
+
+fn around(a: Aabb, b: Aabb) -> Aabb {
+    let axes = [0, 1, 2];
+    [axes.map(|i: usize| a[0][i].min(b[0][i])), axes.map(|i: usize| a[1][i].max(b[1][i]))]
+}
+
+fn are_apart([low, high]: &Aabb, [from, to]: &Aabb) -> bool {
+    (0..3).any(|axis| to[axis] < low[axis] || from[axis] > high[axis])
+}
+
+/// A face, and which of its edges.
+pub(super) type FaceEdge = (u32, u32);
+
+/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge twice, edges of
+/// their outlines may be among them.
+pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
+
+/// Where two polygons go through one another along an edge inside one of them.
+pub(super) struct Bend {
+    pub(super) edge: FaceEdge,
+    /// A face of the other polygon, and its edge there if that is bent, too.
+    pub(super) other: u32,
+    pub(super) other_edge: Option<u32>,
+    /// A face of each polygon, the lower number first: of two that meet there, that of the lower number.
+    pub(super) faces: [u32; 2],
+}
+
+impl InnerEdges {
+    pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
+        let mut across = Table::default();
+        // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
+        // outline's on the other side.
+        let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
+        for is_inner in [true, false] {
+            for numbered in each(watch, VISITED, &faces.numbered) {
+                let face = numbered?.0;
+                let edges = 0..faces.corners(face).len() as u32;
+                for k in edges.filter(|&k| faces.outline_edge(face, k).is_none() == is_inner) {
+                    let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
+                    ends.sort_unstable();
+                    let key = (faces.polygon(face), ends);
+                    match open.remove(&key) {
+                        Some(other) => {
+                            insert(&mut across, (face, k), other)?;
+                            insert(&mut across, other, (face, k))?;
+                        }
+                        None => insert(&mut open, key, (face, k))?,
+                    }
+                }
+            }
+        }
+        Ok(Self(across))
+    }
+
+    /// The face on the other side of an edge, and which of its edges it is.
+    pub(super) fn across(&self, edge: FaceEdge) -> Option<FaceEdge> {
+        self.0.get(&edge).copied()
+    }
+
+    /// Where two polygons go through one another along an edge inside one of them, by a face of each: where the faces
+    /// on either side of the edge lie on opposite sides of the other polygon.
+    pub(super) fn bend(&self, faces: &Faces, [one, other]: [u32; 2]) -> Option<Bend> {
+        if self.0.is_empty() {
+            return None;
+        }
+        // Triangulation makes triangles.
+        let edges = |face: u32| (0..3).map(move |k| (face, k));
+        let mut of_one = edges(one).filter_map(|edge| self.bend_at(faces, edge, other));
+        let mut of_other = edges(other).filter_map(|edge| self.bend_at(faces, edge, one));
+        of_one.next().or_else(|| of_other.next())
+    }
+
+    /// The same for an edge of a polygon, and a face of the other.
+    pub(super) fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
+        let across = self.across(edge)?;
+        let ends = faces.ends(edge.0, edge.1);
+        let is_on = |face: u32| ends.iter().all(|end| side(faces, face, end).is_eq());
+        if !is_on(other) {
+            return None;
+        }
+        let found = |other_edge: Option<u32>, behind: u32| {
+            let (one, two) = (edge.0.min(across.0), other.min(behind));
+            Some(Bend { edge, other, other_edge, faces: [one.min(two), one.max(two)] })
+        };
+        let is_on_line = |&k: &u32| {
+            faces.ends(other, k).iter().all(|&end| cross(ends[0], ends[1], end) == [0; 3])
+        };
+        let Some(k) = (0..faces.corners(other).len() as u32).find(is_on_line) else {
+            let sides = [edge, across].map(|edge| side(faces, other, &third(faces, edge)));
+            let is_crossed = sides[0].is_ne() && sides[0] == sides[1].reverse();
+            return found(None, other).filter(|_| {
+                is_crossed && [edge, across].iter().any(|edge| faces.straddles(other, edge.0))
+            });
+        };
+        // The other has an edge there as well: it is bent too, or ends.
+        let behind = self.across((other, k)).filter(|behind| is_on(behind.0))?;
+        let along = way(faces, edge);
+        let is_between = |x| is_between(faces, along, [edge, across], x);
+        let places = [(other, k), behind].map(is_between);
+        let is_crossed = places == [Some(true), Some(false)] || places == [Some(false), Some(true)];
+        found(Some(k), behind.0).filter(|_| is_crossed)
+    }
+}
+
+/// On which side of a face's plane a point lies, further from it than the tolerance.
+fn side(faces: &Faces, face: u32, point: &[f64; 3]) -> Ordering {
+    PreparedPlane::new(faces, PlaneId::face(face)).side_beyond(faces, point)
+}
+
+/// The direction of an edge.
+fn way(faces: &Faces, (face, k): FaceEdge) -> DVec3 {
+    let [a, b] = faces.ends(face, k).map(DVec3::from);
+    b - a
+}
+
+/// The corner of a triangle that is not on an edge.
+fn third(faces: &Faces, (face, k): FaceEdge) -> [f64; 3] {
+    let corners = faces.corners(face);
+    corners[(k as usize + 2) % corners.len()]
+}
+
+/// Whether, turning to the left around a line, one comes from the first of two triangles at the line to a third
+/// before one comes to the second; `None` if the third lies on one of the two.
+fn is_between(
+    faces: &Faces,
+    along: DVec3,
+    [from, to]: [FaceEdge; 2],
+    third_edge: FaceEdge,
+) -> Option<bool> {
+    // Whether one triangle lies to the left of another: by the plane that runs with the line.
+    let turn = |a: FaceEdge, b: FaceEdge| {
+        let side = side(faces, a.0, &third(faces, b));
+        if way(faces, a).dot(along) > 0.0 { side } else { side.reverse() }
+    };
+    let turns = [turn(from, third_edge), turn(third_edge, to)];
+    let (is_left, is_right) = (turns.map(Ordering::is_gt), turns.map(Ordering::is_lt));
+    match turn(from, to) {
+        Ordering::Greater if is_left == [true; 2] => Some(true),
+        Ordering::Greater => is_right.contains(&true).then_some(false),
+        Ordering::Less if is_right == [true; 2] => Some(false),
+        Ordering::Less => is_left.contains(&true).then_some(true),
+        Ordering::Equal if is_left == [true; 2] => Some(true),
+        Ordering::Equal => (is_right == [true; 2]).then_some(false),
+    }
 }

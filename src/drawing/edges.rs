@@ -1,21 +1,25 @@
 //! Edges of polygons as they show: visible runs and hidden ones.
+//!
+//! The number of polygons in front of an edge is its quantitative invisibility (A. Appel, "The notion of
+//! quantitative invisibility and the machine rendering of solids", 1967).
 
 use std::cmp::Ordering;
 
+use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::edge_run::EdgeRun;
-use super::halving::VISITED;
-use super::intervals::parts;
-use super::map::VisibilityMap;
-use super::reporter::{each, finish_item, sort_by};
-use super::shared_edges::{Numbers, SharedEdge, shared_edges};
-use super::sight::Course;
-use super::table::Table;
-use super::visible::Visible;
+use super::crossings::{FaceEdge, InnerEdges};
+use super::lines::{Lines, Table, insert};
+use super::map::{VisibilityMap, Visible, each, finish_item, sort_by};
+use super::overlaid::{LineRun, sights};
+use super::sight::{Course, Pass, Passing, Pieces, Sight, merged, parts, passes};
+use super::stock::Rims;
+use super::tile::{CUT, LINES, Reaches, VISITED};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{push, reserve};
+use crate::exact::{Faces, PlaneId};
+use crate::memory::{collect, push, reserve};
+use crate::overlay::Overlay;
 
 /// Edges with the runs of those that a polygon shows.
 pub(super) struct Runs {
@@ -172,4 +176,391 @@ impl Views<'_> {
         }
         runs.into_iter().try_for_each(give)
     }
+}
+
+/// The number of an edge, by a face and which of its edges it is.
+pub(super) type Numbers = Table<FaceEdge, u32>;
+
+/// An edge of at least one face.
+#[derive(Debug)]
+pub(super) struct SharedEdge {
+    /// Faces, and which of their edges it is.
+    pub(super) faces: SmallVec<[FaceEdge; 2]>,
+    /// Where the edge of the first of the faces is in the picture; `None` if that does not show it as a line.
+    pub(super) course: Option<Course>,
+    /// The side of that edge's line on which the picture lies, if it runs along a border of it; else `Equal`.
+    picture: Ordering,
+    /// Where it shows: places along it.
+    pub(super) visible: Vec<[f64; 2]>,
+}
+
+/// All edges of faces that are drawn, and the number of each by face and edge of it. Of the edges that
+/// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have gaps
+/// without them.
+pub(super) fn shared_edges(
+    lines: &Lines<'_>,
+    is_drawn: impl Fn(u32) -> bool,
+    mut side: impl FnMut(u32) -> Ordering,
+    watch: &Watch<'_>,
+) -> Result<(Vec<SharedEdge>, Numbers), Error> {
+    let faces = lines.frame.faces;
+    let mut points: Table<[u64; 3], u32> = Table::default();
+    let mut point = |corner: usize| -> Result<u32, Error> {
+        let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
+        points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        let next = points.len() as u32;
+        Ok(*points.entry(place).or_insert(next))
+    };
+    let mut by_points: Table<[u32; 2], u32> = Table::default();
+    let inner = InnerEdges::of(faces, watch)?;
+    let mut numbers = Numbers::default();
+    let mut all: Vec<SharedEdge> = Vec::new();
+    for face in each(watch, VISITED, 0..faces.len() as u32) {
+        let face = face?;
+        if !is_drawn(face) {
+            continue;
+        }
+        let range = faces.corner_range(face);
+        for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
+            watch.work(CUT / 2)?;
+            let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
+            let [a, b] = [point(range.start + k)?, point(next)?];
+            let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);
+            let mut known: SmallVec<[FaceEdge; 2]> = SmallVec::from_slice(&[(face, k)]);
+            let number = if faces.outline_edge(face, k).is_some() {
+                by_points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                *by_points.entry(points).or_insert(new)
+            } else {
+                // Each once, with the second of its faces.
+                let before = inner.across((face, k)).filter(|other| {
+                    *other < (face, k) && faces.outline_edge(other.0, other.1).is_none()
+                });
+                let Some(other) = before.filter(|other| side(other.0) != side(face)) else {
+                    continue;
+                };
+                known.insert(0, other);
+                new
+            };
+            if number == new {
+                let (first, k) = known[0];
+                let sight = Sight::new(lines, faces.ends(first, k));
+                let (course, picture) = match sight {
+                    Some(Sight { course, picture, .. }) => (Some(course), picture),
+                    None => (None, Ordering::Equal),
+                };
+                // Lists of edges that grow by an eighth are moved too often.
+                all.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                let faces = SmallVec::new();
+                all.push(SharedEdge { faces, course, picture, visible: vec![] });
+            }
+            for name in known {
+                all[number as usize].faces.push(name);
+                insert(&mut numbers, name, number)?;
+            }
+        }
+    }
+    Ok((all, numbers))
+}
+
+impl Faces {
+    /// Where a face's edge `k` begins and ends.
+    pub(super) fn ends(&self, face: u32, k: u32) -> [[f64; 3]; 2] {
+        let corners = self.corners(face);
+        let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
+        [corners[k as usize], corners[next]]
+    }
+
+    /// Where a face's edge `k` begins, as given.
+    fn given_start(&self, face: u32, k: u32) -> [f64; 3] {
+        self.given_corner(self.corner_range(face).start as u32 + k)
+    }
+}
+
+impl SharedEdge {
+    /// Whether two of the faces run along it in opposite ways.
+    pub(super) fn is_turned(&self, faces: &Faces, one: usize, other: usize) -> bool {
+        let [a, b] = [one, other].map(|i| faces.given_start(self.faces[i].0, self.faces[i].1));
+        a != b
+    }
+
+    /// Whether the face that has this number at the edge, and shows this side, is beside it in the picture. (A face whose
+    /// front is seen is where its edges are negative.)
+    pub(super) fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
+        let is_turned = self.is_turned(faces, 0, number);
+        let inside = if is_turned { side } else { side.reverse() };
+        self.picture.is_eq() || self.picture == inside
+    }
+
+    /// What it is, by the sides that its faces show.
+    pub(super) fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
+        let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
+        // Where two polygons have their fronts on one side, they run along the edge in opposite ways.
+        let is_folded = !self.is_turned(faces, 0, 1);
+        let second = if is_folded { sides[1].reverse() } else { sides[1] };
+        if sides[0] != second || sides[0].is_eq() {
+            return EdgeKind::Silhouette;
+        }
+        let normal = |face: u32| {
+            let normal = faces.plane(PlaneId::face(face)).normal_f64();
+            (normal / normal.abs().max_element()).normalize_or_zero()
+        };
+        let (a, b): (DVec3, DVec3) = (normal(one), normal(other));
+        let b = if is_folded { -b } else { b };
+        EdgeKind::Crease(a.cross(b).length().atan2(a.dot(b)))
+    }
+}
+
+/// What a line is in a drawing of lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EdgeKind {
+    /// No other polygon has the same edge, or several do.
+    Border,
+    /// One polygon at the edge is seen from its front, the other from behind, or one of them edge-on; or so
+    /// are two parts of one polygon that is not planar: a body ends there, as seen from the eye. (Of two whose
+    /// fronts are not on one side of the surface, one is turned round for this.)
+    Silhouette,
+    /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
+    /// back on the other.
+    Crease(f64),
+    /// The polygon and another one, of this number, go through one another there.
+    Crossing(usize),
+}
+
+/// A part of an edge or of a crossing, visible or hidden from one end to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct EdgeRun {
+    /// A polygon that has the edge, and shows a side to the camera.
+    pub polygon: usize,
+    /// The number, within that polygon, of the corner where the edge begins; `None` of a crossing, and of a
+    /// silhouette inside a polygon that is not planar.
+    pub edge: Option<u32>,
+    /// What the line is.
+    pub kind: EdgeKind,
+    /// Where the run begins and ends in the picture, in pixels from the centre of the first one: in the direction
+    /// in which the polygon runs along the edge; a crossing has either.
+    pub ends: [[f64; 2]; 2],
+    /// Whether it shows.
+    pub is_visible: bool,
+    /// How many polygons lie in front of it; `None` if they were not counted. Of a visible run that is 0: what it
+    /// is seen through does not count.
+    pub layers: Option<u32>,
+}
+
+/// Runs and gaps shorter than this, in pixels, are what rounding has left.
+pub(super) const SHORTEST: f64 = 1e-6;
+
+/// The place of what has no hidden runs.
+const NONE: u32 = u32::MAX;
+
+/// Both ends of a run.
+type Ends = [[f64; 2]; 2];
+
+/// From a place of a segment on, so many polygons are in front of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Depth {
+    from: f64,
+    layers: u32,
+}
+
+/// The depths of several segments, and where those of each begin: before its first, nothing is in front.
+#[derive(Default)]
+pub(super) struct Depths {
+    depths: Vec<Depth>,
+    begins: Vec<usize>,
+}
+
+impl Depths {
+    pub(super) fn of(&self, segment: usize) -> &[Depth] {
+        &self.depths[self.begins[segment]..self.begins[segment + 1]]
+    }
+}
+
+impl VisibilityMap<'_> {
+    /// The runs of [`edges`](Self::edges), each with [`EdgeRun::layers`]: hidden ones are cut where the
+    /// number of polygons in front of them changes.
+    ///
+    /// All polygons count that show a side to the camera, once each, be they hidden themselves; but not
+    /// the faces that have the edge (of a polygon that is not planar, another face may lie in front). One counts at
+    /// least, as where the edge of a shelf lies on the wall that hides the shelf. Time and memory go with how many
+    /// lie in front of hidden edges.
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    pub fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
+        self.reporter.watch(4, |watch| {
+            let faces = self.stock.frame.faces;
+            let Runs { edges, list } = self.edge_runs(watch)?;
+            // The edges with hidden runs, and the number of each among these.
+            let (mut hidden, mut sights) = (Vec::new(), Vec::new());
+            let mut places: Vec<u32> = collect(edges.iter().map(|_| NONE))?;
+            for run in each(watch, CUT, &list) {
+                let (run, number) = run?;
+                let (edge, place) = (&edges[*number as usize], &mut places[*number as usize]);
+                if run.is_visible || *place != NONE {
+                    continue;
+                }
+                let (face, k) = edge.faces[0];
+                if let Some(sight) = Sight::new(&self.rims.lines, faces.ends(face, k)) {
+                    *place = hidden.len() as u32;
+                    push(&mut hidden, *number)?;
+                    push(&mut sights, sight)?;
+                }
+            }
+            let is_own = |sight: u32, face: u32| {
+                let edge = &edges[hidden[sight as usize] as usize];
+                edge.faces.iter().any(|&(own, _)| own == face)
+            };
+            let depths = self.depths(&sights, is_own, watch)?;
+            let mut layered = Vec::new();
+            for run in each(watch, VISITED, &list) {
+                let (run, number) = run?;
+                let place = places[*number as usize] as usize;
+                let known = sights.get(place).map(|sight| (sight, depths.of(place)));
+                for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
+                    push(&mut layered, EdgeRun { ends, layers: Some(layers), ..*run })?;
+                }
+            }
+            Ok(layered)
+        })
+    }
+
+    /// The runs of [`lines`](Self::lines), each with [`LineRun::layers`], as
+    /// [`edges_in_layers`](Self::edges_in_layers) has those of edges.
+    ///
+    /// # Errors
+    ///
+    /// As for `lines`.
+    pub fn lines_in_layers(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
+        overlay.expect_no_polygons(self.tree)?;
+        self.reporter.watch(3, |watch| {
+            let (segments, sights) = sights(&self.rims.lines, overlay, watch)?;
+            let runs = self.line_runs(&segments, &sights, watch)?;
+            let depths = self.depths(&sights, |_, _| false, watch)?;
+            let mut layered = Vec::new();
+            let mut runs = runs.iter().peekable();
+            for numbered in each(watch, VISITED, segments.iter().enumerate()) {
+                let (number, segment) = numbered?;
+                let name = (segment.line, segment.number);
+                while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
+                    let known = Some((&sights[number], depths.of(number)));
+                    for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
+                        push(&mut layered, LineRun { ends, layers: Some(layers), ..*run })?;
+                    }
+                }
+            }
+            Ok(layered)
+        })
+    }
+
+    /// How many polygons are in front of segments: two phases. A face that is a segment's own does not count.
+    pub(super) fn depths(
+        &self,
+        sights: &[Sight],
+        is_own: impl Fn(u32, u32) -> bool,
+        watch: &Watch<'_>,
+    ) -> Result<Depths, Error> {
+        if sights.is_empty() {
+            return Ok(Depths { begins: vec![0], ..Depths::default() });
+        }
+        let (stock, faces) = (&self.stock, self.stock.frame.faces);
+        let mut reaches = Reaches::default();
+        // Polygons that do not show hide edges too.
+        let mut rims = Rims::new(stock);
+        for face in 0..faces.len() {
+            let number = face as u32;
+            watch.work(1)?;
+            if stock.sees(number) {
+                watch.work(LINES + stock.edges_work(number) * LINES / 4)?;
+                reaches.push(number, rims.outline(stock, number)?)?;
+            }
+            finish_item(watch, face, faces.len());
+        }
+        let around = |face: u32| stock.views[face as usize].around;
+        let pieces = Pieces { lines: &rims.lines, reaches, face: &|face| face, around: &around };
+        let passing = Passing { sights, spots: &[] };
+        let found = passes(pieces, passing, |is_behind| is_behind, watch)?;
+        let mut passes = found.sights;
+        let polygon = |face: u32| faces.polygon(face);
+        sort_by(&mut passes, watch, |a, b| {
+            let keys = [a, b].map(|pass| (pass.sight, polygon(pass.piece)));
+            keys[0].cmp(&keys[1]).then(a.places[0].total_cmp(&b.places[0]))
+        })?;
+        let (mut depths, mut changes) = (Depths::default(), Vec::new());
+        let mut rest = &passes[..];
+        for number in each(watch, VISITED, 0..sights.len() as u32) {
+            let number = number?;
+            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
+            rest = others;
+            changes.clear();
+            watch.work(own.len() * VISITED)?;
+            for same in own.chunk_by(|a, b| polygon(a.piece) == polygon(b.piece)) {
+                // Each polygon counts once, however many parts of it there are.
+                let counts = |pass: &&Pass| !is_own(number, pass.piece);
+                for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
+                    push(&mut changes, (from, 1))?;
+                    push(&mut changes, (to, -1))?;
+                }
+            }
+            sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
+            push(&mut depths.begins, depths.depths.len())?;
+            let mut layers = 0i64;
+            for &(from, change) in &changes {
+                layers += change;
+                push(&mut depths.depths, Depth { from, layers: layers as u32 })?;
+            }
+        }
+        push(&mut depths.begins, depths.depths.len())?;
+        Ok(depths)
+    }
+}
+
+/// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
+/// rounding has left are not told from those before them.
+pub(super) fn in_layers(
+    ends: Ends,
+    is_visible: bool,
+    depths: Option<(&Sight, &[Depth])>,
+    watch: &Watch<'_>,
+) -> Result<Vec<(Ends, u32)>, Error> {
+    let Some((sight, depths)) = depths.filter(|_| !is_visible) else {
+        return Ok(vec![(ends, u32::from(!is_visible))]);
+    };
+    let [a, b] = ends.map(|end| sight.course.place(end));
+    let (low, high) = (a.min(b), a.max(b));
+    // Where each part begins, as a share of the run.
+    let mut parts: Vec<(f64, u32)> = Vec::new();
+    let first = depths.partition_point(|depth| depth.from <= low);
+    let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);
+    let inside = depths[first..].iter().take_while(|depth| depth.from < high);
+    let begins = inside.map(|depth| (depth.from, depth.layers));
+    let mut begins = [(low, before)].into_iter().chain(begins).peekable();
+    while let Some((from, layers)) = begins.next() {
+        watch.work(1)?;
+        let to = begins.peek().map_or(high, |next| next.0);
+        let layers = layers.max(1);
+        let goes_on = parts.last().is_some_and(|last| last.1 == layers);
+        if to - from >= SHORTEST && !goes_on {
+            let start = if parts.is_empty() { low } else { from };
+            push(&mut parts, (start, layers))?;
+        }
+    }
+    if parts.is_empty() {
+        return Ok(vec![(ends, before.max(1))]);
+    }
+    let at = |place: f64| {
+        let share = (place - a) / (b - a);
+        [0, 1].map(|i: usize| ends[0][i] + (ends[1][i] - ends[0][i]) * share)
+    };
+    let count = parts.len();
+    let cut = |i: usize| if i == 0 || i == count { None } else { Some(at(parts[i].0)) };
+    let end = |i: usize| cut(i).unwrap_or(ends[usize::from((i == 0) != (a < b))]);
+    let mut all: Vec<_> = (0..count).map(|i| ([end(i), end(i + 1)], parts[i].1)).collect();
+    if a > b {
+        all.reverse();
+        all.iter_mut().for_each(|(ends, _)| ends.swap(0, 1));
+    }
+    Ok(all)
 }

@@ -1,15 +1,25 @@
-//! On which side of a line two others meet, and where: by integers and pairs of floats, where one float cannot tell.
-
-#[cfg(test)]
-mod tests;
+//! On which side of a line of the picture two others meet, and where: by one float, by pairs of floats, by
+//! integers.
+//!
+//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels
+//! from the centre of the first one, with k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the
+//! plane through both and the eye. The cut of a face f by a plane h is where a ray meets both: with
+//! κ the value of a plane at the eye (of parallel rays, its slope along them) and φ its value along a
+//! ray, k = κ_f φ_h − κ_h φ_f.
+//!
+//! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361; the
+//! determinant of three lines has less than 1088.
+//!
+//! Corners of faces that are not quite flat are moved onto their planes, so that edges of neighbours pass
+//! each other by a rounding. One float cannot tell on which side; a pair of floats nearly always can, in a
+//! tenth of the time that integers take.
 
 use std::cmp::Ordering;
 
-use super::frame::{ExactLine, meeting, orientation};
-use super::half::Half;
-use super::lines::{Lines, NOWHERE};
-use super::rounded::ROUNDING;
-use super::twofold::{self, Twofold};
+use super::lines::{Half, Lines, NOWHERE};
+use crate::exact::lattice::{exponent_of, scaled};
+use crate::exact::{Faces, Int, Plane, PlaneId, dot};
+use crate::raster::{Pencil, Rays};
 
 impl Lines<'_> {
     /// On which side of a half's line the point lies where two others meet, the second turning to the
@@ -61,6 +71,392 @@ impl Lines<'_> {
         let twofold: [Twofold; 3] = std::array::from_fn(|i| {
             known[i].copied().unwrap_or_else(|| Twofold::of(&self.exact(lines[i])))
         });
-        twofold::orientation(twofold.each_ref())
+        orientation_in_pairs(twofold.each_ref())
+    }
+}
+
+/// The coefficients of a line.
+pub(super) type ExactLine = [Int<6>; 3];
+
+/// What all lines of a picture share: its rays, and the faces.
+#[derive(Clone, Debug)]
+pub(super) struct Frame<'t> {
+    pub(super) rays: Rays,
+    pub(super) faces: &'t Faces,
+}
+
+/// A plane as the rays meet it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sheet {
+    kappa: Int<4>,
+    phi: [Int<3>; 3],
+}
+
+/// A point of the scene in the picture: a weight, which is positive ahead of the eye, and that many times
+/// its coordinates.
+pub(super) type Image = [Int<4>; 3];
+
+impl Frame<'_> {
+    /// A plane of the scene, as the rays meet it.
+    pub(super) fn sheet(&self, plane: PlaneId) -> Sheet {
+        self.sheet_of(&self.faces.plane(plane))
+    }
+
+    /// The plane through two lattice points and along an axis, as the rays meet it.
+    pub(super) fn upright(&self, [a, b]: [[f64; 3]; 2], axis: usize) -> Sheet {
+        self.sheet_of(&Plane::upright(a, b, axis))
+    }
+
+    fn sheet_of(&self, plane: &Plane) -> Sheet {
+        let Rays { base, right, down, pencil, .. } = self.rays;
+        let point = plane.point();
+        let (kappa, first) = match pencil {
+            Pencil::From { eye, shift } => {
+                let kappa = plane.along(eye).shifted::<4>(shift) - plane.along(point).resize();
+                (kappa, base)
+            }
+            Pencil::Along { direction } => {
+                let first = std::array::from_fn(|i| base[i] - point[i]);
+                (plane.along(direction).resize(), first)
+            }
+        };
+        Sheet { kappa, phi: [first, right, down].map(|v| plane.along(v)) }
+    }
+
+    /// The side of a face's plane from which rays come; `Equal` if they run along it.
+    pub(super) fn seen_side(&self, face: u32) -> Ordering {
+        let side = self.sheet(PlaneId::face(face)).side();
+        if self.rays.is_perspective() { side } else { side.reverse() }
+    }
+
+    /// Where a lattice point is in the picture.
+    pub(super) fn image(&self, point: [f64; 3]) -> Image {
+        let Rays { base, right, down, pencil, .. } = self.rays;
+        let point = point.map(|c| c as i64);
+        // With `base`, `right` and `down`, or `right`, `down` and the direction, as axes: G. Cramer's rule.
+        // (Both are right-handed: cameras look along right × down.)
+        match pencil {
+            Pencil::From { eye, shift } => {
+                let duals = [product(right, down), product(down, base), product(base, right)];
+                duals.map(|dual| dot(dual, point).resize() - dot(dual, eye).shifted(shift))
+            }
+            Pencil::Along { direction } => {
+                let arm = std::array::from_fn(|i| point[i] - base[i]);
+                let [x, y] = [product(down, direction), product(direction, right)];
+                [(x, right), (x, arm), (y, arm)].map(|(dual, v)| dot(dual, v).resize())
+            }
+        }
+    }
+
+    /// The edge from one lattice point to another. In the picture it leads along (k₂, −k₁). Of a face whose
+    /// front is seen, the inside is where its edges are negative.
+    pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ExactLine {
+        let Rays { base, right, down, pencil, .. } = self.rays;
+        let integer = |p: [f64; 3]| p.map(|c| c as i64);
+        let (a, b) = (integer(a), integer(b));
+        let arm = std::array::from_fn(|i| b[i] - a[i]);
+        match pencil {
+            // v · ((a − eye) × (b − eye)) = v · (a × arm) − v · (eye × arm)
+            Pencil::From { eye, shift } => {
+                let (near, far) = (product(a, arm), product(eye, arm));
+                [base, right, down].map(|v| dot(near, v).resize() - dot(far, v).shifted(shift))
+            }
+            // (p − a) · (direction × arm)
+            Pencil::Along { direction } => {
+                let normal = product(direction, arm);
+                let first = std::array::from_fn(|i| base[i] - a[i]);
+                [first, right, down].map(|v| dot(normal, v).resize())
+            }
+        }
+    }
+}
+
+impl Sheet {
+    /// Where the plane is seen from: `Greater` is the side from which its κ is positive. A face whose
+    /// front is seen has a positive one from an eye, a negative one along parallel rays.
+    pub(super) fn side(&self) -> Ordering {
+        self.kappa.sign()
+    }
+
+    /// The line in which the rays meet both planes. In front of the other plane, rays that meet a
+    /// face's plane ahead have the sign of its κ.
+    pub(super) fn cut(&self, other: &Self) -> ExactLine {
+        std::array::from_fn(|i| {
+            let ahead: Int<6> = self.kappa.times(&other.phi[i]);
+            let behind: Int<6> = other.kappa.times(&self.phi[i]);
+            ahead - behind
+        })
+    }
+}
+
+/// On which side of a third line two lines meet, times the sign of the turn from the first to the
+/// second.
+pub(super) fn orientation([a, b, c]: [&ExactLine; 3]) -> Ordering {
+    let minor =
+        |i: usize, j: usize| -> Int<12> { a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i]) };
+    let term = |i: usize, minor: Int<12>| -> Int<17> { minor.times(&c[i]) };
+    (term(0, minor(1, 2)) + term(1, minor(2, 0)) + term(2, minor(0, 1))).sign()
+}
+
+/// On which side of a line a point is that is ahead of the eye.
+pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
+    let term = |i: usize| -> Int<11> { line[i].times(&image[i]) };
+    (term(0) + term(1) + term(2)).sign()
+}
+
+/// An order of lines: those that are one, in whatever direction, are equal. Lines are compared by the first of their
+/// coefficients in an order, slopes first, that is not 0, and then by the ratios of the others to it.
+pub(super) fn compare(a: &ExactLine, b: &ExactLine) -> Ordering {
+    let order = [1, 2, 0];
+    let [first, second] = [a, b].map(|line| order.iter().position(|&i| line[i].sign().is_ne()));
+    let (Some(lead), Ordering::Equal) = (first, first.cmp(&second)) else {
+        return first.cmp(&second);
+    };
+    let of = order[lead];
+    let is_flipped = a[of].sign() != b[of].sign();
+    let ratios = order[lead + 1..].iter().map(|&i| {
+        let sign = (a[i].times::<6, 12>(&b[of]) - b[i].times::<6, 12>(&a[of])).sign();
+        if is_flipped { sign.reverse() } else { sign }
+    });
+    ratios.fold(Ordering::Equal, Ordering::then)
+}
+
+/// Whether two numbers for one line have opposite signs.
+pub(super) fn is_opposite(a: &ExactLine, b: &ExactLine) -> bool {
+    (0..3).any(|i| a[i].sign().is_ne() && a[i].sign() != b[i].sign())
+}
+
+/// Where two lines meet, each coordinate rounded three times; NaN where they do not.
+pub(super) fn meeting([a, b]: [&ExactLine; 2]) -> [f64; 2] {
+    let minor = |i: usize, j: usize| {
+        let minor = a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i]);
+        minor.to_f64()
+    };
+    let turn = minor(1, 2);
+    [minor(2, 0) / turn, minor(0, 1) / turn]
+}
+
+fn product(a: [i64; 3], b: [i64; 3]) -> [i128; 3] {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        i128::from(a[j]) * i128::from(b[k]) - i128::from(a[k]) * i128::from(b[j])
+    })
+}
+
+/// The relative error of one rounding.
+pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// Lines that are further off in floats, in pixels, are computed from integers.
+const FINE: f64 = 1.0 / (1u64 << 32) as f64;
+
+/// A line in floats, scaled so that the longer part of its slope is near 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounded {
+    pub(super) k: [f64; 3],
+    /// The largest error of its values anywhere in the picture, computed as `k[0] + x·k[1] + y·k[2]`; and
+    /// of its slope, times the picture's size.
+    pub(super) error: f64,
+    /// At least the length of its slope.
+    pub(super) slope: f64,
+}
+
+impl Rounded {
+    /// From exact coefficients, for a picture of this size.
+    pub(super) fn new(exact: &ExactLine, reach: [f64; 2]) -> Self {
+        let k = exact.each_ref().map(|c| c.to_f64());
+        let sum = k[0].abs() + k[1].abs() * reach[0] + k[2].abs() * reach[1];
+        Self::scaled(k, 8.0 * ROUNDING * sum)
+    }
+
+    pub(super) fn scaled(k: [f64; 3], error: f64) -> Self {
+        let size = k[1].abs().max(k[2].abs());
+        // A power of two: nothing is rounded. (A line without slope may have any scale.)
+        let scale = if size > 0.0 { scaled(1.0, -exponent_of(size)) } else { 1.0 };
+        Self { k: k.map(|c| c * scale), error: error * scale, slope: 1.01 * 1.42 * size * scale }
+    }
+
+    /// The same with its signs changed, if `flip`.
+    pub(super) fn flipped(self, flip: bool) -> Self {
+        if flip { Self { k: self.k.map(|c| -c), ..self } } else { self }
+    }
+
+    /// Whether it is off by so little that the line is not needed in integers to look at it.
+    pub(super) fn is_fine(&self) -> bool {
+        self.error < FINE
+    }
+
+    /// The value at a point, rounded.
+    #[inline]
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        self.k[0] + (self.k[1] * x + self.k[2] * y)
+    }
+}
+
+/// A number, and what was left when it was rounded (Dekker, “A floating-point technique for extending the
+/// available precision”, 1971).
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pair(f64, f64);
+
+/// The coefficients of a line, times a power of two that brings the largest to 1 or 2. Each is off by at most
+/// 2⁻¹⁰⁵ of itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Twofold([Pair; 3]);
+
+/// Error bound of the orientation, as a share of the magnitudes of its six terms: a term is a product of
+/// three coefficients by two roundings to pairs, of which each is off by at most 2⁻¹⁰² of the product, and
+/// takes part in three sums. Smaller: a wrong side passes; larger: integers decide what pairs could.
+const ERROR: f64 = 1.0 / (1u128 << 98) as f64;
+/// What is lost where products leave the range of `f64`.
+const LOST: f64 = f64::MIN_POSITIVE * (1u64 << 60) as f64;
+
+impl Twofold {
+    pub(super) fn of(line: &ExactLine) -> Self {
+        let high = line.map(Int::to_f64);
+        let largest = high.iter().fold(0.0f64, |largest, k| largest.max(k.abs()));
+        let exponent = if largest > 0.0 { -exponent_of(largest) } else { 0 };
+        Self(std::array::from_fn(|i| {
+            let low = (line[i] - Int::from_f64(high[i])).to_f64();
+            Pair(scaled(high[i], exponent), scaled(low, exponent))
+        }))
+    }
+
+    /// The same with its signs changed, if `flip`.
+    pub(super) fn flipped(self, flip: bool) -> Self {
+        if flip { Self(self.0.map(|Pair(high, low)| Pair(-high, -low))) } else { self }
+    }
+}
+
+/// On which side of a third line two lines meet, times the sign of the turn from the first to the
+/// second; `None` if that is not certain.
+pub(super) fn orientation_in_pairs([a, b, c]: [&Twofold; 3]) -> Option<Ordering> {
+    let (mut sum, mut size) = (Pair(0.0, 0.0), 0.0);
+    for (i, j, k) in [(1, 2, 0), (2, 0, 1), (0, 1, 2)] {
+        let (left, right) = (a.0[i].times(b.0[j]), a.0[j].times(b.0[i]));
+        size += (left.0.abs() + right.0.abs()) * c.0[k].0.abs();
+        sum = sum.plus(left.plus(Pair(-right.0, -right.1)).times(c.0[k]));
+    }
+    let bound = ERROR * size + LOST;
+    // The higher part has the sign: the lower is at most half a step of it.
+    if sum.0 > bound {
+        Some(Ordering::Greater)
+    } else if sum.0 < -bound {
+        Some(Ordering::Less)
+    } else {
+        None
+    }
+}
+
+impl Pair {
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        let sum = self.0 + other.0;
+        // What the sum lost, exactly (Knuth).
+        let taken = sum - self.0;
+        let lost = (self.0 - (sum - taken)) + (other.0 - taken);
+        Self::normal(sum, lost + (self.1 + other.1))
+    }
+
+    #[inline]
+    fn times(self, other: Self) -> Self {
+        let product = self.0 * other.0;
+        let ([a, b], [c, d]) = (halves(self.0), halves(other.0));
+        let lost = ((a * c - product) + a * d + b * c) + b * d;
+        Self::normal(product, lost + (self.0 * other.1 + self.1 * other.0))
+    }
+
+    /// A large number and a small one as a pair.
+    #[inline]
+    fn normal(large: f64, small: f64) -> Self {
+        let sum = large + small;
+        Self(sum, small - (sum - large))
+    }
+}
+
+/// A number as the sum of two of half as many digits, whose products are exact (Veltkamp).
+#[inline]
+fn halves(value: f64) -> [f64; 2] {
+    let far = value * ((1u64 << 27) + 1) as f64;
+    let high = far - (far - value);
+    [high, value - high]
+}
+
+#[cfg(test)]
+mod tests;
+
+#[cfg(test)]
+mod twofold_tests {
+
+    use super::*;
+    use crate::random::SplitMix64;
+
+    /// Numbers of some bits, of either sign.
+    fn number(random: &mut SplitMix64, bits: u32) -> i128 {
+        let value = u128::from(random.next()) << 64 | u128::from(random.next());
+        (value as i128) >> (127 - bits)
+    }
+
+    fn line(random: &mut SplitMix64, bits: u32) -> ExactLine {
+        std::array::from_fn(|_| Int::from(number(random, bits)))
+    }
+
+    /// Any line through where two others meet, moved aside by a number of few bits.
+    fn through([a, b]: [&ExactLine; 2], random: &mut SplitMix64, aside: u32) -> ExactLine {
+        let [p, q] = [40, 40].map(|bits| Int::<1>::from(number(random, bits) as i64));
+        let aside = Int::<6>::from(number(random, aside));
+        std::array::from_fn(|i| {
+            let sum: Int<6> = a[i].times::<1, 6>(&p) + b[i].times::<1, 6>(&q);
+            if i == 0 { sum + aside } else { sum }
+        })
+    }
+
+    #[test]
+    fn what_is_certain_is_right_and_most_near_ones_are_certain() {
+        let mut random = SplitMix64::new(5);
+        // By how many bits lines are moved aside that have 120 or more; how many must be certain.
+        for (aside, least) in [(0, 0), (20, 0), (60, 950), (100, 1000)] {
+            let mut certain = 0;
+            for _ in 0..1000 {
+                let [a, b] = [80, 80].map(|bits| line(&mut random, bits));
+                let c = through([&a, &b], &mut random, aside);
+                let lines = [&a, &b, &c];
+                let exact = orientation(lines);
+                let twofold = lines.map(Twofold::of);
+                if let Some(side) = orientation_in_pairs(twofold.each_ref()) {
+                    assert_eq!(side, exact, "{lines:?}");
+                    certain += 1;
+                }
+            }
+            assert!(certain >= least, "{aside} bits: {certain}");
+        }
+    }
+
+    /// Lines through one point are never told apart, however their coefficients differ in size.
+    #[test]
+    fn lines_through_one_point_are_not_certain() {
+        let mut random = SplitMix64::new(6);
+        for bits in [3, 50, 90, 120] {
+            for shift in [0, 100, 200] {
+                let a = line(&mut random, bits).map(|k| k.shifted::<6>(shift));
+                let b = line(&mut random, 90);
+                let sum: ExactLine = std::array::from_fn(|i| a[i] + b[i]);
+                let twofold = [&a, &b, &sum].map(Twofold::of);
+                assert_eq!(orientation_in_pairs(twofold.each_ref()), None, "{bits} {shift}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_of_the_whole_range_are_pairs() {
+        let mut random = SplitMix64::new(7);
+        for shift in [0, 30, 120, 230] {
+            let line = line(&mut random, 125).map(|k| k.shifted::<6>(shift));
+            let Twofold(pairs) = Twofold::of(&line);
+            let largest = pairs.iter().fold(0.0f64, |most, pair| most.max(pair.0.abs()));
+            assert!((1.0..2.0 + 1e-9).contains(&largest), "{largest}");
+            for Pair(high, low) in pairs {
+                assert!(low.abs() <= high.abs() * f64::EPSILON / 2.0, "{high} {low}");
+            }
+            assert!(pairs.iter().any(|pair| pair.1 != 0.0));
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Joining pieces of polygons while an order of them is left.
 
-use super::halving::VISITED;
-use super::pairs::Pair;
-use super::reporter::each;
+use super::map::each;
+use super::order::Pair;
+use super::tile::VISITED;
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, push};

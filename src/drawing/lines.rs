@@ -1,26 +1,20 @@
 //! The lines of a picture, each known by what made it.
 
-mod adopted;
-#[cfg(test)]
-mod names;
-mod of_halves;
-#[cfg(test)]
-pub(super) mod tests;
-
-pub(super) use adopted::Adopted;
-
 use std::cell::OnceCell;
+use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hash, Hasher};
 
-use super::feet::{Feet, Foot};
-use super::frame::{ExactLine, Frame, compare, is_opposite};
-use super::half::{Half, STEPS};
-use super::key::Key;
-use super::rounded::Rounded;
-use super::table::{Table, insert};
-use super::twofold::Twofold;
+use smallvec::SmallVec;
+
+use super::exact_lines::Twofold;
+use super::exact_lines::{ExactLine, Frame, compare, is_opposite};
+use super::exact_lines::{ROUNDING, Rounded};
 use crate::Error;
-use crate::exact::{PlaneId, PlaneKind};
-use crate::memory::push;
+use crate::exact::{Int, PlaneId, PlaneKind};
+use crate::memory::{filled, push};
+use crate::random::mix;
+use crate::raster::{Sheet, edge};
 
 /// The number of no point.
 pub(super) const NOWHERE: u32 = u32::MAX;
@@ -315,3 +309,403 @@ impl<'t> Lines<'t> {
         key.exact(&self.frame, &self.corners)
     }
 }
+
+/// The halves on which another list's lines are positive, by their numbers there, of those that were taken over.
+pub(in crate::drawing) struct Adopted(Vec<Option<Half>>);
+
+impl Adopted {
+    /// None of another list's lines so far.
+    pub(in crate::drawing) fn of(other: &Lines<'_>) -> Result<Self, Error> {
+        Ok(Self(filled(other.keys.len(), None)?))
+    }
+}
+
+impl Lines<'_> {
+    /// The half that another list's half is in this one, to which its line is added if it is new.
+    pub(in crate::drawing) fn adopted(
+        &mut self,
+        other: &Self,
+        half: Half,
+        Adopted(adopted): &mut Adopted,
+    ) -> Result<Half, Error> {
+        let Some(line) = half.number() else { return Ok(half) };
+        let own = match adopted[line as usize] {
+            Some(own) => own,
+            None => self.adopted_line(other, line)?,
+        };
+        adopted[line as usize] = Some(own);
+        Ok(own.flipped(half.is_negative()))
+    }
+
+    /// Takes over which of another list's lines, of those that were taken over and of borders, are lines of cuts.
+    pub(in crate::drawing) fn adopt_cuts(
+        &mut self,
+        other: &Self,
+        Adopted(adopted): &Adopted,
+    ) -> Result<(), Error> {
+        for half in other.cuts.keys() {
+            let own = match half.number() {
+                Some(line) => adopted[line as usize].map(Half::positive),
+                None => Some(*half),
+            };
+            if let Some(own) = own {
+                insert(&mut self.cuts, own, ())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The half on which another list's line is positive.
+    fn adopted_line(&mut self, other: &Self, line: u32) -> Result<Half, Error> {
+        let mut points = other.through[line as usize];
+        for point in points.iter_mut().filter(|point| **point != NOWHERE) {
+            let corner = other.corners[*point as usize];
+            *point = match other.moved.get(&corner) == Some(point) {
+                true => self.moved(corner)?,
+                false => self.point(corner)?,
+            };
+        }
+        // Edges are positive by the order of their points, and the other list may number these the other way.
+        let (key, flip) = match other.key(line) {
+            Key::Edge(_) if points[0] > points[1] => {
+                points.reverse();
+                (Key::Edge(points), true)
+            }
+            Key::Edge(_) => (Key::Edge(points), false),
+            key => (key, false),
+        };
+        let count = self.keys.len();
+        let own = match self.halves.get(&key) {
+            Some(&own) => own,
+            None => self.new_half(key, other.rounded[line as usize].flipped(flip), points)?,
+        };
+        match other.twofold.get(&line) {
+            Some(twofold) if count < self.keys.len() => {
+                insert(&mut self.twofold, count as u32, twofold.flipped(flip))?;
+            }
+            Some(_) => self.keep_twofold(own)?,
+            None => {}
+        }
+        Ok(own.flipped(flip))
+    }
+}
+
+impl Lines<'_> {
+    /// A half's line in floats.
+    #[inline]
+    pub(in crate::drawing) fn rounded(&self, half: Half) -> Rounded {
+        match half.number() {
+            Some(line) => self.rounded[line as usize],
+            None => {
+                let (axis, steps) = half.border();
+                let mut k = [-(steps as f64) / STEPS, 0.0, 0.0];
+                k[axis + 1] = 1.0;
+                Rounded { k, error: 4.0 * ROUNDING * self.reach[axis], slope: 1.0 }
+            }
+        }
+    }
+
+    /// How much the parts of a line's slope may be off.
+    pub(in crate::drawing) fn slope_error(&self, line: &Rounded) -> f64 {
+        line.error / self.reach[0].min(self.reach[1])
+    }
+
+    /// The edge from one lattice point to another in floats, whether its line is one of these or not.
+    pub(in crate::drawing) fn rounded_edge(&self, ends: [[f64; 3]; 2]) -> Rounded {
+        rounded_edge(&self.frame, ends, self.reach)
+    }
+
+    /// A line in floats that is none of these.
+    pub(in crate::drawing) fn rounded_other(&self, exact: &ExactLine) -> Rounded {
+        Rounded::new(exact, self.reach)
+    }
+
+    /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
+    pub(in crate::drawing) fn shows(&self, at: [f64; 2]) -> bool {
+        (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
+    }
+
+    /// The line of a half, in integers.
+    pub(in crate::drawing) fn exact(&self, half: Half) -> ExactLine {
+        match half.number() {
+            Some(line) => self.exact_of(self.key(line)),
+            None => {
+                let (axis, steps) = half.border();
+                let mut k = [-steps, 0, 0];
+                k[axis + 1] = 1 << STEP_BITS;
+                k.map(Int::from)
+            }
+        }
+    }
+}
+
+/// What made a line. Equal keys are equal lines, up to their direction; those of other keys may be, too,
+/// but for edges: edges on one line have its first key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Key {
+    /// The edge between two points, the lower number first.
+    Edge([u32; 2]),
+    /// A face's edge from its corner to the next, one of which was moved onto the face's plane, or may have
+    /// been.
+    Upright(u32, u32),
+    /// The cut of a face by a plane: of two faces' planes, of the lower by the higher.
+    Cut(u32, PlaneId),
+}
+
+impl Key {
+    /// The line in floats, in a picture that reaches so far. Points have the numbers of these corners.
+    pub(super) fn rounded(self, frame: &Frame<'_>, corners: &[u32], reach: [f64; 2]) -> Rounded {
+        let Frame { rays, faces } = frame;
+        let sheet = |plane| Sheet::new(rays, faces, plane);
+        let (k, error) = match self {
+            Self::Edge(points) => return rounded_edge(frame, ends(frame, corners, points), reach),
+            Self::Upright(face, k) => {
+                let ([a, b], axis) = upright(frame, face, k);
+                sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))
+            }
+            Self::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
+        };
+        // The picture may end half a pixel beyond the pixels that the error is for, and its lists reach a
+        // pixel further.
+        let rounded = Rounded::scaled(k, 4.0 * error);
+        if rounded.is_fine() { rounded } else { Rounded::new(&self.exact(frame, corners), reach) }
+    }
+
+    /// The line in integers.
+    pub(super) fn exact(self, frame: &Frame<'_>, corners: &[u32]) -> ExactLine {
+        match self {
+            Self::Edge(points) => frame.edge(ends(frame, corners, points)),
+            Self::Upright(face, k) => {
+                let (ends, axis) = upright(frame, face, k);
+                frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
+            }
+            Self::Cut(face, plane) => frame.sheet(PlaneId::face(face)).cut(&frame.sheet(plane)),
+        }
+    }
+}
+
+/// The edge from one lattice point to another in floats, in a picture that reaches so far.
+pub(super) fn rounded_edge(frame: &Frame<'_>, ends: [[f64; 3]; 2], reach: [f64; 2]) -> Rounded {
+    let (k, error) = edge(&frame.rays, ends);
+    let rounded = Rounded::scaled(k, 4.0 * error);
+    if rounded.is_fine() { rounded } else { Rounded::new(&frame.edge(ends), reach) }
+}
+
+/// The ends of an edge.
+fn ends(frame: &Frame<'_>, corners: &[u32], points: [u32; 2]) -> [[f64; 3]; 2] {
+    points.map(|point| frame.faces.corner(corners[point as usize]))
+}
+
+/// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
+fn upright(frame: &Frame<'_>, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
+    let corners = frame.faces.corners(face);
+    let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
+    let axis = frame.faces.upright_axis(face).unwrap_or_default();
+    ([corners[k as usize], corners[next]], axis)
+}
+
+/// A table whose keys are made of numbers. Nothing depends on the order of its entries.
+pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
+
+/// Adds an entry.
+pub(super) fn insert<K: Eq + Hash, V>(
+    table: &mut Table<K, V>,
+    key: K,
+    value: V,
+) -> Result<(), Error> {
+    table.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+    table.insert(key, value);
+    Ok(())
+}
+
+/// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
+const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Mixes the numbers of a key.
+#[derive(Debug, Default)]
+pub(super) struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        mix(self.0)
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.write_u64(u64::from_le_bytes(word));
+        }
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(u64::from(number));
+    }
+
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_i64(&mut self, number: i64) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_isize(&mut self, number: isize) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        self.0 = (self.0.rotate_left(23) ^ number).wrapping_mul(FACTOR);
+    }
+}
+
+/// The point of a line that is next to the middle of the picture, and the cosine of twice the line's angle:
+/// the same for both directions. Of a line that the picture shows, they are off by less than a
+/// [`MARGIN`] of a [`STEP`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    point: [f64; 2],
+    cosine: f64,
+}
+
+/// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture that
+/// shows a scene from very far, all are in one place.
+#[derive(Debug, Default)]
+pub(super) struct Feet(Table<Place, SmallVec<[u32; 2]>>);
+
+type Place = [i64; 3];
+
+/// Places are so large, in pixels and of the cosine. Too small: feet of one line are in several; too large: more
+/// lines are compared in integers.
+const STEP: f64 = 1.0 / (1u64 << 20) as f64;
+/// Feet are looked for in neighbouring places if they are nearer to these than this share of a step. (Values of lines
+/// that the picture shows are off by less than 2⁻³¹ pixels, feet by less than four times as much: 2⁻⁹ of a
+/// step.)
+const MARGIN: f64 = 1.0 / 256.0;
+
+impl Foot {
+    /// That of a line in a picture of this size.
+    pub(super) fn of(line: &Rounded, size: [f64; 2]) -> Self {
+        let [_, kx, ky] = line.k;
+        let middle = size.map(|side| 0.5 * side);
+        let square = kx * kx + ky * ky;
+        let off = line.at(middle) / square;
+        let point = [middle[0] - off * kx, middle[1] - off * ky];
+        Self { point, cosine: (kx * kx - ky * ky) / square }
+    }
+
+    fn numbers(&self) -> [f64; 3] {
+        [self.point[0], self.point[1], self.cosine]
+    }
+
+    fn place(&self) -> Place {
+        self.numbers().map(step_of)
+    }
+
+    /// The places where a line may be whose foot this is.
+    fn places(&self) -> impl Iterator<Item = Place> {
+        let [xs, ys, cosines] = self.numbers().map(|number| {
+            let [low, high] = [-STEP, STEP].map(|step| step_of(number + step * MARGIN));
+            std::iter::once(low).chain((high != low).then_some(high))
+        });
+        let planes = xs.flat_map(move |x| ys.clone().map(move |y| [x, y]));
+        planes.flat_map(move |[x, y]| cosines.clone().map(move |c| [x, y, c]))
+    }
+}
+
+impl Feet {
+    /// The line with this foot that a comparison of lines with another one says is the same; or else where to
+    /// [`add`](Self::add) that one.
+    pub(super) fn search(
+        &self,
+        foot: &Foot,
+        compare: impl Fn(u32) -> Ordering,
+    ) -> Result<u32, usize> {
+        let mut free = 0;
+        for place in foot.places() {
+            let Some(lines) = self.0.get(&place) else { continue };
+            match lines.binary_search_by(|&line| compare(line)) {
+                Ok(at) => return Ok(lines[at]),
+                Err(at) if place == foot.place() => free = at,
+                Err(_) => {}
+            }
+        }
+        Err(free)
+    }
+
+    /// Adds a line that was sought without success.
+    pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) -> Result<(), Error> {
+        self.0.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        let lines = self.0.entry(foot.place()).or_default();
+        lines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        lines.insert(at, line);
+        Ok(())
+    }
+}
+
+fn step_of(number: f64) -> i64 {
+    (number / STEP).floor() as i64
+}
+
+/// Borders of tiles are at multiples of 1/`STEPS` of a pixel.
+pub(super) const STEPS: f64 = (1u64 << STEP_BITS) as f64;
+pub(super) const STEP_BITS: u32 = 24;
+
+/// A line, and which of its sides is meant.
+///
+/// The last bit is set for the side on which the line is negative. Above it is the number of the line;
+/// or, with the first bit set, what a border of a tile is: so these need no list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Half(u64);
+
+const BORDER: u64 = 1 << 63;
+/// Borders are this many steps from where their number is 0, so that all numbers are positive.
+const OFFSET: i64 = 1 << 60;
+
+impl Half {
+    /// The side of a line on which it is positive.
+    pub(super) const fn of(line: u32) -> Self {
+        Self((line as u64) << 1)
+    }
+
+    /// The points whose coordinate (axis 0, 1 for x, y) is at least so many [`STEPS`] of a pixel.
+    pub(super) const fn beyond(axis: usize, steps: i64) -> Self {
+        Self(BORDER | (((steps + OFFSET) as u64) << 1 | axis as u64) << 1)
+    }
+
+    /// The same for all halves of a line.
+    pub(super) const fn line(self) -> u64 {
+        self.0 >> 1
+    }
+
+    /// The half of the same line on which it is positive.
+    pub(super) const fn positive(self) -> Self {
+        Self(self.0 & !1)
+    }
+
+    /// The number of the line; `None` for a border.
+    pub(super) const fn number(self) -> Option<u32> {
+        if self.0 & BORDER == 0 { Some((self.0 >> 1) as u32) } else { None }
+    }
+
+    /// The axis of a border, and where it is.
+    pub(super) const fn border(self) -> (usize, i64) {
+        let number = (self.0 & !BORDER) >> 1;
+        ((number & 1) as usize, (number >> 1) as i64 - OFFSET)
+    }
+
+    /// Whether the side is meant on which the line is negative.
+    pub(super) const fn is_negative(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// The other side, if `flip`.
+    pub(super) const fn flipped(self, flip: bool) -> Self {
+        Self(self.0 ^ flip as u64)
+    }
+}
+
+#[cfg(test)]
+mod names;
+#[cfg(test)]
+pub(super) mod tests;

@@ -42,118 +42,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// The files:
-//
-// | file | |
-// |---|---|
-// | `frame` | lines of the picture in integers |
-// | `table` | tables by numbers, with a quick hash |
-// | `half` | lines by their numbers, each with a side |
-// | `rounded` | lines in floats |
-// | `twofold` | the same in pairs of floats |
-// | `exact_lines` | on which side of a line two others meet, where floats cannot tell |
-// | `feet` | lines found by where they are |
-// | `key` | what made a line |
-// | `lines` | all lines of a picture, by what made them |
-// | `rect` | boxes in the picture |
-// | `cell` | convex cells, and how a line cuts them |
-// | `near_vertices` | vertices of fragments, nearly |
-// | `stock` | the pieces that may show |
-// | `rims` | the lines that bound them, made when they are asked for |
-// | `tile` | tiles of the picture |
-// | `reporter` | progress and cancellation |
-// | `halving` | the picture halved until its parts are simple, on all threads |
-// | `narrow` | the pieces that may show in a tile |
-// | `visible` | what is visible, tile by tile |
-// | `map` | the visibility map |
-// | `pairs` | pairs of what is drawn before what |
-// | `above` | which polygon shows above which |
-// | `order` | an order of them, and who is in cycles |
-// | `divided` | tiles in parts that show the same items |
-// | `regions` | where the same polygons show, one behind the other |
-// | `outline` | outlines of areas in parts |
-// | `paths` | drawings: filled outlines in an order |
-// | `opaque` | drawings of opaque polygons |
-// | `overlaps` | which pieces overlap, nothing hidden |
-// | `join` | pieces joined while an order is left |
-// | `parts` | parts of polygons that are painted at once |
-// | `translucent` | drawings of translucent polygons |
-// | `reaches` | pieces in a part of the picture |
-// | `edge_run` | runs of edges and crossings |
-// | `edges` | visible and hidden runs of edges |
-// | `shared_edges` | edges, by the faces that have them |
-// | `intervals` | parts of segments, from one place to another |
-// | `inner_edges` | edges inside polygons, which triangulation made |
-// | `certain` | what floats tell of segments |
-// | `crossings` | lines in which polygons go through one another |
-// | `straddling` | faces with corners on both sides of one another's planes |
-// | `through` | faces that go through one another, shown or not |
-// | `sight` | segments of the scene as the picture shows them |
-// | `spot` | points of the scene as the picture shows them |
-// | `overlaid` | what shows of an overlay's lines and points |
-// | `passes` | where segments pass in front of pieces or behind them |
-// | `in_front` | how many polygons lie in front of lines |
-// | `between` | lines and points between what is painted |
-// | `display_list` | all that a drawing paints |
-// | `pen` | segments joined to lines, in an order for a pen |
-// | `near` | the nearest of the ends that are left |
-
-mod above;
-mod between;
 mod cell;
-mod certain;
 mod crossings;
-mod display_list;
-mod divided;
-mod edge_run;
 mod edges;
 mod exact_lines;
-mod feet;
-mod frame;
-mod half;
-mod halving;
-mod in_front;
-mod inner_edges;
-mod intervals;
 mod join;
-mod key;
 mod lines;
 mod map;
-mod narrow;
-mod near;
-mod near_vertices;
-mod opaque;
 mod order;
-mod outline;
 mod overlaid;
-mod overlaps;
-mod pairs;
-mod parts;
-mod passes;
 mod paths;
 mod pen;
-mod reaches;
-mod rect;
 mod regions;
-mod reporter;
-mod rims;
-mod rounded;
-mod shared_edges;
 mod sight;
-mod spot;
 mod stock;
-mod straddling;
-mod table;
-mod through;
 mod tile;
 mod translucent;
-mod twofold;
-mod visible;
 
-pub use display_list::DisplayItem;
-pub use edge_run::{EdgeKind, EdgeRun};
+pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use overlaid::{LineRun, MarkerView};
+pub use paths::DisplayItem;
 pub use paths::{Drawing, Path};
 pub use pen::{Polyline, polylines};
 pub use regions::Region;

@@ -1,15 +1,18 @@
 //! An order of polygons in which each comes before those that show above it, but for a few.
-
-mod graph;
+//!
+//! An opaque polygon that is drawn whole has to come before each opaque one that is visible where it would be
+//! painted too; a piece of a translucent one, before or after each that is visible there, by their depths.
+//! What is hidden by a third needs no order.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashSet};
+use std::hash::BuildHasherDefault;
 
-use graph::{Graph, NONE};
-
-use super::halving::VISITED;
-use super::pairs::Pair;
-use super::reporter::{each, sort_by};
+use super::cell::{NOWHERE, Rect, are_apart};
+use super::lines::{Lines, Mixer};
+use super::map::{Leaf, Visible, each, sort_by, sort_unique};
+use super::stock::{FEW_CORNERS, Rims, Stock};
+use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::memory::{collect, filled, push, reserve};
@@ -205,10 +208,383 @@ impl Graph<'_> {
     }
 }
 
+/// Nodes and the pairs that begin at each.
+struct Graph<'p> {
+    pairs: &'p [Pair],
+    starts: Vec<u32>,
+    is_clipped: Vec<bool>,
+    is_opaque: &'p dyn Fn(u32) -> bool,
+    /// Whether something translucent has to come after each node.
+    is_seen_through: Vec<bool>,
+    /// The strongly connected component of each node, among those that are searched.
+    component: Vec<u32>,
+    search: Search,
+    watch: &'p Watch<'p>,
+}
+
+/// What a search for components knows of each node.
+#[derive(Default)]
+struct Search {
+    /// When it was met: its number among those that were.
+    number: Vec<u32>,
+    /// The least number that it leads to.
+    least: Vec<u32>,
+    is_on_stack: Vec<bool>,
+    /// From which node it was reached last, in the search for a cycle.
+    reached: Vec<u32>,
+    /// How many pairs begin and end at it.
+    counts: Vec<[u32; 2]>,
+}
+
+/// No component, and of nodes that are not searched, no number.
+const NONE: u32 = u32::MAX;
+/// The number of nodes that are searched, but were not met so far.
+const UNMET: u32 = u32::MAX - 1;
+
+impl<'p> Graph<'p> {
+    fn new(
+        nodes: usize,
+        pairs: &'p [Pair],
+        is_opaque: &'p dyn Fn(u32) -> bool,
+        watch: &'p Watch<'p>,
+    ) -> Result<Self, Error> {
+        let mut starts = filled(nodes + 1, 0)?;
+        for pair in each(watch, 1, pairs) {
+            let pair = pair?;
+            starts[pair.below as usize + 1] += 1;
+        }
+        for node in each(watch, 1, 0..nodes) {
+            let node = node?;
+            starts[node + 1] += starts[node];
+        }
+        let (is_clipped, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
+        let mut is_seen_through = filled(nodes, false)?;
+        for pair in each(watch, 1, pairs) {
+            let pair = pair?;
+            is_seen_through[pair.below as usize] |= !is_opaque(pair.above);
+        }
+        let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
+        let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
+        let search = Search { number, least, is_on_stack, reached, counts: filled(nodes, [0; 2])? };
+        Ok(Self { pairs, starts, is_clipped, is_opaque, is_seen_through, component, search, watch })
+    }
+}
+
+impl Graph<'_> {
+    /// What a node comes before.
+    fn above(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
+        let [start, end] = [node, node + 1].map(|node| self.starts[node as usize] as usize);
+        self.pairs[start..end].iter().map(|pair| pair.above)
+    }
+
+    /// How many nodes that is.
+    fn above_count(&self, node: u32) -> u32 {
+        self.starts[node as usize + 1] - self.starts[node as usize]
+    }
+
+    /// Whether nothing has to come after a node, as it is clipped.
+    fn is_last(&self, node: u32) -> bool {
+        self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
+    }
+
+    /// Whether the order has to keep a pair: what is drawn of a clipped node lies under no opaque one.
+    fn holds(&self, Pair { below, above }: Pair) -> bool {
+        !self.is_clipped[below as usize] || !(self.is_opaque)(above)
+    }
+
+    /// The strongly connected components of several nodes among these (R. Tarjan, "Depth-first search
+    /// and linear graph algorithms", 1972). Their numbers are left in `component`.
+    fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
+        let Search { number, least, is_on_stack, .. } = &mut self.search;
+        let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);
+        for node in each(self.watch, 1, nodes) {
+            number[*node? as usize] = UNMET;
+        }
+        let (mut stack, mut path, mut found) = (Vec::new(), Vec::new(), Vec::new());
+        let mut next = 0;
+        for root in each(self.watch, 1, nodes) {
+            let root = *root?;
+            if number[root as usize] != UNMET {
+                continue;
+            }
+            push(&mut path, (root, self.starts[root as usize]))?;
+            while let Some((node, at)) = path.last_mut() {
+                self.watch.work(VISITED)?;
+                let (v, place) = (*node as usize, *at);
+                if place == self.starts[v] {
+                    (number[v], least[v]) = (next, next);
+                    next += 1;
+                    push(&mut stack, *node)?;
+                    is_on_stack[v] = true;
+                }
+                let rest = &self.pairs[place as usize..self.starts[v + 1] as usize];
+                let mut unmet = None;
+                for (next, pair) in (place + 1..).zip(each(self.watch, 1, rest)) {
+                    let above = pair?.above;
+                    let w = above as usize;
+                    if is_clipped[v] && is_opaque(above) {
+                        continue;
+                    }
+                    if is_on_stack[w] {
+                        least[v] = least[v].min(number[w]);
+                    }
+                    if number[w] == UNMET {
+                        unmet = Some((next, above));
+                        break;
+                    }
+                }
+                if let Some((next, above)) = unmet {
+                    *at = next;
+                    // A node is met when its first pair is looked at, so one without pairs as well.
+                    push(&mut path, (above, self.starts[above as usize]))?;
+                    continue;
+                }
+                path.pop();
+                if let Some(&(parent, _)) = path.last() {
+                    least[parent as usize] = least[parent as usize].min(least[v]);
+                }
+                if least[v] == number[v] {
+                    let place = stack.iter().rposition(|&w| w as usize == v).unwrap_or(0);
+                    let nodes = stack.split_off(place);
+                    for w in each(self.watch, 2, &nodes) {
+                        let w = *w?;
+                        is_on_stack[w as usize] = false;
+                        self.component[w as usize] = if nodes.len() > 1 { v as u32 } else { NONE };
+                    }
+                    if nodes.len() > 1 {
+                        push(&mut found, nodes)?;
+                    }
+                }
+            }
+        }
+        for node in each(self.watch, 1, nodes) {
+            number[*node? as usize] = NONE;
+        }
+        Ok(found)
+    }
+}
+
+/// Leaves with the opaque faces that may reach into them, and the translucent items.
+struct LeafReaches<'l> {
+    leaves: &'l [Leaf],
+    reaches: Reaches,
+    translucent: Reaches,
+}
+
+/// All pairs, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does not show; in
+/// pairs, opaque polygons have that, translucent items their own.
+pub(super) fn pairs<'l>(
+    stock: &Stock<'_>,
+    rims: &Rims<'_>,
+    leaves: &'l [Leaf],
+    place: &(dyn Fn(u32) -> u32 + Sync),
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
+    let shows = |face: &u32| place(*face) != u32::MAX;
+    for face in each(watch, 2, 0..stock.views.len() as u32) {
+        let face = face?;
+        if !shows(&face) {
+            continue;
+        }
+        if stock.views[face as usize].is_opaque {
+            reaches.push(face, rims.known_outline(face))?;
+        }
+    }
+    for item in each(watch, 2, 0..stock.items.len() as u32) {
+        let item = item?;
+        if !stock.is_opaque(item) && shows(&stock.face(item)) {
+            translucent.push(item, rims.known_item(stock, item))?;
+        }
+    }
+    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(stock, &rims.lines, watch);
+    let leaf =
+        |part: &LeafReaches<'l>, found: &mut Found| part.leaf(stock, rims, place, found, watch);
+    let all = LeafReaches { leaves, reaches, translucent };
+    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+}
+
+impl<'l> LeafReaches<'l> {
+    /// The first and the second half of the leaves; `None` of a single one.
+    fn halves(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
+        if self.leaves.len() < 2 {
+            return Ok(None);
+        }
+        let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
+        let part = |leaves: &'l [Leaf]| {
+            let around = around(leaves);
+            let of_face = |face: u32| stock.views[face as usize].around;
+            let of_item = |item: u32| stock.items[item as usize].around;
+            let reaches = self.reaches.narrowed(lines, &around, of_face, watch)?;
+            let translucent = self.translucent.narrowed(lines, &around, of_item, watch)?;
+            Ok(Self { leaves, reaches, translucent })
+        };
+        Ok(Some([part(first)?, part(second)?]))
+    }
+
+    /// Adds the pairs of a single leaf.
+    fn leaf(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        place: &(dyn Fn(u32) -> u32 + Sync),
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let Self { leaves, reaches, .. } = self;
+        // Nothing opaque shows above a face of which all shows that is in the tile.
+        let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
+        let mut whole: Vec<u32> = Vec::new();
+        for Leaf { tile, cells } in *leaves {
+            for visible in each(watch, VISITED, cells) {
+                let visible = visible?;
+                let face = stock.face(visible.item);
+                watch.work(stock.edges_work(face))?;
+                if is_whole(stock, rims, tile, visible)? {
+                    push(&mut whole, face)?;
+                }
+            }
+        }
+        whole.sort_unstable();
+        let mut below: Vec<Reach> = Vec::new();
+        reserve(&mut below, reaches.list.len())?;
+        let is_below = |reach: &&Reach| whole.binary_search(&reach.number).is_err();
+        below.extend(reaches.list.iter().filter(is_below));
+        for visible in cells() {
+            let Visible { item, cell } = visible;
+            if !self.translucent.list.is_empty() {
+                self.add_blended(stock, rims, place, visible, found, watch)?;
+            }
+            if !stock.is_opaque(*item) {
+                continue;
+            }
+            let above = place(stock.face(*item));
+            let around = cell.around();
+            for reach in each(watch, CUT, &below) {
+                let reach = reach?;
+                let pair = Pair { below: place(reach.number), above };
+                let is_apart = are_apart(&around, &stock.views[reach.number as usize].around);
+                if is_apart || pair.below == above || found.contains(&pair) {
+                    continue;
+                }
+                if cell.meets(&rims.lines, reaches.halves_of(reach), watch)? {
+                    add(found, pair)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the pairs of what is visible with translucent items. What is visible of two of these needs one
+    /// pair, that of the one behind.
+    fn add_blended(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        place: &(dyn Fn(u32) -> u32 + Sync),
+        &Visible { item, ref cell }: &Visible,
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let (face, is_opaque) = (stock.face(item), stock.is_opaque(item));
+        let own = if is_opaque { place(face) } else { item };
+        let around = cell.around();
+        for reach in each(watch, CUT, &self.translucent.list) {
+            let reach = reach?;
+            let other = reach.number;
+            let pair = match other < item {
+                true => Pair { below: own, above: other },
+                false if is_opaque => Pair { below: other, above: own },
+                false => break,
+            };
+            let is_apart = are_apart(&around, &stock.items[other as usize].around);
+            if is_apart || stock.face(other) == face || found.contains(&pair) {
+                continue;
+            }
+            if cell.meets(&rims.lines, self.translucent.halves_of(reach), watch)? {
+                add(found, pair)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
+fn is_whole(
+    stock: &Stock<'_>,
+    rims: &Rims<'_>,
+    tile: &Tile,
+    visible: &Visible,
+) -> Result<bool, Error> {
+    let outline = rims.known_outline(stock.face(visible.item));
+    let sides = visible.cell.sides.iter().map(|side| side.half);
+    // Edges of others may lie where tiles elsewhere have borders.
+    let mut sides = sides.filter(|half| !tile.has_border(*half));
+    // Of most faces, to look at all edges is quicker.
+    if outline.len() <= FEW_CORNERS {
+        return Ok(sides.all(|side| outline.iter().any(|half| half.line() == side.line())));
+    }
+    let mut own = collect(outline.iter().map(|half| half.line()))?;
+    own.sort_unstable();
+    Ok(sides.all(|side| own.binary_search(&side.line()).is_ok()))
+}
+
+/// The box around leaves.
+pub(super) fn around(leaves: &[Leaf]) -> Rect {
+    leaves.iter().fold(NOWHERE, |[low, high], leaf| {
+        let [from, to] = leaf.tile.sides();
+        let axes = [0, 1];
+        [axes.map(|i: usize| low[i].min(from[i])), axes.map(|i: usize| high[i].max(to[i]))]
+    })
+}
+
+/// "`below` has to be drawn before `above`", by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub(super) below: u32,
+    pub(super) above: u32,
+}
+
+impl Pair {
+    /// The pair of what a function has for both.
+    pub(super) fn map(self, of: impl Fn(u32) -> u32) -> Self {
+        Self { below: of(self.below), above: of(self.above) }
+    }
+}
+
+/// Pairs that were found so far, each once.
+pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
+
+/// Adds a pair.
+pub(super) fn add(found: &mut Found, pair: Pair) -> Result<(), Error> {
+    found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+    found.insert(pair);
+    Ok(())
+}
+
+/// All pairs of several sets, sorted, each once.
+pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
+    let mut pairs = Vec::new();
+    for part in parts {
+        reserve(&mut pairs, part.len())?;
+        for pair in each(watch, 1, part) {
+            pairs.push(pair?);
+        }
+    }
+    sort_unique(&mut pairs, watch)?;
+    Ok(pairs)
+}
+
 #[cfg(test)]
 mod tests {
     use std::ops::ControlFlow;
-    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+    use std::sync::atomic::AtomicUsize;
+    use std::sync::atomic::Ordering::Relaxed;
 
     use super::*;
 

@@ -1,16 +1,25 @@
 //! Drawings: filled outlines in an order to paint them.
+//!
+//! Outlines are made of areas that are given in parts. Which sides of parts lie on one line, and which corners
+//! are one point, is decided exactly: outlines are closed, and no outline runs along a line and back,
+//! however corners are rounded.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::cell::Cell;
-use super::half::Half;
-use super::lines::Lines;
-use super::outline::Area;
-use super::overlaid::Overlaid;
-use super::tile::Tile;
-use crate::Error;
+use super::cell::{Cell, Corner, Side};
+use super::exact_lines::{ROUNDING, Rounded};
+use super::lines::{Half, Lines};
+use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
+use super::order::{Ordered, order, pairs};
+use super::overlaid::{LineRun, MarkerView, Overlaid};
+use super::stock::Stock;
+use super::tile::{CUT, Tile, VISITED};
+use super::translucent::mixed;
 use crate::build::progress::Watch;
-use crate::memory::{place, push, reserve};
+use crate::memory::{collect, filled, place, push, reserve};
+use crate::union::Union;
+use crate::{Error, parallel_map};
 
 /// A view as filled outlines, in the order to paint them.
 #[derive(Clone, Debug)]
@@ -130,5 +139,397 @@ pub(super) fn add_piece(
     match picture.within(lines, halves, None, watch)? {
         Some(cell) => area.push(&cell.sides),
         None => Ok(()),
+    }
+}
+
+/// Convex parts of an area, by their sides.
+#[derive(Default)]
+pub(super) struct Area {
+    sides: Vec<Side>,
+    /// Where each part ends.
+    ends: Vec<u32>,
+}
+
+/// The cost of following an outline to its next piece, in work units: pieces that a build examines.
+const FOLLOWED: usize = 16;
+/// No piece.
+const NONE: u32 = u32::MAX;
+
+/// Sides of parts, by numbers; corners have the numbers of the sides that begin there.
+struct Sides<'a> {
+    lines: &'a Lines<'a>,
+    sides: &'a [Side],
+    /// The side before each and the one after it.
+    before: Vec<u32>,
+    after: Vec<u32>,
+}
+
+/// An end of a side on a line.
+#[derive(Clone, Copy)]
+struct End {
+    corner: u32,
+    /// Where it is, in the direction of the line's positive half.
+    place: f64,
+    radius: f64,
+    /// The other half that meets there.
+    across: Half,
+    is_start: bool,
+    /// Whether that half lies ahead.
+    is_ahead: bool,
+}
+
+/// A part of an outline on one line, from one corner to another, in the direction of a half.
+#[derive(Clone, Copy)]
+struct Piece {
+    half: Half,
+    from: u32,
+    to: u32,
+}
+
+impl Area {
+    pub(super) fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.sides.clear();
+        self.ends.clear();
+    }
+
+    pub(super) fn push(&mut self, part: &[Side]) -> Result<(), Error> {
+        reserve(&mut self.sides, part.len())?;
+        self.sides.extend_from_slice(part);
+        push(&mut self.ends, place(self.sides.len())?)
+    }
+
+    pub(super) fn part(&self, i: usize) -> &[Side] {
+        let start = if i == 0 { 0 } else { self.ends[i - 1] };
+        &self.sides[start as usize..self.ends[i] as usize]
+    }
+
+    /// The closed outlines of all parts, each with the area on its left. Sides that two neighbouring parts share in
+    /// opposite directions cancel. Where parts overlap, outlines wind around both.
+    pub(super) fn outlines(
+        &self,
+        lines: &Lines<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+        if let [_] = self.ends[..] {
+            let corners = self.sides.iter().map(|side| side.start.at);
+            return Ok(vec![collect(corners)?]);
+        }
+        let sides = Sides::new(lines, self)?;
+        // Corners that are one point.
+        let mut points = Union::new(place(self.sides.len())?)?;
+        let pieces = sides.pieces(&mut points, watch)?;
+        // The first of the pieces that begin at each point, and the one after each.
+        let (mut begin, mut others) =
+            (filled(self.sides.len(), NONE)?, filled(pieces.len(), NONE)?);
+        for numbered in each(watch, VISITED, pieces.iter().enumerate().rev()) {
+            let (i, piece) = numbered?;
+            let point = points.root(piece.from) as usize;
+            others[i] = std::mem::replace(&mut begin[point], i as u32);
+        }
+        let (mut is_used, mut outlines) = (filled(pieces.len(), false)?, Vec::new());
+        for (i, first) in pieces.iter().enumerate() {
+            if is_used[i] {
+                continue;
+            }
+            let (start, mut outline, mut next) = (points.root(first.from), Vec::new(), Some(i));
+            while let Some(i) = next {
+                watch.work(FOLLOWED)?;
+                is_used[i] = true;
+                let piece = &pieces[i];
+                // Pieces of one line follow one another where others meet it.
+                if outline.last().is_none_or(|last: &Piece| last.half != piece.half) {
+                    push(&mut outline, *piece)?;
+                }
+                let point = points.root(piece.to);
+                if point == start {
+                    break;
+                }
+                let some = |piece: u32| (piece != NONE).then_some(piece as usize);
+                let from_here =
+                    std::iter::successors(some(begin[point as usize]), |&i| some(others[i]));
+                let left = from_here.filter(|&i| !is_used[i]);
+                // Of several the one that turns furthest to the left, so that outlines that touch in a point stay apart.
+                let turn = |i: usize| sides.turn(piece.half, pieces[i].half);
+                next = left.max_by(|&a, &b| turn(a).total_cmp(&turn(b)));
+                debug_assert!(next.is_some(), "an outline is open");
+            }
+            let is_one_line = outline.first().map(|p| p.half) == outline.last().map(|p| p.half);
+            let corner = |piece: &Piece| self.sides[piece.from as usize].start.at;
+            let corners = outline[usize::from(is_one_line)..].iter().map(corner);
+            push(&mut outlines, collect(corners)?)?;
+        }
+        Ok(outlines)
+    }
+}
+
+impl<'a> Sides<'a> {
+    fn new(lines: &'a Lines<'a>, area: &'a Area) -> Result<Self, Error> {
+        let count = place(area.sides.len())?;
+        let mut before = collect((0..count).map(|side| side.wrapping_sub(1)))?;
+        let mut after = collect((0..count).map(|side| side + 1))?;
+        let mut start = 0;
+        for &end in &area.ends {
+            (before[start as usize], after[end as usize - 1]) = (end - 1, start);
+            start = end;
+        }
+        Ok(Self { lines, sides: &area.sides, before, after })
+    }
+
+    /// The sides without what two of them have in common, in opposite directions.
+    fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
+        let half = |side: u32| self.sides[side as usize].half;
+        let mut by_line: Vec<u32> = collect(0..self.sides.len() as u32)?;
+        sort_by(&mut by_line, watch, |&a, &b| half(a).line().cmp(&half(b).line()))?;
+        let (mut pieces, mut ends) = (Vec::new(), Vec::new());
+        for group in by_line.chunk_by(|&a, &b| half(a).line() == half(b).line()) {
+            watch.work(group.len() * VISITED)?;
+            if let [side] = *group {
+                let to = self.after[side as usize];
+                push(&mut pieces, Piece { half: half(side), from: side, to })?;
+                continue;
+            }
+            let line = half(group[0]).positive();
+            let rounded = self.lines.rounded(line);
+            ends.clear();
+            reserve(&mut ends, 2 * group.len())?;
+            ends.extend(group.iter().flat_map(|&side| self.ends(side, &rounded)));
+            sort_by(&mut ends, watch, |a, b| self.compare(&rounded, a, b))?;
+            self.add_pieces(line, &ends, points, &mut pieces)?;
+        }
+        Ok(pieces)
+    }
+
+    /// Both ends of a side.
+    fn ends(&self, side: u32, line: &Rounded) -> [End; 2] {
+        let [before, after] = [&self.before, &self.after].map(|list| list[side as usize]);
+        let half = |side: u32| self.sides[side as usize].half;
+        let end = |corner: u32, across: Half, is_start: bool| {
+            let Corner { at: [x, y], radius } = self.sides[corner as usize].start;
+            let place = x * line.k[2] - y * line.k[1];
+            let is_ahead = is_start != half(side).is_negative();
+            End { corner, place, radius, across, is_start, is_ahead }
+        };
+        [end(side, half(before), true), end(after, half(after), false)]
+    }
+
+    /// In which order two ends of sides lie on their line, in the direction of its positive half: exact.
+    fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
+        // A corner is off by its radius at most, which changes its place by so much, and the place is rounded three
+        // times.
+        let size: f64 = self.lines.reach.iter().sum();
+        let off = line.slope * (a.radius + b.radius + 8.0 * ROUNDING * size);
+        if (a.place - b.place).abs() > off {
+            return a.place.total_cmp(&b.place);
+        }
+        let corner = [self.before[a.corner as usize], a.corner];
+        let halves = corner.map(|side| self.sides[side as usize].half);
+        let side = self.lines.exact_side(b.across, halves);
+        if b.is_ahead { side } else { side.reverse() }
+    }
+
+    /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the ends of
+    /// these sides in order along the line; ends in one place become one point.
+    fn add_pieces(
+        &self,
+        line: Half,
+        ends: &[End],
+        points: &mut Union,
+        pieces: &mut Vec<Piece>,
+    ) -> Result<(), Error> {
+        let rounded = self.lines.rounded(line);
+        // How many more sides run forwards than backwards, and from where.
+        let (mut count, mut from) = (0i32, 0);
+        for place in ends.chunk_by(|a, b| self.compare(&rounded, a, b).is_eq()) {
+            let point = place[0].corner;
+            place[1..].iter().for_each(|end| points.unite(point, end.corner));
+            let steps = place.iter().map(|end| if end.is_start { 1 } else { -1 });
+            let after = count + steps.sum::<i32>();
+            if after == count {
+                continue;
+            }
+            let is_back = count < 0;
+            let [start, end] = if is_back { [point, from] } else { [from, point] };
+            let piece = Piece { half: line.flipped(is_back), from: start, to: end };
+            reserve(pieces, count.unsigned_abs() as usize)?;
+            pieces.extend((0..count.abs()).map(|_| piece));
+            (count, from) = (after, point);
+        }
+        Ok(())
+    }
+
+    /// By how much an outline turns to the left where it goes from one half to another.
+    fn turn(&self, from: Half, to: Half) -> f64 {
+        let [[ax, ay], [bx, by]] = [from, to].map(|half| {
+            let [_, kx, ky] = self.lines.rounded(half).flipped(half.is_negative()).k;
+            [ky, -kx]
+        });
+        (ax * by - ay * bx).atan2(ax * bx + ay * by)
+    }
+}
+
+/// So many paths are made by one thread.
+const SHARE: usize = 256;
+
+impl VisibilityMap<'_> {
+    /// The view as filled outlines, one for each opaque polygon that shows.
+    ///
+    /// Polygons are drawn whole, each before those that show above it. A few that are in cycles with
+    /// others, none in most scenes, are clipped: only what shows of them is drawn.
+    ///
+    /// Translucent polygons are painted over what is behind them. A few that lie before and behind others
+    /// in a circle are in several paths, as in [`Drawing::translucent`]; each point that shows of one is in
+    /// one path. Time and memory go up with the square of how many translucent polygons lie over
+    /// one another; where all are translucent, `Drawing::translucent` takes less.
+    ///
+    /// # Errors
+    ///
+    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    pub fn drawing(&self) -> Result<Drawing, Error> {
+        self.reporter.watch(2, |watch| self.drawn(watch))
+    }
+
+    fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
+        let Self { stock, rims, leaves, .. } = self;
+        if stock.has_translucent() {
+            return mixed(stock, rims, leaves, watch);
+        }
+        let size = self.size();
+        let shown = Nodes::of(stock, leaves, watch)?;
+        let place = |face: u32| shown.places[face as usize];
+        let pairs = pairs(stock, rims, leaves, &place, watch)?;
+        let Ordered { order, is_clipped } =
+            order(shown.polygons.len(), &pairs, &shown.ranks, &|_| true, watch)?;
+        let cells = shown.cells(stock, leaves, &is_clipped, watch)?;
+        let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
+        let count = shares.len();
+        let part = |(i, nodes): (usize, &[u32])| {
+            let (mut part, mut area) = (Drawing::empty(size), Area::default());
+            for &node in nodes {
+                watch.work(CUT)?;
+                let index = node as usize;
+                area.clear();
+                if is_clipped[index] {
+                    for cell in each(watch, VISITED, &cells[index]) {
+                        area.push(&cell?.sides)?;
+                    }
+                } else {
+                    for face in each(watch, CUT, &shown.faces[index]) {
+                        let face = *face?;
+                        add_piece(&rims.lines, rims.known_outline(face), &mut area, watch)?;
+                    }
+                }
+                let polygon = shown.polygons[index];
+                part.push(polygon, is_clipped[index], &area, &rims.lines, watch)?;
+            }
+            finish_item(watch, i, count);
+            Ok(part)
+        };
+        let mut drawing = Drawing::empty(size);
+        for part in parallel_map::map(shares, part)? {
+            watch.work(SHARE)?;
+            drawing.append(part)?;
+        }
+        Ok(drawing)
+    }
+}
+
+/// The polygons that show.
+struct Nodes {
+    polygons: Vec<usize>,
+    /// The place of each face's polygon in the list; `u32::MAX` for those that do not show.
+    places: Vec<u32>,
+    /// The faces of each polygon that the camera sees, whether they show or not.
+    faces: Vec<Vec<u32>>,
+    /// How many items lie behind the polygon.
+    ranks: Vec<u32>,
+}
+
+impl Nodes {
+    fn of(stock: &Stock<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
+        let faces = stock.frame.faces;
+        let most = stock.polygons_end(watch)?;
+        let mut last: Vec<Option<u32>> = collect((0..most).map(|_| None))?;
+        for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+            let item = visible?.item;
+            let last = &mut last[stock.polygon(item)];
+            *last = (*last).max(Some(item));
+        }
+        let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
+        let mut numbers: Vec<u32> = collect((0..most).map(|_| u32::MAX))?;
+        for named in each(watch, 1, last.iter().enumerate()) {
+            let (polygon, last) = named?;
+            let Some(last) = last else { continue };
+            numbers[polygon] = shown.polygons.len() as u32;
+            push(&mut shown.polygons, polygon)?;
+            push(&mut shown.faces, vec![])?;
+            push(&mut shown.ranks, stock.items.len() as u32 - last)?;
+        }
+        for face in each(watch, 1, 0..faces.len() as u32) {
+            let face = face?;
+            let number = match stock.sees(face) {
+                true => numbers[faces.polygon(face)],
+                false => u32::MAX,
+            };
+            push(&mut shown.places, number)?;
+            if number != u32::MAX {
+                push(&mut shown.faces[number as usize], face)?;
+            }
+        }
+        Ok(shown)
+    }
+
+    /// The cells of the polygons that are clipped.
+    fn cells<'l>(
+        &self,
+        stock: &Stock<'_>,
+        leaves: &'l [Leaf],
+        is_clipped: &[bool],
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Vec<&'l Cell>>, Error> {
+        let mut cells: Vec<Vec<&Cell>> = collect(self.polygons.iter().map(|_| vec![]))?;
+        for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+            let Visible { item, cell } = visible?;
+            let place = self.places[stock.face(*item) as usize] as usize;
+            if is_clipped[place] {
+                push(&mut cells[place], cell)?;
+            }
+        }
+        Ok(cells)
+    }
+}
+
+/// What is painted next.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum DisplayItem<'d> {
+    /// A polygon, or a part of one.
+    Path(Path<'d>),
+    /// A part of a segment of an overlay's line.
+    Line(LineRun),
+    /// A point of an overlay.
+    Marker(MarkerView),
+}
+
+impl Drawing {
+    /// All that is painted, in order: [`paths`](Self::paths), with the lines and points between them that
+    /// the drawing was made with.
+    pub fn display_list(&self) -> impl Iterator<Item = DisplayItem<'_>> + Clone {
+        let mut overlaid = self.overlaid.iter().peekable();
+        let mut paths = self.paths();
+        let count = self.paths.len();
+        std::iter::from_fn(move || {
+            let painted = (count - paths.len()) as u32;
+            if let Some((_, next)) = overlaid.next_if(|(below, _)| *below <= painted) {
+                return Some(match next {
+                    Overlaid::Line(run) => DisplayItem::Line(*run),
+                    Overlaid::Marker(marker) => DisplayItem::Marker(*marker),
+                });
+            }
+            paths.next().map(DisplayItem::Path)
+        })
     }
 }

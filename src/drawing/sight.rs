@@ -4,15 +4,16 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::cell::{Cell, Corner, side_on_line};
-use super::certain::{Certain, certain_ends};
-use super::edge_run::SHORTEST;
-use super::frame::{ExactLine, meeting};
+use super::cell::{Cell, Corner, NOWHERE, Rect, are_apart, side_on_line};
+use super::edges::SHORTEST;
+use super::exact_lines::{ExactLine, Image, Rounded, meeting, side_at};
 use super::lines::Lines;
-use super::rect::{NOWHERE, Rect, are_apart};
-use super::rounded::Rounded;
-use super::tile::Tile;
+use super::map::each;
+use super::tile::{CUT, IN_VAIN, NARROWED, Reaches, Tile, found_in, in_vain};
+use crate::Error;
+use crate::build::progress::Watch;
 use crate::exact::{Int, PlaneId, PreparedPlane};
+use crate::memory::{collect, push, reserve};
 
 /// A segment of the scene, as far as the picture has it.
 #[derive(Clone, Copy, Debug)]
@@ -306,4 +307,335 @@ fn beside(signs: &[Ordering]) -> Ordering {
 fn cut(lines: &Lines<'_>, faces: [u32; 2]) -> ExactLine {
     let [one, other] = faces.map(|face| lines.frame.sheet(PlaneId::face(face)));
     one.cut(&other)
+}
+
+/// A point of the scene as the picture shows it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    point: [f64; 3],
+    pub(super) at: [f64; 2],
+}
+
+impl Spot {
+    /// `None` if it is not in the picture.
+    pub(super) fn new(lines: &Lines<'_>, point: [f64; 3]) -> Option<Self> {
+        let image = lines.frame.image(point);
+        if !image[0].sign().is_gt() {
+            return None;
+        }
+        let [weight, x, y] = image.map(Int::to_f64);
+        let spot = Self { point, at: [x / weight, y / weight] };
+        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
+        spot.is_in(lines, &Cell::rectangle(lines, low, high)).then_some(spot)
+    }
+
+    /// A box around it.
+    pub(super) fn around(&self) -> Rect {
+        [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
+    }
+
+    /// Whether it is in a cell, or on one of its sides: exact.
+    pub(super) fn is_in(&self, lines: &Lines<'_>, cell: &Cell) -> bool {
+        cell.sides.iter().all(|side| {
+            let line = lines.rounded(side.half);
+            let value = line.at(self.at);
+            let is_outside = |side_of: Ordering| side_of.is_lt() != side.half.is_negative();
+            // Its coordinates are rounded three times.
+            let off = 4.0 * f64::EPSILON * (self.at[0].abs() + self.at[1].abs());
+            if value.abs() > line.error + line.slope * off {
+                return !is_outside(value.total_cmp(&0.0));
+            }
+            let image: Image = lines.frame.image(self.point);
+            let side = side_at(&lines.exact(side.half), &image);
+            side.is_eq() || !is_outside(side)
+        })
+    }
+
+    /// Whether it is further away than a face's plane.
+    pub(super) fn is_behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> bool {
+        let faces = lines.frame.faces;
+        let prepared = PreparedPlane::new(faces, PlaneId::face(face));
+        prepared.side_beyond(faces, &self.point) == seen.reverse()
+    }
+}
+
+/// A part of a segment that passes a piece in the picture, over its inside or along its border.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pass {
+    /// The segment and the piece, by their numbers.
+    pub(super) sight: u32,
+    pub(super) piece: u32,
+    /// Whether the piece is in front of it.
+    pub(super) is_behind: bool,
+    /// From where to where, along the segment.
+    pub(super) places: [f64; 2],
+}
+
+/// A point that is in a piece in the picture, or on its border.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpotPass {
+    pub(super) spot: u32,
+    pub(super) piece: u32,
+    /// Whether the piece is in front of it.
+    pub(super) is_behind: bool,
+}
+
+/// What passes pieces.
+#[derive(Clone, Copy)]
+pub(super) struct Passing<'a> {
+    pub(super) sights: &'a [Sight],
+    pub(super) spots: &'a [Spot],
+}
+
+/// What was found: one segment may pass a piece in several parts, and one point be found twice.
+#[derive(Default)]
+pub(super) struct Passes {
+    pub(super) sights: Vec<Pass>,
+    pub(super) spots: Vec<SpotPass>,
+}
+
+/// Convex pieces of faces, all by their numbers.
+pub(super) struct Pieces<'a> {
+    pub(super) lines: &'a Lines<'a>,
+    pub(super) reaches: Reaches,
+    /// The face of a piece.
+    pub(super) face: &'a (dyn Fn(u32) -> u32 + Sync),
+    /// A box around a piece.
+    pub(super) around: &'a (dyn Fn(u32) -> Rect + Sync),
+}
+
+/// Tiles are not halved where at most so many pieces reach into them without covering them. Larger: more
+/// segments are compared with more pieces; smaller: more tiles, and more parts of segments (8: twice the
+/// time, of crossing triangles five times; 128: up to a sixth less).
+const FEW: usize = 64;
+
+/// A tile with the pieces, segments and points that may be in it.
+struct TilePasses {
+    tile: Tile,
+    reaches: Reaches,
+    sights: Vec<u32>,
+    spots: Vec<u32>,
+    in_vain: u32,
+}
+
+/// All passes that are wanted, by whether the piece is in front: a phase.
+pub(super) fn passes(
+    mut pieces: Pieces<'_>,
+    passing: Passing<'_>,
+    is_wanted: impl Fn(bool) -> bool + Sync,
+    watch: &Watch<'_>,
+) -> Result<Passes, Error> {
+    let tile = Tile::picture(pieces.lines.frame.rays.size());
+    let reaches = std::mem::take(&mut pieces.reaches);
+    let sights = collect(0..passing.sights.len() as u32)?;
+    let spots = collect(0..passing.spots.len() as u32)?;
+    let all = TilePasses { tile, reaches, sights, spots, in_vain: 0 };
+    let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
+    let leaf = |part: &TilePasses, found: &mut Passes| {
+        part.leaf(&pieces, passing, &is_wanted, found, watch)
+    };
+    let (all, mut passes) = (all.narrowed(&pieces, passing, tile, watch)?, Passes::default());
+    for mut found in found_in(all, Passes::default, halves, leaf, watch)? {
+        watch.work(found.sights.len() + found.spots.len())?;
+        reserve(&mut passes.sights, found.sights.len())?;
+        passes.sights.append(&mut found.sights);
+        reserve(&mut passes.spots, found.spots.len())?;
+        passes.spots.append(&mut found.spots);
+    }
+    Ok(passes)
+}
+
+impl TilePasses {
+    /// How many pieces do not cover the tile.
+    fn open(&self) -> usize {
+        self.reaches.list.iter().filter(|reach| !reach.covers()).count()
+    }
+
+    fn is_leaf(&self) -> bool {
+        let is_done = self.sights.is_empty() && self.spots.is_empty() || self.open() <= FEW;
+        is_done || self.in_vain == IN_VAIN || self.tile.is_tiny()
+    }
+
+    /// Both halves of the tile; `None` of a leaf.
+    fn halves(
+        &self,
+        pieces: &Pieces<'_>,
+        passing: Passing<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
+        if self.is_leaf() {
+            return Ok(None);
+        }
+        let [first, second] = self.tile.halves();
+        let narrowed = |tile| self.narrowed(pieces, passing, tile, watch);
+        let mut parts = [narrowed(first)?, narrowed(second)?];
+        let counts = [parts[0].open(), parts[1].open()];
+        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, self.open(), counts);
+        Ok(Some(parts))
+    }
+
+    fn narrowed(
+        &self,
+        pieces: &Pieces<'_>,
+        passing: Passing<'_>,
+        tile: Tile,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let sides = tile.sides();
+        let reaches = self.reaches.narrowed(pieces.lines, &sides, pieces.around, watch)?;
+        let may_meet = |number: u32| passing.sights[number as usize].may_meet(&sides);
+        let sights = kept(&self.sights, may_meet, watch)?;
+        let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].around());
+        let spots = kept(&self.spots, is_near, watch)?;
+        Ok(Self { tile, reaches, sights, spots, in_vain: 0 })
+    }
+
+    /// Adds the passes in the tile.
+    fn leaf(
+        &self,
+        pieces: &Pieces<'_>,
+        passing: Passing<'_>,
+        is_wanted: &impl Fn(bool) -> bool,
+        found: &mut Passes,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        if self.sights.is_empty() && self.spots.is_empty() {
+            return Ok(());
+        }
+        let lines = pieces.lines;
+        let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
+        for reach in &self.reaches.list {
+            watch.work(CUT)?;
+            let halves = self.reaches.halves_of(reach);
+            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
+            let (around, piece) = (cell.around(), reach.number);
+            let face = (pieces.face)(piece);
+            let side = lines.frame.seen_side(face);
+            for number in each(watch, CUT, &self.sights) {
+                let number = *number?;
+                let sight = &passing.sights[number as usize];
+                if !sight.may_meet(&around) {
+                    continue;
+                }
+                let Some(chord) = sight.chord(lines, &cell) else { continue };
+                let mut add = |is_behind: bool, [from, to]: [f64; 2]| {
+                    let places = [from.max(chord[0]), to.min(chord[1])];
+                    let pass = Pass { sight: number, piece, is_behind, places };
+                    let is_any = is_wanted(is_behind) && places[0] < places[1];
+                    if is_any { push(&mut found.sights, pass) } else { Ok(()) }
+                };
+                let [from, to] = sight.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
+                add(true, [from, to])?;
+                add(false, [f64::NEG_INFINITY, from])?;
+                add(false, [to, f64::INFINITY])?;
+            }
+            for number in each(watch, CUT, &self.spots) {
+                let number = *number?;
+                let spot = &passing.spots[number as usize];
+                if !are_apart(&around, &spot.around()) && spot.is_in(lines, &cell) {
+                    let is_behind = spot.is_behind(lines, face, side);
+                    if is_wanted(is_behind) {
+                        push(&mut found.spots, SpotPass { spot: number, piece, is_behind })?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Those of some numbers that a function keeps.
+pub(super) fn kept(
+    numbers: &[u32],
+    keep: impl Fn(u32) -> bool,
+    watch: &Watch<'_>,
+) -> Result<Vec<u32>, Error> {
+    let mut kept = Vec::new();
+    reserve(&mut kept, numbers.len())?;
+    for number in each(watch, NARROWED, numbers) {
+        let number = *number?;
+        if keep(number) {
+            kept.push(number);
+        }
+    }
+    Ok(kept)
+}
+
+/// What floats tell of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Certain {
+    /// Both ends are in the picture, here.
+    Inside([[f64; 2]; 2]),
+    /// No point is in the picture.
+    Outside,
+    Unknown,
+}
+
+/// One over the largest error of a projected point, in pixels, that counts as none.
+const FAR: f64 = (1u64 << 30) as f64;
+
+/// What floats tell of the segment between two lattice points. (Most are inside or outside.)
+pub(super) fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: &Rect) -> Certain {
+    let projected = ends.map(|end| lines.frame.rays.project(end));
+    // What is positive in the picture and ahead of the eye, and how far off that may be.
+    let inside = |([x, y, z], [ex, ey, ez]): ([f64; 3], [f64; 3])| {
+        let side = |at: f64, error: f64, border: f64, sign: f64| {
+            let off = error + border.abs() * ez;
+            (sign * (at - border * z), off + 4.0 * f64::EPSILON * (at.abs() + (border * z).abs()))
+        };
+        let beyond = |at, error, axis: usize| side(at, error, low[axis], 1.0);
+        let before = |at, error, axis: usize| side(at, error, high[axis], -1.0);
+        [(z, ez), beyond(x, ex, 0), before(x, ex, 0), beyond(y, ey, 1), before(y, ey, 1)]
+    };
+    let [a, b] = projected.map(inside);
+    let is_out = |&(value, off): &(f64, f64)| value < -off;
+    if a.iter().zip(&b).any(|(a, b)| is_out(a) && is_out(b)) {
+        return Certain::Outside;
+    }
+    let is_in = |&(value, off): &(f64, f64)| value > off;
+    // Near the eye, errors that are small for the scene are large in the picture.
+    let is_fine = |([_, _, z], errors): &([f64; 3], [f64; 3])| errors.iter().all(|e| e * FAR < *z);
+    match a.iter().chain(&b).all(is_in) && projected.iter().all(is_fine) {
+        true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
+        false => Certain::Unknown,
+    }
+}
+
+/// Intervals that are given in the order of their beginnings: those that lie one over another, or end where another
+/// begins but for rounding, as one.
+pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator<Item = [f64; 2]> {
+    let mut intervals = intervals.peekable();
+    std::iter::from_fn(move || {
+        let [from, mut to] = intervals.next()?;
+        while let Some(next) = intervals.next_if(|next| next[0] <= to + SHORTEST) {
+            to = to.max(next[1]);
+        }
+        Some([from, to])
+    })
+}
+
+/// A segment in parts that are in some intervals and parts that are not, in the order of their beginnings; the
+/// intervals are given in that of theirs.
+pub(super) fn parts(
+    course: &Course,
+    intervals: impl Iterator<Item = [f64; 2]>,
+) -> SmallVec<[([[f64; 2]; 2], bool); 4]> {
+    let mut found = SmallVec::new();
+    let mut add = |from: f64, to: f64, is_inside: bool| {
+        if to - from >= SHORTEST {
+            found.push(([course.at(from), course.at(to)], is_inside));
+        }
+    };
+    let [mut done, end] = course.places;
+    for [from, to] in merged(intervals) {
+        let (from, to) = (from.max(done), to.min(end));
+        if to - from < SHORTEST {
+            continue;
+        }
+        add(done, from, false);
+        add(from, to, true);
+        done = to;
+    }
+    add(done, end, false);
+    found
 }

@@ -1,8 +1,16 @@
 //! Tiles of the picture: rectangles that are halved again and again.
 
-use super::half::{Half, STEPS};
-use super::lines::Lines;
-use super::rect::Rect;
+use std::ops::Range;
+
+use smallvec::SmallVec;
+
+use super::cell::{Rect, are_apart, is_within, reaches_across};
+use super::lines::{Half, Lines, STEPS};
+use super::map::{each, finish_item};
+use super::stock::{Item, Rims, Stock};
+use crate::build::progress::Watch;
+use crate::memory::{place, push, reserve};
+use crate::{Error, parallel_map};
 
 /// A rectangle of the picture, between borders in steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,5 +97,268 @@ impl Lines<'_> {
         } else {
             Across::Outside
         }
+    }
+}
+
+/// So often both halves of a part are offered to all threads; deeper, one goes on alone.
+const SHARED: usize = 6;
+/// To compare an item with a tile takes as long as a build takes to examine so many pieces.
+pub(super) const NARROWED: usize = 8;
+/// So does cutting a cell with an item.
+pub(super) const CUT: usize = 64;
+/// And making the lines of a piece.
+pub(super) const LINES: usize = 64;
+/// And visiting a node of a graph.
+pub(super) const VISITED: usize = 4;
+
+/// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one
+/// `new` thing for each of the parts that are shared out to threads. What is found, and in which order, does
+/// not depend on how many threads there are. It is one phase of the operation that is watched.
+pub(super) fn found_in<P: Send, F: Send>(
+    all: P,
+    new: impl Fn() -> F + Sync,
+    halves: impl Fn(&P, &mut F) -> Result<Option<[P; 2]>, Error> + Sync,
+    leaf: impl Fn(&P, &mut F) -> Result<(), Error> + Sync,
+    watch: &Watch<'_>,
+) -> Result<Vec<F>, Error> {
+    shared(all, 0..1 << SHARED, &new, &halves, &leaf, watch)
+}
+
+/// What is found in a part that stands for these of the shares. Both halves of it are for whichever threads are
+/// free: none waits until all parts of a size are halved.
+fn shared<P: Send, F: Send>(
+    part: P,
+    shares: Range<usize>,
+    new: &(impl Fn() -> F + Sync),
+    halves: &(impl Fn(&P, &mut F) -> Result<Option<[P; 2]>, Error> + Sync),
+    leaf: &(impl Fn(&P, &mut F) -> Result<(), Error> + Sync),
+    watch: &Watch<'_>,
+) -> Result<Vec<F>, Error> {
+    let parts = if shares.len() == 1 { None } else { halves(&part, &mut new())? };
+    let Some([first, second]) = parts else {
+        let found = alone(part, new(), halves, leaf)?;
+        shares.for_each(|i| finish_item(watch, i, 1 << SHARED));
+        return Ok(vec![found]);
+    };
+    drop(part);
+    let middle = shares.start + shares.len() / 2;
+    let parts = vec![(first, shares.start..middle), (second, middle..shares.end)];
+    let found = |(part, shares)| shared(part, shares, new, halves, leaf, watch);
+    let mut all = Vec::new();
+    for mut part in parallel_map::map(parts, found)? {
+        reserve(&mut all, part.len())?;
+        all.append(&mut part);
+    }
+    Ok(all)
+}
+
+/// What one thread finds in a part.
+fn alone<P, F>(
+    part: P,
+    mut found: F,
+    halves: &impl Fn(&P, &mut F) -> Result<Option<[P; 2]>, Error>,
+    leaf: &impl Fn(&P, &mut F) -> Result<(), Error>,
+) -> Result<F, Error> {
+    let mut stack = vec![part];
+    while let Some(part) = stack.pop() {
+        match halves(&part, &mut found)? {
+            Some([first, second]) => {
+                push(&mut stack, second)?;
+                push(&mut stack, first)?;
+            }
+            None => leaf(&part, &mut found)?,
+        }
+    }
+    Ok(found)
+}
+
+/// Of so many faces at most, the front ones, it is asked whether all their pieces cover a tile.
+const FACES: usize = 8;
+
+/// Items that may show in a tile, front to back.
+#[derive(Debug)]
+pub(super) struct List {
+    pub(super) items: Vec<u32>,
+    /// Items behind this one are missing from the list: they are hidden.
+    limit: u32,
+}
+
+impl List {
+    /// What of all items may show in a tile.
+    pub(super) fn of_all<'t>(
+        stock: &Stock<'t>,
+        rims: &mut Rims<'t>,
+        tile: Tile,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let mut narrow = Narrow::new(stock, rims, tile, u32::MAX, stock.items.len())?;
+        for item in each(watch, NARROWED, 0..stock.items.len() as u32) {
+            if !narrow.add(item?)? {
+                break;
+            }
+        }
+        narrow.finish(watch)
+    }
+
+    /// What of the list may show in a part of the tile.
+    pub(super) fn narrowed<'t>(
+        &self,
+        stock: &Stock<'t>,
+        rims: &mut Rims<'t>,
+        tile: Tile,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let mut narrow = Narrow::new(stock, rims, tile, self.limit, self.items.len())?;
+        for item in each(watch, NARROWED, &self.items) {
+            if !narrow.add(*item?)? {
+                break;
+            }
+        }
+        narrow.finish(watch)
+    }
+}
+
+/// Makes the list of a tile.
+struct Narrow<'a, 't> {
+    stock: &'a Stock<'t>,
+    rims: &'a mut Rims<'t>,
+    sides: Rect,
+    list: List,
+}
+
+impl<'a, 't> Narrow<'a, 't> {
+    /// The list will be of so many items at most, none behind `limit`.
+    fn new(
+        stock: &'a Stock<'t>,
+        rims: &'a mut Rims<'t>,
+        tile: Tile,
+        limit: u32,
+        most: usize,
+    ) -> Result<Self, Error> {
+        let mut items = Vec::new();
+        reserve(&mut items, most)?;
+        Ok(Self { stock, rims, sides: tile.sides(), list: List { items, limit } })
+    }
+
+    /// Adds an item unless it is certain that the tile shows nothing of it; false if no item behind it can
+    /// show.
+    fn add(&mut self, item: u32) -> Result<bool, Error> {
+        let Self { stock, rims, sides, list } = self;
+        if item > list.limit {
+            return Ok(false);
+        }
+        let Item { ref around, .. } = stock.items[item as usize];
+        if are_apart(sides, around) {
+            return Ok(true);
+        }
+        // Lines are made and looked at only where they may tell more than boxes.
+        if reaches_across(around, sides) {
+            match rims.across_item(stock, item, sides)? {
+                Across::Inside if stock.is_opaque(item) => list.limit = item,
+                Across::Outside => return Ok(true),
+                Across::Inside | Across::Maybe => {}
+            }
+        }
+        push(&mut list.items, item)?;
+        Ok(item < list.limit)
+    }
+
+    /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
+    fn finish(self, watch: &Watch<'_>) -> Result<List, Error> {
+        let Self { stock, rims, sides, mut list } = self;
+        let mut end = list.limit;
+        let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
+        for (place, &item) in list.items.iter().enumerate() {
+            if item >= end || tried.len() == FACES {
+                break;
+            }
+            let face = stock.face(item);
+            // If pieces of it are missing from the list, the others alone may not cover the tile.
+            if tried.contains(&face)
+                || !stock.is_opaque(item)
+                || stock.views[face as usize].last > list.limit
+                || !rims.covers(stock, face, &sides)?
+            {
+                continue;
+            }
+            tried.push(face);
+            watch.work(list.items.len() - place)?;
+            let mut siblings =
+                list.items[place..].iter().filter(|&&other| stock.face(other) == face);
+            end = siblings.next_back().map_or(end, |&last| end.min(last));
+        }
+        list.limit = end;
+        let len = list.items.partition_point(|&item| item <= end);
+        list.items.truncate(len);
+        Ok(list)
+    }
+}
+
+/// A piece, with those of its lines that may cross a part of the picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// What the caller gave it: the number of an item, or of a face that is taken whole.
+    pub(super) number: u32,
+    halves: [u32; 2],
+}
+
+impl Reach {
+    /// Whether it covers the whole part.
+    pub(super) const fn covers(&self) -> bool {
+        self.halves[0] == self.halves[1]
+    }
+}
+
+/// The pieces that may reach into a part of the picture.
+#[derive(Debug, Default)]
+pub(super) struct Reaches {
+    pub(super) list: Vec<Reach>,
+    halves: Vec<Half>,
+}
+
+impl Reaches {
+    /// Adds a piece.
+    pub(super) fn push(&mut self, number: u32, halves: &[Half]) -> Result<(), Error> {
+        let start = place(self.halves.len())?;
+        reserve(&mut self.halves, halves.len())?;
+        self.halves.extend_from_slice(halves);
+        push(&mut self.list, Reach { number, halves: [start, place(self.halves.len())?] })
+    }
+
+    pub(super) fn halves_of(&self, reach: &Reach) -> &[Half] {
+        let [start, end] = reach.halves;
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// Those that may reach into a box; `around` gives a box around a piece.
+    pub(super) fn narrowed(
+        &self,
+        lines: &Lines<'_>,
+        sides: &Rect,
+        around: impl Fn(u32) -> Rect,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let mut part = Self::default();
+        'pieces: for reach in each(watch, NARROWED, &self.list) {
+            let reach = reach?;
+            let around = around(reach.number);
+            if are_apart(sides, &around) {
+                continue;
+            }
+            if is_within(&around, sides) {
+                part.push(reach.number, self.halves_of(reach))?;
+                continue;
+            }
+            let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
+            for &half in self.halves_of(reach) {
+                match lines.across(half, sides) {
+                    Across::Inside => {}
+                    Across::Outside => continue 'pieces,
+                    Across::Maybe => kept.push(half),
+                }
+            }
+            part.push(reach.number, &kept)?;
+        }
+        Ok(part)
     }
 }

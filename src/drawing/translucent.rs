@@ -1,24 +1,22 @@
 //! Drawings of translucent polygons: nothing hidden, or what opaque ones hide.
 
+use std::cmp::Reverse;
 use std::ops::ControlFlow;
 
-use super::above::pairs;
-use super::between::Between;
-use super::halving::{LINES, VISITED};
+use super::cell::Cell;
+use super::join::Groups;
+use super::lines::Lines;
+use super::map::{Leaf, Reporter, Visible, each, finish_item, sort_by, sort_unique};
+use super::order::{Found, Ordered, Pair, add, cycles, order, pairs, sorted};
+use super::overlaid::Between;
 use super::overlaid::Overlaid;
-use super::overlaps::overlaps;
-use super::pairs::{Found, Pair, add, sorted};
-use super::parts::Parts;
-use super::paths::Drawing;
-use super::reporter::{Reporter, each, finish_item, sort_by};
-use super::rims::Rims;
-use super::stock::Stock;
-use super::tile::Tile;
-use super::visible::Leaf;
+use super::paths::{Area, Drawing, add_piece};
+use super::stock::{Rims, Stock};
+use super::tile::{CUT, IN_VAIN, LINES, Reaches, Tile, VISITED, found_in, in_vain};
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::Watch;
-use crate::memory::{collect, push};
+use crate::memory::{collect, filled, push, reserve};
 use crate::overlay::Overlay;
 use crate::raster::Rays;
 use crate::tree::BspTree;
@@ -198,4 +196,396 @@ pub(super) fn mixed(
     let ordered = parts.order(stock, &pairs, Some(leaves), watch)?;
     let (drawing, _) = parts.drawing(stock, rims, &ordered, Some(leaves), watch)?;
     Ok(drawing)
+}
+
+/// A tile with the items that may be in it, front to back.
+struct TileStack {
+    tile: Tile,
+    reaches: Reaches,
+    /// How often it was halved in vain: both parts had nearly all items that do not cover them.
+    in_vain: u32,
+}
+
+/// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
+/// pairs are compared; smaller: more tiles.
+const FEW: usize = 8;
+
+/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
+/// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
+pub(super) fn overlaps(
+    stock: &Stock<'_>,
+    rims: &Rims<'_>,
+    picture: Tile,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let mut reaches = Reaches::default();
+    for item in each(watch, 2, 0..stock.items.len() as u32) {
+        let item = item?;
+        reaches.push(item, rims.known_item(stock, item))?;
+    }
+    let all = TileStack { tile: picture, reaches, in_vain: 0 };
+    let halves = |part: &TileStack, _: &mut Found| part.halves(stock, &rims.lines, watch);
+    let leaf = |part: &TileStack, found: &mut Found| part.leaf(stock, &rims.lines, found, watch);
+    let all = all.narrowed(stock, &rims.lines, picture, watch)?;
+    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+}
+
+impl TileStack {
+    fn is_leaf(&self) -> bool {
+        let between = self.reaches.list.split(|reach| reach.covers());
+        let most = between.map(<[_]>::len).max().unwrap_or(0);
+        most <= FEW || self.in_vain == IN_VAIN || self.tile.is_tiny()
+    }
+
+    /// Both halves of the tile; `None` of a leaf.
+    fn halves(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
+        if self.is_leaf() {
+            return Ok(None);
+        }
+        let [first, second] = self.tile.halves();
+        let narrowed = |tile| self.narrowed(stock, lines, tile, watch);
+        let mut parts = [narrowed(first)?, narrowed(second)?];
+        let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
+        let counts = [open(&parts[0]), open(&parts[1])];
+        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, open(self), counts);
+        Ok(Some(parts))
+    }
+
+    fn narrowed(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        tile: Tile,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let around = |item: u32| stock.items[item as usize].around;
+        let reaches = self.reaches.narrowed(lines, &tile.sides(), around, watch)?;
+        Ok(Self { tile, reaches, in_vain: 0 })
+    }
+
+    /// Adds the pairs of the tile.
+    fn leaf(
+        &self,
+        stock: &Stock<'_>,
+        lines: &Lines<'_>,
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let mut add = |below: u32, above: u32| add(found, Pair { below, above });
+        // The last item that covers the tile, and those behind it so far, with what they cover.
+        let mut cover: Option<u32> = None;
+        let mut behind: Vec<(u32, Cell)> = Vec::new();
+        for reach in &self.reaches.list {
+            watch.work(CUT)?;
+            let item = reach.number;
+            if reach.covers() {
+                if let (Some(cover), true) = (cover, behind.is_empty()) {
+                    add(item, cover)?;
+                }
+                for (above, _) in behind.drain(..) {
+                    add(item, above)?;
+                }
+                cover = Some(item);
+                continue;
+            }
+            let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
+            let halves = self.reaches.halves_of(reach);
+            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
+            if let Some(cover) = cover {
+                add(item, cover)?;
+            }
+            let face = |item: u32| stock.face(item);
+            for part in each(watch, CUT, &behind) {
+                let (above, other) = part?;
+                if face(*above) != face(item) && other.meets(lines, halves, watch)? {
+                    add(item, *above)?;
+                }
+            }
+            push(&mut behind, (item, cell))?;
+        }
+        Ok(())
+    }
+}
+
+/// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.
+const NEXT: usize = 16;
+
+/// What is painted at once: items of one polygon.
+pub(super) struct Parts {
+    of_item: Vec<u32>,
+    /// The items of each, one face after another.
+    items: Vec<Vec<u32>>,
+    /// Pairs of items that touch, which an order of the parts can keep beside those that overlap.
+    touching: Vec<Pair>,
+}
+
+impl Parts {
+    /// Parts of which an order is left that keeps the pairs of items that overlap, and as many as can be of
+    /// others that only touch: those the order of the tree may not keep.
+    pub(super) fn new(
+        stock: &Stock<'_>,
+        overlaps: &[Pair],
+        touching: &[Pair],
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let units = units(stock, overlaps, watch)?;
+        let count = units.iter().max().map_or(0, |&most| most as usize + 1);
+        let all = overlaps.iter().chain(touching);
+        let cycles = cycles(count, &contracted(all, &units, watch)?, watch)?;
+        // Units in no cycle are whole. The pieces of the others start by themselves.
+        let mut nodes: Vec<u32> = Vec::new();
+        for item in each(watch, 1, 0..units.len() as u32) {
+            let item = item?;
+            if cycles[units[item as usize] as usize].is_some() {
+                push(&mut nodes, item)?;
+            }
+        }
+        // What is further back has a higher number as an item, and a lower one as a node.
+        let cycle = |item: u32| cycles[units[item as usize] as usize];
+        let key = |item: u32| (cycle(item), Reverse(item));
+        sort_by(&mut nodes, watch, |&a, &b| key(a).cmp(&key(b)))?;
+        let mut node_of: Vec<u32> = collect(units.iter().map(|_| u32::MAX))?;
+        for (node, &item) in (0..).zip(&nodes) {
+            node_of[item as usize] = node;
+        }
+        let in_nodes = |pair: &Pair| {
+            let [a, b] = [pair.below, pair.above].map(cycle);
+            (a.is_some() && a == b).then(|| pair.map(|item| node_of[item as usize]))
+        };
+        let mut pairs = Vec::new();
+        for pair in each(watch, VISITED, overlaps) {
+            if let Some(pair) = in_nodes(pair?) {
+                push(&mut pairs, pair)?;
+            }
+        }
+        let mut groups = Groups::new(nodes.len(), &pairs, watch)?;
+        let mut kept = Vec::new();
+        for pair in each(watch, VISITED, touching) {
+            let pair = pair?;
+            let is_kept = match in_nodes(pair) {
+                Some(pair) => groups.add(pair, watch)?,
+                None => true,
+            };
+            if is_kept {
+                push(&mut kept, *pair)?;
+            }
+        }
+        for (a, b) in candidates(&nodes, &units, watch)? {
+            groups.join(a, b, watch)?;
+        }
+        // A part for each unit that is whole, and for each group.
+        let mut of_item = units;
+        for (node, &item) in (0..).zip(&nodes) {
+            of_item[item as usize] = count as u32 + groups.group(node);
+        }
+        let mut items: Vec<Vec<u32>> = collect((0..count + nodes.len()).map(|_| Vec::new()))?;
+        for placed in each(watch, VISITED, (0..).zip(&of_item)) {
+            let (item, &part) = placed?;
+            push(&mut items[part as usize], item)?;
+        }
+        for items in &mut items {
+            sort_by(items, watch, |&a, &b| stock.face(a).cmp(&stock.face(b)))?;
+        }
+        Ok(Self { of_item, items, touching: kept })
+    }
+
+    /// An order to paint the parts in: it keeps all pairs of items, and else that of the tree. Where something is
+    /// hidden, `leaves` have what shows, and opaque polygons in cycles are clipped.
+    pub(super) fn order(
+        &self,
+        stock: &Stock<'_>,
+        pairs: &[Pair],
+        leaves: Option<&[Leaf]>,
+        watch: &Watch<'_>,
+    ) -> Result<Ordered, Error> {
+        let count = stock.items.len() as u32;
+        let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
+        let ranks = collect(self.items.iter().map(rank))?;
+        let is_opaque = |part: u32| {
+            let first = self.items[part as usize].first();
+            leaves.is_some() && first.is_some_and(|&item| stock.is_opaque(item))
+        };
+        let pairs = contracted(pairs.iter().chain(&self.touching), &self.of_item, watch)?;
+        order(self.items.len(), &pairs, &ranks, &is_opaque, watch)
+    }
+
+    /// The place of each item's part in an order.
+    pub(super) fn places(&self, ordered: &Ordered, watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
+        let mut places = filled(self.items.len(), 0)?;
+        for placed in each(watch, 1, (0..).zip(&ordered.order)) {
+            let (place, &part) = placed?;
+            places[part as usize] = place;
+        }
+        watch.work(self.of_item.len())?;
+        collect(self.of_item.iter().map(|&part| places[part as usize]))
+    }
+
+    /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each number
+    /// of parts.
+    pub(super) fn drawing(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        ordered: &Ordered,
+        leaves: Option<&[Leaf]>,
+        watch: &Watch<'_>,
+    ) -> Result<(Drawing, Vec<u32>), Error> {
+        let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
+        let mut drawing = Drawing::empty(stock.frame.rays.size());
+        let count = ordered.order.len();
+        reserve(&mut drawing.paths, count)?;
+        let counts = Counts::of(stock)?;
+        let mut paths = Vec::new();
+        reserve(&mut paths, count + 1)?;
+        paths.push(0);
+        let mut area = Area::default();
+        for (i, &part) in ordered.order.iter().enumerate() {
+            watch.work(CUT)?;
+            let items = &self.items[part as usize];
+            let shown = cells.as_ref().map(|cells| &cells[part as usize]);
+            let is_clipped = ordered.is_clipped[part as usize];
+            area.clear();
+            match shown {
+                Some(cells) if cells.is_empty() => {}
+                Some(cells) if is_clipped => {
+                    for cell in each(watch, VISITED, cells) {
+                        area.push(&cell?.sides)?;
+                    }
+                }
+                _ => counts.add_pieces(stock, rims, items, &mut area, watch)?,
+            }
+            if !area.is_empty() {
+                let polygon = stock.polygon(items[0]);
+                let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
+                drawing.push(polygon, is_part, &area, &rims.lines, watch)?;
+            }
+            paths.push(drawing.paths.len() as u32);
+            finish_item(watch, i, count);
+        }
+        Ok((drawing, paths))
+    }
+
+    /// What shows of each.
+    fn cells<'l>(
+        &self,
+        leaves: &'l [Leaf],
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Vec<&'l Cell>>, Error> {
+        let mut cells: Vec<Vec<&Cell>> = collect(self.items.iter().map(|_| vec![]))?;
+        for visible in each(watch, VISITED, leaves.iter().flat_map(|leaf| &leaf.cells)) {
+            let Visible { item, cell } = visible?;
+            push(&mut cells[self.of_item[*item as usize] as usize], cell)?;
+        }
+        Ok(cells)
+    }
+}
+
+/// How many items there are.
+struct Counts {
+    of_face: Vec<u32>,
+    of_polygon: Vec<u32>,
+}
+
+impl Counts {
+    fn of(stock: &Stock<'_>) -> Result<Self, Error> {
+        let mut of_face: Vec<u32> = collect(stock.views.iter().map(|_| 0))?;
+        stock.items.iter().for_each(|item| of_face[item.face as usize] += 1);
+        let count = (0..stock.items.len() as u32).map(|item| stock.polygon(item) + 1).max();
+        let mut of_polygon: Vec<u32> = collect((0..count.unwrap_or(0)).map(|_| 0))?;
+        (0..stock.items.len() as u32).for_each(|item| of_polygon[stock.polygon(item)] += 1);
+        Ok(Self { of_face, of_polygon })
+    }
+
+    /// Adds items to an area, those of one face after another.
+    fn add_pieces(
+        &self,
+        stock: &Stock<'_>,
+        rims: &Rims<'_>,
+        items: &[u32],
+        area: &mut Area,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        for same in items.chunk_by(|&a, &b| stock.face(a) == stock.face(b)) {
+            let face = stock.face(same[0]);
+            // The outline of a face is its own where none of its pieces is missing.
+            if same.len() as u32 == self.of_face[face as usize] {
+                add_piece(&rims.lines, rims.known_outline(face), area, watch)?;
+                continue;
+            }
+            for item in each(watch, CUT, same) {
+                add_piece(&rims.lines, rims.known_item(stock, *item?), area, watch)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
+fn units(stock: &Stock<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
+    let polygon = |item: u32| stock.polygon(item);
+    let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
+    let mut is_folded: Vec<bool> = collect((0..count).map(|_| false))?;
+    for pair in each(watch, VISITED, overlaps) {
+        let Pair { below, above } = *pair?;
+        let [below, above] = [below, above].map(polygon);
+        is_folded[below] |= below == above;
+    }
+    let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) =
+        (collect((0..count).map(|_| None))?, collect(stock.views.iter().map(|_| None))?);
+    let (mut units, mut next) = (Vec::new(), 0);
+    reserve(&mut units, stock.items.len())?;
+    for item in each(watch, 1, 0..stock.items.len() as u32) {
+        let item = item?;
+        let polygon = polygon(item);
+        let unit = match is_folded[polygon] {
+            true => &mut of_face[stock.face(item) as usize],
+            false => &mut of_polygon[polygon],
+        };
+        let number = *unit.get_or_insert(next);
+        next += u32::from(number == next);
+        units.push(number);
+    }
+    Ok(units)
+}
+
+/// The pairs between what items belong to.
+fn contracted<'p>(
+    of_items: impl Iterator<Item = &'p Pair>,
+    of_item: &[u32],
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let mut pairs = Vec::new();
+    for pair in each(watch, 1, of_items) {
+        let pair = pair?.map(|item| of_item[item as usize]);
+        if pair.below != pair.above {
+            push(&mut pairs, pair)?;
+        }
+    }
+    sort_unique(&mut pairs, watch)?;
+    Ok(pairs)
+}
+
+/// Nodes of one unit, two at a time, those first that are nearest in the order: they have the fewest
+/// between them. (Which are joined first hardly matters to how many are left.)
+fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u32, u32)>, Error> {
+    let unit = |node: u32| units[nodes[node as usize] as usize];
+    let mut by_unit: Vec<u32> = collect(0..nodes.len() as u32)?;
+    sort_by(&mut by_unit, watch, |&a, &b| unit(a).cmp(&unit(b)))?;
+    let mut pairs = Vec::new();
+    for same in by_unit.chunk_by(|&a, &b| unit(a) == unit(b)) {
+        for numbered in each(watch, NEXT, same.iter().enumerate()) {
+            let (i, &a) = numbered?;
+            for &b in same[i + 1..].iter().take(NEXT) {
+                push(&mut pairs, (a, b))?;
+            }
+        }
+    }
+    let key = |&(a, b): &(u32, u32)| (b - a, a);
+    sort_by(&mut pairs, watch, |a, b| key(a).cmp(&key(b)))?;
+    Ok(pairs)
 }

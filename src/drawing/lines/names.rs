@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::tests::all_lines;
 use crate::BuildOptions;
-use crate::drawing::frame::compare;
-use crate::drawing::half::{Half, STEPS};
+use crate::drawing::exact_lines::compare;
+use crate::drawing::lines::{Half, STEPS};
 use crate::tree::BspTree;
 use crate::view::Camera;
 

@@ -1,13 +1,13 @@
 use glam::DVec3;
 
+use super::Half;
+use super::Key;
 use super::{Adopted, Lines, Rounded};
 use crate::BuildOptions;
 use crate::build::progress::Watch;
-use crate::drawing::half::Half;
-use crate::drawing::key::Key;
-use crate::drawing::rims::Rims;
+use crate::drawing::exact_lines::Twofold;
+use crate::drawing::stock::Rims;
 use crate::drawing::stock::Stock;
-use crate::drawing::twofold::Twofold;
 use crate::random::SplitMix64;
 use crate::raster::Rays;
 use crate::scene::Builtin;

@@ -1,4 +1,4 @@
-use super::*;
+use crate::drawing::stock::*;
 use crate::random::SplitMix64;
 use crate::scene::Builtin;
 use crate::tree::BspTree;
