@@ -55,7 +55,6 @@ pub mod drawing;
 mod error;
 mod exact;
 mod faces;
-mod frustum;
 #[cfg(any(doc, doctest))]
 pub mod guide;
 mod input;
@@ -73,7 +72,6 @@ mod query;
 mod random;
 #[cfg(feature = "raster")]
 pub mod raster;
-mod ray;
 #[cfg(feature = "save")]
 mod save;
 #[cfg(feature = "scene")]
@@ -89,17 +87,15 @@ mod viewpoint;
 pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError, Progress};
 pub use error::Error;
 pub use faces::{Preparation, Tolerance};
-pub use frustum::Frustum;
 pub use glam;
 pub use input::{Point, Polygon};
 pub use query::{Hit, Location};
-pub use ray::Ray;
 #[cfg(feature = "save")]
 pub use save::LoadError;
 pub use tree::{
     Bounds, BspTree, Child, Culling, Flow, Fragment, Grid, Invalid, Node, Part, Sides, Stats,
 };
-pub use viewpoint::Viewpoint;
+pub use viewpoint::{Frustum, Ray, Viewpoint};
 
 /// Vertex and index buffers of a tree: [`BspTree::mesh`].
 pub mod mesh {

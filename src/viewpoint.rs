@@ -1,6 +1,7 @@
-//! Where the viewer is.
+//! From where, along what and in what one looks: viewpoints, rays, frusta.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3, DVec4};
+use smallvec::SmallVec;
 
 /// Where a picture is seen from: a point, or, for a parallel projection, a direction.
 ///
@@ -34,5 +35,174 @@ impl Viewpoint {
     /// The direction in which the viewer looks, from infinitely far away.
     pub fn direction(direction: impl Into<DVec3>) -> Self {
         Self::Direction(direction.into())
+    }
+}
+
+/// A ray, or the segment between two points: what [`BspTree::hits`](crate::BspTree::hits) follows.
+///
+/// Its points are `from + t * direction`, where `t` is the *parameter*. A segment's direction leads
+/// from one end to the other, so that its parameters are 0 to 1, both included.
+///
+/// Coordinates are in the polygons' unit and are taken as they are given, up to digits below 2⁻¹²⁰ of
+/// the scene's extent, or of the distance of the scene or of a point from the origin, if that is larger;
+/// those of a direction, up to digits below 2⁻¹²⁰ of its largest. Near the origin, no `f64` of more than
+/// 2⁻⁶⁸ of the extent has such digits: what is decided about a ray is exact for the very numbers that it
+/// is made of.
+///
+/// | coordinates | the ray |
+/// |---|---|
+/// | any NaN or ±∞ | meets nothing |
+/// | a point further from the scene than 2⁶⁸ extents | may meet nothing |
+/// | a direction of zeros, or two equal ends | is a point: it meets what contains it |
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ray {
+    /// From a point in a direction, without end. The direction may have any length: it is the unit of
+    /// the parameter.
+    Endless {
+        /// The point where `t` is 0.
+        from: DVec3,
+        /// From there to the point where `t` is 1.
+        direction: DVec3,
+    },
+    /// From a point to another.
+    Segment {
+        /// The point where `t` is 0.
+        from: DVec3,
+        /// The point where `t` is 1.
+        to: DVec3,
+    },
+}
+
+impl Ray {
+    /// The ray from a point in a direction, without end.
+    pub fn new(from: impl Into<DVec3>, direction: impl Into<DVec3>) -> Self {
+        Self::Endless { from: from.into(), direction: direction.into() }
+    }
+
+    /// The segment between two points, both included.
+    pub fn between(from: impl Into<DVec3>, to: impl Into<DVec3>) -> Self {
+        Self::Segment { from: from.into(), to: to.into() }
+    }
+}
+
+/// A convex region: the points on the front of some planes, such as the four sides of what a camera
+/// sees.
+///
+/// A plane is a normal, of any length, and an offset: it keeps the points p with
+/// `normal.dot(p) >= offset`, as a [`Node`](crate::Node) has its front. Without planes, the region is
+/// all of space. A plane with a number that is infinite or NaN keeps everything.
+///
+/// ```
+/// use binspace::Frustum;
+/// use binspace::glam::DVec3;
+///
+/// // 1 ≤ x ≤ 2.
+/// let slab = Frustum::new([(DVec3::X, 1.0), (DVec3::NEG_X, -2.0)]);
+/// assert!(slab.meets([DVec3::ZERO, DVec3::splat(1.5)]));
+/// assert!(!slab.meets([DVec3::ZERO, DVec3::splat(0.5)]));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frustum {
+    planes: SmallVec<[(DVec3, f64); 6]>,
+}
+
+impl Frustum {
+    /// The points on the front of all these planes.
+    pub fn new(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Self {
+        let mut all = Self::default();
+        // One by one: a wrong size hint asks for no memory.
+        planes.into_iter().for_each(|plane| all.planes.push(plane));
+        all
+    }
+
+    /// The box between two corners, given by its least and largest coordinates: with a
+    /// [`Culling`](crate::Culling), orders have the fragments whose boxes meet it, and
+    /// [`Bounds::fragments_in`](crate::Bounds::fragments_in) gives those that do so themselves.
+    ///
+    /// ```
+    /// use binspace::glam::DVec3;
+    /// use binspace::{BspTree, Culling, Frustum, Viewpoint};
+    ///
+    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
+    /// let bounds = tree.bounds()?;
+    /// let region = Frustum::of_box([DVec3::new(0.2, 0.2, 6.5), DVec3::new(0.7, 0.4, 9.0)]);
+    /// let (mut inside, below) = (Vec::new(), Viewpoint::direction([0.0, 0.0, 1.0]));
+    /// let culling = Culling::new(&bounds).with_frustum(region);
+    /// tree.culled_front_to_back_into(below, &culling, &mut inside);
+    /// assert!(inside.iter().map(|&f| tree.fragment(f).polygon()).eq([7, 8, 9]));
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    pub fn of_box([low, high]: [DVec3; 2]) -> Self {
+        let sides = |axis: usize| {
+            let normal = DVec3::AXES[axis];
+            [(normal, low[axis]), (-normal, -high[axis])]
+        };
+        Self::new([0, 1, 2].map(sides).into_iter().flatten())
+    }
+
+    /// What a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w: the sides of a picture, as a projection
+    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU has them. Its depths are left alone, so there is
+    /// no near and no far plane.
+    ///
+    /// Points right on the sides may be left out by the rounding of the matrix: widen it a little.
+    pub fn of_matrix(matrix: DMat4) -> Self {
+        let [x, y, w] = [matrix.row(0), matrix.row(1), matrix.row(3)];
+        // Where both sides hold, w is not negative; it is worth a plane of its own for boxes.
+        Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
+    }
+
+    /// The planes.
+    pub fn planes(&self) -> &[(DVec3, f64)] {
+        &self.planes
+    }
+
+    /// Whether a box, given by its least and largest coordinates, may have points in the region:
+    /// whether it is not outside of one of the planes.
+    ///
+    /// Rounding makes it say yes too often, never no: the box counts as larger by some 10⁻¹⁵ of its
+    /// distance from the origin. It also says yes where a box is outside, but not of any one plane.
+    pub fn meets(&self, [low, high]: [DVec3; 2]) -> bool {
+        let reach = low.abs().max(high.abs());
+        !self.planes.iter().any(|&(normal, offset)| {
+            let size = normal.abs().dot(reach) + offset.abs();
+            let furthest = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
+            normal.dot(furthest) < offset - (size * ROUNDINGS + f64::MIN_POSITIVE)
+        })
+    }
+}
+
+/// Roundings in a scalar product of three terms, its comparison, and the bound itself.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+#[cfg(test)]
+mod frustum_tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_keeps_what_it_maps_into_the_picture() {
+        let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
+        // A perspective of 1.5 radians, half as high again in width, with w = −z.
+        let mut perspective = DMat4::from_scale(DVec3::new(1.0 / 1.5, 1.0, -1.0) / 0.75_f64.tan());
+        (perspective.z_axis.w, perspective.w_axis.w) = (-1.0, 0.0);
+        let frustum = Frustum::of_matrix(perspective * view);
+        let meets = |x: f64, y: f64, z: f64| frustum.meets([DVec3::new(x, y, z); 2]);
+        // From z = 5 along −z: half the height at distance 5 is 5 tan 0.75 = 4.66.
+        assert!(meets(0.0, 4.6, 0.0) && !meets(0.0, 4.7, 0.0));
+        assert!(meets(-6.9, 0.0, 0.0) && !meets(-7.1, 0.0, 0.0));
+        assert!(meets(0.0, 0.0, 4.99) && !meets(0.0, 0.0, 5.01) && meets(0.0, 0.0, -1e9));
+    }
+
+    #[test]
+    fn numbers_that_are_none_keep_everything() {
+        let boxes = [[DVec3::ZERO; 2], [DVec3::MIN, DVec3::MAX], [DVec3::splat(1e300); 2]];
+        let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        for bounds in boxes {
+            for number in numbers {
+                assert!(Frustum::new([(DVec3::X, number)]).meets(bounds));
+                assert!(Frustum::new([(DVec3::new(0.0, number, 1.0), 0.0)]).meets(bounds));
+            }
+            assert!(Frustum::default().meets(bounds));
+        }
     }
 }

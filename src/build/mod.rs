@@ -15,6 +15,5 @@ mod small_sets;
 mod subtree;
 
 pub use frames::FrameBuilder;
-pub use options::BuildOptions;
-pub use options::{Heuristic, ParseHeuristicError};
+pub use options::{BuildOptions, Heuristic, ParseHeuristicError};
 pub use progress::Progress;

@@ -7,8 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use smallvec::SmallVec;
 
 use super::choose::{Choice, Chooser, Peeled, Rules, Set, Tuning};
-use super::jobs::Output;
-use super::jobs::{Job, is_worth_a_job};
+use super::jobs::{Job, Output, is_worth_a_job};
 use super::options::BuildOptions;
 use super::piece::{Piece, Splitter};
 use super::progress::{PIECES_AT_ONCE, Watch};

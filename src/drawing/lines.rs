@@ -7,9 +7,7 @@ use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use smallvec::SmallVec;
 
-use super::exact_lines::Twofold;
-use super::exact_lines::{ExactLine, Frame, compare, is_opposite};
-use super::exact_lines::{ROUNDING, Rounded};
+use super::exact_lines::{ExactLine, Frame, ROUNDING, Rounded, Twofold, compare, is_opposite};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::memory::{filled, push};

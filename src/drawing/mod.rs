@@ -62,7 +62,6 @@ mod translucent;
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{MapCell, Shown, VisibilityMap};
 pub use overlaid::{LineRun, MarkerView};
-pub use paths::DisplayItem;
-pub use paths::{Drawing, Path};
+pub use paths::{DisplayItem, Drawing, Path};
 pub use pen::{Polyline, polylines};
 pub use regions::Region;

@@ -6,8 +6,7 @@ use std::cmp::Ordering;
 use super::lattice::{Lattice, exponent_of, scaled, two_sum};
 use super::plane::Plane;
 use super::{Faces, Int, PlaneId, PlaneKind};
-use crate::ray::Ray;
-use crate::viewpoint::Viewpoint;
+use crate::viewpoint::{Ray, Viewpoint};
 
 /// A viewpoint in lattice units, rounded once: the point integer · 2^shift, or, without a shift,
 /// the direction in which the eye is infinitely far away.

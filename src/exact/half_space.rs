@@ -11,8 +11,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::label::Symbol;
-use super::lattice::HalfSpaceNumbers;
-use super::lattice::Lattice;
+use super::lattice::{HalfSpaceNumbers, Lattice};
 use super::plane::{dot, relative_to};
 use super::vertex::Weights;
 use super::{Faces, Int};

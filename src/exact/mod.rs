@@ -42,8 +42,6 @@ pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub(crate) use lattice::integers;
 #[cfg(feature = "drawing")]
-pub(crate) use plane::dot;
-pub(crate) use plane::{Plane, cross};
-pub(crate) use plane::{RoundedNormal, have_area};
+pub(crate) use plane::{Plane, RoundedNormal, cross, dot, have_area};
 pub(crate) use position::OFF as POSITION_OFF;
 pub use split::{StoredVertex, Vertex, split};

@@ -21,8 +21,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::Int;
-use super::edge::{ExactEdge, Moved};
-use super::edge::{Flattener, Off};
+use super::edge::{ExactEdge, Flattener, Moved, Off};
 use super::faces::Faces;
 use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
 use super::plane::{Plane, cross, relative_to};

@@ -3,8 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 use smallvec::SmallVec;
 
-use super::piece::Layer;
-use super::piece::{ClippedCorner, LayerVertex};
+use super::piece::{ClippedCorner, Layer, LayerVertex};
 
 /// A layer counts as seen along its edge if its area on the screen is less than so many roundings of
 /// its matrix. Smaller: cards turned by a rounded right angle cut others; larger: thin cards vanish.

@@ -115,6 +115,4 @@ mod page;
 mod piece;
 
 pub use page::Layers;
-pub use piece::Layer;
-pub use piece::LayerPiece;
-pub use piece::LayerVertex;
+pub use piece::{Layer, LayerPiece, LayerVertex};

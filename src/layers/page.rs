@@ -3,9 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::clip::{MOST_CORNERS, clip};
-use super::piece::ClippedCorner;
-use super::piece::Layer;
-use super::piece::LayerPiece;
+use super::piece::{ClippedCorner, Layer, LayerPiece};
 use crate::build::{BuildOptions, FrameBuilder};
 use crate::error::{Error, InputFault, InputKind, Kind};
 use crate::faces::DEFAULT_TOLERANCE;

@@ -3,8 +3,7 @@
 use std::ops::Range;
 
 use super::planes::{CellTree, Opened, Region, Whose};
-use super::skeleton::Anchors;
-use super::skeleton::{Place, Skeleton, SlotSide};
+use super::skeleton::{Anchors, Place, Skeleton, SlotSide};
 use super::{Overlay, planes};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};

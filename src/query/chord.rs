@@ -7,8 +7,7 @@
 use std::cmp::Ordering;
 
 use crate::exact::eye::{AtRay, ExactRay, Parameter};
-use crate::exact::integers;
-use crate::exact::{Faces, Line, Plane, PlaneId};
+use crate::exact::{Faces, Line, Plane, PlaneId, integers};
 use crate::tree::Fragment;
 use crate::tree::fragment::{along, plane_points};
 

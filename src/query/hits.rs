@@ -9,13 +9,12 @@ use smallvec::SmallVec;
 
 use super::chord::{Chord, Spot, chord};
 use super::filter::{Guess, guess};
-use super::probe::Probe;
-use super::probe::{Depth, Meeting};
+use super::probe::{Depth, Meeting, Probe};
 use super::walk::Walk;
 use crate::exact::Faces;
 use crate::exact::eye::{ExactRay, Parameter};
-use crate::ray::Ray;
 use crate::tree::{Bounds, BspTree, Fragment};
+use crate::viewpoint::Ray;
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///

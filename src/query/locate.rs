@@ -10,8 +10,8 @@ use super::filter::is_off_plane;
 use super::probe::Probe;
 use crate::exact::PlaneId;
 use crate::exact::eye::ExactRay;
-use crate::ray::Ray;
 use crate::tree::{BspTree, Child, Node};
+use crate::viewpoint::Ray;
 
 /// Where a point is in a tree: [`BspTree::locate`].
 ///

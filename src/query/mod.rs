@@ -23,7 +23,6 @@ mod region;
 mod walk;
 
 pub use chord::Spot;
-pub use hits::Hit;
-pub use hits::Hits;
+pub use hits::{Hit, Hits};
 pub use locate::Location;
 pub use region::FragmentsIn;

@@ -7,8 +7,8 @@ use super::filter::{Guess, guess};
 use crate::exact::eye::{ExactRay, Parameter};
 use crate::exact::lattice::{MAX_CORNER, exponent_of, scaled};
 use crate::exact::{Faces, Lattice, PlaneId};
-use crate::ray::Ray;
 use crate::tree::Fragment;
+use crate::viewpoint::Ray;
 
 /// A ray in lattice units, rounded, and in integers as soon as they are needed.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use smallvec::SmallVec;
 use super::chord::upright;
 use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
 use crate::exact::{Faces, Line, SymbolKind};
-use crate::frustum::Frustum;
 use crate::tree::{BLOCK, Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
+use crate::viewpoint::Frustum;
 
 /// The numbers of the fragments that have points in a region: [`Bounds::fragments_in`].
 #[derive(Clone, Debug)]

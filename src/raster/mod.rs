@@ -28,17 +28,15 @@ mod zbuffer;
 pub use crate::exact::Faces;
 #[cfg(feature = "drawing")]
 pub(crate) use bounds::VERTEX_ERROR;
-pub use compare_pictures::{Comparison, Verdict, compare};
-pub use compare_pictures::{DepthError, depth_error};
+pub use compare_pictures::{Comparison, DepthError, Verdict, compare, depth_error};
 pub(crate) use compare_pictures::{compare_by, is_open};
 pub(crate) use coverage::Mask;
 #[cfg(feature = "drawing")]
 pub(crate) use line::edge;
 #[cfg(feature = "drawing")]
 pub(crate) use line::{Sheet, normal_of};
-pub(crate) use painter::Layers;
-pub(crate) use painter::covers;
 pub use painter::{Image, NONE};
+pub(crate) use painter::{Layers, covers};
 pub(crate) use picture::for_each_shaded;
 pub use picture::{blend, brightness, colour_of, depth_map, difference, picture};
 #[cfg(feature = "drawing")]

@@ -12,8 +12,7 @@ use super::order::eye::View;
 use super::order::iterate::write_from_nodes;
 use crate::bits::bits;
 use crate::exact::{Eye, Lattice, PlaneId};
-use crate::frustum::Frustum;
-use crate::viewpoint::Viewpoint;
+use crate::viewpoint::{Frustum, Viewpoint};
 
 /// What is left out of an order: [`BspTree::culled_back_to_front_into`].
 ///

@@ -11,9 +11,7 @@ use super::BspTree;
 use crate::error::{Error, Limit};
 use crate::exact::{Symbol, SymbolKind};
 use crate::memory::{empty, reserve};
-use survey::{FragmentEdge, Node, Survey, ends};
-use survey::{OutlineVertex, triangulate};
-use survey::{Points, coordinate};
+use survey::{FragmentEdge, Node, OutlineVertex, Points, Survey, coordinate, ends, triangulate};
 
 pub use triangles::Triangles;
 

@@ -1,6 +1,5 @@
 //! The finished tree.
 
-mod between;
 mod bounds;
 pub(crate) mod bsp_tree;
 mod culling;
@@ -16,14 +15,10 @@ mod tests;
 mod validate;
 
 pub use bounds::Bounds;
-pub(crate) use bounds::HalfSpace;
-pub(crate) use bounds::rounding;
-pub(crate) use bounds::{BLOCK, Flat};
-pub use bsp_tree::BspTree;
-pub use bsp_tree::Stats;
+pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
+pub use bsp_tree::{BspTree, Stats};
 pub use culling::{Culling, Sides};
-pub use fragment::Grid;
-pub use fragment::{Fragment, Fragments};
+pub use fragment::{Fragment, Fragments, Grid};
 pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use node::{Child, Node, Nodes};
 pub use order::{Flow, Ordered, Part};

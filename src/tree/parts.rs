@@ -1,8 +1,7 @@
 //! The output of a builder, from which a tree is made, and into which it is taken apart.
 
 use super::BspTree;
-use super::node::NodeRecord;
-use super::node::Walk;
+use super::node::{NodeRecord, Walk};
 use crate::exact::{PlaneId, StoredVertex};
 
 /// A node as the builder writes it.

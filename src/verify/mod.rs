@@ -9,8 +9,7 @@ use crate::raster::{Comparison, DepthImage, Image, Layers, Order, Rays, zbuffer_
 use crate::tree::BspTree;
 use crate::view::{Camera, CameraError};
 
-use orders::Orders;
-use orders::compare_by_planes;
+use orders::{Orders, compare_by_planes};
 
 pub use orders::{OrderFault, check_orders};
 

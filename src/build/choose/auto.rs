@@ -1,14 +1,11 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
 use super::axis_planes::FreePlanes;
-use super::cost::{Candidate, Terms};
-use super::cost::{Quick, Tuning};
-use super::own::Contest;
-use super::own::Sample;
+use super::cost::{Candidate, Quick, Terms, Tuning};
+use super::own::{Contest, Sample};
 use super::peel::{Peeler, arrange};
 use super::quick::{Middle, even_plane};
-use super::set::LANES;
-use super::set::Set;
+use super::set::{LANES, Set};
 use super::{Choice, Rules};
 use crate::Error;
 use crate::build::piece::Piece;

@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::cost::Tuning;
-use super::cost::{Candidate, Cost, Counts};
+use super::cost::{Candidate, Cost, Counts, Tuning};
 use super::set::Set;
 use crate::Error;
 use crate::build::piece::Piece;

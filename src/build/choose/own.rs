@@ -1,9 +1,7 @@
 //! The best of the pieces' own planes, by successive halving.
 
-use super::cost::Tuning;
-use super::cost::{Candidate, Cost, Counts, Terms};
-use super::set::Set;
-use super::set::{LANES, Sketch, SketchPlane};
+use super::cost::{Candidate, Cost, Counts, Terms, Tuning};
+use super::set::{LANES, Set, Sketch, SketchPlane};
 use crate::Error;
 use crate::build::piece::Piece;
 use crate::build::progress::{PIECES_AT_ONCE, Watch};

@@ -3,8 +3,7 @@
 use std::ops::Range;
 
 use super::cost::Tuning;
-use super::set::Set;
-use super::set::{LANES, Reach, Sketch, SketchBox, SketchPlane};
+use super::set::{LANES, Reach, Set, Sketch, SketchBox, SketchPlane};
 use crate::Error;
 use crate::bits::bits;
 use crate::build::progress::Watch;

@@ -1,13 +1,10 @@
 use glam::DVec3;
 
-use super::Half;
-use super::Key;
-use super::{Adopted, Lines, Rounded};
+use super::{Adopted, Half, Key, Lines, Rounded};
 use crate::BuildOptions;
 use crate::build::progress::Watch;
 use crate::drawing::exact_lines::Twofold;
-use crate::drawing::stock::Rims;
-use crate::drawing::stock::Stock;
+use crate::drawing::stock::{Rims, Stock};
 use crate::random::SplitMix64;
 use crate::raster::Rays;
 use crate::scene::Builtin;

@@ -9,7 +9,7 @@ use super::{Probe, SPEED_BITS};
 use crate::exact::Lattice;
 use crate::exact::eye::ExactRay;
 use crate::random::SplitMix64;
-use crate::ray::Ray;
+use crate::viewpoint::Ray;
 
 /// Half an ulp of 1: one rounding.
 const ROUNDING: f64 = f64::EPSILON / 2.0;

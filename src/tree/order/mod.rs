@@ -4,5 +4,4 @@ pub(crate) mod eye;
 pub(crate) mod iterate;
 pub(crate) mod layout;
 
-pub use iterate::Ordered;
-pub use iterate::{Flow, Part};
+pub use iterate::{Flow, Ordered, Part};

@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use super::super::cost::{Candidate, Cost, work};
 use super::super::tests::{Fixture, triangles};
-use super::Sample;
-use super::{Contest, Terms};
+use super::{Contest, Sample, Terms};
 use crate::build::choose::cost::Tuning;
 use crate::build::choose::set::Set;
 use crate::exact::{PlaneKind, Side};

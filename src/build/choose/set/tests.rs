@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::super::tests::{Fixture, grid, triangles};
-use super::Set;
-use super::{LANES, Sketch};
+use super::{LANES, Set, Sketch};
 use crate::exact::{PlaneId, Side};
 use crate::random::SplitMix64;
 

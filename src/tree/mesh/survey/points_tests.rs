@@ -6,8 +6,7 @@ use glam::DVec3;
 
 use crate::random::SplitMix64;
 use crate::tree::BspTree;
-use crate::tree::mesh::survey::Survey;
-use crate::tree::mesh::survey::{Points, by_line, compare};
+use crate::tree::mesh::survey::{Points, Survey, by_line, compare};
 use crate::{BuildOptions, Heuristic};
 
 /// By how much a corner is below the plane of the others.
