@@ -90,8 +90,12 @@ impl Error {
         )
     }
 
-    /// Whether memory ran out. Not every lack of memory is reported as an error: a system that
-    /// promises more memory than it has may end the program instead.
+    /// Whether the polygons, the tree, its layout or its mesh do not fit into memory.
+    ///
+    /// Other lists, such as those of drawings and overlays, are not checked: where they do not fit, the
+    /// program ends, as Rust programs do. A system that promises more memory than it has may end it
+    /// earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit what a
+    /// build takes.
     pub const fn is_out_of_memory(&self) -> bool {
         matches!(self.kind, Kind::OutOfMemory)
     }

@@ -49,16 +49,6 @@ pub(crate) fn collect<T>(items: impl ExactSizeIterator<Item = T>) -> Result<Vec<
     Ok(list)
 }
 
-/// A list of so many times the same.
-///
-/// # Errors
-///
-/// If there is not enough memory.
-#[cfg(feature = "drawing")]
-pub(crate) fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
-    collect(std::iter::repeat_n(value, len))
-}
-
 /// A table with more room than this for each of its entries is given back rather than emptied.
 /// Smaller: sets of about one size ask for memory again and again; larger: more time for empty room.
 const ROOM: usize = 8;

@@ -6,7 +6,6 @@ use crate::bits::bits;
 use crate::build::choose::{Best, MOST_IN_TABLE, Quick, Rules, Set, crosses};
 use crate::build::piece::Piece;
 use crate::exact::{PlaneId, PreparedPlane, Side};
-use crate::memory::{push, reserve};
 use crate::tree::parts::{RawChild, RawNode};
 
 /// The most pieces in a table.
@@ -79,7 +78,7 @@ impl Builder<'_> {
         depth: usize,
         quick: &Quick,
     ) -> Result<(), Error> {
-        self.fill_table(start)?;
+        self.fill_table(start);
         let all = u64::MAX >> (SLOTS - self.table.slots.len());
         self.table.sets.push(Open { set: all, depth });
         while let Some(Open { set, depth }) = self.table.sets.pop() {
@@ -88,7 +87,8 @@ impl Builder<'_> {
             if spanning.count_ones() > self.table.free.count_ones() {
                 // There are not enough slots, so smaller sets get tables of their own.
                 self.table.sets.push(Open { set, depth });
-                return self.leave_table();
+                self.leave_table();
+                return Ok(());
             }
             self.shared.budget.check_depth(depth + 1)?;
             self.shared.budget.count(spanning.count_ones() as usize)?;
@@ -106,7 +106,7 @@ impl Builder<'_> {
     }
 
     /// Moves the pieces on top of the stack into slots, and prepares the planes of their faces.
-    fn fill_table(&mut self, start: usize) -> Result<(), Error> {
+    fn fill_table(&mut self, start: usize) {
         let faces = self.shared.faces;
         let table = &mut self.table;
         let count = self.pieces.len() - start;
@@ -129,7 +129,6 @@ impl Builder<'_> {
         }
         self.pieces.truncate(start);
         table.free = !(u64::MAX >> (SLOTS - count));
-        Ok(())
     }
 
     /// The best plane for a set: the first of its own that divides it evenly and cuts nothing, or that
@@ -138,7 +137,7 @@ impl Builder<'_> {
     /// planes come first.)
     fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row, Error> {
         let (slot, ends_search) = self.best_own_of_table(set, quick)?;
-        if !ends_search && let Some(free) = self.free_of_table(set)? {
+        if !ends_search && let Some(free) = self.free_of_table(set) {
             return Ok(free);
         }
         self.settle_row(set, slot)
@@ -212,13 +211,13 @@ impl Builder<'_> {
     }
 
     /// A free plane that cuts nothing of a set.
-    fn free_of_table(&mut self, set: u64) -> Result<Option<Row>, Error> {
+    fn free_of_table(&mut self, set: u64) -> Option<Row> {
         let Shared { faces, rules, .. } = self.shared;
         let listed = &mut self.scratch.own;
         listed.clear();
         listed.extend(bits(set).map(|slot| self.table.slots[slot].piece));
         let pieces = Set::new(faces, listed, &self.arena);
-        let Some(plane) = self.chooser.clean(rules, &pieces)? else { return Ok(None) };
+        let plane = self.chooser.clean(rules, &pieces)?;
         let mut row = Row::new(plane, PreparedPlane::new(faces, plane));
         for slot in bits(set) {
             let piece = &self.table.slots[slot].piece;
@@ -227,7 +226,7 @@ impl Builder<'_> {
         // Free planes are found by rounded distances, so exact decisions can show that one separates
         // nothing.
         let separates = set & !row.front != 0 && set & !row.back != 0;
-        Ok(separates.then_some(row))
+        separates.then_some(row)
     }
 
     /// Cuts the piece in a slot, and gives the slots of its parts, the one in front first.
@@ -297,15 +296,14 @@ impl Builder<'_> {
     }
 
     /// Puts the sets that are not yet divided back on the stack.
-    fn leave_table(&mut self) -> Result<(), Error> {
+    fn leave_table(&mut self) {
         let arena = self.arena.len();
         for i in 0..self.table.sets.len() {
             let Open { set, depth } = self.table.sets[i];
             let start = self.pieces.len();
-            reserve(&mut self.pieces, set.count_ones() as usize)?;
+            self.pieces.reserve(set.count_ones() as usize);
             self.pieces.extend(bits(set).map(|slot| self.table.slots[slot].piece));
-            push(&mut self.pending, Pending::new(start..self.pieces.len(), arena, depth))?;
+            self.pending.push(Pending::new(start..self.pieces.len(), arena, depth));
         }
-        Ok(())
     }
 }

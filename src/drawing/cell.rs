@@ -8,7 +8,6 @@ use super::lines::{Half, Lines};
 use super::stock::FEW_CORNERS;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::reserve;
 
 /// A side of a cell, and where it begins.
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +110,6 @@ impl Cell {
                 return Ok(None);
             }
             if let Some(outside) = &mut outside {
-                reserve(outside, 1)?;
                 outside.push(cell.part(lines, half.flipped(true), &signs, Ordering::Less));
             }
             part = Some(cell.part(lines, half, &signs, Ordering::Greater));

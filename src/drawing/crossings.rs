@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 use super::cell::Cell;
 use super::edges::{Depths, EdgeKind, EdgeRun, SHORTEST, in_layers};
 use super::exact_lines::compare;
-use super::lines::{Half, Lines, Table, insert};
+use super::lines::{Half, Lines, Table};
 use super::map::{VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
@@ -17,7 +17,6 @@ use super::stock::{Rims, Stock, View};
 use super::tile::{CUT, IN_VAIN, LINES, NARROWED, Tile, VISITED, found_in, in_vain};
 use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
-use crate::memory::{collect, push, reserve};
 use crate::{Error, parallel_map};
 
 /// A side of a cell on the line of a cut.
@@ -63,7 +62,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
             let inner = InnerEdges::of(self.stock.frame.faces, watch)?;
@@ -72,7 +71,7 @@ impl VisibilityMap<'_> {
             for line in common.chunk_by(|a, b| a.line == b.line) {
                 let first = runs.len();
                 for side in each(watch, VISITED, line) {
-                    push(&mut runs, self.run(side?))?;
+                    runs.push(self.run(side?));
                 }
                 merge(&mut runs, first, watch)?;
             }
@@ -101,9 +100,9 @@ impl VisibilityMap<'_> {
                 for b in each(watch, VISITED, ahead) {
                     let b = b?;
                     if b.is_negative != a.is_negative
-                        && self.do_cross(a, b, inner, &mut are_crossing)?
+                        && self.do_cross(a, b, inner, &mut are_crossing)
                     {
-                        push(&mut common, CommonSide::new([a, b], inner))?;
+                        common.push(CommonSide::new([a, b], inner));
                     }
                 }
             }
@@ -134,7 +133,7 @@ impl VisibilityMap<'_> {
                 let end = &sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
                 let is_negative = side.half.is_negative();
                 let (places, ends) = self.along(line, [side.start.at, end.start.at]);
-                push(&mut found, CutSide { line, face, inner, is_negative, places, ends })?;
+                found.push(CutSide { line, face, inner, is_negative, places, ends });
             }
             Ok(())
         };
@@ -156,7 +155,7 @@ impl VisibilityMap<'_> {
             for (k, half) in (0..).zip(halves) {
                 if inner.across((face, k)).is_some() {
                     watch.work(VISITED)?;
-                    insert(&mut bends, half.positive(), ())?;
+                    bends.insert(half.positive(), ());
                 }
             }
         }
@@ -178,7 +177,7 @@ impl VisibilityMap<'_> {
                 let line = half.positive();
                 if is_wanted(line) {
                     let edge = inner.across((face, k)).map(|_| (face, k));
-                    insert(&mut edges, (face, line), edge)?;
+                    edges.insert((face, line), edge);
                 }
             }
             finish_item(watch, face as usize, self.stock.views.len());
@@ -197,24 +196,18 @@ impl VisibilityMap<'_> {
     }
 
     /// Whether two faces go through one another in the line between cells of theirs.
-    fn do_cross(
-        &self,
-        a: &CutSide,
-        b: &CutSide,
-        inner: &InnerEdges,
-        known: &mut Known,
-    ) -> Result<bool, Error> {
+    fn do_cross(&self, a: &CutSide, b: &CutSide, inner: &InnerEdges, known: &mut Known) -> bool {
         let (lines, faces) = (&self.rims.lines, self.stock.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
-            return Ok(false);
+            return false;
         }
         let [one, other] = [a.face.min(b.face), a.face.max(b.face)];
         let is_bent = a.inner.is_some() || b.inner.is_some();
         if !is_bent && lines.is_cut_of(a.line, [one, other]) {
-            return Ok(true);
+            return true;
         }
-        known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-        Ok(*known.entry((a.line, [one, other])).or_insert_with(|| {
+        known.reserve(1);
+        *known.entry((a.line, [one, other])).or_insert_with(|| {
             if is_bent {
                 // Of the edges of both only those on this line: others may end on it.
                 let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
@@ -225,7 +218,7 @@ impl VisibilityMap<'_> {
             // Faces of one plane have no line in common but all of it.
             let is_line = cut.iter().any(|c| c.sign().is_ne());
             is_line && compare(&cut, &lines.exact(a.line)).is_eq()
-        }))
+        })
     }
 
     fn run(&self, side: &CommonSide) -> EdgeRun {
@@ -279,7 +272,7 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize, watch: &Watch<'_>) -> Result<(),
                     before.ends[1] = end;
                 }
             }
-            None => push(runs, run)?,
+            None => runs.push(run),
         }
     }
     Ok(())
@@ -307,7 +300,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn crossings_with_hidden(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(4, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
@@ -321,12 +314,11 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(6, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
-            let mut sights: Vec<Sight> = Vec::new();
-            reserve(&mut sights, crossings.len())?;
+            let mut sights: Vec<Sight> = Vec::with_capacity(crossings.len());
             for crossing in each(watch, VISITED, &crossings) {
                 sights.push(crossing?.sight);
             }
@@ -346,7 +338,7 @@ impl VisibilityMap<'_> {
         // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
         for side in each(watch, VISITED, &shown) {
             let [below, above] = side?.faces;
-            push(&mut pairs, Pair { below, above })?;
+            pairs.push(Pair { below, above });
         }
         sort_unique(&mut pairs, watch)?;
         Ok((crossings_of(&pairs, stock, &inner, watch)?, shown))
@@ -370,7 +362,7 @@ impl VisibilityMap<'_> {
             visible.clear();
             for side in each(watch, VISITED, own) {
                 let [a, b] = side?.ends.map(|end| sight.course.place_on(end));
-                push(&mut visible, [a.min(b), a.max(b)])?;
+                visible.push([a.min(b), a.max(b)]);
             }
             sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
             let [a, b] = crossing.faces.map(|face| faces.polygon(face));
@@ -378,13 +370,13 @@ impl VisibilityMap<'_> {
             for (ends, is_visible) in parts(&sight.course, visible.iter().copied()) {
                 let run = EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None };
                 let Some(depths) = depths else {
-                    push(&mut runs, run)?;
+                    runs.push(run);
                     continue;
                 };
                 for (ends, layers) in
                     in_layers(ends, is_visible, Some((sight, depths.of(i))), watch)?
                 {
-                    push(&mut runs, EdgeRun { ends, layers: Some(layers), ..run })?;
+                    runs.push(EdgeRun { ends, layers: Some(layers), ..run });
                 }
             }
         }
@@ -413,7 +405,7 @@ fn crossings_of(
                 None => straight(faces, stock, &mut rims, watch)?,
             };
             if let Some(sight) = sight {
-                push(&mut found, Crossing { faces, sight })?;
+                found.push(Crossing { faces, sight });
             }
         }
         finish_item(watch, i, count);
@@ -421,7 +413,7 @@ fn crossings_of(
     };
     let mut all = Vec::new();
     for mut found in parallel_map::map(shares, share)? {
-        reserve(&mut all, found.len())?;
+        all.reserve(found.len());
         all.append(&mut found);
     }
     Ok(all)
@@ -504,12 +496,13 @@ pub(super) fn straddling(
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let faces = stock.frame.faces;
-    let boxes: Vec<Aabb> = collect((0..faces.len() as u32).map(|face| aabb(faces.corners(face))))?;
+    let boxes: Vec<Aabb> =
+        ((0..faces.len() as u32).map(|face| aabb(faces.corners(face)))).collect();
     let (mut seen, mut all) = (Vec::new(), NOTHING);
     for face in each(watch, 1, 0..faces.len() as u32) {
         let face = face?;
         if stock.sees(face) {
-            push(&mut seen, face)?;
+            seen.push(face);
             all = around(all, boxes[face as usize]);
         }
     }
@@ -528,7 +521,7 @@ pub(super) fn straddling(
                 if let Some([below, above]) =
                     if is_crossed { Some([a.min(b), a.max(b)]) } else { bend() }
                 {
-                    add(found, Pair { below, above })?;
+                    add(found, Pair { below, above });
                 }
             }
         }
@@ -566,10 +559,10 @@ impl Block {
             let face = *face?;
             let [from, to] = boxes[face as usize];
             if from[axis] <= middle {
-                push(&mut parts[0].faces, face)?;
+                parts[0].faces.push(face);
             }
             if to[axis] >= middle {
-                push(&mut parts[1].faces, face)?;
+                parts[1].faces.push(face);
             }
         }
         let counts = parts.each_ref().map(|part| part.faces.len());
@@ -626,10 +619,12 @@ impl InnerEdges {
                     let key = (faces.polygon(face), ends);
                     match open.remove(&key) {
                         Some(other) => {
-                            insert(&mut across, (face, k), other)?;
-                            insert(&mut across, other, (face, k))?;
+                            across.insert((face, k), other);
+                            across.insert(other, (face, k));
                         }
-                        None => insert(&mut open, key, (face, k))?,
+                        None => {
+                            open.insert(key, (face, k));
+                        }
                     }
                 }
             }

@@ -9,7 +9,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::crossings::{FaceEdge, InnerEdges};
-use super::lines::{Lines, Table, insert};
+use super::lines::{Lines, Table};
 use super::map::{VisibilityMap, Visible, each, finish_item, sort_by};
 use super::overlaid::{LineRun, sights};
 use super::sight::{Course, Pass, Passing, Pieces, Sight, merged, parts, passes};
@@ -18,7 +18,6 @@ use super::tile::{CUT, LINES, Reaches, VISITED};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId};
-use crate::memory::{collect, push, reserve};
 use crate::overlay::Overlay;
 
 /// Edges with the runs of those that a polygon shows.
@@ -47,12 +46,11 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn edges(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
             let list = self.edge_runs(watch)?.list;
-            let mut runs = Vec::new();
-            reserve(&mut runs, list.len())?;
+            let mut runs = Vec::with_capacity(list.len());
             for run in each(watch, 1, list) {
                 runs.push(run?.0);
             }
@@ -67,14 +65,14 @@ impl VisibilityMap<'_> {
         let side = |face| views.side(face);
         let (mut edges, numbers) = shared_edges(&self.rims.lines, is_drawn, side, watch)?;
         self.collect(&mut edges, &numbers, watch)?;
-        let (mut list, count) = (Vec::new(), edges.len());
-        reserve(&mut list, count)?;
+        let count = edges.len();
+        let mut list = Vec::with_capacity(count);
         for numbered in each(watch, VISITED, edges.iter_mut().enumerate()) {
             let (number, edge) = numbered?;
             if let Some(course) = edge.course {
                 let first = list.len();
                 sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
-                views.runs(edge, &course, |run| push(&mut list, (run, number as u32)))?;
+                views.runs(edge, &course, |run| list.push((run, number as u32)));
                 watch.work((list.len() - first) * VISITED)?;
             }
             finish_item(watch, number, count);
@@ -101,7 +99,7 @@ impl VisibilityMap<'_> {
             for (k, half) in corners.zip(self.rims.known_outline(face)) {
                 watch.work(VISITED)?;
                 if numbers.contains_key(&(face, k)) {
-                    edges.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                    edges.reserve(1);
                     edges.entry((face, half.line())).or_default().push(k);
                 }
             }
@@ -118,7 +116,7 @@ impl VisibilityMap<'_> {
                         let edge = &mut all[number as usize];
                         let Some(course) = &edge.course else { continue };
                         let [a, b] = [side.start.at, end.at].map(|point| course.place_on(point));
-                        push(&mut edge.visible, [a.min(b), a.max(b)])?;
+                        edge.visible.push([a.min(b), a.max(b)]);
                     }
                 }
             }
@@ -145,23 +143,18 @@ impl Views<'_> {
 
     /// Gives the runs of an edge, in the direction of that of its faces which they are told of, unless no
     /// polygon shows a side there.
-    fn runs(
-        &mut self,
-        edge: &SharedEdge,
-        course: &Course,
-        give: impl FnMut(EdgeRun) -> Result<(), Error>,
-    ) -> Result<(), Error> {
+    fn runs(&mut self, edge: &SharedEdge, course: &Course, give: impl FnMut(EdgeRun)) {
         let fronts_only = self.map.stock.frame.rays.is_front_only();
         let sides: SmallVec<[Ordering; 2]> =
             edge.faces.iter().map(|&(face, _)| self.side(face)).collect();
         let shows = |side: &Ordering| side.is_gt() || side.is_lt() && !fronts_only;
         let fronts = sides.iter().position(|side| side.is_gt());
-        let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return Ok(()) };
+        let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return };
         let faces = self.map.stock.frame.faces;
         let mut numbered = sides.iter().enumerate();
         // Of an edge along a border of the picture, none may be in the picture.
         if !numbered.any(|(i, side)| shows(side) && edge.is_in_picture(faces, i, *side)) {
-            return Ok(());
+            return;
         }
         let (face, k) = edge.faces[owner];
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
@@ -174,7 +167,7 @@ impl Views<'_> {
             runs.reverse();
             runs.iter_mut().for_each(|run| run.ends.swap(0, 1));
         }
-        runs.into_iter().try_for_each(give)
+        runs.into_iter().for_each(give)
     }
 }
 
@@ -207,7 +200,7 @@ pub(super) fn shared_edges(
     let mut points: Table<[u64; 3], u32> = Table::default();
     let mut point = |corner: usize| -> Result<u32, Error> {
         let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
-        points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        points.reserve(1);
         let next = points.len() as u32;
         Ok(*points.entry(place).or_insert(next))
     };
@@ -228,7 +221,7 @@ pub(super) fn shared_edges(
             let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);
             let mut known: SmallVec<[FaceEdge; 2]> = SmallVec::from_slice(&[(face, k)]);
             let number = if faces.outline_edge(face, k).is_some() {
-                by_points.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                by_points.reserve(1);
                 *by_points.entry(points).or_insert(new)
             } else {
                 // Each once, with the second of its faces.
@@ -249,13 +242,13 @@ pub(super) fn shared_edges(
                     None => (None, Ordering::Equal),
                 };
                 // Lists of edges that grow by an eighth are moved too often.
-                all.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+                all.reserve(1);
                 let faces = SmallVec::new();
                 all.push(SharedEdge { faces, course, picture, visible: vec![] });
             }
             for name in known {
                 all[number as usize].faces.push(name);
-                insert(&mut numbers, name, number)?;
+                numbers.insert(name, number);
             }
         }
     }
@@ -388,14 +381,14 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(4, |watch| {
             let faces = self.stock.frame.faces;
             let Runs { edges, list } = self.edge_runs(watch)?;
             // The edges with hidden runs, and the number of each among these.
             let (mut hidden, mut sights) = (Vec::new(), Vec::new());
-            let mut places: Vec<u32> = collect(edges.iter().map(|_| NONE))?;
+            let mut places: Vec<u32> = edges.iter().map(|_| NONE).collect();
             for run in each(watch, CUT, &list) {
                 let (run, number) = run?;
                 let (edge, place) = (&edges[*number as usize], &mut places[*number as usize]);
@@ -405,8 +398,8 @@ impl VisibilityMap<'_> {
                 let (face, k) = edge.faces[0];
                 if let Some(sight) = Sight::new(&self.rims.lines, faces.ends(face, k)) {
                     *place = hidden.len() as u32;
-                    push(&mut hidden, *number)?;
-                    push(&mut sights, sight)?;
+                    hidden.push(*number);
+                    sights.push(sight);
                 }
             }
             let is_own = |sight: u32, face: u32| {
@@ -420,7 +413,7 @@ impl VisibilityMap<'_> {
                 let place = places[*number as usize] as usize;
                 let known = sights.get(place).map(|sight| (sight, depths.of(place)));
                 for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
-                    push(&mut layered, EdgeRun { ends, layers: Some(layers), ..*run })?;
+                    layered.push(EdgeRun { ends, layers: Some(layers), ..*run });
                 }
             }
             Ok(layered)
@@ -447,7 +440,7 @@ impl VisibilityMap<'_> {
                 while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
                     let known = Some((&sights[number], depths.of(number)));
                     for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
-                        push(&mut layered, LineRun { ends, layers: Some(layers), ..*run })?;
+                        layered.push(LineRun { ends, layers: Some(layers), ..*run });
                     }
                 }
             }
@@ -500,19 +493,19 @@ impl VisibilityMap<'_> {
                 // Each polygon counts once, however many parts of it there are.
                 let counts = |pass: &&Pass| !is_own(number, pass.piece);
                 for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
-                    push(&mut changes, (from, 1))?;
-                    push(&mut changes, (to, -1))?;
+                    changes.push((from, 1));
+                    changes.push((to, -1));
                 }
             }
             sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
-            push(&mut depths.begins, depths.depths.len())?;
+            depths.begins.push(depths.depths.len());
             let mut layers = 0i64;
             for &(from, change) in &changes {
                 layers += change;
-                push(&mut depths.depths, Depth { from, layers: layers as u32 })?;
+                depths.depths.push(Depth { from, layers: layers as u32 });
             }
         }
-        push(&mut depths.begins, depths.depths.len())?;
+        depths.begins.push(depths.depths.len());
         Ok(depths)
     }
 }
@@ -544,7 +537,7 @@ pub(super) fn in_layers(
         let goes_on = parts.last().is_some_and(|last| last.1 == layers);
         if to - from >= SHORTEST && !goes_on {
             let start = if parts.is_empty() { low } else { from };
-            push(&mut parts, (start, layers))?;
+            parts.push((start, layers));
         }
     }
     if parts.is_empty() {

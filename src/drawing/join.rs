@@ -5,7 +5,6 @@ use super::order::Pair;
 use super::tile::VISITED;
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{collect, push};
 
 /// Groups of nodes in an order that keeps all pairs: an order of a graph without cycles that stays one
 /// while nodes are joined (D. J. Pearce, P. H. J. Kelly, "A dynamic topological sort algorithm for
@@ -38,16 +37,15 @@ enum Way {
 impl Groups {
     /// Each node by itself, in the order of their numbers: of each pair, `below` is the lower number.
     pub(super) fn new(nodes: usize, pairs: &[Pair], watch: &Watch<'_>) -> Result<Self, Error> {
-        let empty = || collect((0..nodes).map(|_| Vec::new()));
-        let numbers = || collect(0..nodes as u32);
-        let (mut after, mut before): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (empty()?, empty()?);
+        let numbers: Vec<u32> = (0..nodes as u32).collect();
+        let (mut after, mut before) = (vec![vec![]; nodes], vec![vec![]; nodes]);
         for pair in each(watch, VISITED, pairs) {
             let pair = pair?;
-            push(&mut after[pair.below as usize], pair.above)?;
-            push(&mut before[pair.above as usize], pair.below)?;
+            after[pair.below as usize].push(pair.above);
+            before[pair.above as usize].push(pair.below);
         }
-        let met = collect((0..nodes).map(|_| 0))?;
-        Ok(Self { leader: numbers()?, place: numbers()?, after, before, met, search: 0 })
+        let leader = numbers.clone();
+        Ok(Self { leader, place: numbers, after, before, met: vec![0; nodes], search: 0 })
     }
 
     /// The group of a node, by one of its nodes.
@@ -70,7 +68,12 @@ impl Groups {
             return Ok(());
         }
         let (a, b) = if self.place[a as usize] < self.place[b as usize] { (a, b) } else { (b, a) };
-        if self.bring_together(a, b, BUDGET, watch)? { self.unite(a, b) } else { Ok(()) }
+        if self.bring_together(a, b, BUDGET, watch)? {
+            self.unite(a, b);
+            Ok(())
+        } else {
+            Ok(())
+        }
     }
 
     /// Adds a pair of nodes, unless `above` has to come before `below`. Whether it was added. The search has no
@@ -85,8 +88,8 @@ impl Groups {
         {
             return Ok(false);
         }
-        push(&mut self.after[below as usize], above)?;
-        push(&mut self.before[above as usize], below)?;
+        self.after[below as usize].push(above);
+        self.before[above as usize].push(below);
         Ok(true)
     }
 
@@ -145,7 +148,7 @@ impl Groups {
                 };
                 if is_between && self.met[group] != self.search {
                     self.met[group] = self.search;
-                    push(&mut found, *node)?;
+                    found.push(*node);
                 }
             }
             match way {
@@ -162,7 +165,7 @@ impl Groups {
         Ok(Some(found))
     }
 
-    fn unite(&mut self, a: u32, b: u32) -> Result<(), Error> {
+    fn unite(&mut self, a: u32, b: u32) {
         let place = self.place[a as usize];
         let degree =
             |group: u32| self.after[group as usize].len() + self.before[group as usize].len();
@@ -172,12 +175,10 @@ impl Groups {
         for lists in [&mut self.after, &mut self.before] {
             let mut moved = std::mem::take(&mut lists[small as usize]);
             let list = &mut lists[large as usize];
-            crate::memory::reserve(list, moved.len())?;
             list.append(&mut moved);
             list.sort_unstable();
             list.dedup();
         }
-        Ok(())
     }
 }
 

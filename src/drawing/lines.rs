@@ -10,7 +10,6 @@ use smallvec::SmallVec;
 use super::exact_lines::{ExactLine, Frame, ROUNDING, Rounded, Twofold, compare, is_opposite};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PlaneKind};
-use crate::memory::{filled, push};
 use crate::random::mix;
 use crate::raster::{Sheet, edge};
 
@@ -81,9 +80,9 @@ impl<'t> Lines<'t> {
     fn new_half(&mut self, key: Key, rounded: Rounded, points: [u32; 2]) -> Result<Half, Error> {
         let half = self.half_of_line(key, rounded, points)?;
         if matches!(key, Key::Cut(..)) {
-            insert(&mut self.cuts, half.positive(), ())?;
+            self.cuts.insert(half.positive(), ());
         }
-        insert(&mut self.halves, key, half)?;
+        self.halves.insert(key, half);
         Ok(half)
     }
 
@@ -113,7 +112,7 @@ impl<'t> Lines<'t> {
             }
             Err(at) => {
                 let line = self.add(key, rounded, points)?;
-                self.feet.add(&foot, at, line)?;
+                self.feet.add(&foot, at, line);
                 Ok(Half::of(line))
             }
         }
@@ -146,9 +145,9 @@ impl<'t> Lines<'t> {
     fn add(&mut self, key: Key, rounded: Rounded, through: [u32; 2]) -> Result<u32, Error> {
         // A number takes less memory than its line.
         let number = u32::try_from(self.keys.len()).map_err(|_| Error::out_of_memory())?;
-        push(&mut self.keys, key)?;
-        push(&mut self.rounded, rounded)?;
-        push(&mut self.through, through)?;
+        self.keys.push(key);
+        self.rounded.push(rounded);
+        self.through.push(through);
         Ok(number)
     }
 
@@ -169,17 +168,17 @@ impl<'t> Lines<'t> {
             let mut points = [a, b];
             for point in &mut points {
                 let is_certain = certain.contains(point);
-                *point = if is_certain { self.point(*point)? } else { self.moved(*point)? };
+                *point = if is_certain { self.point(*point) } else { self.moved(*point) };
             }
             let half = self.half(Key::Upright(face, k), points)?;
-            self.keep_twofold(half)?;
+            self.keep_twofold(half);
             return Ok(half.flipped(flip));
         }
-        let points = [self.point(a)?, self.point(b)?];
+        let points = [self.point(a), self.point(b)];
         let is_front = is_positive == self.frame.rays.is_perspective();
         let half = self.edge_between(points)?;
         if flattened.is_some() {
-            self.keep_twofold(half)?;
+            self.keep_twofold(half);
         }
         Ok(half.flipped(is_front))
     }
@@ -191,13 +190,13 @@ impl<'t> Lines<'t> {
     }
 
     /// Keeps a line in pairs of floats, if it is not kept yet.
-    fn keep_twofold(&mut self, half: Half) -> Result<(), Error> {
+    fn keep_twofold(&mut self, half: Half) {
         match half.number() {
             Some(line) if !self.twofold.contains_key(&line) => {
                 let twofold = Twofold::of(&self.exact_of(self.key(line)));
-                insert(&mut self.twofold, line, twofold)
+                insert(&mut self.twofold, line, twofold);
             }
-            _ => Ok(()),
+            _ => {}
         }
     }
 
@@ -218,7 +217,7 @@ impl<'t> Lines<'t> {
         let half = match self.halves.get(&key) {
             Some(&half) => half,
             None => {
-                let through = self.on_cut(face, plane)?;
+                let through = self.on_cut(face, plane);
                 self.new_half(key, self.rounded_of(key), through)?
             }
         };
@@ -227,13 +226,13 @@ impl<'t> Lines<'t> {
 
     /// Corners of a face that are known to lie on a plane that cuts it: those of the other face, or with
     /// the coordinate of an axis plane. (Of faces whose corners all lie on their planes, and are few.)
-    fn on_cut(&mut self, face: u32, plane: PlaneId) -> Result<[u32; 2], Error> {
+    fn on_cut(&mut self, face: u32, plane: PlaneId) -> [u32; 2] {
         let faces = self.frame.faces;
         let own = faces.corners(face);
         let is_exact = |face: u32| faces.upright_axis(face).is_none();
         let mut found = [NOWHERE; 2];
         if own.len() > FEW || !is_exact(face) {
-            return Ok(found);
+            return found;
         }
         let other = match plane.kind() {
             PlaneKind::Face(other) if is_exact(other) => faces.corners(other),
@@ -246,32 +245,32 @@ impl<'t> Lines<'t> {
         let start = faces.corner_range(face).start as u32;
         let on = (start..).zip(own).filter(|(_, corner)| is_on(corner));
         for (place, (corner, _)) in found.iter_mut().zip(on) {
-            *place = self.point(corner)?;
+            *place = self.point(corner);
         }
-        Ok(found)
+        found
     }
 
-    fn point(&mut self, corner: u32) -> Result<u32, Error> {
+    fn point(&mut self, corner: u32) -> u32 {
         let place = self.frame.faces.corner(corner).map(|c| (c + 0.0).to_bits());
         if let Some(&number) = self.points.get(&place) {
-            return Ok(number);
+            return number;
         }
         let number = self.corners.len() as u32;
-        push(&mut self.corners, corner)?;
-        insert(&mut self.points, place, number)?;
-        Ok(number)
+        self.corners.push(corner);
+        self.points.insert(place, number);
+        number
     }
 
     /// The number of the point onto which a corner was moved that was off its face's plane. Edges of no
     /// other face end there.
-    fn moved(&mut self, corner: u32) -> Result<u32, Error> {
+    fn moved(&mut self, corner: u32) -> u32 {
         if let Some(&number) = self.moved.get(&corner) {
-            return Ok(number);
+            return number;
         }
         let number = self.corners.len() as u32;
-        push(&mut self.corners, corner)?;
-        insert(&mut self.moved, corner, number)?;
-        Ok(number)
+        self.corners.push(corner);
+        self.moved.insert(corner, number);
+        number
     }
 
     /// Whether a cut was made along a half's line.
@@ -313,8 +312,8 @@ pub(in crate::drawing) struct Adopted(Vec<Option<Half>>);
 
 impl Adopted {
     /// None of another list's lines so far.
-    pub(in crate::drawing) fn of(other: &Lines<'_>) -> Result<Self, Error> {
-        Ok(Self(filled(other.keys.len(), None)?))
+    pub(in crate::drawing) fn of(other: &Lines<'_>) -> Adopted {
+        Self(vec![None; other.keys.len()])
     }
 }
 
@@ -336,21 +335,16 @@ impl Lines<'_> {
     }
 
     /// Takes over which of another list's lines, of those that were taken over and of borders, are lines of cuts.
-    pub(in crate::drawing) fn adopt_cuts(
-        &mut self,
-        other: &Self,
-        Adopted(adopted): &Adopted,
-    ) -> Result<(), Error> {
+    pub(in crate::drawing) fn adopt_cuts(&mut self, other: &Self, Adopted(adopted): &Adopted) {
         for half in other.cuts.keys() {
             let own = match half.number() {
                 Some(line) => adopted[line as usize].map(Half::positive),
                 None => Some(*half),
             };
             if let Some(own) = own {
-                insert(&mut self.cuts, own, ())?;
+                self.cuts.insert(own, ());
             }
         }
-        Ok(())
     }
 
     /// The half on which another list's line is positive.
@@ -359,8 +353,8 @@ impl Lines<'_> {
         for point in points.iter_mut().filter(|point| **point != NOWHERE) {
             let corner = other.corners[*point as usize];
             *point = match other.moved.get(&corner) == Some(point) {
-                true => self.moved(corner)?,
-                false => self.point(corner)?,
+                true => self.moved(corner),
+                false => self.point(corner),
             };
         }
         // Edges are positive by the order of their points, and the other list may number these the other way.
@@ -379,9 +373,9 @@ impl Lines<'_> {
         };
         match other.twofold.get(&line) {
             Some(twofold) if count < self.keys.len() => {
-                insert(&mut self.twofold, count as u32, twofold.flipped(flip))?;
+                self.twofold.insert(count as u32, twofold.flipped(flip));
             }
-            Some(_) => self.keep_twofold(own)?,
+            Some(_) => self.keep_twofold(own),
             None => {}
         }
         Ok(own.flipped(flip))
@@ -506,14 +500,9 @@ fn upright(frame: &Frame<'_>, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
 pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 
 /// Adds an entry.
-pub(super) fn insert<K: Eq + Hash, V>(
-    table: &mut Table<K, V>,
-    key: K,
-    value: V,
-) -> Result<(), Error> {
-    table.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+pub(super) fn insert<K: Eq + Hash, V>(table: &mut Table<K, V>, key: K, value: V) {
+    table.reserve(1);
     table.insert(key, value);
-    Ok(())
 }
 
 /// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
@@ -632,12 +621,11 @@ impl Feet {
     }
 
     /// Adds a line that was sought without success.
-    pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) -> Result<(), Error> {
-        self.0.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+    pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) {
+        self.0.reserve(1);
         let lines = self.0.entry(foot.place()).or_default();
-        lines.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+        lines.reserve(1);
         lines.insert(at, line);
-        Ok(())
     }
 }
 

@@ -17,7 +17,6 @@ use super::tile::{CUT, IN_VAIN, LINES, List, Tile, found_in, in_vain};
 use crate::build::Progress;
 use crate::build::progress::{Watch, one_at_a_time};
 use crate::error::{Error, InputFault};
-use crate::memory::{collect, filled, push, reserve};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 
@@ -188,7 +187,7 @@ fn add_shown<'t>(
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
     let faces = stock.frame.faces;
-    let mut shows = filled(stock.polygons_end(watch)?, false)?;
+    let mut shows = vec![false; stock.polygons_end(watch)?];
     for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
         shows[stock.polygon(visible?.item)] = true;
     }
@@ -212,7 +211,7 @@ fn add_shown<'t>(
 
 /// The opacities of all polygons; none if all are opaque.
 fn checked(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> Result<Vec<f64>, Error> {
-    let opacities = collect((0..tree.preparation().polygons).map(opacity))?;
+    let opacities = ((0..tree.preparation().polygons).map(opacity)).collect::<Vec<_>>();
     let is_wrong = |opacity: &f64| !(0.0..=1.0).contains(opacity);
     match opacities.iter().position(is_wrong) {
         Some(polygon) => Err(InputFault::Opacity { value: opacities[polygon] }.of_polygon(polygon)),
@@ -304,7 +303,8 @@ pub(super) fn visible<'t>(
             return Ok(());
         }
         let leaf = part.leaf(stock, &mut found.rims, watch)?;
-        push(&mut found.leaves, leaf)
+        found.leaves.push(leaf);
+        Ok(())
     };
     let mut rims = Rims::new(stock);
     let list = List::of_all(stock, &mut rims, picture, watch)?;
@@ -313,15 +313,15 @@ pub(super) fn visible<'t>(
     let shares = found_in(all, new, halves, leaf, watch)?;
     let count = shares.len();
     for (i, mut found) in shares.into_iter().enumerate() {
-        let mut adopted = Adopted::of(&found.rims.lines)?;
+        let mut adopted = Adopted::of(&found.rims.lines);
         for Leaf { cells, .. } in &mut found.leaves {
             watch.work(cells.len() * CUT)?;
             for Side { half, .. } in cells.iter_mut().flat_map(|visible| &mut visible.cell.sides) {
                 *half = rims.lines.adopted(&found.rims.lines, *half, &mut adopted)?;
             }
         }
-        rims.lines.adopt_cuts(&found.rims.lines, &adopted)?;
-        reserve(&mut leaves, found.leaves.len())?;
+        rims.lines.adopt_cuts(&found.rims.lines, &adopted);
+        leaves.reserve(found.leaves.len());
         leaves.append(&mut found.leaves);
         finish_item(watch, i, count);
     }
@@ -394,13 +394,13 @@ impl TileList {
                 };
                 match shown {
                     Some(cell) if !is_opaque => {
-                        push(&mut cells, Visible { item, cell })?;
+                        cells.push(Visible { item, cell });
                         i += 1;
                     }
                     Some(cell) => {
-                        push(&mut cells, Visible { item, cell })?;
+                        cells.push(Visible { item, cell });
                         open.swap_remove(i);
-                        reserve(&mut left, outside.len())?;
+                        left.reserve(outside.len());
                         left.append(&mut outside);
                     }
                     None => {
@@ -409,7 +409,7 @@ impl TileList {
                     }
                 }
             }
-            reserve(&mut open, left.len())?;
+            open.reserve(left.len());
             open.extend(left.drain(..).map(Open::new));
         }
         Ok(Leaf { tile: *tile, cells })

@@ -15,7 +15,6 @@ use super::stock::{FEW_CORNERS, Rims, Stock};
 use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{collect, filled, push, reserve};
 
 /// An order of nodes.
 #[derive(Debug)]
@@ -57,20 +56,20 @@ pub(super) fn cycles(
     watch: &Watch<'_>,
 ) -> Result<Vec<Option<u32>>, Error> {
     let mut graph = Graph::new(nodes, pairs, &|_| true, watch)?;
-    let all: Vec<u32> = collect(0..nodes as u32)?;
+    let all: Vec<u32> = (0..nodes as u32).collect();
     graph.components(&all)?;
     let number = |&component: &u32| (component != NONE).then_some(component);
-    collect(graph.component.iter().map(number))
+    Ok(graph.component.iter().map(number).collect())
 }
 
 impl Graph<'_> {
     /// Clips nodes until there is no cycle.
     fn open_cycles(&mut self) -> Result<(), Error> {
-        let all: Vec<u32> = collect(0..self.is_clipped.len() as u32)?;
+        let all: Vec<u32> = (0..self.is_clipped.len() as u32).collect();
         let first = self.components(&all)?;
         for nodes in first {
             let mut clipped = Vec::new();
-            let mut open = vec![collect(nodes.iter().copied())?];
+            let mut open = vec![nodes.to_vec()];
             while let Some(mut nodes) = open.pop() {
                 let mut degrees = self.degrees(&nodes)?;
                 degrees.retain(|&(_, node)| !self.is_clipped[node as usize]);
@@ -82,7 +81,7 @@ impl Graph<'_> {
                 degrees.truncate((nodes.len() / CLIPPED_AT_ONCE).max(1));
                 for (_, node) in degrees {
                     self.is_clipped[node as usize] = true;
-                    push(&mut clipped, node)?;
+                    clipped.push(node);
                 }
                 for &node in &nodes {
                     if self.is_last(node) {
@@ -91,7 +90,7 @@ impl Graph<'_> {
                 }
                 nodes.retain(|&node| !self.is_last(node));
                 let mut left = self.components(&nodes)?;
-                reserve(&mut open, left.len())?;
+                open.reserve(left.len());
                 open.append(&mut left);
             }
             self.give_back(&nodes, clipped)?;
@@ -117,8 +116,7 @@ impl Graph<'_> {
             }
         }
         let product = |node: u32| counts[node as usize].map(u64::from).into_iter().product();
-        let mut degrees = Vec::new();
-        reserve(&mut degrees, nodes.len())?;
+        let mut degrees = Vec::with_capacity(nodes.len());
         for node in each(self.watch, 1, nodes) {
             let node = *node?;
             degrees.push((product(node), node));
@@ -159,7 +157,7 @@ impl Graph<'_> {
                 let is_new = reached[index] != start && self.component[index] == component;
                 if is_new && !self.is_last(above) {
                     reached[index] = start;
-                    push(&mut stack, above)?;
+                    stack.push(above);
                 }
             }
             if is_closed {
@@ -174,18 +172,17 @@ impl Graph<'_> {
     /// large networks", 1962).
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
         let nodes = self.is_clipped.len();
-        let mut waits: Vec<u32> = filled(nodes, 0)?;
+        let mut waits: Vec<u32> = vec![0; nodes];
         for pair in each(self.watch, 1, self.pairs) {
             let pair = *pair?;
             waits[pair.above as usize] += u32::from(self.holds(pair));
         }
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
         // Each node is in it once at most.
-        ready.try_reserve_exact(nodes).map_err(|_| Error::out_of_memory())?;
+        ready.reserve(nodes);
         let first = (0..nodes as u32).filter(|&node| waits[node as usize] == 0);
         ready.extend(first.map(|node| Reverse((rank[node as usize], node))));
-        let mut order = Vec::new();
-        reserve(&mut order, nodes)?;
+        let mut order = Vec::with_capacity(nodes);
         while let Some(Reverse((_, node))) = ready.pop() {
             self.watch.work(2 * VISITED)?;
             order.push(node);
@@ -248,7 +245,7 @@ impl<'p> Graph<'p> {
         is_opaque: &'p dyn Fn(u32) -> bool,
         watch: &'p Watch<'p>,
     ) -> Result<Self, Error> {
-        let mut starts = filled(nodes + 1, 0)?;
+        let mut starts = vec![0; nodes + 1];
         for pair in each(watch, 1, pairs) {
             let pair = pair?;
             starts[pair.below as usize + 1] += 1;
@@ -257,15 +254,15 @@ impl<'p> Graph<'p> {
             let node = node?;
             starts[node + 1] += starts[node];
         }
-        let (is_clipped, component) = (filled(nodes, false)?, filled(nodes, NONE)?);
-        let mut is_seen_through = filled(nodes, false)?;
+        let (is_clipped, component) = (vec![false; nodes], vec![NONE; nodes]);
+        let mut is_seen_through = vec![false; nodes];
         for pair in each(watch, 1, pairs) {
             let pair = pair?;
             is_seen_through[pair.below as usize] |= !is_opaque(pair.above);
         }
-        let (number, least) = (filled(nodes, NONE)?, filled(nodes, NONE)?);
-        let (is_on_stack, reached) = (filled(nodes, false)?, filled(nodes, NONE)?);
-        let search = Search { number, least, is_on_stack, reached, counts: filled(nodes, [0; 2])? };
+        let (number, least) = (vec![NONE; nodes], vec![NONE; nodes]);
+        let (is_on_stack, reached) = (vec![false; nodes], vec![NONE; nodes]);
+        let search = Search { number, least, is_on_stack, reached, counts: vec![[0; 2]; nodes] };
         Ok(Self { pairs, starts, is_clipped, is_opaque, is_seen_through, component, search, watch })
     }
 }
@@ -307,14 +304,14 @@ impl Graph<'_> {
             if number[root as usize] != UNMET {
                 continue;
             }
-            push(&mut path, (root, self.starts[root as usize]))?;
+            path.push((root, self.starts[root as usize]));
             while let Some((node, at)) = path.last_mut() {
                 self.watch.work(VISITED)?;
                 let (v, place) = (*node as usize, *at);
                 if place == self.starts[v] {
                     (number[v], least[v]) = (next, next);
                     next += 1;
-                    push(&mut stack, *node)?;
+                    stack.push(*node);
                     is_on_stack[v] = true;
                 }
                 let rest = &self.pairs[place as usize..self.starts[v + 1] as usize];
@@ -336,7 +333,7 @@ impl Graph<'_> {
                 if let Some((next, above)) = unmet {
                     *at = next;
                     // A node is met when its first pair is looked at, so one without pairs as well.
-                    push(&mut path, (above, self.starts[above as usize]))?;
+                    path.push((above, self.starts[above as usize]));
                     continue;
                 }
                 path.pop();
@@ -352,7 +349,7 @@ impl Graph<'_> {
                         self.component[w as usize] = if nodes.len() > 1 { v as u32 } else { NONE };
                     }
                     if nodes.len() > 1 {
-                        push(&mut found, nodes)?;
+                        found.push(nodes);
                     }
                 }
             }
@@ -445,14 +442,13 @@ impl<'l> LeafReaches<'l> {
                 let visible = visible?;
                 let face = stock.face(visible.item);
                 watch.work(stock.edges_work(face))?;
-                if is_whole(stock, rims, tile, visible)? {
-                    push(&mut whole, face)?;
+                if is_whole(stock, rims, tile, visible) {
+                    whole.push(face);
                 }
             }
         }
         whole.sort_unstable();
-        let mut below: Vec<Reach> = Vec::new();
-        reserve(&mut below, reaches.list.len())?;
+        let mut below: Vec<Reach> = Vec::with_capacity(reaches.list.len());
         let is_below = |reach: &&Reach| whole.binary_search(&reach.number).is_err();
         below.extend(reaches.list.iter().filter(is_below));
         for visible in cells() {
@@ -473,7 +469,7 @@ impl<'l> LeafReaches<'l> {
                     continue;
                 }
                 if cell.meets(&rims.lines, reaches.halves_of(reach), watch)? {
-                    add(found, pair)?;
+                    add(found, pair);
                 }
             }
         }
@@ -507,7 +503,7 @@ impl<'l> LeafReaches<'l> {
                 continue;
             }
             if cell.meets(&rims.lines, self.translucent.halves_of(reach), watch)? {
-                add(found, pair)?;
+                add(found, pair);
             }
         }
         Ok(())
@@ -515,23 +511,18 @@ impl<'l> LeafReaches<'l> {
 }
 
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
-fn is_whole(
-    stock: &Stock<'_>,
-    rims: &Rims<'_>,
-    tile: &Tile,
-    visible: &Visible,
-) -> Result<bool, Error> {
+fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, tile: &Tile, visible: &Visible) -> bool {
     let outline = rims.known_outline(stock.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);
     // Edges of others may lie where tiles elsewhere have borders.
     let mut sides = sides.filter(|half| !tile.has_border(*half));
     // Of most faces, to look at all edges is quicker.
     if outline.len() <= FEW_CORNERS {
-        return Ok(sides.all(|side| outline.iter().any(|half| half.line() == side.line())));
+        return sides.all(|side| outline.iter().any(|half| half.line() == side.line()));
     }
-    let mut own = collect(outline.iter().map(|half| half.line()))?;
+    let mut own = outline.iter().map(|half| half.line()).collect::<Vec<_>>();
     own.sort_unstable();
-    Ok(sides.all(|side| own.binary_search(&side.line()).is_ok()))
+    sides.all(|side| own.binary_search(&side.line()).is_ok())
 }
 
 /// The box around leaves.
@@ -561,17 +552,16 @@ impl Pair {
 pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
 
 /// Adds a pair.
-pub(super) fn add(found: &mut Found, pair: Pair) -> Result<(), Error> {
-    found.try_reserve(1).map_err(|_| Error::out_of_memory())?;
+pub(super) fn add(found: &mut Found, pair: Pair) {
+    found.reserve(1);
     found.insert(pair);
-    Ok(())
 }
 
 /// All pairs of several sets, sorted, each once.
 pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
     let mut pairs = Vec::new();
     for part in parts {
-        reserve(&mut pairs, part.len())?;
+        pairs.reserve(part.len());
         for pair in each(watch, 1, part) {
             pairs.push(pair?);
         }

@@ -12,7 +12,6 @@ use super::stock::{Rims, Stock};
 use super::tile::{CUT, Reaches, VISITED, found_in};
 use crate::Error;
 use crate::build::progress::Watch;
-use crate::memory::{collect, push, reserve};
 use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;
 
@@ -75,7 +74,7 @@ impl VisibilityMap<'_> {
     /// # Errors
     ///
     /// If the overlay was made for another tree; if it has polygons, the first of
-    /// which is [`Error::polygon`]; if there is not enough memory; or if it was [cancelled](Self#progress).
+    /// which is [`Error::polygon`]; or if it was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
         self.reporter.watch(1, |watch| {
@@ -101,7 +100,7 @@ impl VisibilityMap<'_> {
             rest = others;
             watch.work(own.len())?;
             for (ends, is_hidden) in parts(&sight.course, own.iter().map(|(_, part)| *part)) {
-                push(&mut runs, LineRun::new(segment, ends, !is_hidden))?;
+                runs.push(LineRun::new(segment, ends, !is_hidden));
             }
         }
         Ok(runs)
@@ -128,8 +127,8 @@ impl VisibilityMap<'_> {
 
     /// What is hidden of segments and points, in no particular order: a phase.
     fn covered<'m>(&'m self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Covered, Error> {
-        let sights = collect(0..passing.sights.len() as u32)?;
-        let spots = collect(0..passing.spots.len() as u32)?;
+        let sights = (0..passing.sights.len() as u32).collect::<Vec<_>>();
+        let spots = (0..passing.spots.len() as u32).collect::<Vec<_>>();
         let all = LeafPasses { leaves: &self.leaves, sights, spots };
         let halves = |part: &LeafPasses<'m>, _: &mut Covered| part.halves(passing, watch);
         let leaf =
@@ -137,9 +136,9 @@ impl VisibilityMap<'_> {
         let mut all_found = Covered::default();
         for mut found in found_in(all, Covered::default, halves, leaf, watch)? {
             watch.work(found.hidden.len() + found.hidden_spots.len())?;
-            reserve(&mut all_found.hidden, found.hidden.len())?;
+            all_found.hidden.reserve(found.hidden.len());
             all_found.hidden.append(&mut found.hidden);
-            reserve(&mut all_found.hidden_spots, found.hidden_spots.len())?;
+            all_found.hidden_spots.reserve(found.hidden_spots.len());
             all_found.hidden_spots.append(&mut found.hidden_spots);
         }
         Ok(all_found)
@@ -156,8 +155,8 @@ pub(super) fn sights(
     for segment in each(watch, CUT, overlay.given_segments()) {
         let segment = segment?;
         if let Some(sight) = Sight::new(lines, segment.ends) {
-            push(&mut segments, segment)?;
-            push(&mut sights, sight)?;
+            segments.push(segment);
+            sights.push(sight);
         }
     }
     Ok((segments, sights))
@@ -173,8 +172,8 @@ pub(super) fn spots(
     for numbered in each(watch, CUT, overlay.given_points().enumerate()) {
         let (point, given) = numbered?;
         if let Some(spot) = Spot::new(lines, given) {
-            push(&mut views, MarkerView { point, at: spot.at, is_visible: true })?;
-            push(&mut spots, spot)?;
+            views.push(MarkerView { point, at: spot.at, is_visible: true });
+            spots.push(spot);
         }
     }
     Ok((views, spots))
@@ -243,7 +242,7 @@ impl<'l> LeafPasses<'l> {
                 let Some([first, last]) = sight.behind(lines, face, seen()) else { continue };
                 let (from, to) = (from.max(first), to.min(last));
                 if from < to {
-                    push(&mut found.hidden, (number, [from, to]))?;
+                    found.hidden.push((number, [from, to]));
                 }
             }
             for number in each(watch, CUT, &self.spots) {
@@ -253,7 +252,7 @@ impl<'l> LeafPasses<'l> {
                     && spot.is_in(lines, cell)
                     && spot.is_behind(lines, face, seen())
                 {
-                    push(&mut found.hidden_spots, number)?;
+                    found.hidden_spots.push(number);
                 }
             }
         }
@@ -315,7 +314,7 @@ impl Between {
             let parts = in_order(sight.course.places, own, places, count, &mut missed, watch)?;
             for (below, ends) in parts {
                 let run = LineRun::new(segment, ends.map(|end| sight.course.at(end)), true);
-                push(&mut placed, (below, Overlaid::Line(run)))?;
+                placed.push((below, Overlaid::Line(run)));
             }
         }
         let mut rest = &self.passes.spots[..];
@@ -329,7 +328,7 @@ impl Between {
             }
             add_missed(&passed, &mut missed, watch)?;
             let below = Room::between(&passed, count).most;
-            push(&mut placed, (below, Overlaid::Marker(*marker)))?;
+            placed.push((below, Overlaid::Marker(*marker)));
         }
         Ok((placed, missed))
     }
@@ -384,10 +383,10 @@ fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<
         return Ok(());
     }
     for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
-        add(missed, Pair { below: below.2, above: early?.0.2 })?;
+        add(missed, Pair { below: below.2, above: early?.0.2 });
     }
     for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
-        add(missed, Pair { below: late?.0.2, above: above.2 })?;
+        add(missed, Pair { below: late?.0.2, above: above.2 });
     }
     Ok(())
 }
@@ -408,7 +407,7 @@ fn in_order(
         let pass = pass?;
         let key = (pass.is_behind, places[pass.piece as usize], pass.piece);
         for (at, change) in [(pass.places[0], 1), (pass.places[1], -1)] {
-            push(&mut events, (at, key, change))?;
+            events.push((at, key, change));
         }
     }
     sort_by(&mut events, watch, |a, b| a.0.total_cmp(&b.0))?;
@@ -424,7 +423,7 @@ fn in_order(
             if let Some(common) = room.common(next) {
                 room = common;
             } else {
-                push(&mut parts, (room.most, [start, done]))?;
+                parts.push((room.most, [start, done]));
                 (start, room) = (done, next);
             }
             done = to;
@@ -438,6 +437,6 @@ fn in_order(
         }
     }
     // The last place: what lies beside then covers least of a wide stroke.
-    push(&mut parts, (room.most, [start, ends[1]]))?;
+    parts.push((room.most, [start, ends[1]]));
     Ok(parts)
 }

@@ -17,7 +17,7 @@ use super::stock::Stock;
 use super::tile::{CUT, Tile, VISITED};
 use super::translucent::mixed;
 use crate::build::progress::Watch;
-use crate::memory::{collect, filled, place, push, reserve};
+use crate::memory::place;
 use crate::union::Union;
 use crate::{Error, parallel_map};
 
@@ -64,20 +64,21 @@ impl Drawing {
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
         for outline in area.outlines(lines, watch)? {
-            push(&mut self.outlines, self.corners.len() as u32)?;
-            reserve(&mut self.corners, outline.len())?;
+            self.outlines.push(self.corners.len() as u32);
+            self.corners.reserve(outline.len());
             self.corners.extend(outline);
         }
         let outlines = start..self.outlines.len() as u32;
-        push(&mut self.paths, Record { polygon, is_clipped, outlines })
+        self.paths.push(Record { polygon, is_clipped, outlines });
+        Ok(())
     }
 
     /// Adds the paths of another after its own.
     pub(super) fn append(&mut self, mut other: Self) -> Result<(), Error> {
         let [outlines, corners] = [place(self.outlines.len())?, place(self.corners.len())?];
-        reserve(&mut self.paths, other.paths.len())?;
-        reserve(&mut self.outlines, other.outlines.len())?;
-        reserve(&mut self.corners, other.corners.len())?;
+        self.paths.reserve(other.paths.len());
+        self.outlines.reserve(other.outlines.len());
+        self.corners.reserve(other.corners.len());
         self.paths.extend(other.paths.into_iter().map(|record| {
             let Range { start, end } = record.outlines;
             Record { outlines: start + outlines..end + outlines, ..record }
@@ -197,9 +198,10 @@ impl Area {
     }
 
     pub(super) fn push(&mut self, part: &[Side]) -> Result<(), Error> {
-        reserve(&mut self.sides, part.len())?;
+        self.sides.reserve(part.len());
         self.sides.extend_from_slice(part);
-        push(&mut self.ends, place(self.sides.len())?)
+        self.ends.push(place(self.sides.len())?);
+        Ok(())
     }
 
     pub(super) fn part(&self, i: usize) -> &[Side] {
@@ -216,21 +218,20 @@ impl Area {
     ) -> Result<Vec<Vec<[f64; 2]>>, Error> {
         if let [_] = self.ends[..] {
             let corners = self.sides.iter().map(|side| side.start.at);
-            return Ok(vec![collect(corners)?]);
+            return Ok(vec![corners.collect::<Vec<_>>()]);
         }
         let sides = Sides::new(lines, self)?;
         // Corners that are one point.
         let mut points = Union::new(place(self.sides.len())?)?;
         let pieces = sides.pieces(&mut points, watch)?;
         // The first of the pieces that begin at each point, and the one after each.
-        let (mut begin, mut others) =
-            (filled(self.sides.len(), NONE)?, filled(pieces.len(), NONE)?);
+        let (mut begin, mut others) = (vec![NONE; self.sides.len()], vec![NONE; pieces.len()]);
         for numbered in each(watch, VISITED, pieces.iter().enumerate().rev()) {
             let (i, piece) = numbered?;
             let point = points.root(piece.from) as usize;
             others[i] = std::mem::replace(&mut begin[point], i as u32);
         }
-        let (mut is_used, mut outlines) = (filled(pieces.len(), false)?, Vec::new());
+        let (mut is_used, mut outlines) = (vec![false; pieces.len()], Vec::new());
         for (i, first) in pieces.iter().enumerate() {
             if is_used[i] {
                 continue;
@@ -242,7 +243,7 @@ impl Area {
                 let piece = &pieces[i];
                 // Pieces of one line follow one another where others meet it.
                 if outline.last().is_none_or(|last: &Piece| last.half != piece.half) {
-                    push(&mut outline, *piece)?;
+                    outline.push(*piece);
                 }
                 let point = points.root(piece.to);
                 if point == start {
@@ -260,7 +261,7 @@ impl Area {
             let is_one_line = outline.first().map(|p| p.half) == outline.last().map(|p| p.half);
             let corner = |piece: &Piece| self.sides[piece.from as usize].start.at;
             let corners = outline[usize::from(is_one_line)..].iter().map(corner);
-            push(&mut outlines, collect(corners)?)?;
+            outlines.push(corners.collect::<Vec<_>>());
         }
         Ok(outlines)
     }
@@ -269,8 +270,8 @@ impl Area {
 impl<'a> Sides<'a> {
     fn new(lines: &'a Lines<'a>, area: &'a Area) -> Result<Self, Error> {
         let count = place(area.sides.len())?;
-        let mut before = collect((0..count).map(|side| side.wrapping_sub(1)))?;
-        let mut after = collect((0..count).map(|side| side + 1))?;
+        let mut before = ((0..count).map(|side| side.wrapping_sub(1))).collect::<Vec<_>>();
+        let mut after = ((0..count).map(|side| side + 1)).collect::<Vec<_>>();
         let mut start = 0;
         for &end in &area.ends {
             (before[start as usize], after[end as usize - 1]) = (end - 1, start);
@@ -282,23 +283,23 @@ impl<'a> Sides<'a> {
     /// The sides without what two of them have in common, in opposite directions.
     fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
         let half = |side: u32| self.sides[side as usize].half;
-        let mut by_line: Vec<u32> = collect(0..self.sides.len() as u32)?;
+        let mut by_line: Vec<u32> = (0..self.sides.len() as u32).collect();
         sort_by(&mut by_line, watch, |&a, &b| half(a).line().cmp(&half(b).line()))?;
         let (mut pieces, mut ends) = (Vec::new(), Vec::new());
         for group in by_line.chunk_by(|&a, &b| half(a).line() == half(b).line()) {
             watch.work(group.len() * VISITED)?;
             if let [side] = *group {
                 let to = self.after[side as usize];
-                push(&mut pieces, Piece { half: half(side), from: side, to })?;
+                pieces.push(Piece { half: half(side), from: side, to });
                 continue;
             }
             let line = half(group[0]).positive();
             let rounded = self.lines.rounded(line);
             ends.clear();
-            reserve(&mut ends, 2 * group.len())?;
+            ends.reserve(2 * group.len());
             ends.extend(group.iter().flat_map(|&side| self.ends(side, &rounded)));
             sort_by(&mut ends, watch, |a, b| self.compare(&rounded, a, b))?;
-            self.add_pieces(line, &ends, points, &mut pieces)?;
+            self.add_pieces(line, &ends, points, &mut pieces);
         }
         Ok(pieces)
     }
@@ -333,13 +334,7 @@ impl<'a> Sides<'a> {
 
     /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the ends of
     /// these sides in order along the line; ends in one place become one point.
-    fn add_pieces(
-        &self,
-        line: Half,
-        ends: &[End],
-        points: &mut Union,
-        pieces: &mut Vec<Piece>,
-    ) -> Result<(), Error> {
+    fn add_pieces(&self, line: Half, ends: &[End], points: &mut Union, pieces: &mut Vec<Piece>) {
         let rounded = self.lines.rounded(line);
         // How many more sides run forwards than backwards, and from where.
         let (mut count, mut from) = (0i32, 0);
@@ -354,11 +349,10 @@ impl<'a> Sides<'a> {
             let is_back = count < 0;
             let [start, end] = if is_back { [point, from] } else { [from, point] };
             let piece = Piece { half: line.flipped(is_back), from: start, to: end };
-            reserve(pieces, count.unsigned_abs() as usize)?;
+            pieces.reserve(count.unsigned_abs() as usize);
             pieces.extend((0..count.abs()).map(|_| piece));
             (count, from) = (after, point);
         }
-        Ok(())
     }
 
     /// By how much an outline turns to the left where it goes from one half to another.
@@ -387,7 +381,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn drawing(&self) -> Result<Drawing, Error> {
         self.reporter.watch(2, |watch| self.drawn(watch))
     }
@@ -452,21 +446,21 @@ impl Nodes {
     fn of(stock: &Stock<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
         let faces = stock.frame.faces;
         let most = stock.polygons_end(watch)?;
-        let mut last: Vec<Option<u32>> = collect((0..most).map(|_| None))?;
+        let mut last: Vec<Option<u32>> = ((0..most).map(|_| None)).collect();
         for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let item = visible?.item;
             let last = &mut last[stock.polygon(item)];
             *last = (*last).max(Some(item));
         }
         let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
-        let mut numbers: Vec<u32> = collect((0..most).map(|_| u32::MAX))?;
+        let mut numbers: Vec<u32> = ((0..most).map(|_| u32::MAX)).collect();
         for named in each(watch, 1, last.iter().enumerate()) {
             let (polygon, last) = named?;
             let Some(last) = last else { continue };
             numbers[polygon] = shown.polygons.len() as u32;
-            push(&mut shown.polygons, polygon)?;
-            push(&mut shown.faces, vec![])?;
-            push(&mut shown.ranks, stock.items.len() as u32 - last)?;
+            shown.polygons.push(polygon);
+            shown.faces.push(vec![]);
+            shown.ranks.push(stock.items.len() as u32 - last);
         }
         for face in each(watch, 1, 0..faces.len() as u32) {
             let face = face?;
@@ -474,9 +468,9 @@ impl Nodes {
                 true => numbers[faces.polygon(face)],
                 false => u32::MAX,
             };
-            push(&mut shown.places, number)?;
+            shown.places.push(number);
             if number != u32::MAX {
-                push(&mut shown.faces[number as usize], face)?;
+                shown.faces[number as usize].push(face);
             }
         }
         Ok(shown)
@@ -490,12 +484,12 @@ impl Nodes {
         is_clipped: &[bool],
         watch: &Watch<'_>,
     ) -> Result<Vec<Vec<&'l Cell>>, Error> {
-        let mut cells: Vec<Vec<&Cell>> = collect(self.polygons.iter().map(|_| vec![]))?;
+        let mut cells: Vec<Vec<&Cell>> = self.polygons.iter().map(|_| vec![]).collect();
         for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let Visible { item, cell } = visible?;
             let place = self.places[stock.face(*item) as usize] as usize;
             if is_clipped[place] {
-                push(&mut cells[place], cell)?;
+                cells[place].push(cell);
             }
         }
         Ok(cells)

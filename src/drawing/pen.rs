@@ -1,7 +1,6 @@
 //! Lines for a pen: segments joined at their ends, and ordered for short ways between them.
 
 use crate::Error;
-use crate::memory::{push, reserve};
 
 /// Ends are rounded to a grid of this step, in pixels, and are common if they fall on one place. Smaller:
 /// corners that two projections rounded apart tear lines; larger: lines of a very fine mesh lose their shape.
@@ -60,23 +59,23 @@ impl Polyline {
 ///
 /// # Errors
 ///
-/// If there is not enough memory.
+/// If there are 2³¹ segments or more.
 pub fn polylines(
     segments: impl IntoIterator<Item = [[f64; 2]; 2]>,
 ) -> Result<Vec<Polyline>, Error> {
     let mut net = Net::default();
     for (number, ends) in segments.into_iter().enumerate() {
         if ends.as_flattened().iter().all(|c| c.is_finite()) {
-            push(&mut net.segments, Segment { number, ends, corners: [0; 2] })?;
+            net.segments.push(Segment { number, ends, corners: [0; 2] });
         }
     }
     // Ends have numbers of 32 bits.
     if net.segments.len() > (u32::MAX / 2) as usize {
         return Err(Error::out_of_memory());
     }
-    net.find_corners()?;
-    let joined = net.trails()?;
-    ordered(joined)
+    net.find_corners();
+    let joined = net.trails();
+    Ok(ordered(joined))
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -105,9 +104,8 @@ type Step = (u32, Option<u32>);
 
 impl Net {
     /// Numbers the places where ends meet.
-    fn find_corners(&mut self) -> Result<(), Error> {
-        let mut places: Vec<([i64; 2], u32)> = Vec::new();
-        reserve(&mut places, 2 * self.segments.len())?;
+    fn find_corners(&mut self) {
+        let mut places: Vec<([i64; 2], u32)> = Vec::with_capacity(2 * self.segments.len());
         for (s, segment) in (0u32..).zip(&self.segments) {
             // Shifted, so that round numbers do not lie between two places of the grid.
             let place = |end: [f64; 2]| end.map(|c| (c / GRID + 0.3137).round() as i64);
@@ -117,24 +115,24 @@ impl Net {
         let mut last = None;
         for &(place, end) in &places {
             if last != Some(place) {
-                push(&mut self.begins, self.ends.len() as u32)?;
+                self.begins.push(self.ends.len() as u32);
                 last = Some(place);
             }
-            push(&mut self.ends, end)?;
+            self.ends.push(end);
             let corner = self.begins.len() as u32 - 1;
             self.segments[end as usize / 2].corners[end as usize % 2] = corner;
         }
-        reserve(&mut self.done, self.begins.len())?;
+        self.done.reserve(self.begins.len());
         self.done.extend_from_slice(&self.begins);
-        push(&mut self.begins, self.ends.len() as u32)?;
-        reserve(&mut self.is_used, self.segments.len())?;
+        self.begins.push(self.ends.len() as u32);
+        self.is_used.reserve(self.segments.len());
         self.is_used.resize(self.segments.len(), false);
-        self.pair_odd_corners()
+        self.pair_odd_corners();
     }
 
-    fn pair_odd_corners(&mut self) -> Result<(), Error> {
+    fn pair_odd_corners(&mut self) {
         let corners = self.done.len();
-        reserve(&mut self.jumps, corners)?;
+        self.jumps.reserve(corners);
         self.jumps.resize(corners, None);
         let mut open = None;
         for corner in 0..corners {
@@ -149,11 +147,10 @@ impl Net {
                 }
             }
         }
-        Ok(())
     }
 
     /// Trails through all segments: circuits of segments and jumps, parted at the jumps.
-    fn trails(&mut self) -> Result<Vec<Polyline>, Error> {
+    fn trails(&mut self) -> Vec<Polyline> {
         let mut lines = Vec::new();
         let (mut path, mut circuit): (Vec<Step>, Vec<Step>) = (vec![], vec![]);
         let corners = self.done.len();
@@ -169,20 +166,20 @@ impl Net {
             if jump.is_some() {
                 self.jumps[begin as usize] = None;
             }
-            push(&mut path, (begin, None))?;
+            path.push((begin, None));
             while let Some(&(corner, from)) = path.last() {
                 match self.step(corner, from) {
-                    Some(step) => push(&mut path, step)?,
+                    Some(step) => path.push(step),
                     None => {
                         path.pop();
-                        push(&mut circuit, (corner, from))?;
+                        circuit.push((corner, from));
                     }
                 }
             }
             circuit.reverse();
-            self.part(&circuit, &mut lines)?;
+            self.part(&circuit, &mut lines);
         }
-        Ok(lines)
+        lines
     }
 
     /// A step on from a corner that was reached from an end, or by a jump.
@@ -215,13 +212,12 @@ impl Net {
     }
 
     /// Adds the lines of a circuit.
-    fn part(&self, circuit: &[Step], lines: &mut Vec<Polyline>) -> Result<(), Error> {
+    fn part(&self, circuit: &[Step], lines: &mut Vec<Polyline>) {
         for steps in circuit.split(|(_, from)| from.is_none()).filter(|steps| !steps.is_empty()) {
             let mut line = Polyline { points: vec![], segments: vec![] };
             // Exactly, as most lines are short and many.
-            let points = line.points.try_reserve_exact(steps.len() + 1);
-            let segments = line.segments.try_reserve_exact(steps.len());
-            points.and(segments).map_err(|_| Error::out_of_memory())?;
+            line.points.reserve_exact(steps.len() + 1);
+            line.segments.reserve_exact(steps.len());
             for &(_, from) in steps {
                 let end = from.unwrap_or_default() as usize;
                 let segment = &self.segments[end / 2];
@@ -231,20 +227,17 @@ impl Net {
                 line.points.push(segment.ends[1 - end % 2]);
                 line.segments.push(segment.number);
             }
-            push(lines, line)?;
+            lines.push(line);
         }
-        Ok(())
     }
 }
 
 /// Lines in an order, and each in the direction, in which a pen travels little.
-fn ordered(mut lines: Vec<Polyline>) -> Result<Vec<Polyline>, Error> {
-    let mut ends = Vec::new();
-    reserve(&mut ends, 2 * lines.len())?;
+fn ordered(mut lines: Vec<Polyline>) -> Vec<Polyline> {
+    let mut ends = Vec::with_capacity(2 * lines.len());
     ends.extend(lines.iter().flat_map(Polyline::ends));
-    let mut left = Ends::new(ends)?;
-    let mut ordered = Vec::new();
-    reserve(&mut ordered, lines.len())?;
+    let mut left = Ends::new(ends);
+    let mut ordered = Vec::with_capacity(lines.len());
     let mut pen = [0.0; 2];
     while let Some(end) = left.nearest(pen) {
         let line = end as usize / 2;
@@ -259,7 +252,7 @@ fn ordered(mut lines: Vec<Polyline>) -> Result<Vec<Polyline>, Error> {
         pen = line.ends()[1];
         ordered.push(line);
     }
-    Ok(ordered)
+    ordered
 }
 
 /// Points in a k-d tree: the middle of each range of places parts the others, along one axis and then the
@@ -322,15 +315,15 @@ impl Node {
 }
 
 impl Ends {
-    pub(super) fn new(points: Vec<[f64; 2]>) -> Result<Self, Error> {
+    pub(super) fn new(points: Vec<[f64; 2]>) -> Ends {
         let n = points.len();
         let (mut numbers, mut places, mut counts) = (Vec::new(), Vec::new(), Vec::new());
         for list in [&mut numbers, &mut places, &mut counts] {
-            reserve(list, n)?;
+            list.reserve(n);
         }
         let (mut is_left, mut boxes) = (Vec::new(), Vec::new());
-        reserve(&mut is_left, n)?;
-        reserve(&mut boxes, n)?;
+        is_left.reserve(n);
+        boxes.reserve(n);
         boxes.resize(n, Extent { low: [0.0; 2], high: [0.0; 2] });
         is_left.resize(n, true);
         numbers.extend(0..n as u32);
@@ -351,7 +344,7 @@ impl Ends {
         for (place, &number) in (0..).zip(&numbers) {
             places[number as usize] = place;
         }
-        Ok(Self { points, numbers, places, counts, boxes, is_left })
+        Self { points, numbers, places, counts, boxes, is_left }
     }
 
     fn root(&self) -> Option<Node> {
@@ -423,7 +416,7 @@ mod near_tests {
             let points: Vec<[f64; 2]> =
                 (0..n).map(|_| [0, 1].map(|_| (dice() % 23) as f64)).collect();
             let mut left: Vec<usize> = (0..n).collect();
-            let mut ends = Ends::new(points.clone()).unwrap();
+            let mut ends = Ends::new(points.clone());
             while !left.is_empty() {
                 let from = [0, 1].map(|_| (dice() % 300) as f64 / 10.0 - 3.0);
                 let distance = |k: usize| (points[k][0] - from[0]).hypot(points[k][1] - from[1]);

@@ -3,13 +3,12 @@
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
-use super::lines::{Half, Lines, Table, insert};
+use super::lines::{Half, Lines, Table};
 use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
 use super::paths::Area;
 use super::stock::Stock;
 use super::tile::{CUT, VISITED};
 use crate::build::progress::Watch;
-use crate::memory::{collect, push, reserve};
 use crate::{Error, parallel_map};
 
 /// A part of the picture in which the same polygons show, one behind the other.
@@ -32,7 +31,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If there is not enough memory, or if it was [cancelled](Self#progress).
+    /// If it was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
         self.reporter.watch(2, |watch| self.stacks(watch)?.regions(&self.rims.lines, watch))
     }
@@ -40,7 +39,7 @@ impl VisibilityMap<'_> {
     /// What shows of polygons that lie one behind the other: a phase.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
-        push(&mut stacks.layers, PolygonLayer { polygon: usize::MAX, before: 0 })?;
+        stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
         let (mut done, count) = (0, self.leaves.len());
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
             let divided = |leaf| Divided::new(leaf, &self.stock, &self.rims.lines, watch);
@@ -80,8 +79,7 @@ impl Stacks {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         // The layers of all tiles that those of this one are.
-        let mut own: Vec<u32> = Vec::new();
-        reserve(&mut own, divided.layers.len())?;
+        let mut own: Vec<u32> = Vec::with_capacity(divided.layers.len());
         own.push(0);
         for layer in each(watch, VISITED, &divided.layers[1..]) {
             let layer = layer?;
@@ -90,8 +88,8 @@ impl Stacks {
                 Some(&number) => number,
                 None => {
                     let number = self.layers.len() as u32;
-                    insert(&mut self.numbers, (before, polygon), number)?;
-                    push(&mut self.layers, PolygonLayer { polygon, before })?;
+                    self.numbers.insert((before, polygon), number);
+                    self.layers.push(PolygonLayer { polygon, before });
                     number
                 }
             };
@@ -100,7 +98,7 @@ impl Stacks {
         for part in each(watch, VISITED, &divided.cells) {
             let part = part?;
             self.parts.push(&part.cell.sides)?;
-            push(&mut self.of_parts, own[part.layer as usize])?;
+            self.of_parts.push(own[part.layer as usize]);
         }
         Ok(())
     }
@@ -109,12 +107,12 @@ impl Stacks {
     fn regions(self, lines: &Lines<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
         let Self { layers, parts, of_parts, .. } = self;
         let layer = |part: u32| of_parts[part as usize];
-        let mut by_layer: Vec<u32> = collect(0..of_parts.len() as u32)?;
+        let mut by_layer: Vec<u32> = (0..of_parts.len() as u32).collect();
         sort_by(&mut by_layer, watch, |&a, &b| layer(a).cmp(&layer(b)))?;
         let mut all: Vec<(Vec<usize>, &[u32])> = Vec::new();
         for own in by_layer.chunk_by(|&a, &b| layer(a) == layer(b)) {
             let polygons = stack(&layers, layer(own[0]), watch)?;
-            push(&mut all, (polygons, own))?;
+            all.push((polygons, own));
         }
         sort_by(&mut all, watch, |(a, _), (b, _)| a.cmp(b))?;
         let count = all.len();
@@ -135,8 +133,7 @@ impl Stacks {
 fn stack(layers: &[PolygonLayer], last: u32, watch: &Watch<'_>) -> Result<Vec<usize>, Error> {
     let at = |layer: u32| (layer != 0).then(|| &layers[layer as usize]);
     let all = || std::iter::successors(at(last), |layer| at(layer.before));
-    let mut polygons = Vec::new();
-    polygons.try_reserve_exact(all().count()).map_err(|_| Error::out_of_memory())?;
+    let mut polygons = Vec::with_capacity(all().count());
     for layer in each(watch, 1, all()) {
         polygons.push(layer?.polygon);
     }
@@ -211,8 +208,8 @@ impl Divided {
         if is_opaque(leaf, stock) {
             for visible in each(watch, CUT, &leaf.cells) {
                 let Visible { item, cell } = visible?;
-                let layer = divided.behind(0, *item)?;
-                push(&mut divided.cells, LayeredCell::new(cell.clone(), layer))?;
+                let layer = divided.behind(0, *item);
+                divided.cells.push(LayeredCell::new(cell.clone(), layer));
             }
             return Ok(divided);
         }
@@ -237,30 +234,30 @@ impl Divided {
                 };
                 watch.work(CUT)?;
                 let LayeredCell { layer, .. } = open.swap_remove(i);
-                reserve(&mut left, outside.len() + 1)?;
+                left.reserve(outside.len() + 1);
                 left.extend(outside.drain(..).map(|cell| LayeredCell::new(cell, layer)));
-                let behind = LayeredCell::new(common, divided.behind(layer, *item)?);
-                push(if stock.is_opaque(*item) { &mut divided.cells } else { &mut left }, behind)?;
+                let behind = LayeredCell::new(common, divided.behind(layer, *item));
+                if stock.is_opaque(*item) { &mut divided.cells } else { &mut left }.push(behind);
             }
-            reserve(&mut open, left.len())?;
+            open.reserve(left.len());
             open.append(&mut left);
         }
         open.retain(|part| part.layer != 0);
-        reserve(&mut divided.cells, open.len())?;
+        divided.cells.reserve(open.len());
         divided.cells.append(&mut open);
         Ok(divided)
     }
 
     /// The layer of an item behind another layer.
-    fn behind(&mut self, before: u32, item: u32) -> Result<u32, Error> {
+    fn behind(&mut self, before: u32, item: u32) -> u32 {
         let newest = self.layers[before as usize].newest;
         if newest != 0 && self.layers[newest as usize].item == item {
-            return Ok(newest);
+            return newest;
         }
         let layer = self.layers.len() as u32;
-        push(&mut self.layers, ItemLayer { item, before, newest: 0 })?;
+        self.layers.push(ItemLayer { item, before, newest: 0 });
         self.layers[before as usize].newest = layer;
-        Ok(layer)
+        layer
     }
 
     /// The items that show in a part, back to front.

@@ -13,7 +13,6 @@ use super::tile::{CUT, IN_VAIN, NARROWED, Reaches, Tile, found_in, in_vain};
 use crate::Error;
 use crate::build::progress::Watch;
 use crate::exact::{Int, PlaneId, PreparedPlane};
-use crate::memory::{collect, push, reserve};
 
 /// A segment of the scene, as far as the picture has it.
 #[derive(Clone, Copy, Debug)]
@@ -427,8 +426,8 @@ pub(super) fn passes(
 ) -> Result<Passes, Error> {
     let tile = Tile::picture(pieces.lines.frame.rays.size());
     let reaches = std::mem::take(&mut pieces.reaches);
-    let sights = collect(0..passing.sights.len() as u32)?;
-    let spots = collect(0..passing.spots.len() as u32)?;
+    let sights = (0..passing.sights.len() as u32).collect::<Vec<_>>();
+    let spots = (0..passing.spots.len() as u32).collect::<Vec<_>>();
     let all = TilePasses { tile, reaches, sights, spots, in_vain: 0 };
     let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
     let leaf = |part: &TilePasses, found: &mut Passes| {
@@ -437,9 +436,9 @@ pub(super) fn passes(
     let (all, mut passes) = (all.narrowed(&pieces, passing, tile, watch)?, Passes::default());
     for mut found in found_in(all, Passes::default, halves, leaf, watch)? {
         watch.work(found.sights.len() + found.spots.len())?;
-        reserve(&mut passes.sights, found.sights.len())?;
+        passes.sights.reserve(found.sights.len());
         passes.sights.append(&mut found.sights);
-        reserve(&mut passes.spots, found.spots.len())?;
+        passes.spots.reserve(found.spots.len());
         passes.spots.append(&mut found.spots);
     }
     Ok(passes)
@@ -522,12 +521,14 @@ impl TilePasses {
                     let places = [from.max(chord[0]), to.min(chord[1])];
                     let pass = Pass { sight: number, piece, is_behind, places };
                     let is_any = is_wanted(is_behind) && places[0] < places[1];
-                    if is_any { push(&mut found.sights, pass) } else { Ok(()) }
+                    if is_any {
+                        found.sights.push(pass);
+                    }
                 };
                 let [from, to] = sight.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
-                add(true, [from, to])?;
-                add(false, [f64::NEG_INFINITY, from])?;
-                add(false, [to, f64::INFINITY])?;
+                add(true, [from, to]);
+                add(false, [f64::NEG_INFINITY, from]);
+                add(false, [to, f64::INFINITY]);
             }
             for number in each(watch, CUT, &self.spots) {
                 let number = *number?;
@@ -535,7 +536,7 @@ impl TilePasses {
                 if !are_apart(&around, &spot.around()) && spot.is_in(lines, &cell) {
                     let is_behind = spot.is_behind(lines, face, side);
                     if is_wanted(is_behind) {
-                        push(&mut found.spots, SpotPass { spot: number, piece, is_behind })?;
+                        found.spots.push(SpotPass { spot: number, piece, is_behind });
                     }
                 }
             }
@@ -550,8 +551,7 @@ pub(super) fn kept(
     keep: impl Fn(u32) -> bool,
     watch: &Watch<'_>,
 ) -> Result<Vec<u32>, Error> {
-    let mut kept = Vec::new();
-    reserve(&mut kept, numbers.len())?;
+    let mut kept = Vec::with_capacity(numbers.len());
     for number in each(watch, NARROWED, numbers) {
         let number = *number?;
         if keep(number) {

@@ -4,13 +4,13 @@ use smallvec::SmallVec;
 
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
 use super::exact_lines::Frame;
-use super::lines::{Half, Lines, Table, insert};
+use super::lines::{Half, Lines, Table};
 use super::map::each;
 use super::tile::{Across, Tile};
 use crate::build::progress::Watch;
 use crate::error::{Error, Kind};
 use crate::exact::{Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
-use crate::memory::{collect, place, push, reserve};
+use crate::memory::place;
 use crate::parallel_map;
 use crate::raster::{Rays, Sheet, VERTEX_ERROR, normal_of};
 use crate::tree::{BspTree, Fragment};
@@ -74,13 +74,12 @@ impl<'t> Stock<'t> {
             return Err(Kind::OtherRays.error());
         }
         let frame = Frame { rays, faces };
-        let mut order = Vec::new();
-        reserve(&mut order, tree.len())?;
+        let mut order = Vec::with_capacity(tree.len());
         for fragment in each(watch, 1, tree.front_to_back(frame.rays.viewpoint())) {
             order.push(fragment?.index());
         }
         let mut stock = Self { tree, frame, items: vec![], views: vec![], opacities };
-        let all: Vec<u32> = collect(0..faces.len() as u32)?;
+        let all: Vec<u32> = (0..faces.len() as u32).collect();
         let view = |face: u32| Some(stock.view(face));
         stock.views = shared(&all, view, watch)?;
         let item = |index: u32| stock.item(&tree.fragment(index));
@@ -199,14 +198,13 @@ fn shared<T: Send>(
 ) -> Result<Vec<T>, Error> {
     let part = |numbers: &[u32]| {
         watch.work(numbers.len() * LOOKED)?;
-        let mut part = Vec::new();
-        reserve(&mut part, numbers.len())?;
+        let mut part = Vec::with_capacity(numbers.len());
         part.extend(numbers.iter().filter_map(|&number| function(number)));
         Ok(part)
     };
     let mut all = Vec::new();
     for mut part in parallel_map::map(numbers.chunks(SHARE).collect(), part)? {
-        reserve(&mut all, part.len())?;
+        all.reserve(part.len());
         all.append(&mut part);
     }
     Ok(all)
@@ -441,10 +439,10 @@ impl<'t> Rims<'t> {
         let View { is_positive, .. } = stock.views[face as usize];
         let start = place(halves.len())?;
         for k in 0..stock.frame.faces.corners(face).len() as u32 {
-            push(halves, lines.edge(face, k, is_positive)?)?;
+            halves.push(lines.edge(face, k, is_positive)?);
         }
         let ends = [start, place(halves.len())?];
-        insert(&mut self.of_faces, face, ends)?;
+        self.of_faces.insert(face, ends);
         Ok(ends)
     }
 
@@ -461,15 +459,15 @@ impl<'t> Rims<'t> {
         let start = self.halves.len();
         // All edges of the face: one that passes by the piece's box may still be what keeps a piece out that
         // is beside the picture, whose box is not empty.
-        reserve(&mut self.halves, (rim[1] - rim[0]) as usize)?;
+        self.halves.reserve((rim[1] - rim[0]) as usize);
         self.halves.extend_from_within(rim[0] as usize..rim[1] as usize);
         let View { is_positive, .. } = stock.views[face as usize];
         for line in fragment.lines() {
             let Some(plane) = line.as_cut() else { continue };
-            push(&mut self.halves, self.lines.cut(face, plane, line.is_behind(), is_positive)?)?;
+            self.halves.push(self.lines.cut(face, plane, line.is_behind(), is_positive)?);
         }
         let ends = [place(start)?, place(self.halves.len())?];
-        insert(&mut self.of_items, item, ends)?;
+        self.of_items.insert(item, ends);
         Ok(ends)
     }
 }

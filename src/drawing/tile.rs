@@ -9,7 +9,7 @@ use super::lines::{Half, Lines, STEPS};
 use super::map::{each, finish_item};
 use super::stock::{Item, Rims, Stock};
 use crate::build::progress::Watch;
-use crate::memory::{place, push, reserve};
+use crate::memory::place;
 use crate::{Error, parallel_map};
 
 /// A rectangle of the picture, between borders in steps.
@@ -146,7 +146,7 @@ fn shared<P: Send, F: Send>(
     let found = |(part, shares)| shared(part, shares, new, halves, leaf, watch);
     let mut all = Vec::new();
     for mut part in parallel_map::map(parts, found)? {
-        reserve(&mut all, part.len())?;
+        all.reserve(part.len());
         all.append(&mut part);
     }
     Ok(all)
@@ -163,8 +163,8 @@ fn alone<P, F>(
     while let Some(part) = stack.pop() {
         match halves(&part, &mut found)? {
             Some([first, second]) => {
-                push(&mut stack, second)?;
-                push(&mut stack, first)?;
+                stack.push(second);
+                stack.push(first);
             }
             None => leaf(&part, &mut found)?,
         }
@@ -191,7 +191,7 @@ impl List {
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(stock, rims, tile, u32::MAX, stock.items.len())?;
+        let mut narrow = Narrow::new(stock, rims, tile, u32::MAX, stock.items.len());
         for item in each(watch, NARROWED, 0..stock.items.len() as u32) {
             if !narrow.add(item?)? {
                 break;
@@ -208,7 +208,7 @@ impl List {
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(stock, rims, tile, self.limit, self.items.len())?;
+        let mut narrow = Narrow::new(stock, rims, tile, self.limit, self.items.len());
         for item in each(watch, NARROWED, &self.items) {
             if !narrow.add(*item?)? {
                 break;
@@ -234,10 +234,9 @@ impl<'a, 't> Narrow<'a, 't> {
         tile: Tile,
         limit: u32,
         most: usize,
-    ) -> Result<Self, Error> {
-        let mut items = Vec::new();
-        reserve(&mut items, most)?;
-        Ok(Self { stock, rims, sides: tile.sides(), list: List { items, limit } })
+    ) -> Narrow<'a, 't> {
+        let items = Vec::with_capacity(most);
+        Self { stock, rims, sides: tile.sides(), list: List { items, limit } }
     }
 
     /// Adds an item unless it is certain that the tile shows nothing of it; false if no item behind it can
@@ -259,7 +258,7 @@ impl<'a, 't> Narrow<'a, 't> {
                 Across::Inside | Across::Maybe => {}
             }
         }
-        push(&mut list.items, item)?;
+        list.items.push(item);
         Ok(item < list.limit)
     }
 
@@ -320,9 +319,10 @@ impl Reaches {
     /// Adds a piece.
     pub(super) fn push(&mut self, number: u32, halves: &[Half]) -> Result<(), Error> {
         let start = place(self.halves.len())?;
-        reserve(&mut self.halves, halves.len())?;
+        self.halves.reserve(halves.len());
         self.halves.extend_from_slice(halves);
-        push(&mut self.list, Reach { number, halves: [start, place(self.halves.len())?] })
+        self.list.push(Reach { number, halves: [start, place(self.halves.len())?] });
+        Ok(())
     }
 
     pub(super) fn halves_of(&self, reach: &Reach) -> &[Half] {

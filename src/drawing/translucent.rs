@@ -15,7 +15,6 @@ use super::tile::{CUT, IN_VAIN, LINES, Reaches, Tile, VISITED, found_in, in_vain
 use crate::Error;
 use crate::build::Progress;
 use crate::build::progress::Watch;
-use crate::memory::{collect, filled, push, reserve};
 use crate::overlay::Overlay;
 use crate::raster::Rays;
 use crate::tree::BspTree;
@@ -141,14 +140,14 @@ impl Drawing {
                 }
                 for pair in each(watch, VISITED, new) {
                     let pair = pair?;
-                    add(&mut known, pair)?;
-                    push(&mut touching, pair)?;
+                    add(&mut known, pair);
+                    touching.push(pair);
                 }
             };
             let (mut drawing, paths) = parts.drawing(&stock, &rims, &ordered, None, watch)?;
             for placed in each(watch, 1, placed) {
                 let (parts, what): (u32, Overlaid) = placed?;
-                push(&mut drawing.overlaid, (paths[parts as usize], what))?;
+                drawing.overlaid.push((paths[parts as usize], what));
             }
             sort_by(&mut drawing.overlaid, watch, |(a, _), (b, _)| a.cmp(b))?;
             Ok(drawing)
@@ -167,8 +166,10 @@ pub(super) fn mixed(
     // Polygons that show are known by their first items.
     let polygon = |item: u32| stock.polygon(item);
     let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
-    let (mut shows, mut first): (Vec<bool>, Vec<u32>) =
-        (collect((0..count).map(|_| false))?, collect((0..count).map(|_| u32::MAX))?);
+    let (mut shows, mut first): (Vec<bool>, Vec<u32>) = (
+        ((0..count).map(|_| false)).collect::<Vec<_>>(),
+        ((0..count).map(|_| u32::MAX)).collect::<Vec<_>>(),
+    );
     for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
         shows[polygon(visible?.item)] = true;
     }
@@ -188,7 +189,7 @@ pub(super) fn mixed(
     for pair in each(watch, 1, &pairs) {
         let pair = *pair?;
         if !stock.is_opaque(pair.above) {
-            push(&mut blended, pair)?;
+            blended.push(pair);
         }
     }
     let parts = Parts::new(stock, &blended, &[], watch)?;
@@ -284,10 +285,10 @@ impl TileStack {
             let item = reach.number;
             if reach.covers() {
                 if let (Some(cover), true) = (cover, behind.is_empty()) {
-                    add(item, cover)?;
+                    add(item, cover);
                 }
                 for (above, _) in behind.drain(..) {
-                    add(item, above)?;
+                    add(item, above);
                 }
                 cover = Some(item);
                 continue;
@@ -296,16 +297,16 @@ impl TileStack {
             let halves = self.reaches.halves_of(reach);
             let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
             if let Some(cover) = cover {
-                add(item, cover)?;
+                add(item, cover);
             }
             let face = |item: u32| stock.face(item);
             for part in each(watch, CUT, &behind) {
                 let (above, other) = part?;
                 if face(*above) != face(item) && other.meets(lines, halves, watch)? {
-                    add(item, *above)?;
+                    add(item, *above);
                 }
             }
-            push(&mut behind, (item, cell))?;
+            behind.push((item, cell));
         }
         Ok(())
     }
@@ -341,14 +342,14 @@ impl Parts {
         for item in each(watch, 1, 0..units.len() as u32) {
             let item = item?;
             if cycles[units[item as usize] as usize].is_some() {
-                push(&mut nodes, item)?;
+                nodes.push(item);
             }
         }
         // What is further back has a higher number as an item, and a lower one as a node.
         let cycle = |item: u32| cycles[units[item as usize] as usize];
         let key = |item: u32| (cycle(item), Reverse(item));
         sort_by(&mut nodes, watch, |&a, &b| key(a).cmp(&key(b)))?;
-        let mut node_of: Vec<u32> = collect(units.iter().map(|_| u32::MAX))?;
+        let mut node_of: Vec<u32> = vec![u32::MAX; units.len()];
         for (node, &item) in (0..).zip(&nodes) {
             node_of[item as usize] = node;
         }
@@ -359,7 +360,7 @@ impl Parts {
         let mut pairs = Vec::new();
         for pair in each(watch, VISITED, overlaps) {
             if let Some(pair) = in_nodes(pair?) {
-                push(&mut pairs, pair)?;
+                pairs.push(pair);
             }
         }
         let mut groups = Groups::new(nodes.len(), &pairs, watch)?;
@@ -371,7 +372,7 @@ impl Parts {
                 None => true,
             };
             if is_kept {
-                push(&mut kept, *pair)?;
+                kept.push(*pair);
             }
         }
         for (a, b) in candidates(&nodes, &units, watch)? {
@@ -382,10 +383,10 @@ impl Parts {
         for (node, &item) in (0..).zip(&nodes) {
             of_item[item as usize] = count as u32 + groups.group(node);
         }
-        let mut items: Vec<Vec<u32>> = collect((0..count + nodes.len()).map(|_| Vec::new()))?;
+        let mut items: Vec<Vec<u32>> = vec![vec![]; count + nodes.len()];
         for placed in each(watch, VISITED, (0..).zip(&of_item)) {
             let (item, &part) = placed?;
-            push(&mut items[part as usize], item)?;
+            items[part as usize].push(item);
         }
         for items in &mut items {
             sort_by(items, watch, |&a, &b| stock.face(a).cmp(&stock.face(b)))?;
@@ -404,7 +405,7 @@ impl Parts {
     ) -> Result<Ordered, Error> {
         let count = stock.items.len() as u32;
         let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
-        let ranks = collect(self.items.iter().map(rank))?;
+        let ranks = self.items.iter().map(rank).collect::<Vec<_>>();
         let is_opaque = |part: u32| {
             let first = self.items[part as usize].first();
             leaves.is_some() && first.is_some_and(|&item| stock.is_opaque(item))
@@ -415,13 +416,13 @@ impl Parts {
 
     /// The place of each item's part in an order.
     pub(super) fn places(&self, ordered: &Ordered, watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
-        let mut places = filled(self.items.len(), 0)?;
+        let mut places = vec![0; self.items.len()];
         for placed in each(watch, 1, (0..).zip(&ordered.order)) {
             let (place, &part) = placed?;
             places[part as usize] = place;
         }
         watch.work(self.of_item.len())?;
-        collect(self.of_item.iter().map(|&part| places[part as usize]))
+        Ok(self.of_item.iter().map(|&part| places[part as usize]).collect())
     }
 
     /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each number
@@ -437,10 +438,9 @@ impl Parts {
         let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
         let mut drawing = Drawing::empty(stock.frame.rays.size());
         let count = ordered.order.len();
-        reserve(&mut drawing.paths, count)?;
-        let counts = Counts::of(stock)?;
-        let mut paths = Vec::new();
-        reserve(&mut paths, count + 1)?;
+        drawing.paths.reserve(count);
+        let counts = Counts::of(stock);
+        let mut paths = Vec::with_capacity(count + 1);
         paths.push(0);
         let mut area = Area::default();
         for (i, &part) in ordered.order.iter().enumerate() {
@@ -475,10 +475,10 @@ impl Parts {
         leaves: &'l [Leaf],
         watch: &Watch<'_>,
     ) -> Result<Vec<Vec<&'l Cell>>, Error> {
-        let mut cells: Vec<Vec<&Cell>> = collect(self.items.iter().map(|_| vec![]))?;
+        let mut cells: Vec<Vec<&Cell>> = vec![vec![]; self.items.len()];
         for visible in each(watch, VISITED, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let Visible { item, cell } = visible?;
-            push(&mut cells[self.of_item[*item as usize] as usize], cell)?;
+            cells[self.of_item[*item as usize] as usize].push(cell);
         }
         Ok(cells)
     }
@@ -491,13 +491,13 @@ struct Counts {
 }
 
 impl Counts {
-    fn of(stock: &Stock<'_>) -> Result<Self, Error> {
-        let mut of_face: Vec<u32> = collect(stock.views.iter().map(|_| 0))?;
+    fn of(stock: &Stock<'_>) -> Counts {
+        let mut of_face: Vec<u32> = vec![0; stock.views.len()];
         stock.items.iter().for_each(|item| of_face[item.face as usize] += 1);
         let count = (0..stock.items.len() as u32).map(|item| stock.polygon(item) + 1).max();
-        let mut of_polygon: Vec<u32> = collect((0..count.unwrap_or(0)).map(|_| 0))?;
+        let mut of_polygon: Vec<u32> = vec![0; count.unwrap_or(0)];
         (0..stock.items.len() as u32).for_each(|item| of_polygon[stock.polygon(item)] += 1);
-        Ok(Self { of_face, of_polygon })
+        Self { of_face, of_polygon }
     }
 
     /// Adds items to an area, those of one face after another.
@@ -528,16 +528,18 @@ impl Counts {
 fn units(stock: &Stock<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
     let polygon = |item: u32| stock.polygon(item);
     let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
-    let mut is_folded: Vec<bool> = collect((0..count).map(|_| false))?;
+    let mut is_folded: Vec<bool> = vec![false; count];
     for pair in each(watch, VISITED, overlaps) {
         let Pair { below, above } = *pair?;
         let [below, above] = [below, above].map(polygon);
         is_folded[below] |= below == above;
     }
-    let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) =
-        (collect((0..count).map(|_| None))?, collect(stock.views.iter().map(|_| None))?);
+    let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) = (
+        ((0..count).map(|_| None)).collect::<Vec<_>>(),
+        stock.views.iter().map(|_| None).collect::<Vec<_>>(),
+    );
     let (mut units, mut next) = (Vec::new(), 0);
-    reserve(&mut units, stock.items.len())?;
+    units.reserve(stock.items.len());
     for item in each(watch, 1, 0..stock.items.len() as u32) {
         let item = item?;
         let polygon = polygon(item);
@@ -562,7 +564,7 @@ fn contracted<'p>(
     for pair in each(watch, 1, of_items) {
         let pair = pair?.map(|item| of_item[item as usize]);
         if pair.below != pair.above {
-            push(&mut pairs, pair)?;
+            pairs.push(pair);
         }
     }
     sort_unique(&mut pairs, watch)?;
@@ -573,14 +575,14 @@ fn contracted<'p>(
 /// between them. (Which are joined first hardly matters to how many are left.)
 fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u32, u32)>, Error> {
     let unit = |node: u32| units[nodes[node as usize] as usize];
-    let mut by_unit: Vec<u32> = collect(0..nodes.len() as u32)?;
+    let mut by_unit: Vec<u32> = (0..nodes.len() as u32).collect();
     sort_by(&mut by_unit, watch, |&a, &b| unit(a).cmp(&unit(b)))?;
     let mut pairs = Vec::new();
     for same in by_unit.chunk_by(|&a, &b| unit(a) == unit(b)) {
         for numbered in each(watch, NEXT, same.iter().enumerate()) {
             let (i, &a) = numbered?;
             for &b in same[i + 1..].iter().take(NEXT) {
-                push(&mut pairs, (a, b))?;
+                pairs.push((a, b));
             }
         }
     }

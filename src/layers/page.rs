@@ -8,7 +8,6 @@ use crate::build::{BuildOptions, FrameBuilder};
 use crate::error::{Error, InputFault, InputKind, Kind};
 use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
-use crate::memory::reserve;
 use crate::viewpoint::Viewpoint;
 
 /// How far a page reaches in depth, and if it is not clipped to its viewport across as well, in
@@ -132,7 +131,7 @@ impl Layers {
         if !self.limits().iter().all(|corner| corner.is_finite()) {
             return Err(Kind::Viewport.error());
         }
-        reserve(&mut self.layers, layers.len())?;
+        self.layers.reserve(layers.len());
         self.layers.extend_from_slice(layers);
         let precision = self.clip()?;
         let [least, most] = TOLERANCES.map(|share| share * self.size());
@@ -166,8 +165,7 @@ impl Layers {
                 }
                 .error());
             }
-            reserve(&mut self.outlines, 1)?;
-            reserve(&mut self.corners, MOST_CORNERS)?;
+            self.corners.reserve(MOST_CORNERS);
             let corners = self.corners.len();
             if let Some(precision) = clip(from, limits, viewport, &mut self.corners) {
                 coarsest = coarsest.max(precision);
@@ -183,7 +181,7 @@ impl Layers {
         let Self { builder, layers, outlines, corners, by_plane, .. } = self;
         let polygons = (0..outlines.len()).map(|k| Clipped(corners_of(outlines, corners, k)));
         by_plane.clear();
-        reserve(by_plane, outlines.len())?;
+        by_plane.reserve(outlines.len());
         by_plane.extend(0..outlines.len() as u32);
         by_plane.sort_unstable_by_key(|&k| outlines[k as usize].plane_key);
         let planes = by_plane.chunk_by(|&a, &b| {

@@ -10,7 +10,6 @@ use super::Overlay;
 use super::replace::Shape;
 use super::skeleton::{Branch, Group, SlotContent, SlotSide};
 use crate::error::Error;
-use crate::memory::reserve;
 use crate::tree::order::eye::View;
 use crate::tree::{BspTree, Ordered};
 use crate::viewpoint::Viewpoint;
@@ -167,8 +166,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it, or if memory runs
-    /// out.
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
     pub fn back_to_front_into(
         &self,
         tree: &BspTree,
@@ -178,7 +176,7 @@ impl Overlay {
         self.expect(tree)?;
         tree.back_to_front_into(viewpoint, order);
         if !self.is_empty() {
-            self.insert(&View::new(tree, viewpoint), order)?;
+            self.insert(&View::new(tree, viewpoint), order);
         }
         Ok(())
     }
@@ -188,8 +186,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it, or if memory runs
-    /// out.
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
     pub fn front_to_back_into(
         &self,
         tree: &BspTree,
@@ -205,13 +202,13 @@ impl Overlay {
     ///
     /// Every side of the skeleton knows how many fragments and pieces it has, so where a side begins
     /// is known before it is read, as in the tree's own order.
-    fn insert(&self, view: &View, order: &mut Vec<u32>) -> Result<(), Error> {
+    fn insert(&self, view: &View, order: &mut Vec<u32>) {
         let (fragments, pieces) = (order.len(), self.len());
         let all = fragments + pieces;
         let (slots, words) = (self.skeleton.slots(), all.div_ceil(WORD));
         // One buffer for all: the caller's, so that a frame allocates nothing.
         let room = all + slots + 2 * words + 2 * pieces;
-        reserve(order, room - fragments)?;
+        order.reserve(room - fragments);
         order.resize(room, 0);
         let (order_itself, rest) = order.split_at_mut(all);
         let (begins, rest) = rest.split_at_mut(slots);
@@ -223,7 +220,6 @@ impl Overlay {
         self.sort(groups, (marks, before), (places, numbers), fragments as u32);
         spread(order_itself, fragments, places, numbers);
         order.truncate(all);
-        Ok(())
     }
 
     /// Writes where each slot begins in the order of both parts.

@@ -10,7 +10,6 @@ use crate::build::piece::{Piece, Splitter};
 use crate::build::progress::Watch;
 use crate::error::{Error, InputFault, Limit};
 use crate::exact::{Faces, Line, PreparedPlane, Side, StoredVertex, Vertex};
-use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::tree::node::MOST_FRAGMENTS;
 use crate::tree::parts::{Parts, Record};
@@ -56,9 +55,9 @@ impl Work<'_> {
         pending.clear();
         *crowd = None;
         let (new, thin) = (faces.len() - *first as usize, *thin);
-        reserve(pieces, new)?;
+        pieces.reserve(new);
         pieces.extend((*first..thin).map(|face| Piece::whole(faces, face)));
-        reserve(arena, 2 * (faces.len() - thin as usize))?;
+        arena.reserve(2 * (faces.len() - thin as usize));
         for face in thin..faces.len() as u32 {
             let start = arena.len();
             let ends = 0..faces.reach(face) as u32;
@@ -69,19 +68,17 @@ impl Work<'_> {
         }
         if new > 0 {
             let region = Region::root(Whose::Tree, tree.nodes.len(), tree.len());
-            self.push(Place::Root, region, 0..new)?;
+            self.push(Place::Root, region, 0..new);
         }
         Ok(())
     }
 
     /// Puts a set on the stack of those to be divided, unless nothing is to be put in place there.
-    fn push(&mut self, place: Place, region: Region, pieces: Range<usize>) -> Result<(), Error> {
+    fn push(&mut self, place: Place, region: Region, pieces: Range<usize>) {
         let Placer { arena, pending, .. } = &mut *self.placer;
         if !pieces.is_empty() || region.has_pieces() {
-            reserve(pending, 1)?;
             pending.push(Pending { pieces, arena: arena.len(), region, place });
         }
-        Ok(())
     }
 
     /// Divides a set by the plane of its region, and puts both sides on the stack.
@@ -96,7 +93,7 @@ impl Work<'_> {
         }
         if pieces.is_empty() && region.node.is_none() {
             // Polygons of a cell that no line or point comes to.
-            let pieces = self.store_all(region.fragments, 0)?;
+            let pieces = self.store_all(region.fragments, 0);
             self.skeleton.hang(place, pieces);
             return Ok(());
         }
@@ -113,21 +110,23 @@ impl Work<'_> {
             self.divide(start, &prepared)?;
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
-        branch.pieces = self.store_all(own, self.placer.own.len())?;
-        let number = self.skeleton.push(place, branch)?;
+        branch.pieces = self.store_all(own, self.placer.own.len());
+        let number = self.skeleton.push(place, branch);
         let [front, back] = [Place::Front(number), Place::Back(number)];
         let rest = start..self.placer.pieces.len();
         if side == Some(Side::Front) {
-            self.push(back, behind, start..start)?;
-            return self.push(front, in_front, rest);
+            self.push(back, behind, start..start);
+            self.push(front, in_front, rest);
+            return Ok(());
         }
-        self.push(back, behind, rest)?;
+        self.push(back, behind, rest);
         let Placer { pieces, front: list, .. } = &mut *self.placer;
         let start = pieces.len();
-        reserve(pieces, list.len())?;
+        pieces.reserve(list.len());
         pieces.extend_from_slice(list);
         let rest = start..pieces.len();
-        self.push(front, in_front, rest)
+        self.push(front, in_front, rest);
+        Ok(())
     }
 
     /// The side of a plane on which all of a crowd on top of the stack certainly lies, if it does.
@@ -159,8 +158,8 @@ impl Work<'_> {
     fn divide(&mut self, start: usize, prepared: &PreparedPlane) -> Result<(), Error> {
         let Placer { pieces, arena, front, own, splitter, .. } = &mut *self.placer;
         // Each piece has at most one part in front, or is one on the plane.
-        reserve(front, pieces.len() - start)?;
-        reserve(own, pieces.len() - start)?;
+        front.reserve(pieces.len() - start);
+        own.reserve(pieces.len() - start);
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
@@ -195,9 +194,8 @@ impl Work<'_> {
         let set = &pieces[start..];
         if let [piece] = *set {
             own.clear();
-            reserve(own, 1)?;
             own.push(piece);
-            let side = self.store_all(0..0, 1)?;
+            let side = self.store_all(0..0, 1);
             self.skeleton.hang(place, side);
             return Ok(None);
         }
@@ -214,8 +212,8 @@ impl Work<'_> {
             let region = cell.fill(tree)?;
             return Ok(Opened::of(region, self.tree, cell, self.faces));
         }
-        let first = self.store_tree(&tree)?;
-        self.skeleton.graft(place, self.faces, &tree, first)?;
+        let first = self.store_tree(&tree);
+        self.skeleton.graft(place, self.faces, &tree, first);
         self.placer.cells.keep(tree);
         Ok(None)
     }
@@ -311,11 +309,7 @@ impl Overlay {
 impl Work<'_> {
     /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
     /// order.
-    pub(super) fn store_all(
-        &mut self,
-        fragments: Range<u32>,
-        own: usize,
-    ) -> Result<SlotSide, Error> {
+    pub(super) fn store_all(&mut self, fragments: Range<u32>, own: usize) -> SlotSide {
         let first = self.pieces.records.len() as u32;
         for fragment in fragments {
             let fragment = fragment as usize;
@@ -325,7 +319,7 @@ impl Work<'_> {
             let range = records[fragment].vertices as usize..end;
             let (symbols, places) = (&vertices[range.clone()], &positions[range]);
             let face = records[fragment].face;
-            add(self.pieces, face, symbols.iter().copied(), places.iter().copied())?;
+            add(self.pieces, face, symbols.iter().copied(), places.iter().copied());
         }
         let Placer { own: list, arena, .. } = &*self.placer;
         // Coplanar polygons are painted in input order, which sets keep when they are divided.
@@ -333,25 +327,25 @@ impl Work<'_> {
         for live in &list[..own] {
             let cut = live.cut_vertices(arena).unwrap_or_default();
             let symbols = cut.iter().map(|vertex| vertex.stored());
-            add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position))?;
+            add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position));
             self.watch.finish(live.cuts);
         }
         self.skeleton.group(first..self.pieces.records.len() as u32)
     }
 
     /// Appends the fragments of a small tree to the overlay's pieces, and gives the number of the first.
-    pub(super) fn store_tree(&mut self, tree: &Parts) -> Result<u32, Error> {
+    pub(super) fn store_tree(&mut self, tree: &Parts) -> u32 {
         let pieces = &mut *self.pieces;
         let first = pieces.records.len() as u32;
         let shift = pieces.vertices.len() as u32;
-        reserve(&mut pieces.records, tree.records.len())?;
+        pieces.records.reserve(tree.records.len());
         let moved = |record: &Record| Record { vertices: record.vertices + shift, ..*record };
         pieces.records.extend(tree.records.iter().map(moved));
-        reserve(&mut pieces.vertices, tree.vertices.len())?;
+        pieces.vertices.reserve(tree.vertices.len());
         pieces.vertices.extend_from_slice(&tree.vertices);
-        reserve(&mut pieces.positions, tree.positions.len())?;
+        pieces.positions.reserve(tree.positions.len());
         pieces.positions.extend_from_slice(&tree.positions);
-        Ok(first)
+        first
     }
 }
 
@@ -361,13 +355,11 @@ fn add(
     face: u32,
     symbols: impl ExactSizeIterator<Item = StoredVertex>,
     places: impl ExactSizeIterator<Item = [f64; 3]>,
-) -> Result<(), Error> {
+) {
     let Parts { records, vertices, positions, .. } = pieces;
-    reserve(records, 1)?;
     records.push(Record { face, vertices: vertices.len() as u32 });
-    reserve(vertices, symbols.len())?;
+    vertices.reserve(symbols.len());
     vertices.extend(symbols);
-    reserve(positions, places.len())?;
+    positions.reserve(places.len());
     positions.extend(places);
-    Ok(())
 }

@@ -9,7 +9,6 @@ use crate::build::piece::Piece;
 use crate::build::progress::Watch;
 use crate::error::Error;
 use crate::exact::{Faces, PlaneId, Vertex};
-use crate::memory::reserve;
 use crate::tree::order::eye::rounded;
 use crate::tree::parts::{Parts, RawChild};
 
@@ -121,14 +120,13 @@ impl Skeleton {
     }
 
     /// A side of these pieces alone.
-    pub(super) fn group(&mut self, pieces: Range<u32>) -> Result<SlotSide, Error> {
+    pub(super) fn group(&mut self, pieces: Range<u32>) -> SlotSide {
         let len = pieces.len() as u32;
         if len == 0 {
-            return Ok(SlotSide::still(0));
+            return SlotSide::still(0);
         }
-        reserve(&mut self.groups, 1)?;
         self.groups.push(Group { first: pieces.start, len });
-        Ok(SlotSide { slot: GROUP | (self.groups.len() as u32 - 1), len })
+        SlotSide { slot: GROUP | (self.groups.len() as u32 - 1), len }
     }
 
     /// Hangs something where it belongs.
@@ -141,13 +139,12 @@ impl Skeleton {
     }
 
     /// Adds a branch, hangs it, and gives its number.
-    pub(super) fn push(&mut self, place: Place, branch: Branch) -> Result<u32, Error> {
-        reserve(&mut self.branches, 1)?;
+    pub(super) fn push(&mut self, place: Place, branch: Branch) -> u32 {
         let slot = self.branches.len() as u32;
         self.branches.push(branch);
         // Its length is not known before all that hangs on it is.
         self.hang(place, SlotSide { slot, len: 0 });
-        Ok(slot)
+        slot
     }
 
     /// Numbers the slots, and computes the lengths of all sides.
@@ -180,15 +177,8 @@ impl Skeleton {
     }
 
     /// Hangs the small tree of a cell, whose fragments are to be the pieces from `first` on.
-    pub(super) fn graft(
-        &mut self,
-        place: Place,
-        faces: &Faces,
-        tree: &Parts,
-        mut first: u32,
-    ) -> Result<(), Error> {
+    pub(super) fn graft(&mut self, place: Place, faces: &Faces, tree: &Parts, mut first: u32) {
         self.open.clear();
-        reserve(&mut self.open, 1)?;
         self.open.push(place);
         let mut take = |len: u32| {
             let start = first;
@@ -196,20 +186,20 @@ impl Skeleton {
             start..first
         };
         for node in &tree.nodes {
-            let Some(place) = self.open.pop() else { return Ok(()) };
+            let Some(place) = self.open.pop() else { return };
             // Fragments are numbered in this order: on the plane, front leaf, back leaf, the rest.
-            let pieces = self.group(take(node.own))?;
+            let pieces = self.group(take(node.own));
             let mut side = |skeleton: &mut Self, child| match child {
                 RawChild::Leaf(len) => skeleton.group(take(len)),
-                RawChild::Node => Ok(SlotSide::still(0)),
+                RawChild::Node => SlotSide::still(0),
             };
-            let (front, back) = (side(self, node.front)?, side(self, node.back)?);
+            let (front, back) = (side(self, node.front), side(self, node.back));
             let plane = node.plane;
             let rounded = rounded(faces, plane);
             let branch = Branch { rounded, plane, own: 0, pieces, front, back };
-            let number = self.push(place, branch)?;
+            let number = self.push(place, branch);
             // Nodes stand depth first, the front before the back.
-            reserve(&mut self.open, 2)?;
+            self.open.reserve(2);
             if node.back == RawChild::Node {
                 self.open.push(Place::Back(number));
             }
@@ -217,7 +207,6 @@ impl Skeleton {
                 self.open.push(Place::Front(number));
             }
         }
-        Ok(())
     }
 }
 
@@ -253,7 +242,7 @@ impl Anchors {
     /// Finds the segments of all points. Of the segments that meet where many points are, each is looked
     /// at once, not once for each point.
     pub(super) fn fill(&mut self, faces: &Faces, watch: &Watch<'_>) -> Result<(), Error> {
-        self.find_places(faces)?;
+        self.find_places(faces);
         if self.places.is_empty() {
             return Ok(());
         }
@@ -271,18 +260,18 @@ impl Anchors {
     }
 
     /// Lists the places of the points.
-    fn find_places(&mut self, faces: &Faces) -> Result<(), Error> {
+    fn find_places(&mut self, faces: &Faces) {
         let Self { points, places, place_of, first } = self;
         let count = faces.thin.points;
         *first = (faces.len() - count) as u32;
         points.clear();
         places.clear();
         place_of.clear();
-        reserve(points, count)?;
+        points.reserve(count);
         points.extend((0..count as u32).map(|number| (faces.corners(*first + number)[0], number)));
         points.sort_unstable_by(|(a, _), (b, _)| order(a, b));
-        reserve(places, count)?;
-        reserve(place_of, count)?;
+        places.reserve(count);
+        place_of.reserve(count);
         place_of.resize(count, 0);
         for &(at, number) in &*points {
             if places.last().is_none_or(|&(last, _)| last != at) {
@@ -290,7 +279,6 @@ impl Anchors {
             }
             place_of[number as usize] = places.len() as u32 - 1;
         }
-        Ok(())
     }
 
     /// Where the points begin in a set of pieces, which is in the order of faces.

@@ -7,7 +7,6 @@ use crate::exact::cell::CellBox;
 use crate::exact::{Faces, LATTICE_LIMIT};
 use crate::faces::{Precision, Tolerance, empty_faces};
 use crate::input::Point;
-use crate::memory::{push, reserve};
 
 impl Partition {
     /// Divides a scene into `cells` cells with about equally many samples each. The grid includes `room`.
@@ -33,10 +32,10 @@ impl Partition {
             // Samples choose planes and no more: those that say nothing are left out.
             if point.is_finite() {
                 let limit = |c: f64| c.clamp(-LATTICE_LIMIT, LATTICE_LIMIT);
-                push(&mut points, lattice.snap(point).map(limit))?;
+                points.push(lattice.snap(point).map(limit));
             }
         }
-        let planes = planes(&mut points, bounds.map(|corner| lattice.snap(corner)), cells.max(1))?;
+        let planes = planes(&mut points, bounds.map(|corner| lattice.snap(corner)), cells.max(1));
         Ok(Self { lattice, tolerance, planes })
     }
 }
@@ -48,9 +47,8 @@ struct Samples {
     room: CellBox,
 }
 
-fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Result<Vec<Wall>, Error> {
-    let mut planes = Vec::new();
-    reserve(&mut planes, cells - 1)?;
+fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<Wall> {
+    let mut planes = Vec::with_capacity(cells - 1);
     let subtree = CellRange { plane: 0, cells: 0..cells };
     let mut parts = vec![Samples { subtree, samples: 0..samples.len(), room }];
     while let Some(Samples { subtree, samples: range, room }) = parts.pop() {
@@ -65,10 +63,10 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Result<Vec<W
         let [mut back_room, mut front_room] = [room; 2];
         (back_room[1][wall.axis], front_room[0][wall.axis]) = (wall.at, wall.at);
         let [back, front] = subtree.sides();
-        push(&mut parts, Samples { subtree: front, samples: behind..range.end, room: front_room })?;
-        push(&mut parts, Samples { subtree: back, samples: range.start..behind, room: back_room })?;
+        parts.push(Samples { subtree: front, samples: behind..range.end, room: front_room });
+        parts.push(Samples { subtree: back, samples: range.start..behind, room: back_room });
     }
-    Ok(planes)
+    planes
 }
 
 /// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, as

@@ -9,7 +9,7 @@ use super::order::eye::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
 use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, SymbolKind};
-use crate::memory::{collect, reserve};
+use crate::memory::collect;
 use crate::viewpoint::Viewpoint;
 use crate::{Error, parallel_map};
 
@@ -59,14 +59,11 @@ impl BspTree {
     /// If there is not enough memory.
     pub fn bounds(&self) -> Result<Bounds, Error> {
         let blocks = self.fragment_bounds()?;
-        let mut nodes = Vec::new();
-        reserve(&mut nodes, self.nodes.len())?;
+        let mut nodes = Vec::with_capacity(self.nodes.len());
         nodes.resize(self.nodes.len(), NOTHING);
-        let mut normals = Vec::new();
-        reserve(&mut normals, self.nodes.len())?;
+        let mut normals = Vec::with_capacity(self.nodes.len());
         normals.resize(self.nodes.len(), Normals::NONE);
-        let mut faces = Vec::new();
-        reserve(&mut faces, self.faces.len())?;
+        let mut faces = Vec::with_capacity(self.faces.len());
         faces.extend(
             (0..self.faces.len() as u32).map(|face| rounded(&self.faces, PlaneId::face(face))),
         );
@@ -94,8 +91,7 @@ impl BspTree {
         }
         let (mut levels, mut len) = (vec![blocks], self.len());
         while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-            let mut next = Vec::new();
-            reserve(&mut next, last.len().div_ceil(BLOCK))?;
+            let mut next = Vec::with_capacity(last.len().div_ceil(BLOCK));
             next.extend((0..last.len()).step_by(BLOCK).map(|first| {
                 let blocks = last.iter().zip((0..len).step_by(BLOCK)).skip(first);
                 Block::new(blocks.map(|(block, first)| block.all(len - first)))
@@ -109,8 +105,7 @@ impl BspTree {
     }
 
     fn fragment_bounds(&self) -> Result<Vec<Block>, Error> {
-        let mut blocks = Vec::new();
-        reserve(&mut blocks, self.len().div_ceil(BLOCK))?;
+        let mut blocks = Vec::with_capacity(self.len().div_ceil(BLOCK));
         let starts = (0..self.len()).step_by(FRAGMENTS_A_THREAD);
         let parts = parallel_map::map(starts.collect(), |start| {
             let end = (start + FRAGMENTS_A_THREAD).min(self.len());

@@ -48,9 +48,9 @@ impl Auto {
             return Ok(Choice::Split(plane));
         }
         let free = if set.len() < tuning.clean_below {
-            self.free.clean(set, tuning)?
+            self.free.clean(set, tuning)
         } else {
-            self.free.best(set, tuning, watch)?
+            self.free.best(set, tuning, watch)
         };
         if let Some(free) = free
             && !free.cost.cuts
@@ -58,12 +58,12 @@ impl Auto {
             return Ok(Choice::Split(free.plane));
         }
         if let Some(quick) = quick
-            && let Some(plane) = self.plane_in_the_middle(set, tuning, &quick)?
+            && let Some(plane) = self.plane_in_the_middle(set, tuning, &quick)
         {
             return Ok(Choice::Split(plane));
         }
         if set.len() < tuning.small {
-            self.best_of_small(rules, set, free, is_peeled)
+            Ok(self.best_of_small(rules, set, free, is_peeled))
         } else {
             self.best_of_large(rules, set, free)
         }
@@ -76,22 +76,22 @@ impl Auto {
         set: &Set<'_>,
         tuning: &Tuning,
         quick: &Quick,
-    ) -> Result<Option<PlaneId>, Error> {
+    ) -> Option<PlaneId> {
         if quick.probes == 0 {
-            return Ok(None);
+            return None;
         }
         let middle = Middle::of(set, quick);
         if !matches!(middle, Middle::Taken)
             && set.len() >= tuning.clean_below
-            && let Some(gap) = self.free.clean(set, tuning)?
+            && let Some(gap) = self.free.clean(set, tuning)
         {
             // Through a corner that was cut off: only sorting finds it.
-            return Ok(Some(gap.plane));
+            return Some(gap.plane);
         }
-        Ok(match middle {
+        match middle {
             Middle::Crossing(plane) => Some(plane),
             Middle::Gap | Middle::Taken => None,
-        })
+        }
     }
 
     /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.
@@ -120,31 +120,26 @@ impl Auto {
         set: &Set<'_>,
         free: Option<Candidate>,
         is_peeled: bool,
-    ) -> Result<Choice, Error> {
+    ) -> Choice {
         let Rules { tuning, watch, .. } = *rules;
         let terms = Terms::small(set, tuning);
-        self.sample.restart(set, set.len())?;
-        self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning)?;
-        let own = self.contest.best(set, &mut self.sample, &terms, tuning)?;
+        self.sample.restart(set, set.len());
+        self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
+        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
         if let Some(own) = own
             && own.cost.divides_evenly(set.len(), tuning.uneven)
         {
-            return Ok(Choice::Split(own.plane));
+            return Choice::Split(own.plane);
         }
         let places = self.contest.one_sided();
         if !is_peeled
             && !places.is_empty()
-            && let Some(peeled) = self.peeler.search(
-                set,
-                &self.sample.sketch,
-                places.iter().copied(),
-                tuning,
-                watch,
-            )?
+            && let Some(peeled) =
+                self.peeler.search(set, &self.sample.sketch, places.iter().copied(), tuning, watch)
         {
-            return Ok(Choice::Peel(peeled));
+            return Choice::Peel(peeled);
         }
-        Ok(better(set, &terms, own, free))
+        better(set, &terms, own, free)
     }
 
     fn best_of_large(
@@ -157,33 +152,33 @@ impl Auto {
         let terms = Terms::large(set, tuning);
         // Each step is a pass over the set, or several.
         watch.work(set.len())?;
-        self.begin_large(set, &terms, tuning)?;
+        self.begin_large(set, &terms, tuning);
         watch.work(set.len())?;
         if self.contest.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
-            let arranged = arrange(set, tuning.groups_per_box)?;
+            let arranged = arrange(set, tuning.groups_per_box);
             watch.work(set.len())?;
             for part in arranged.chunks(PIECES_AT_ONCE) {
-                sketch.extend(set, part.iter().copied())?;
+                sketch.extend(set, part.iter().copied());
                 watch.work(part.len())?;
             }
-            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch)? {
+            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch) {
                 return Ok(Choice::Peel(peeled));
             }
             // The sketch has another order now, in which the first are no sample.
-            self.begin_large(set, &terms, tuning)?;
+            self.begin_large(set, &terms, tuning);
             watch.work(set.len())?;
         }
-        let own = self.contest.best(set, &mut self.sample, &terms, tuning)?;
+        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
         Ok(better(set, &terms, own, free))
     }
 
     /// Compares own planes of a large set with a first sample of it.
-    fn begin_large(&mut self, set: &Set<'_>, terms: &Terms, tuning: &Tuning) -> Result<(), Error> {
+    fn begin_large(&mut self, set: &Set<'_>, terms: &Terms, tuning: &Tuning) {
         let count = tuning.few_own_planes;
-        self.sample.restart(set, count.next_multiple_of(LANES))?;
-        self.contest.begin(set, &mut self.sample, count, terms, tuning)
+        self.sample.restart(set, count.next_multiple_of(LANES));
+        self.contest.begin(set, &mut self.sample, count, terms, tuning);
     }
 }
 

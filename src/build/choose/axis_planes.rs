@@ -4,11 +4,9 @@ use std::cmp::Ordering;
 
 use super::cost::{Candidate, Cost, Counts, Tuning};
 use super::set::Set;
-use crate::Error;
 use crate::build::piece::Piece;
 use crate::build::progress::{SWEEP, Watch};
 use crate::exact::{Faces, PlaneId};
-use crate::memory::{push, reserve};
 
 /// Searches for free planes; its lists are kept to be used again.
 #[derive(Debug, Default)]
@@ -27,7 +25,7 @@ impl FreePlanes {
         set: &Set<'_>,
         tuning: &Tuning,
         watch: &Watch<'_>,
-    ) -> Result<Option<Candidate>, Error> {
+    ) -> Option<Candidate> {
         let mut best: Option<FreePlane> = None;
         let n = set.len();
         for (axis, ends) in axes(set) {
@@ -36,18 +34,14 @@ impl FreePlanes {
             {
                 break;
             }
-            self.binned.best_along(axis, ends, set, tuning, &mut best)?;
+            self.binned.best_along(axis, ends, set, tuning, &mut best);
         }
-        Ok(best.and_then(|best| best.with_corner(set)))
+        best.and_then(|best| best.with_corner(set))
     }
 
     /// The free plane of least cost among those that cut nothing. It sorts the set, which for a small one
     /// takes less time than counting by bins.
-    pub(super) fn clean(
-        &mut self,
-        set: &Set<'_>,
-        tuning: &Tuning,
-    ) -> Result<Option<Candidate>, Error> {
+    pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<Candidate> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis) && set.may_have_gap(axis))
@@ -57,7 +51,7 @@ impl FreePlanes {
             }
             let spans = pieces.iter().zip(0..).map(|(p, i)| (p.min[axis], p.max[axis], i));
             self.spans.clear();
-            reserve(&mut self.spans, n)?;
+            self.spans.reserve(n);
             self.spans.extend(spans);
             self.spans.sort_unstable_by(|a, b| compare(&a.0, &b.0).then(compare(&a.1, &b.1)));
             // Of the pieces so far, the one that reaches furthest, and how far.
@@ -78,7 +72,7 @@ impl FreePlanes {
                 }
             }
         }
-        Ok(best.and_then(|best| best.with_corner(set)))
+        best.and_then(|best| best.with_corner(set))
     }
 }
 
@@ -184,28 +178,21 @@ impl Binned {
         set: &Set<'_>,
         tuning: &Tuning,
         best: &mut Option<FreePlane>,
-    ) -> Result<(), Error> {
+    ) {
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
-        self.fill(pieces, axis, tolerance, &Bins::new(low, high, n, tuning))?;
+        self.fill(pieces, axis, tolerance, &Bins::new(low, high, n, tuning));
         if self.bound(n, best.map_or(Cost::MOST, |best| best.cost)) {
-            self.gather(pieces, axis, tolerance)?;
+            self.gather(pieces, axis, tolerance);
             self.walk(n, axis, best);
         }
-        Ok(())
     }
 
     /// Counts what begins and ends in each bin.
-    fn fill(
-        &mut self,
-        pieces: &[Piece],
-        axis: usize,
-        tolerance: f64,
-        bins: &Bins,
-    ) -> Result<(), Error> {
+    fn fill(&mut self, pieces: &[Piece], axis: usize, tolerance: f64, bins: &Bins) {
         self.counts.clear();
         self.counts.resize(bins.count + 1, Passed::default());
         self.bins.clear();
-        reserve(&mut self.bins, pieces.len())?;
+        self.bins.reserve(pieces.len());
         let counts = &mut self.counts;
         self.bins.extend(pieces.iter().map(|piece| {
             let span = Span::of(piece, axis, tolerance);
@@ -222,7 +209,6 @@ impl Binned {
                 total.ended[kind] += ended[kind];
             }
         }
-        Ok(())
     }
 
     /// Chooses the bins that may hold the best plane: those whose least possible cost is below the limit,
@@ -251,7 +237,7 @@ impl Binned {
     }
 
     /// Gathers what is in the chosen bins.
-    fn gather(&mut self, pieces: &[Piece], axis: usize, tolerance: f64) -> Result<(), Error> {
+    fn gather(&mut self, pieces: &[Piece], axis: usize, tolerance: f64) {
         let chosen = &self.chosen[..];
         self.begins.iter_mut().chain(&mut self.ends).for_each(Vec::clear);
         self.candidates.clear();
@@ -262,19 +248,18 @@ impl Binned {
             }
             let span = Span::of(piece, axis, tolerance);
             if is_chosen(begin) {
-                push(&mut self.begins[span.kind], span.begin)?;
+                self.begins[span.kind].push(span.begin);
                 if piece.min_is_corner(axis) {
-                    push(&mut self.candidates, (begin, piece.min[axis]))?;
+                    self.candidates.push((begin, piece.min[axis]));
                 }
             }
             if is_chosen(end) {
-                push(&mut self.ends[span.kind], span.end)?;
+                self.ends[span.kind].push(span.end);
                 if piece.max_is_corner(axis) {
-                    push(&mut self.candidates, (end, piece.max[axis]))?;
+                    self.candidates.push((end, piece.max[axis]));
                 }
             }
         }
-        Ok(())
     }
 
     /// Tries the candidates in the chosen bins, each upwards, with a finger in the list of each kind.

@@ -54,21 +54,21 @@ impl Chooser {
             }
             Heuristic::FewestSplits => self.scored.best(set, most, rules.watch, |counts, _| {
                 (f64::from(counts.splits), f64::from(counts.imbalance()))
-            })?,
+            }),
             Heuristic::Balanced => self.scored.best(set, most, rules.watch, |counts, _| {
                 (f64::from(counts.imbalance()), f64::from(counts.splits))
-            })?,
+            }),
             Heuristic::Weighted { splits, balance, axial } => {
-                self.weighted(rules, set, most, [splits, balance, axial])?
+                self.weighted(rules, set, most, [splits, balance, axial])
             }
             Heuristic::Sampled { candidates } => {
-                self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)?
+                self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)
             }
             Heuristic::FreePlanes => {
                 if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
                     return Ok(Choice::Split(plane));
                 }
-                let free = self.auto.free.best(set, rules.tuning, rules.watch)?;
+                let free = self.auto.free.best(set, rules.tuning, rules.watch);
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
@@ -76,12 +76,8 @@ impl Chooser {
     }
 
     /// A free plane that cuts nothing.
-    pub(super) fn clean(
-        &mut self,
-        rules: &Rules<'_>,
-        set: &Set<'_>,
-    ) -> Result<Option<PlaneId>, Error> {
-        Ok(self.auto.free.clean(set, rules.tuning)?.map(|free| free.plane))
+    pub(super) fn clean(&mut self, rules: &Rules<'_>, set: &Set<'_>) -> Option<PlaneId> {
+        self.auto.free.clean(set, rules.tuning).map(|free| free.plane)
     }
 
     /// The own plane of least weighted sum.
@@ -91,7 +87,7 @@ impl Chooser {
         set: &Set<'_>,
         candidates: usize,
         [splits, balance, axial]: [f64; 3],
-    ) -> Result<PlaneId, Error> {
+    ) -> PlaneId {
         let bonus = axial * set.len() as f64;
         self.scored.best(set, candidates, rules.watch, |counts, is_axial| {
             let reward = if is_axial { bonus } else { 0.0 };

@@ -2,11 +2,9 @@
 
 use super::cost::{Candidate, Cost, Counts, Terms, Tuning};
 use super::set::{LANES, Set, Sketch, SketchPlane};
-use crate::Error;
 use crate::build::piece::Piece;
 use crate::build::progress::{PIECES_AT_ONCE, Watch};
 use crate::exact::PlaneId;
-use crate::memory::reserve;
 
 /// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +67,7 @@ impl Contest {
         count: usize,
         terms: &Terms,
         tuning: &Tuning,
-    ) -> Result<(), Error> {
+    ) {
         let shares = Shares::of(set.size());
         let sketch = &sample.sketch;
         self.seen = 0;
@@ -82,13 +80,12 @@ impl Contest {
             counts: Counts::default(),
             cost: Cost::MOST,
         }));
-        self.look(set, sample, tuning.first_sample, terms)?;
+        self.look(set, sample, tuning.first_sample, terms);
         let is_one_sided =
             |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
         let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
         self.one_sided.clear();
         self.one_sided.extend(found.map(|(place, _)| place));
-        Ok(())
     }
 
     /// The places in the sketch of the candidates that had all pieces of the first sample on one
@@ -104,16 +101,16 @@ impl Contest {
         sample: &mut Sample,
         terms: &Terms,
         tuning: &Tuning,
-    ) -> Result<Option<Candidate>, Error> {
+    ) -> Option<Candidate> {
         let mut pieces = tuning.first_sample;
         while pieces < set.len() {
             self.halve(tuning.rate);
             pieces *= tuning.rate;
-            self.look(set, sample, pieces, terms)?;
+            self.look(set, sample, pieces, terms);
         }
         let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost));
         let own = |best: &Entrant| Candidate { plane: set.own_plane(best.piece), cost: best.cost };
-        Ok(best.map(own))
+        best.map(own)
     }
 
     /// Keeps the best 1/`rate` of the candidates, in their order.
@@ -135,14 +132,8 @@ impl Contest {
     }
 
     /// Compares all candidates with the first `pieces` pieces.
-    fn look(
-        &mut self,
-        set: &Set<'_>,
-        sample: &mut Sample,
-        pieces: usize,
-        terms: &Terms,
-    ) -> Result<(), Error> {
-        sample.grow(set, pieces)?;
+    fn look(&mut self, set: &Set<'_>, sample: &mut Sample, pieces: usize, terms: &Terms) {
+        sample.grow(set, pieces);
         let sketch = &sample.sketch;
         let groups = self.seen..pieces.min(set.len()).div_ceil(LANES);
         self.seen = groups.end;
@@ -152,7 +143,6 @@ impl Contest {
             entrant.counts += sketch.count(&entrant.plane, groups.clone());
             entrant.cost = terms.cost(&entrant.counts, entrant.share);
         }
-        Ok(())
     }
 }
 
@@ -180,11 +170,11 @@ impl Scored {
         candidates: usize,
         watch: &Watch<'_>,
         score: impl Fn(&Counts, bool) -> (f64, f64),
-    ) -> Result<PlaneId, Error> {
+    ) -> PlaneId {
         let Self { sketch, tried } = self;
         sketch.reset(set);
         tried.clear();
-        reserve(tried, candidates.min(set.len()))?;
+        tried.reserve(candidates.min(set.len()));
         tried.extend(set.sample(candidates).map(|piece| Tried {
             piece,
             plane: sketch.plane(set, piece),
@@ -196,7 +186,7 @@ impl Scored {
                 break;
             }
             sketch.clear();
-            sketch.extend(set, part.clone())?;
+            sketch.extend(set, part.clone());
             for Tried { plane, counts, .. } in &mut *tried {
                 *counts += sketch.count(plane, 0..part.len().div_ceil(LANES));
             }
@@ -207,7 +197,7 @@ impl Scored {
         };
         let scores = tried.iter().map(|tried| (score(tried), tried.piece));
         let best = scores.min_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        Ok(set.own_plane(best.map_or(0, |(_, piece)| piece)))
+        set.own_plane(best.map_or(0, |(_, piece)| piece))
     }
 }
 
@@ -221,19 +211,18 @@ pub(super) struct Sample {
 
 impl Sample {
     /// Replaces what is sketched by the first `count` pieces, or all of them if there are not more.
-    pub(super) fn restart(&mut self, set: &Set<'_>, count: usize) -> Result<(), Error> {
+    pub(super) fn restart(&mut self, set: &Set<'_>, count: usize) {
         self.sketch.clear();
         self.rest = Spread::new(set.len());
-        self.grow(set, count)
+        self.grow(set, count);
     }
 
     /// Adds pieces until there are `count`, or all.
-    pub(super) fn grow(&mut self, set: &Set<'_>, count: usize) -> Result<(), Error> {
+    pub(super) fn grow(&mut self, set: &Set<'_>, count: usize) {
         let missing = count.min(set.len()).saturating_sub(self.sketch.len());
         if missing > 0 {
-            self.sketch.extend(set, self.rest.by_ref().take(missing))?;
+            self.sketch.extend(set, self.rest.by_ref().take(missing));
         }
-        Ok(())
     }
 }
 

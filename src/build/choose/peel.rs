@@ -4,11 +4,9 @@ use std::ops::Range;
 
 use super::cost::Tuning;
 use super::set::{LANES, Reach, Set, Sketch, SketchBox, SketchPlane};
-use crate::Error;
 use crate::bits::bits;
 use crate::build::progress::Watch;
 use crate::exact::{PlaneId, Side};
-use crate::memory::{collect, push, reserve};
 
 /// Pieces that are taken off a set one after the other, and cut nothing of what is left.
 #[derive(Debug, Default)]
@@ -39,11 +37,11 @@ impl Peeled {
         &self.pieces[layer.range.clone()]
     }
 
-    fn push(&mut self, plane: PlaneId, rest: Side, pieces: &[u32]) -> Result<(), Error> {
+    fn push(&mut self, plane: PlaneId, rest: Side, pieces: &[u32]) {
         let start = self.pieces.len();
-        reserve(&mut self.pieces, pieces.len())?;
+        self.pieces.reserve(pieces.len());
         self.pieces.extend_from_slice(pieces);
-        push(&mut self.layers, Layer { plane, rest, range: start..self.pieces.len() })
+        self.layers.push(Layer { plane, rest, range: start..self.pieces.len() });
     }
 }
 
@@ -92,17 +90,17 @@ impl Peeler {
         places: impl Iterator<Item = usize>,
         tuning: &Tuning,
         watch: &Watch<'_>,
-    ) -> Result<Option<Peeled>, Error> {
+    ) -> Option<Peeled> {
         let groups = sketch.groups();
-        self.boxes.fill(sketch, tuning.groups_per_box)?;
+        self.boxes.fill(sketch, tuning.groups_per_box);
         self.left.clear();
-        reserve(&mut self.left, groups)?;
+        self.left.reserve(groups);
         self.left.extend((0..groups).map(|group| sketch.lanes(group)));
         let (peeled, left) = (Peeled::default(), sketch.len());
         let mut search = Search { lists: self, set, sketch, watch, peeled, left };
-        search.pass(places)?;
+        search.pass(places);
         let peeled = search.peeled;
-        Ok((!peeled.layers.is_empty()).then_some(peeled))
+        (!peeled.layers.is_empty()).then_some(peeled)
     }
 }
 
@@ -119,7 +117,7 @@ struct Search<'a, 'w> {
 
 impl Search<'_, '_> {
     /// Takes off what it can, going once over the pieces at some places.
-    fn pass(&mut self, places: impl Iterator<Item = usize>) -> Result<(), Error> {
+    fn pass(&mut self, places: impl Iterator<Item = usize>) {
         for p in places {
             if self.left <= 1 {
                 break;
@@ -129,15 +127,14 @@ impl Search<'_, '_> {
             }
             let number = self.sketch.number(p);
             let plane = self.sketch.plane(self.set, number);
-            let (work, may_be_taken) = self.look(p, &plane)?;
+            let (work, may_be_taken) = self.look(p, &plane);
             if self.watch.work(work).is_err() {
                 break;
             }
             if may_be_taken {
-                self.left -= self.take(p, self.set.own_plane(number))?;
+                self.left -= self.take(p, self.set.own_plane(number));
             }
         }
-        Ok(())
     }
 
     /// Whether something keeps the current piece from being taken.
@@ -151,7 +148,7 @@ impl Search<'_, '_> {
 
     /// Compares the others with a piece's plane until there are some on both sides. Gives how many
     /// comparisons that took, and whether there may be none on one side.
-    fn look(&mut self, p: usize, plane: &SketchPlane) -> Result<(usize, bool), Error> {
+    fn look(&mut self, p: usize, plane: &SketchPlane) -> (usize, bool) {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
         self.lists.near.clear();
@@ -178,23 +175,23 @@ impl Search<'_, '_> {
                         continue;
                     }
                     work += LANES;
-                    self.see(p, plane, group)?;
+                    self.see(p, plane, group);
                     if self.is_held() {
-                        return Ok((work, false));
+                        return (work, false);
                     }
                 }
             }
             if self.is_held() {
-                return Ok((work, false));
+                return (work, false);
             }
         }
-        Ok((work, true))
+        (work, true)
     }
 
     /// Notes which pieces of a group, among those left, are witnesses against taking piece `p`, and
     /// which are near its plane.
     #[inline]
-    fn see(&mut self, p: usize, plane: &SketchPlane, group: usize) -> Result<(), Error> {
+    fn see(&mut self, p: usize, plane: &SketchPlane, group: usize) {
         let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
         let left = self.lists.left[group] & others;
         let Reach { front, back, near } = self.sketch.reach(plane, group);
@@ -205,22 +202,21 @@ impl Search<'_, '_> {
         if back & left != 0 {
             self.lists.witnesses[BACK] = first + (back & left).trailing_zeros();
         }
-        bits((near & left).into())
-            .try_for_each(|bit| push(&mut self.lists.near, first + bit as u32))
+        self.lists.near.extend(bits((near & left).into()).map(|bit| first + bit as u32));
     }
 
     /// Takes a piece off, with those on its plane, if all others that are left are on one side of
     /// it; says how many.
-    fn take(&mut self, p: usize, plane: PlaneId) -> Result<usize, Error> {
+    fn take(&mut self, p: usize, plane: PlaneId) -> usize {
         let prepared = self.set.prepare(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
         own.clear();
-        push(own, p as u32)?;
+        own.push(p as u32);
         let held = witnesses;
         for &q in &*near {
             let side = self.set.classify(&prepared, self.sketch.number(q as usize));
             if side == Side::Coplanar {
-                push(own, q)?;
+                own.push(q);
             }
             if matches!(side, Side::Front | Side::Spanning) {
                 held[FRONT] = q;
@@ -229,30 +225,27 @@ impl Search<'_, '_> {
                 held[BACK] = q;
             }
             if !held.contains(&NO_PIECE) {
-                return Ok(0);
+                return 0;
             }
         }
         let rest = match *held {
             [NO_PIECE, _] => Side::Back,
             [_, NO_PIECE] => Side::Front,
-            _ => return Ok(0),
+            _ => return 0,
         };
         for q in &mut *own {
             left[*q as usize / LANES] &= !(1 << (*q as usize % LANES));
             *q = self.sketch.number(*q as usize) as u32;
         }
-        self.peeled.push(plane, rest, own)?;
-        Ok(own.len())
+        self.peeled.push(plane, rest, own);
+        own.len()
     }
 }
 
 /// The pieces of a large set in an order in which groups, and ranges of groups, are near one
 /// another: by halving the longest side of their box again and again.
-pub(in crate::build::choose) fn arrange(
-    set: &Set<'_>,
-    groups_per_box: usize,
-) -> Result<Vec<usize>, Error> {
-    let mut order = collect(0..set.len())?;
+pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
+    let mut order = (0..set.len()).collect::<Vec<_>>();
     let middle = |piece: usize, axis: usize| {
         let live = &set.pieces[piece];
         live.min[axis] + live.max[axis]
@@ -276,7 +269,7 @@ pub(in crate::build::choose) fn arrange(
         });
         stack.extend([low, high]);
     }
-    Ok(order)
+    order
 }
 
 /// A balanced tree of boxes around the groups of a sketch: the children of node i are 2i + 1 and
@@ -296,23 +289,22 @@ struct Node {
 }
 
 impl Boxes {
-    fn fill(&mut self, sketch: &Sketch, groups_per_box: usize) -> Result<(), Error> {
+    fn fill(&mut self, sketch: &Sketch, groups_per_box: usize) {
         self.groups_per_box = groups_per_box;
         self.around.clear();
         if sketch.groups() <= groups_per_box {
-            return Ok(());
+            return;
         }
         let mut stack = vec![Node { index: 0, groups: 0..sketch.groups() }];
         while let Some(node) = stack.pop() {
             if self.around.len() <= node.index {
                 let missing = node.index + 1 - self.around.len();
-                reserve(&mut self.around, missing)?;
+                self.around.reserve(missing);
                 self.around.resize(node.index + 1, SketchBox::default());
             }
             self.around[node.index] = sketch.bounds(node.groups.clone());
             stack.extend(self.children(&node).into_iter().flatten());
         }
-        Ok(())
     }
 
     fn children(&self, node: &Node) -> Option<[Node; 2]> {

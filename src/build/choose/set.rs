@@ -6,10 +6,8 @@ use glam::{DVec3, Vec3, Vec4};
 
 use super::cost::Counts;
 use super::quick::crosses;
-use crate::Error;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
-use crate::memory::reserve;
 
 /// Pieces compared with a plane at once.
 pub(super) const LANES: usize = 4;
@@ -81,26 +79,21 @@ impl Sketch {
     }
 
     /// Adds pieces of the set, by number.
-    pub(super) fn extend(
-        &mut self,
-        set: &Set<'_>,
-        numbers: impl ExactSizeIterator<Item = usize>,
-    ) -> Result<(), Error> {
+    pub(super) fn extend(&mut self, set: &Set<'_>, numbers: impl ExactSizeIterator<Item = usize>) {
         debug_assert!(self.numbers.len().is_multiple_of(LANES), "the last group is full");
         let first = self.numbers.len();
-        reserve(&mut self.numbers, numbers.len())?;
+        self.numbers.reserve(numbers.len());
         self.numbers.extend(numbers.map(|number| number as u32));
         for start in (first..self.numbers.len()).step_by(LANES) {
-            self.add_group(set, start)?;
+            self.add_group(set, start);
         }
-        Ok(())
     }
 
-    fn add_group(&mut self, set: &Set<'_>, start: usize) -> Result<(), Error> {
+    fn add_group(&mut self, set: &Set<'_>, start: usize) {
         let group = &self.numbers[start..self.numbers.len().min(start + LANES)];
         let vertices = group.iter().map(|&piece| set.vertices(piece as usize)).max().unwrap_or(0);
         let row = self.rows.len();
-        reserve(&mut self.rows, vertices)?;
+        self.rows.reserve(vertices);
         self.rows.resize(row + vertices, [Vec4::ZERO; 3]);
         let rows = &mut self.rows[row..];
         for lane in 0..LANES {
@@ -120,12 +113,9 @@ impl Sketch {
                 }
             }
         }
-        reserve(&mut self.ends, 1)?;
         self.ends.push(self.rows.len() as u32);
         let lane = |lane| if lane < group.len() { 1.0 } else { 0.0 };
-        reserve(&mut self.lanes, 1)?;
         self.lanes.push(Vec4::from_array([0, 1, 2, 3].map(lane)));
-        Ok(())
     }
 
     /// How many pieces there are.

@@ -133,7 +133,7 @@ fn check_lists(tree: &BspTree, camera: &Camera) {
         first.item(&stock, item).unwrap();
         second.item(&stock, count - 1 - item).unwrap();
     }
-    let (mut adopted, before) = (Adopted::of(&second.lines).unwrap(), first.lines.keys.len());
+    let (mut adopted, before) = (Adopted::of(&second.lines), first.lines.keys.len());
     for item in 0..count {
         let own = first.known_item(&stock, item).to_vec();
         for (half, other) in own.iter().zip(second.known_item(&stock, item).to_vec()) {
@@ -144,7 +144,7 @@ fn check_lists(tree: &BspTree, camera: &Camera) {
     assert_eq!(first.lines.keys.len(), before);
     // A list that knows nothing has the same lines afterwards.
     let mut third = Rims::new(&stock);
-    let mut adopted = Adopted::of(&second.lines).unwrap();
+    let mut adopted = Adopted::of(&second.lines);
     for item in 0..count {
         for half in second.known_item(&stock, item).to_vec() {
             let own = third.lines.adopted(&second.lines, half, &mut adopted).unwrap();

@@ -42,10 +42,10 @@ fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
         (0..faces.len() as u32).map(|face| Piece::whole(&faces, face)).collect();
     let watch = Watch::default();
     let set = Set::new(&faces, &pieces, &[]);
-    let found = FreePlanes::default().best(&set, &Tuning::DEFAULT, &watch).unwrap();
+    let found = FreePlanes::default().best(&set, &Tuning::DEFAULT, &watch);
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
-    let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT).unwrap();
+    let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
     assert_eq!(clean.is_some(), !best.cuts, "{name}: {clean:?}, {best:?}");
     let cost_of = |found: &Candidate| {
         let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
@@ -133,13 +133,11 @@ fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
         let even = Cost { cuts: false, amount: 2.0 * work(2) };
         // In all by less than the tolerance.
         let fixture = Fixture::new(&of([4e-4, 4e-4], [-4e-4, -4e-4]), TOLERANCE);
-        let clean = FreePlanes::default().clean(&fixture.set(), &Tuning::DEFAULT).unwrap();
+        let clean = FreePlanes::default().clean(&fixture.set(), &Tuning::DEFAULT);
         assert_eq!(clean.map(|clean| (axis_of(&clean), clean.cost)), Some((axis, even)));
         // On either side of a plane by less than that.
         let fixture = Fixture::new(&of([7e-4, 0.0], [-7e-4, 0.0]), TOLERANCE);
-        let found = FreePlanes::default()
-            .best(&fixture.set(), &Tuning::DEFAULT, &Watch::default())
-            .unwrap();
+        let found = FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
         assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((axis, even)));
     }
 }
@@ -154,8 +152,7 @@ fn a_plane_is_found_where_pieces_only_end() {
     polygons.extend([[ending; 4], [beginning; 4]].concat());
     let mut fixture = Fixture::new(&polygons, 0.0);
     fixture.keep(PlaneId::face(0), Side::Front);
-    let found =
-        FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default()).unwrap();
+    let found = FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
     let even = Cost { cuts: false, amount: 2.0 * work(4) };
     assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((0, even)));
 }
@@ -164,8 +161,7 @@ fn a_plane_is_found_where_pieces_only_end() {
 fn a_tolerance_may_be_wider_than_bins() {
     let mut random = SplitMix64::new(4);
     let fixture = Fixture::new(&triangles(&mut random, 3000, 1e-3, 1.0), 0.01);
-    let found =
-        FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default()).unwrap();
+    let found = FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
     assert!(found.is_some());
 }
 
@@ -182,8 +178,8 @@ fn planes_go_through_the_corners_that_name_them() {
             continue;
         }
         let set = fixture.set();
-        let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT).unwrap();
-        let best = FreePlanes::default().best(&set, &Tuning::DEFAULT, &Watch::default()).unwrap();
+        let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
+        let best = FreePlanes::default().best(&set, &Tuning::DEFAULT, &Watch::default());
         for found in [clean, best].into_iter().flatten() {
             let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
             let coordinate = fixture.faces.corner(corner)[axis];
@@ -201,9 +197,7 @@ fn the_best_of_the_planes_that_cut_nothing_is_found() {
     for count in [2, 3, 5, 8, 13, 40, 60] {
         for size in [0.003, 0.02, 0.1] {
             let fixture = Fixture::new(&triangles(&mut random, count, size, 1.0), 0.0);
-            let Some(clean) =
-                FreePlanes::default().clean(&fixture.set(), &Tuning::DEFAULT).unwrap()
-            else {
+            let Some(clean) = FreePlanes::default().clean(&fixture.set(), &Tuning::DEFAULT) else {
                 continue;
             };
             let costs = [0, 1, 2].map(|axis| least(&fixture.pieces, axis, 0.0));

@@ -17,10 +17,10 @@ const ALL: Tuning =
 fn best(set: &Set<'_>, tuning: &Tuning) -> Candidate {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
-    sample.sketch.extend(set, 0..set.len()).unwrap();
+    sample.sketch.extend(set, 0..set.len());
     let terms = Terms::small(set, tuning);
-    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning).unwrap();
-    contest.best(set, &mut sample, &terms, tuning).unwrap().unwrap()
+    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
+    contest.best(set, &mut sample, &terms, tuning).unwrap()
 }
 
 /// The whole face whose plane a candidate is.
@@ -88,9 +88,9 @@ fn halving_finds_a_good_plane() {
 fn begun(set: &Set<'_>, tuning: &Tuning) -> Contest {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
-    sample.sketch.extend(set, 0..set.len()).unwrap();
+    sample.sketch.extend(set, 0..set.len());
     let terms = Terms::small(set, tuning);
-    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning).unwrap();
+    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
     contest
 }
 

@@ -14,8 +14,8 @@ use crate::random::SplitMix64;
 fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
     let mut sketch = Sketch::default();
     sketch.reset(set);
-    sketch.extend(set, arrange(set, tuning.groups_per_box).unwrap().into_iter()).unwrap();
-    Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default()).unwrap()
+    sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
+    Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
 }
 
 /// Asserts that each layer has all the rest on the side that it says, and that its own pieces are
@@ -62,7 +62,7 @@ fn assert_like_brute_force(name: &str, fixture: &Fixture) -> usize {
     let set = fixture.set();
     let mut taken = 0;
     for groups_per_box in [1, 2, 64] {
-        let expected = brute_force(&set, &arrange(&set, groups_per_box).unwrap());
+        let expected = brute_force(&set, &arrange(&set, groups_per_box));
         let name = format!("{name}, boxes of {groups_per_box}");
         let peeled = peel(&set, &Tuning { groups_per_box, ..Tuning::DEFAULT });
         let left = assert_layers(&name, &set, peeled.as_ref());
@@ -206,9 +206,9 @@ fn nothing_is_left_of_the_search_before() {
         fixture.pieces = pieces;
         let (set, mut sketch) = (fixture.set(), Sketch::default());
         sketch.reset(&set);
-        let order = arrange(&set, tuning.groups_per_box).unwrap();
-        sketch.extend(&set, order.iter().copied()).unwrap();
-        let peeled = peeler.search(&set, &sketch, 0..set.len(), tuning, &Watch::default()).unwrap();
+        let order = arrange(&set, tuning.groups_per_box);
+        sketch.extend(&set, order.iter().copied());
+        let peeled = peeler.search(&set, &sketch, 0..set.len(), tuning, &Watch::default());
         let left = assert_layers("one after the other", &set, peeled.as_ref());
         assert_eq!(left, brute_force(&set, &order));
     }

@@ -10,7 +10,7 @@ use crate::random::SplitMix64;
 fn sketched(set: &Set<'_>) -> Sketch {
     let mut sketch = Sketch::default();
     sketch.reset(set);
-    sketch.extend(set, 0..set.len()).unwrap();
+    sketch.extend(set, 0..set.len());
     sketch
 }
 
