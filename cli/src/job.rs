@@ -102,9 +102,14 @@ pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
 /// Notes which faces were dropped, triangulated, or given more than once.
 pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     note_found(scene, prepared.dropped(found.polygons), found);
+    let duplicates = prepared.duplicates();
+    if duplicates > 0 {
+        let faces = count(duplicates, "face");
+        note(&format!("{}: {faces} given more than once: the last one shows", scene.name()));
+    }
 }
 
-/// The same of faces that are nowhere together; `dropped` are the numbers of those dropped.
+/// Notes which faces were dropped or triangulated; `dropped` are the numbers of those dropped.
 pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
@@ -112,13 +117,11 @@ pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, fo
     });
     let triangulated = (found.triangulated > 0)
         .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
-    let duplicates = (found.duplicates > 0)
-        .then(|| format!("{} given more than once: the last one shows", faces(found.duplicates)));
     let crossing = (found.crossing > 0).then(|| {
         let number = faces(found.crossing);
         format!("of these, {number} with crossing edges: the area covered is a guess")
     });
-    for problem in [dropped, triangulated, crossing, duplicates].into_iter().flatten() {
+    for problem in [dropped, triangulated, crossing].into_iter().flatten() {
         note(&format!("{}: {problem}", scene.name()));
     }
 }

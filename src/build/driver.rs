@@ -224,11 +224,7 @@ impl BspTree {
     /// The tree is built anew, of its own polygons and the others: it is the tree of all of them, on
     /// the grid and with the tolerance that it has. Its fragments have other numbers than before, and
     /// [overlays](crate::overlay::Overlay), [meshes](crate::mesh::Mesh) and [bounds](crate::Bounds) have to be made
-    /// anew. It takes as long as a build; what moves belongs into an overlay. Duplicates among the new
-    /// polygons, and of old ones, are kept and counted as always. (Of an old polygon that was triangulated,
-    /// a corner that no triangle has is not known, as on a straight run or where it crosses itself, in space
-    /// or along the axis on which it was triangulated: its duplicates are not found then, and a polygon
-    /// without that corner counts as one.)
+    /// anew. It takes as long as a build; what moves belongs into an overlay.
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};
@@ -294,10 +290,8 @@ fn extend<P: Polygon>(
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
     let (mut faces, mut preparation) = (tree.faces.try_clone()?, tree.preparation);
-    let (before, mut preparer) = (faces.len(), Preparer::default());
-    let mut added =
-        preparer.append(&mut faces, polygons, preparation.polygons, usize::MAX, watch)?;
-    added.duplicates = preparer.duplicates_added(&faces, before, watch)?;
+    let mut preparer = Preparer::default();
+    let added = preparer.append(&mut faces, polygons, preparation.polygons, usize::MAX, watch)?;
     preparation.add(&added);
     faces.shrink_to_fit();
     *tree = tree_of_faces(options, faces, preparation, watch)?;
@@ -384,8 +378,8 @@ impl BuildOptions {
 impl Partition {
     /// What becomes of polygons in the trees of cells: what these count in their
     /// [preparations](BspTree::preparation), but each polygon once, however many cells it reaches. For
-    /// totals of a scene, whose polygons may be given in lists, as long as those with the same corners are
-    /// in one. [`dropped`](crate::Preparation::dropped) are those without area. It takes as long as
+    /// totals of a scene, whose polygons may be given in several lists.
+    /// [`dropped`](crate::Preparation::dropped) are those without area. It takes as long as
     /// [`build_cell`](BuildOptions::build_cell) takes to prepare them, and cannot be cancelled.
     ///
     /// # Errors
@@ -431,8 +425,5 @@ fn prepared_in_cell<P: Polygon>(
     limit: usize,
     watch: &Watch<'_>,
 ) -> Result<Preparation, Error> {
-    let mut preparer = Preparer::default();
-    let mut preparation = preparer.append(faces, polygons, 0, limit, watch)?;
-    preparation.duplicates = preparer.duplicates_added(faces, 0, watch)?;
-    Ok(preparation)
+    Preparer::default().append(faces, polygons, 0, limit, watch)
 }

@@ -1,6 +1,5 @@
 //! Decides what becomes of each input polygon: one face, triangles, or nothing.
 
-mod again;
 mod append;
 mod builder;
 mod collect;
@@ -20,7 +19,6 @@ pub use lattice_and_tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub(crate) use lattice_and_tolerance::{Precision, empty_faces};
 pub use preparation::Preparation;
 
-use super::duplicates::Outlines;
 use super::listener::{Listener, NoListener};
 use crate::Error;
 use crate::exact::{Faces, Lattice};
@@ -67,7 +65,6 @@ impl Faces {
 pub(crate) struct Preparer {
     input: Collected,
     builder: FaceBuilder,
-    outlines: Outlines,
     /// What the lattice has to hold besides the polygons.
     room: Option<[DVec3; 2]>,
     /// Whether all polygons are flat by definition.
@@ -99,12 +96,7 @@ impl Preparer {
         self.builder.faces = kept;
         self.builder.faces.lattice = lattice;
         self.builder.faces.tolerance = ground.tolerance;
-        self.outlines.clear();
-        let mut report = self.prepare_all(&ground, listener)?;
-        let (input, builder) = (&self.input, &mut self.builder);
-        report.duplicates = self
-            .outlines
-            .duplicates(|polygon| builder.lattice_corners(input.polygon(polygon), listener))?;
+        let report = self.prepare_all(&ground, listener)?;
         *faces = std::mem::take(&mut self.builder.faces);
         Ok(report.in_world(&lattice))
     }
@@ -116,12 +108,12 @@ impl Preparer {
         ground: &Ground,
         listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
-        let Self { input, builder, outlines, .. } = self;
+        let Self { input, builder, .. } = self;
         reserve(&mut builder.faces.corners, input.corner_count())?;
         reserve(&mut builder.faces.faces, input.len())?;
         if input.len() <= POLYGONS_A_THREAD {
             listener.read(input.len())?;
-            return builder.add_all(ground, input, 0..input.len(), outlines, listener);
+            return builder.add_all(ground, input, 0..input.len(), listener);
         }
         let mut report = Preparation::default();
         for start in (0..input.len()).step_by(POLYGONS_AT_ONCE) {
@@ -131,14 +123,13 @@ impl Preparer {
                 .step_by(POLYGONS_A_THREAD)
                 .map(|start| start..end.min(start + POLYGONS_A_THREAD));
             let parts = parallel_map::map(ranges.collect(), |range| {
-                let (mut part, mut outlines) = (FaceBuilder::new(ground), Outlines::default());
-                let report = part.add_all(ground, input, range, &mut outlines, listener)?;
-                Ok::<_, Error>((part.faces, report, outlines))
+                let mut part = FaceBuilder::new(ground);
+                let report = part.add_all(ground, input, range, listener)?;
+                Ok::<_, Error>((part.faces, report))
             })?;
-            for (faces, part_report, part_outlines) in parts {
+            for (faces, part_report) in parts {
                 builder.faces.append(faces)?;
                 report.add(&part_report);
-                outlines.append(part_outlines)?;
             }
         }
         Ok(report)

@@ -227,7 +227,7 @@ impl Overlay {
         Fragment::new(faces, Stored { records, vertices, positions }, record, number)
     }
 
-    /// How many of the overlay's polygons were dropped or triangulated. (Duplicates are not counted.)
+    /// How many of the overlay's polygons were dropped or triangulated.
     pub fn preparation(&self) -> &Preparation {
         &self.preparation
     }

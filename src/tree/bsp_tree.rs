@@ -353,9 +353,21 @@ impl BspTree {
         self.faces.corners_of_cell() > 0
     }
 
-    /// How many polygons were dropped, triangulated, or found twice before the tree was built.
+    /// How many polygons were dropped or triangulated before the tree was built.
     pub fn preparation(&self) -> &Preparation {
         &self.preparation
+    }
+
+    /// Counts the polygons that have the same corners as an earlier one, rounded to the
+    /// [grid](Self::grid), in the same cyclic order or its reverse. The tree keeps all of them, and the
+    /// last one is painted last, as coplanar polygons come in input order.
+    ///
+    /// Takes O(n log n) time and as much memory as the polygons' corners. The tree knows the corners of
+    /// its faces only: where triangles have replaced a polygon, a corner without a triangle is ignored,
+    /// as one on a straight side can be. In the tree of a cell, so are corners of triangles outside the
+    /// cell.
+    pub fn duplicates(&self) -> usize {
+        self.faces.duplicates()
     }
 
     /// The indices of the polygons that have no fragments: those without area, and in a tree of a cell

@@ -59,7 +59,7 @@ impl BspTree {
     /// | numbered faces | a list: faces, as `u32`, whose corners are not the first of their polygon |
     /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is none of the polygon |
     /// | moved corners | a list: the corner as `u32`, and where it was given, three `i64` |
-    /// | preparation | a list of the dropped polygons as `u32`; the numbers of duplicates, triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
+    /// | preparation | a list of the dropped polygons as `u32`; 0 (unused) and the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
     /// | cuts | how many times a piece was cut in two: `u64` |
     /// | nodes | a list, depth first: the plane, and 16 · the fragments on it + 4 · the front + the back, where 0 is nothing, 1 a fragment and 2 a node; `u32` each |
     /// | fragments | a list: the face, and how many vertices it has, 0 for a whole face; `u32` each |
@@ -183,8 +183,7 @@ impl BspTree {
         let found = &self.preparation;
         file.u64(self.dropped().count() as u64)?;
         file.items(self.dropped(), |file, polygon| file.u32(polygon as u32))?;
-        let counts =
-            [found.duplicates, found.triangulated, found.crossing, found.flattened, found.bent];
+        let counts = [0, found.triangulated, found.crossing, found.flattened, found.bent];
         file.items(counts.into_iter(), |file, count| file.u64(count as u64))?;
         file.f64(found.flattened_by)?;
         file.f64(found.bent_by)
@@ -221,13 +220,10 @@ fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u3
     const WHAT: &str = "counts of polygons";
     let dropped = file.list("dropped polygons", MAX_LABELS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
     let mut found = Preparation { dropped: dropped.len(), ..Preparation::default() };
-    for count in [
-        &mut found.duplicates,
-        &mut found.triangulated,
-        &mut found.crossing,
-        &mut found.flattened,
-        &mut found.bent,
-    ] {
+    file.count(WHAT, 0)?;
+    for count in
+        [&mut found.triangulated, &mut found.crossing, &mut found.flattened, &mut found.bent]
+    {
         *count = file.count(WHAT, MAX_LABELS)?;
     }
     (found.flattened_by, found.bent_by) = (file.f64(WHAT)?, file.f64(WHAT)?);
@@ -258,8 +254,7 @@ fn check_preparation(
         }
     }
     found.polygons = polygons;
-    let counts =
-        [found.duplicates, found.triangulated, found.crossing, found.flattened, found.bent];
+    let counts = [found.triangulated, found.crossing, found.flattened, found.bent];
     let is_length = |length: f64| length.is_finite() && length >= 0.0;
     if counts.into_iter().any(|count| count > polygons)
         || ![found.flattened_by, found.bent_by].into_iter().all(is_length)

@@ -12,7 +12,7 @@ fn named(order: [usize; 4]) -> Vec<[f64; 3]> {
 
 fn duplicates(polygons: &[Vec<[f64; 3]>]) -> usize {
     let tree = BspTree::build(polygons).expect("finite");
-    tree.preparation().duplicates
+    tree.duplicates()
 }
 
 #[test]
@@ -49,8 +49,7 @@ fn a_corner_repeated_or_rounded_to_the_same_place_makes_no_difference() {
 fn faces_without_area_are_dropped_and_no_duplicates() {
     let line = vec![SQUARE[0], SQUARE[1], SQUARE[0]];
     let tree = BspTree::build([line.clone(), line, named([0, 1, 2, 3])]).expect("finite");
-    let found = tree.preparation();
-    assert_eq!((found.dropped, found.duplicates), (2, 0));
+    assert_eq!((tree.preparation().dropped, tree.duplicates()), (2, 0));
     assert_eq!(tree.dropped().collect::<Vec<_>>(), [0, 1]);
 }
 
@@ -71,5 +70,5 @@ fn a_hundred_thousand_duplicates_and_as_many_different_faces_are_counted() {
     };
     let all: Vec<_> = (0..200_000).map(|i| face(if i % 2 == 0 { 0 } else { i })).collect();
     let tree = BspTree::build(&all).expect("finite");
-    assert_eq!(tree.preparation().duplicates, 99_999);
+    assert_eq!(tree.duplicates(), 99_999);
 }

@@ -155,5 +155,5 @@ fn polygons_given_again_in_another_part_are_counted() {
         copy.rotate_left(turn % 3);
         polygons.push(copy);
     }
-    assert_eq!(prepare(&polygons).1.duplicates, again.len());
+    assert_eq!(prepare(&polygons).0.duplicates(), again.len());
 }

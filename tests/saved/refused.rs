@@ -49,7 +49,7 @@ type Damage = fn(&mut File);
 
 #[test]
 fn what_is_wrong_in_one_thing_is_refused_for_that() {
-    let faults: [(&str, Damage); 24] = [
+    let faults: [(&str, Damage); 25] = [
         ("its tolerance is negative", |file| {
             file.put_bytes(TOLERANCE, &(-1f64).to_le_bytes());
         }),
@@ -85,7 +85,8 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
             file.0[corner(3) + 16] ^= 1;
             file.put(FACES + 8, frame(2, 1, 2));
         }),
-        ("are impossible", |file| file.put(COUNTS, 3)),
+        ("are impossible", |file| file.put(COUNTS + 8, 3)),
+        ("0 is the most", |file| file.put(COUNTS, 1)),
         ("are more than the fragments", |file| file.put(CUTS, 4)),
         ("has a plane that separates no fragments", |file| file.put(NODES + 4, 1)),
         ("has a side of an unknown kind", |file| file.0[NODES + 4] |= 3),
@@ -166,7 +167,7 @@ fn limits_are_where_they_are_said_to_be() {
         ("nodes", NODES - 8, fragments),
         ("fragments", FRAGMENTS - 8, fragments),
     ];
-    limits.extend((0..5).map(|k| ("counts of polygons", COUNTS + 8 * k, labels)));
+    limits.extend((1..5).map(|k| ("counts of polygons", COUNTS + 8 * k, labels)));
     for (what, at, limit) in limits {
         for (len, is_too_many) in [(limit, false), (limit + 1, true), (u64::MAX, true)] {
             let mut file = file.clone();

@@ -135,7 +135,8 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
             options.extend(&mut tree, &all[start..end]).expect("on the grid");
         }
         assert_eq!(tree.preparation(), expected.preparation(), "round {round}");
-        counted += expected.preparation().duplicates;
+        assert_eq!(tree.duplicates(), expected.duplicates(), "round {round}");
+        counted += expected.duplicates();
         triangulated += expected.preparation().triangulated;
     }
     enough!(counted > 200, triangulated > 300; "{counted} {triangulated}");

@@ -53,8 +53,7 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
 
 /// What became of the polygons of all cells.
 struct Found {
-    /// Each polygon counts in one cell, the first of those that its least corner is in: as equal polygons
-    /// have equal corners, those given more than once count in the same one.
+    /// Each polygon counts in one cell, the first of those that its least corner is in.
     sum: Preparation,
     /// The polygons that are in some cell, one a bit.
     shown: Vec<u64>,
@@ -77,7 +76,6 @@ impl Found {
             sum.dropped -= usize::from(*word & bit == 0);
             *word |= bit;
         }
-        sum.duplicates += counted.duplicates;
         sum.triangulated += counted.triangulated;
         sum.crossing += counted.crossing;
         sum.bent += counted.bent;

@@ -29,6 +29,7 @@ struct Figures {
     /// The number of the cell that it is of.
     cell: Option<usize>,
     prepared: Preparation,
+    duplicates: usize,
     stats: Stats,
     /// The time to build the tree, or to read it.
     build_seconds: f64,
@@ -70,6 +71,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             heuristic: Some(heuristic),
             cell: None,
             prepared: *tree.preparation(),
+            duplicates: tree.duplicates(),
             stats: tree.stats(),
             build_seconds: seconds,
             order_nanoseconds: order_nanoseconds(&tree, &scene),
@@ -96,6 +98,7 @@ fn of_file(
         heuristic: None,
         cell: None,
         prepared: *tree.preparation(),
+        duplicates: tree.duplicates(),
         stats: tree.stats(),
         build_seconds: seconds,
         order_nanoseconds: order_nanoseconds(tree, scene),
@@ -115,6 +118,7 @@ fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
             heuristic: None,
             cell: Some(number),
             prepared: *cell.tree.preparation(),
+            duplicates: cell.tree.duplicates(),
             stats: cell.tree.stats(),
             build_seconds: begin.elapsed().as_secs_f64(),
             order_nanoseconds: order_nanoseconds(&cell.tree, &cell.scene),
@@ -149,7 +153,7 @@ fn show(args: &StatsArgs, scene: &Scene, figures: &Figures, is_first: bool) -> R
     say(row(&table, figures))
 }
 
-fn title(scene: &Scene, Figures { prepared, stats, .. }: &Figures) -> String {
+fn title(scene: &Scene, Figures { prepared, duplicates, stats, .. }: &Figures) -> String {
     format!(
         "{}: {}, {}; {} dropped, {} triangulated, {}",
         styled(HEAD, scene.name()),
@@ -157,7 +161,7 @@ fn title(scene: &Scene, Figures { prepared, stats, .. }: &Figures) -> String {
         count(stats.faces, "face"),
         prepared.dropped,
         prepared.triangulated,
-        count(prepared.duplicates, "duplicate"),
+        count(*duplicates, "duplicate"),
     )
 }
 
@@ -254,7 +258,7 @@ fn json(figures: &Figures) -> Result<String, Failure> {
         bytes: stats.bytes,
         dropped: prepared.dropped,
         triangulated: prepared.triangulated,
-        duplicates: prepared.duplicates,
+        duplicates: figures.duplicates,
         crossing: prepared.crossing,
         tolerance: stats.tolerance,
         flattened: prepared.flattened,

@@ -38,7 +38,6 @@ impl Preparer {
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
             return Err(InputFault::OffGrid.of_polygon(polygon));
         }
-        self.outlines.clear();
         let (before, ground) = (faces.len(), Ground::of(faces));
         let lent = Lent::new(self, faces);
         let report = lent.preparer.prepare_all(&ground, listener);

@@ -13,7 +13,6 @@ use super::quad::Quad;
 use crate::Error;
 use crate::exact::faces::{Frame, INNER};
 use crate::exact::{Faces, Plane, cross};
-use crate::faces::duplicates::Outlines;
 use crate::faces::listener::Listener;
 use crate::faces::triangulate;
 use crate::memory::{collect, reserve};
@@ -59,12 +58,10 @@ impl FaceBuilder {
         ground: &Ground,
         input: &Collected,
         polygons: Range<usize>,
-        outlines: &mut Outlines,
         listener: &dyn Listener,
     ) -> Result<Preparation, Error> {
         let snap = |point| ground.lattice.snap(point);
         let mut report = Preparation::default();
-        reserve(&mut outlines.seen, polygons.len())?;
         for polygon in polygons {
             report.polygons += 1;
             let points = input.polygon(polygon);
@@ -74,7 +71,6 @@ impl FaceBuilder {
             {
                 report.flattened += usize::from(off > 0.0);
                 report.flattened_by = report.flattened_by.max(off);
-                outlines.add(polygon, quad.corners.into_iter());
                 continue;
             }
             match self.add(polygon, points, ground.bend, listener)? {
@@ -90,12 +86,8 @@ impl FaceBuilder {
                         report.bent_by = report.bent_by.max(off);
                     }
                 }
-                Outcome::Dropped => {
-                    report.dropped += 1;
-                    continue;
-                }
+                Outcome::Dropped => report.dropped += 1,
             }
-            outlines.add(polygon, self.corners.kept.iter().map(|&(corner, _)| corner));
         }
         Ok(report)
     }
@@ -183,17 +175,6 @@ impl FaceBuilder {
             }
         }
         Ok((self.faces.len() > before).then_some(found.crosses_itself))
-    }
-
-    /// The corners of a polygon on the lattice. Of equal corners in a row there is one.
-    pub(super) fn lattice_corners(
-        &mut self,
-        points: &[DVec3],
-        listener: &dyn Listener,
-    ) -> Result<Vec<[f64; 3]>, Error> {
-        listener.work(points.len())?;
-        self.corners.keep_distinct(points, &self.faces.lattice)?;
-        collect(self.corners.kept.iter().map(|&(corner, _)| corner))
     }
 
     /// Adds a face made of some of the polygon's kept corners, in order around it.

@@ -13,10 +13,6 @@ pub struct Preparation {
     /// the lattice. Corners that are on one line as decimal numbers need not be on one as `f64`. In a
     /// tree of a cell, polygons of which nothing is in the cell are counted too.
     pub dropped: usize,
-    /// Polygons with the same corners on the lattice as an earlier one, in the same cyclic order or
-    /// its reverse. They are kept. The last of them shows, as coplanar polygons come in input
-    /// order.
-    pub duplicates: usize,
     /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
     /// Of the triangulated polygons, those that cross themselves, or whose winding number is not
@@ -47,7 +43,6 @@ impl Preparation {
     pub(crate) fn add(&mut self, other: &Self) {
         self.polygons += other.polygons;
         self.dropped += other.dropped;
-        self.duplicates += other.duplicates;
         self.triangulated += other.triangulated;
         self.crossing += other.crossing;
         self.flattened += other.flattened;

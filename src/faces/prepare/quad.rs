@@ -10,7 +10,7 @@ use crate::memory::push;
 /// A convex quadrilateral with its frame, as the general rules make it.
 #[derive(Debug)]
 pub(super) struct Quad {
-    pub(super) corners: [[f64; 3]; 4],
+    corners: [[f64; 3]; 4],
     /// The corners that span the plane together with corner 0.
     second: usize,
     third: usize,

@@ -58,7 +58,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
     // The counts of the whole, whatever cells there are.
     let (whole, sum) = (options.build(&polygons), scene.partition.preparation(&polygons));
     let counts = |found: &binspace::Preparation| {
-        [found.dropped, found.duplicates, found.triangulated, found.crossing, found.flattened]
+        [found.dropped, found.triangulated, found.crossing, found.flattened]
     };
     assert_eq!(counts(&sum.unwrap()), counts(whole.unwrap().preparation()), "{polygons:?}");
     Ok(())
