@@ -68,6 +68,7 @@ pub mod overlay;
 pub mod paint;
 mod parallel_map;
 pub mod partition;
+mod progress;
 mod query;
 mod random;
 #[cfg(feature = "raster")]
@@ -84,11 +85,12 @@ pub mod verify;
 pub mod view;
 mod viewpoint;
 
-pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError, Progress};
+pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError};
 pub use error::Error;
 pub use faces::{Preparation, Tolerance};
 pub use glam;
 pub use input::{Point, Polygon};
+pub use progress::Progress;
 pub use query::{Hit, Location};
 #[cfg(feature = "save")]
 pub use save::LoadError;

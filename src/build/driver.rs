@@ -10,15 +10,15 @@ use super::jobs;
 use super::jobs::Job;
 use super::options::BuildOptions;
 use super::piece::Piece;
-use super::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
 use super::subtree::{Memory, Shared};
 use crate::error::Error;
 use crate::exact::Faces;
 use crate::exact::cell::Clipper;
-use crate::faces::{Listener, Preparation, Preparer};
+use crate::faces::{Preparation, Preparer};
 use crate::input::{Point, Polygon};
 use crate::memory::{push, reserve};
 use crate::partition::{Extent, Partition};
+use crate::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
 use crate::tree::BspTree;
 use crate::tree::parts::Parts;
 
@@ -172,19 +172,6 @@ pub fn tree_of(
 ) -> Result<BspTree, Error> {
     let parts = parts(options, tuning, &faces, &Watch::default())?;
     BspTree::new(faces, preparation, parts)
-}
-
-/// A step of the preparation takes about as long as examining this many pieces.
-const STEP: usize = 8;
-
-impl Listener for Watch<'_> {
-    fn read(&self, polygons: usize) -> Result<(), Error> {
-        self.expect(polygons)
-    }
-
-    fn work(&self, steps: usize) -> Result<(), Error> {
-        Watch::work(self, steps * STEP)
-    }
 }
 
 /// Builds the parts of a tree of prepared faces.

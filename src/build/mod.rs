@@ -10,10 +10,8 @@ pub(crate) mod frames;
 mod jobs;
 mod options;
 pub(crate) mod piece;
-pub(crate) mod progress;
 mod small_sets;
 mod subtree;
 
 pub use frames::FrameBuilder;
 pub use options::{BuildOptions, Heuristic, ParseHeuristicError};
-pub use progress::Progress;

@@ -10,12 +10,12 @@ use super::choose::{Choice, Chooser, Peeled, Rules, Set, Tuning};
 use super::jobs::{Job, Output, is_worth_a_job};
 use super::options::BuildOptions;
 use super::piece::{Piece, Splitter};
-use super::progress::{PIECES_AT_ONCE, Watch};
 use super::small_sets::{Row, Slot, Table};
 use crate::bits::bits;
 use crate::error::{Error, Limit};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 use crate::memory::{collect, push, reserve};
+use crate::progress::{PIECES_AT_ONCE, Watch};
 use crate::tree::node::MOST_FRAGMENTS;
 use crate::tree::parts::{RawChild, RawNode};
 

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::lines::{Half, Lines};
 use super::stock::FEW_CORNERS;
 use crate::Error;
-use crate::build::progress::Watch;
+use crate::progress::Watch;
 
 /// A side of a cell, and where it begins.
 #[derive(Clone, Copy, Debug)]

@@ -15,8 +15,8 @@ use super::pen::distance;
 use super::sight::{Sight, parts};
 use super::stock::{Rims, Stock, View};
 use super::tile::{CUT, IN_VAIN, LINES, NARROWED, Tile, VISITED, found_in, in_vain};
-use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
+use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
 /// A side of a cell on the line of a cut.

@@ -16,9 +16,9 @@ use super::sight::{Course, Pass, Passing, Pieces, Sight, merged, parts, passes};
 use super::stock::Rims;
 use super::tile::{CUT, LINES, Reaches, VISITED};
 use crate::Error;
-use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId};
 use crate::overlay::Overlay;
+use crate::progress::Watch;
 
 /// Edges with the runs of those that a polygon shows.
 pub(super) struct Runs {

@@ -4,7 +4,7 @@ use super::map::each;
 use super::order::Pair;
 use super::tile::VISITED;
 use crate::Error;
-use crate::build::progress::Watch;
+use crate::progress::Watch;
 
 /// Groups of nodes in an order that keeps all pairs: an order of a graph without cycles that stays one
 /// while nodes are joined (D. J. Pearce, P. H. J. Kelly, "A dynamic topological sort algorithm for

@@ -14,9 +14,9 @@ use super::cell::{Cell, Rect, Side, are_apart};
 use super::lines::Adopted;
 use super::stock::{FEW_CORNERS, Rims, Stock};
 use super::tile::{CUT, IN_VAIN, LINES, List, Tile, found_in, in_vain};
-use crate::build::Progress;
-use crate::build::progress::{Watch, one_at_a_time};
 use crate::error::{Error, InputFault};
+use crate::progress::Progress;
+use crate::progress::{Watch, one_at_a_time};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 

@@ -14,7 +14,7 @@ use super::map::{Leaf, Visible, each, sort_by, sort_unique};
 use super::stock::{FEW_CORNERS, Rims, Stock};
 use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
-use crate::build::progress::Watch;
+use crate::progress::Watch;
 
 /// An order of nodes.
 #[derive(Debug)]

@@ -11,9 +11,9 @@ use super::sight::{Pass, Passes, Passing, Pieces, Sight, Spot, kept, parts, pass
 use super::stock::{Rims, Stock};
 use super::tile::{CUT, Reaches, VISITED, found_in};
 use crate::Error;
-use crate::build::progress::Watch;
 use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;
+use crate::progress::Watch;
 
 /// A part of a segment of an overlay's line, visible or hidden from one end to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,8 +16,8 @@ use super::overlaid::{LineRun, MarkerView, Overlaid};
 use super::stock::Stock;
 use super::tile::{CUT, Tile, VISITED};
 use super::translucent::mixed;
-use crate::build::progress::Watch;
 use crate::memory::place;
+use crate::progress::Watch;
 use crate::union::Union;
 use crate::{Error, parallel_map};
 

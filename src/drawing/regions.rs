@@ -8,7 +8,7 @@ use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
 use super::paths::Area;
 use super::stock::Stock;
 use super::tile::{CUT, VISITED};
-use crate::build::progress::Watch;
+use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
 /// A part of the picture in which the same polygons show, one behind the other.

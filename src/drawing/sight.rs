@@ -11,8 +11,8 @@ use super::lines::Lines;
 use super::map::each;
 use super::tile::{CUT, IN_VAIN, NARROWED, Reaches, Tile, found_in, in_vain};
 use crate::Error;
-use crate::build::progress::Watch;
 use crate::exact::{Int, PlaneId, PreparedPlane};
+use crate::progress::Watch;
 
 /// A segment of the scene, as far as the picture has it.
 #[derive(Clone, Copy, Debug)]

@@ -7,11 +7,11 @@ use super::exact_lines::Frame;
 use super::lines::{Half, Lines, Table};
 use super::map::each;
 use super::tile::{Across, Tile};
-use crate::build::progress::Watch;
 use crate::error::{Error, Kind};
 use crate::exact::{Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
 use crate::memory::place;
 use crate::parallel_map;
+use crate::progress::Watch;
 use crate::raster::{Rays, Sheet, VERTEX_ERROR, normal_of};
 use crate::tree::{BspTree, Fragment};
 

@@ -8,8 +8,8 @@ use super::cell::{Rect, are_apart, is_within, reaches_across};
 use super::lines::{Half, Lines, STEPS};
 use super::map::{each, finish_item};
 use super::stock::{Item, Rims, Stock};
-use crate::build::progress::Watch;
 use crate::memory::place;
+use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
 /// A rectangle of the picture, between borders in steps.

@@ -13,9 +13,9 @@ use super::paths::{Area, Drawing, add_piece};
 use super::stock::{Rims, Stock};
 use super::tile::{CUT, IN_VAIN, LINES, Reaches, Tile, VISITED, found_in, in_vain};
 use crate::Error;
-use crate::build::Progress;
-use crate::build::progress::Watch;
 use crate::overlay::Overlay;
+use crate::progress::Progress;
+use crate::progress::Watch;
 use crate::raster::Rays;
 use crate::tree::BspTree;
 

@@ -1,10 +1,8 @@
 //! Preparation: from input polygons to convex planar faces on the lattice.
 
 mod duplicates;
-mod listener;
 mod prepare;
 mod triangulate;
 
-pub(crate) use listener::Listener;
 pub use prepare::{DEFAULT_TOLERANCE, Preparation, Tolerance};
 pub(crate) use prepare::{Precision, Preparer, empty_faces};

@@ -19,12 +19,12 @@ pub use lattice_and_tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub(crate) use lattice_and_tolerance::{Precision, empty_faces};
 pub use preparation::Preparation;
 
-use super::listener::{Listener, NoListener};
 use crate::Error;
 use crate::exact::{Faces, Lattice};
 use crate::input::Polygon;
 use crate::memory::reserve;
 use crate::parallel_map;
+use crate::progress::Watch;
 
 /// Polygons that one thread prepares as one job. Smaller: overhead per job; larger: threads wait
 /// for each other.
@@ -53,7 +53,7 @@ impl Faces {
             polygons,
             tolerance.into(),
             usize::MAX,
-            &NoListener,
+            &Watch::default(),
         )?;
         faces.shrink_to_fit();
         Ok((faces, report))
@@ -73,19 +73,19 @@ pub(crate) struct Preparer {
 
 impl Preparer {
     /// Replaces faces by those of some polygons, as [`Faces::new`] does, with a limit on the number of
-    /// polygons, and with a listener. After an error there is no face.
+    /// polygons, and with a watch. After an error there is no face.
     pub(crate) fn prepare<P: Polygon>(
         &mut self,
         faces: &mut Faces,
         polygons: impl IntoIterator<Item = P>,
         tolerance: Tolerance,
         limit: usize,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<Preparation, Error> {
         let mut kept = std::mem::take(faces);
         kept.clear();
         tolerance.check()?;
-        self.input.read(polygons, limit, listener)?;
+        self.input.read(polygons, limit, watch)?;
         let [min, max] = self.input.bounds(self.room);
         // Room says nothing of how precise polygons are.
         let own = if self.room.is_some() { self.input.bounds(None) } else { [min, max] };
@@ -96,35 +96,31 @@ impl Preparer {
         self.builder.faces = kept;
         self.builder.faces.lattice = lattice;
         self.builder.faces.tolerance = ground.tolerance;
-        let report = self.prepare_all(&ground, listener)?;
+        let report = self.prepare_all(&ground, watch)?;
         *faces = std::mem::take(&mut self.builder.faces);
         Ok(report.in_world(&lattice))
     }
 
     /// Prepares all polygons: few on this thread, more in parts, which are put together in input
     /// order.
-    fn prepare_all(
-        &mut self,
-        ground: &Ground,
-        listener: &dyn Listener,
-    ) -> Result<Preparation, Error> {
+    fn prepare_all(&mut self, ground: &Ground, watch: &Watch<'_>) -> Result<Preparation, Error> {
         let Self { input, builder, .. } = self;
         reserve(&mut builder.faces.corners, input.corner_count())?;
         reserve(&mut builder.faces.faces, input.len())?;
         if input.len() <= POLYGONS_A_THREAD {
-            listener.read(input.len())?;
-            return builder.add_all(ground, input, 0..input.len(), listener);
+            watch.expect(input.len())?;
+            return builder.add_all(ground, input, 0..input.len(), watch);
         }
         let mut report = Preparation::default();
         for start in (0..input.len()).step_by(POLYGONS_AT_ONCE) {
-            listener.read(input.len())?;
+            watch.expect(input.len())?;
             let end = input.len().min(start + POLYGONS_AT_ONCE);
             let ranges = (start..end)
                 .step_by(POLYGONS_A_THREAD)
                 .map(|start| start..end.min(start + POLYGONS_A_THREAD));
             let parts = parallel_map::map(ranges.collect(), |range| {
                 let mut part = FaceBuilder::new(ground);
-                let report = part.add_all(ground, input, range, listener)?;
+                let report = part.add_all(ground, input, range, watch)?;
                 Ok::<_, Error>((part.faces, report))
             })?;
             for (faces, part_report) in parts {

@@ -15,10 +15,10 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::listener::Listener;
 use crate::Error;
 use crate::exact::{Int, Plane, cross};
 use crate::memory::collect;
+use crate::progress::Watch;
 use outline::Triangulation;
 
 /// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter
@@ -43,13 +43,13 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Result<Triangulation, Error> {
 pub(super) fn any(
     corners: &[[f64; 3]],
     plane: &Plane,
-    listener: &dyn Listener,
+    watch: &Watch<'_>,
 ) -> Result<Triangulation, Error> {
     let area = vector_area(corners);
     let (drop, facing) = facing(&area, plane);
     let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
     let flat = collect(corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]))?;
-    let mut found = outline::triangulate(&flat, listener)?;
+    let mut found = outline::triangulate(&flat, watch)?;
     let has_area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|k| corners[k as usize]);
         cross(a, b, c) != [0; 3]

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::Overlay;
-use crate::build::Progress;
-use crate::build::progress::{Watch, one_at_a_time};
 use crate::error::Error;
 use crate::exact::SymbolKind;
 use crate::input::{Point, Polygon};
+use crate::progress::Progress;
+use crate::progress::{Watch, one_at_a_time};
 use crate::tree::{BspTree, Fragment};
 
 impl Overlay {

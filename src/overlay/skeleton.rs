@@ -6,9 +6,9 @@ use std::ops::Range;
 use glam::Vec4;
 
 use crate::build::piece::Piece;
-use crate::build::progress::Watch;
 use crate::error::Error;
 use crate::exact::{Faces, PlaneId, Vertex};
+use crate::progress::Watch;
 use crate::tree::order::eye::rounded;
 use crate::tree::parts::{Parts, RawChild};
 

@@ -46,7 +46,7 @@ fn comb(corners: usize) -> Vec<DVec3> {
 
 #[test]
 fn a_cancel_is_heard_while_one_polygon_is_triangulated() {
-    let comb = comb(300_000);
+    let comb = comb(400_000);
     // All calls that come before the tree is begun, which are those before the total is that of
     // the triangles.
     let mut all = 0;

@@ -9,8 +9,8 @@ use super::set::{LANES, Set};
 use super::{Choice, Rules};
 use crate::Error;
 use crate::build::piece::Piece;
-use crate::build::progress::PIECES_AT_ONCE;
 use crate::exact::{PlaneId, Side};
+use crate::progress::PIECES_AT_ONCE;
 
 /// Chooses by the default heuristic; its lists are kept to be used again.
 #[derive(Debug, Default)]

@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::cost::{Candidate, Cost, Counts, Tuning};
 use super::set::Set;
 use crate::build::piece::Piece;
-use crate::build::progress::{SWEEP, Watch};
 use crate::exact::{Faces, PlaneId};
+use crate::progress::{SWEEP, Watch};
 
 /// Searches for free planes; its lists are kept to be used again.
 #[derive(Debug, Default)]

@@ -14,9 +14,9 @@ mod quick;
 mod set;
 
 use super::options::{DEFAULT_WEIGHTS, Heuristic};
-use super::progress::Watch;
 use crate::Error;
 use crate::exact::PlaneId;
+use crate::progress::Watch;
 use crate::random::mix;
 use auto::Auto;
 use own::Scored;

@@ -3,8 +3,8 @@
 use super::cost::{Candidate, Cost, Counts, Terms, Tuning};
 use super::set::{LANES, Set, Sketch, SketchPlane};
 use crate::build::piece::Piece;
-use crate::build::progress::{PIECES_AT_ONCE, Watch};
 use crate::exact::PlaneId;
+use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::cost::Tuning;
 use super::set::{LANES, Reach, Set, Sketch, SketchBox, SketchPlane};
 use crate::bits::bits;
-use crate::build::progress::Watch;
 use crate::exact::{PlaneId, Side};
+use crate::progress::Watch;
 
 /// Pieces that are taken off a set one after the other, and cut nothing of what is left.
 #[derive(Debug, Default)]

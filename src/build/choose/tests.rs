@@ -6,9 +6,9 @@ use super::cost::Tuning;
 use super::set::Set;
 use super::{Choice, Chooser, Rules};
 use crate::build::piece::{Piece, Splitter};
-use crate::build::progress::Watch;
 use crate::build::{BuildOptions, FrameBuilder, Heuristic};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
+use crate::progress::Watch;
 use crate::random::SplitMix64;
 use crate::tree::BspTree;
 

@@ -2,9 +2,9 @@ use glam::DVec3;
 
 use super::{Adopted, Half, Key, Lines, Rounded};
 use crate::BuildOptions;
-use crate::build::progress::Watch;
 use crate::drawing::exact_lines::Twofold;
 use crate::drawing::stock::{Rims, Stock};
+use crate::progress::Watch;
 use crate::random::SplitMix64;
 use crate::raster::Rays;
 use crate::scene::Builtin;

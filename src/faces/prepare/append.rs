@@ -6,8 +6,8 @@ use super::lattice_and_tolerance::Ground;
 use super::{Preparation, Preparer};
 use crate::error::{Error, InputFault, Kind};
 use crate::exact::Faces;
-use crate::faces::listener::Listener;
 use crate::input::Polygon;
+use crate::progress::Watch;
 
 impl Preparer {
     /// Makes the lattices of the scenes to come hold a box, by its lower and upper corner.
@@ -32,15 +32,15 @@ impl Preparer {
         polygons: impl IntoIterator<Item = P>,
         first: usize,
         limit: usize,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<Preparation, Error> {
-        self.input.read(polygons, limit, listener)?;
+        self.input.read(polygons, limit, watch)?;
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
             return Err(InputFault::OffGrid.of_polygon(polygon));
         }
         let (before, ground) = (faces.len(), Ground::of(faces));
         let lent = Lent::new(self, faces);
-        let report = lent.preparer.prepare_all(&ground, listener);
+        let report = lent.preparer.prepare_all(&ground, watch);
         drop(lent);
         faces.faces[before..].iter_mut().for_each(|face| face.polygon += first as u32);
         Ok(report?.in_world(&ground.lattice))

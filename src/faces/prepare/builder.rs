@@ -13,15 +13,9 @@ use super::quad::Quad;
 use crate::Error;
 use crate::exact::faces::{Frame, INNER};
 use crate::exact::{Faces, Plane, cross};
-use crate::faces::listener::Listener;
 use crate::faces::triangulate;
 use crate::memory::{collect, reserve};
-
-/// Triangles that are made between two checks for a cancel. Smaller: time for checks; larger: a
-/// cancel takes longer.
-const TRIANGLES_AT_ONCE: usize = 1024;
-/// Corners of a polygon that count as one step of work.
-const STEP_CORNERS: usize = 4;
+use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// What became of a polygon.
 enum Outcome {
@@ -58,7 +52,7 @@ impl FaceBuilder {
         ground: &Ground,
         input: &Collected,
         polygons: Range<usize>,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<Preparation, Error> {
         let snap = |point| ground.lattice.snap(point);
         let mut report = Preparation::default();
@@ -73,7 +67,7 @@ impl FaceBuilder {
                 report.flattened_by = report.flattened_by.max(off);
                 continue;
             }
-            match self.add(polygon, points, ground.bend, listener)? {
+            match self.add(polygon, points, ground.bend, watch)? {
                 Outcome::Whole { off } => {
                     report.flattened += usize::from(off > 0.0);
                     report.flattened_by = report.flattened_by.max(off);
@@ -97,9 +91,9 @@ impl FaceBuilder {
         polygon: usize,
         points: &[DVec3],
         bend: f64,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<Outcome, Error> {
-        listener.work(points.len() / STEP_CORNERS)?;
+        watch.work(points.len())?;
         self.corners.keep_distinct(points, &self.faces.lattice)?;
         let Some(widest) = self.corners.widest_triangle() else {
             return Ok(Outcome::Dropped);
@@ -121,7 +115,7 @@ impl FaceBuilder {
         } else if convex {
             off = self.corners.off_plane(&plane, [0, widest[0], widest[1]]);
         }
-        let crosses_itself = self.triangulate(polygon, convex, &plane, listener)?;
+        let crosses_itself = self.triangulate(polygon, convex, &plane, watch)?;
         Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
             crosses_itself,
             off,
@@ -154,24 +148,24 @@ impl FaceBuilder {
         polygon: usize,
         convex: bool,
         plane: &Plane,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<Option<bool>, Error> {
         let corners = collect(self.corners.kept.iter().map(|&(point, _)| point))?;
         let found = if convex {
             triangulate::convex(&corners)?
         } else {
-            triangulate::any(&corners, plane, listener)?
+            triangulate::any(&corners, plane, watch)?
         };
         self.corners.find_runs()?;
         let before = self.faces.len();
-        for (index, triple) in found.triangles.iter().enumerate() {
-            if index % TRIANGLES_AT_ONCE == 0 {
-                listener.work(TRIANGLES_AT_ONCE)?;
-            }
-            let triple = triple.map(|k| k as usize);
-            let [p, q, r] = triple.map(|k| corners[k]);
-            if cross(p, q, r) != [0; 3] {
-                self.push(polygon, triple.into_iter(), Frame::TRIANGLE)?;
+        for some in found.triangles.chunks(PIECES_AT_ONCE) {
+            watch.work(some.len())?;
+            for triple in some {
+                let triple = triple.map(|k| k as usize);
+                let [p, q, r] = triple.map(|k| corners[k]);
+                if cross(p, q, r) != [0; 3] {
+                    self.push(polygon, triple.into_iter(), Frame::TRIANGLE)?;
+                }
             }
         }
         Ok((self.faces.len() > before).then_some(found.crosses_itself))

@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use crate::error::{Error, InputFault, Limit};
 use crate::exact::{LATTICE_LIMIT, Lattice, MAX_LABELS};
-use crate::faces::listener::Listener;
 use crate::input::{MAX_CORNERS, Polygon};
 use crate::memory::{push, reserve};
+use crate::progress::{PIECES_AT_ONCE, Watch};
 
-const _: () = assert!(MAX_CORNERS.is_multiple_of(CORNERS_AT_ONCE), "so that it is noticed");
+const _: () = assert!(MAX_CORNERS.is_multiple_of(PIECES_AT_ONCE), "so that it is noticed");
 
 /// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
 /// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
@@ -17,14 +17,6 @@ const TRUSTED: usize = 1 << 16;
 /// An iterator's hint that it has too many polygons is believed once so many have been read. Smaller: a
 /// hint that is wrong is an error more often; larger: an iterator without end is noticed later.
 const DOUBTED: usize = 1 << 20;
-
-/// Polygons that are read between two checks for a cancel. Smaller: time for checks; larger: a
-/// cancel takes longer.
-const POLYGONS_READ_AT_ONCE: usize = 1 << 10;
-
-/// Corners of one polygon that are read between two checks for a cancel. Smaller: time for checks;
-/// larger: a cancel takes longer.
-const CORNERS_AT_ONCE: usize = 1 << 12;
 
 /// A polygon that says that it has no more corners than this is read at once. Larger: one that is
 /// wrong about it can take more memory than there is.
@@ -84,7 +76,7 @@ impl Collected {
         &mut self,
         polygons: impl IntoIterator<Item = P>,
         limit: usize,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let mut polygons = polygons.into_iter();
         let too_many = match limit <= MAX_LABELS {
@@ -108,10 +100,10 @@ impl Collected {
             if index == DOUBTED && polygons.size_hint().0 >= limit - index {
                 return Err(too_many.error());
             }
-            if index % POLYGONS_READ_AT_ONCE == 0 {
-                listener.read(index)?;
+            if index % PIECES_AT_ONCE == 0 {
+                watch.expect(index)?;
             }
-            self.add(index, &polygon, listener)?;
+            self.add(index, &polygon, watch)?;
             index += 1;
         }
         Ok(())
@@ -121,7 +113,7 @@ impl Collected {
         &mut self,
         index: usize,
         polygon: &P,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let mut corners = polygon.corners();
         let mut read = 0;
@@ -141,12 +133,12 @@ impl Collected {
         }
         // All, or those that the hint had left out.
         for (corner, point) in (read..).zip(corners) {
-            if corner % CORNERS_AT_ONCE == 0 && corner > 0 {
+            if corner % PIECES_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
                     return Err(InputFault::Corners { limit: MAX_CORNERS }.of_polygon(index));
                 }
                 self.check_count()?;
-                listener.read(index)?;
+                watch.expect(index)?;
             }
             if !point.is_finite() {
                 return Err(InputFault::NonFinite.of_polygon(index));

@@ -5,9 +5,9 @@ use super::corners::{Corner, keep_distinct};
 use crate::error::{Error, InputFault, InputKind};
 use crate::exact::faces::Frame;
 use crate::exact::{Faces, LATTICE_LIMIT, cross};
-use crate::faces::listener::Listener;
 use crate::input::{Point, Polygon};
 use crate::memory::reserve;
+use crate::progress::Watch;
 
 /// How far the third corner of a segment is, if the segment's neighbours give none: a quarter of the
 /// lattice. Any distance gives the same plane.
@@ -22,14 +22,14 @@ impl Preparer {
         faces: &mut Faces,
         lines: impl IntoIterator<Item = P>,
         numbers: &mut Vec<u32>,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         numbers.clear();
-        self.read_thin(faces, lines, InputKind::Line, listener)?;
+        self.read_thin(faces, lines, InputKind::Line, watch)?;
         let mut corners = Vec::new();
         for line in 0..self.input.len() {
             let given = self.input.polygon(line);
-            listener.work(given.len())?;
+            watch.work(given.len())?;
             keep_distinct(given, &faces.lattice, &mut corners)?;
             reserve(numbers, corners.len())?;
             for (k, ends) in corners.windows(2).enumerate() {
@@ -48,10 +48,10 @@ impl Preparer {
         &mut self,
         faces: &mut Faces,
         points: impl IntoIterator<Item = P>,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let points = points.into_iter().map(|point| [point]);
-        self.read_thin(faces, points, InputKind::Point, listener)?;
+        self.read_thin(faces, points, InputKind::Point, watch)?;
         for number in 0..self.input.len() {
             let lattice = faces.lattice;
             let at = self.input.polygon(number).iter().map(|&point| lattice.snap(point));
@@ -66,9 +66,9 @@ impl Preparer {
         faces: &Faces,
         shapes: impl IntoIterator<Item = P>,
         kind: InputKind,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        self.input.read(shapes, usize::MAX, listener).map_err(|error| error.of(kind))?;
+        self.input.read(shapes, usize::MAX, watch).map_err(|error| error.of(kind))?;
         match self.input.first_off(&faces.lattice) {
             Some(number) => Err(InputFault::OffGrid.of_polygon(number).of(kind)),
             None => Ok(()),

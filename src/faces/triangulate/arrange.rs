@@ -11,8 +11,8 @@ use super::arrangement::{Arrangement, Rule, Stop};
 use super::edge::{Edge, Point, shared_corner, turn};
 use super::sweep_line::{NONE, Place, SweepLine};
 use crate::Error;
-use crate::faces::listener::{Listener, STEPS_AT_ONCE};
 use crate::memory::{push, reserve};
+use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// The edges that the sweep has met, and those that it has yet to meet.
 pub(super) struct ArrangementSweep<'a> {
@@ -82,20 +82,20 @@ impl<'a> ArrangementSweep<'a> {
     pub(super) fn run(
         mut self,
         stop_at_crossing: bool,
-        listener: &dyn Listener,
+        watch: &Watch<'_>,
     ) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.points.len() as u32 {
             self.visit(point)?;
-            if self.steps >= STEPS_AT_ONCE {
-                listener.work(std::mem::take(&mut self.steps))?;
+            if self.steps >= PIECES_AT_ONCE {
+                watch.work(std::mem::take(&mut self.steps))?;
             }
             let crosses = stop_at_crossing && !self.crossings.is_empty();
             if crosses || self.waiting.len() > most {
                 return Ok(None);
             }
         }
-        listener.work(self.steps)?;
+        watch.work(self.steps)?;
         Ok(Some(self))
     }
 

@@ -6,8 +6,8 @@ use super::edge::{Edge, Point};
 use super::sweep_line::NONE;
 use super::{edge, regions, uncross};
 use crate::Error;
-use crate::faces::listener::Listener;
 use crate::memory::reserve;
+use crate::progress::Watch;
 
 /// Triangles, as corner numbers, in place of a polygon.
 #[derive(Debug)]
@@ -18,23 +18,19 @@ pub(in crate::faces) struct Triangulation {
 }
 
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
-pub(super) fn triangulate(
-    corners: &[Point],
-    listener: &dyn Listener,
-) -> Result<Triangulation, Error> {
+pub(super) fn triangulate(corners: &[Point], watch: &Watch<'_>) -> Result<Triangulation, Error> {
     let outline = Outline::new(corners)?;
     let (points, names) = (&outline.points, &outline.corners);
-    let simple =
-        ArrangementSweep::new(points, &outline.edges, Rule::Signed)?.run(true, listener)?;
+    let simple = ArrangementSweep::new(points, &outline.edges, Rule::Signed)?.run(true, watch)?;
     if let Some(sweep) = simple {
         let arrangement = sweep.finish();
-        let covered = regions::triangulate(points, names, &arrangement, Rule::Signed, listener)?;
+        let covered = regions::triangulate(points, names, &arrangement, Rule::Signed, watch)?;
         let crosses_itself = !covered.winds_once;
         return Ok(Triangulation { triangles: covered.triangles, crosses_itself });
     }
-    let mut triangles = match uncross::uncross(points, outline.edges, listener)? {
+    let mut triangles = match uncross::uncross(points, outline.edges, watch)? {
         Some(arrangement) => {
-            regions::triangulate(points, names, &arrangement, Rule::Parity, listener)?.triangles
+            regions::triangulate(points, names, &arrangement, Rule::Parity, watch)?.triangles
         }
         None => vec![],
     };

@@ -9,8 +9,8 @@ use super::chain::{Chain, ChainSide, Triangles, Vertex};
 use super::edge::Point;
 use super::sweep_line::NONE;
 use crate::Error;
-use crate::faces::listener::{Listener, STEPS_AT_ONCE};
 use crate::memory::reserve;
+use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// The triangles of the inside, counter-clockwise, and whether the outline winds around all of it
 /// exactly once and in the same direction.
@@ -62,7 +62,7 @@ pub(super) fn triangulate(
     corners: &[u32],
     arrangement: &Arrangement,
     rule: Rule,
-    listener: &dyn Listener,
+    watch: &Watch<'_>,
 ) -> Result<Covered, Error> {
     let (mut above, mut triangles) = (vec![], vec![]);
     reserve(&mut above, arrangement.edges.len())?;
@@ -72,8 +72,8 @@ pub(super) fn triangulate(
         RegionSweep { points, corners, arrangement, rule, above, lowest, triangles, least, most };
     let stops = &arrangement.stops;
     for (index, &stop) in stops.iter().enumerate() {
-        if index % STEPS_AT_ONCE == 0 {
-            listener.work(STEPS_AT_ONCE)?;
+        if index % PIECES_AT_ONCE == 0 {
+            watch.work(PIECES_AT_ONCE)?;
         }
         let end = stops.get(index + 1).map_or(arrangement.edges.len() as u32, |next| next.first);
         sweep.visit(stop, stop.first..end)?;

@@ -3,51 +3,24 @@
 mod shapes;
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::ops::ControlFlow;
 
 use super::edge::{Point, area, turn};
 use super::outline::{Triangulation, triangulate};
-use crate::Error;
-use crate::faces::listener::{Listener, NoListener, STEPS_AT_ONCE};
+use crate::progress::{PIECES_AT_ONCE, PULSE, Watch};
 use crate::random::SplitMix64;
 use shapes::{Family, large, random_points, simple};
 
 fn run(corners: &[Point]) -> Triangulation {
-    triangulate(corners, &NoListener).expect("memory")
-}
-
-/// Counts steps, and stops after so many.
-struct Counter {
-    steps: AtomicUsize,
-    most: usize,
-}
-
-impl Counter {
-    fn new(most: usize) -> Self {
-        Self { steps: AtomicUsize::new(0), most }
-    }
-
-    fn steps(&self) -> usize {
-        self.steps.load(Ordering::Relaxed)
-    }
-}
-
-impl Listener for Counter {
-    fn read(&self, _: usize) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn work(&self, steps: usize) -> Result<(), Error> {
-        let steps = self.steps.fetch_add(steps, Ordering::Relaxed) + steps;
-        if steps > self.most { Err(Error::cancelled()) } else { Ok(()) }
-    }
+    triangulate(corners, &Watch::default()).expect("memory")
 }
 
 /// How many steps a triangulation takes.
 fn steps(corners: &[Point]) -> (Triangulation, usize) {
-    let counter = Counter::new(usize::MAX);
-    let found = triangulate(corners, &counter).expect("memory");
-    (found, counter.steps())
+    let callback = |_: &Watch<'_>| ControlFlow::Continue(());
+    let watch = Watch::new(&callback);
+    let found = triangulate(corners, &watch).expect("memory");
+    (found, watch.examined())
 }
 
 fn twice_area(corners: &[Point]) -> i128 {
@@ -337,13 +310,20 @@ fn sides_that_cross_near_their_ends_are_joined_there() {
 
 #[test]
 fn a_cancel_is_heard_within_one_polygon() {
-    for (name, corners) in large(100_000) {
+    for (name, corners) in large(300_000) {
         let (_, all) = steps(&corners);
-        for share in [0, 1, 3, 5, 7] {
-            let counter = Counter::new(all * share / 8);
-            let stopped = triangulate(&corners, &counter);
+        for share in [0, 1, 3, 5] {
+            let callback = |watch: &Watch<'_>| match watch.examined() * 8 > all * share {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            };
+            let watch = Watch::new(&callback);
+            let stopped = triangulate(&corners, &watch);
             assert!(stopped.is_err_and(|error| error.is_cancelled()), "{name}");
-            assert!(counter.steps() * 8 < all * share + 8 * 16 * STEPS_AT_ONCE, "{name}");
+            assert!(
+                watch.examined() * 8 < all * share + 8 * (PULSE + 2 * PIECES_AT_ONCE),
+                "{name}"
+            );
         }
     }
 }

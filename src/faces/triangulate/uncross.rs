@@ -12,8 +12,8 @@ use super::arrange::ArrangementSweep;
 use super::arrangement::{Arrangement, Rule};
 use super::edge::{Edge, Point, area};
 use crate::Error;
-use crate::faces::listener::Listener;
 use crate::memory::reserve;
+use crate::progress::Watch;
 
 /// Search budget of small polygons, in edges swept. Smaller: tangles of some hundred corners become
 /// fans; larger: each of them takes longer.
@@ -27,13 +27,12 @@ const SWEEPS: usize = 16;
 pub(super) fn uncross(
     points: &[Point],
     mut edges: Vec<Edge>,
-    listener: &dyn Listener,
+    watch: &Watch<'_>,
 ) -> Result<Option<Arrangement>, Error> {
     let mut budget = PATIENCE.max(SWEEPS * edges.len());
     while let Some(left) = budget.checked_sub(edges.len()) {
         budget = left;
-        let Some(sweep) =
-            ArrangementSweep::new(points, &edges, Rule::Parity)?.run(false, listener)?
+        let Some(sweep) = ArrangementSweep::new(points, &edges, Rule::Parity)?.run(false, watch)?
         else {
             return Ok(None);
         };

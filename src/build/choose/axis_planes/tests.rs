@@ -8,8 +8,8 @@ use super::FreePlanes;
 use crate::build::choose::cost::Tuning;
 use crate::build::choose::set::Set;
 use crate::build::piece::Piece;
-use crate::build::progress::Watch;
 use crate::exact::{Faces, PlaneId, PlaneKind, Side};
+use crate::progress::Watch;
 use crate::random::SplitMix64;
 
 /// The least cost of all planes perpendicular to an axis through a corner, by looking at every

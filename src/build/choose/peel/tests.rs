@@ -7,8 +7,8 @@ use super::super::tests::{Fixture, grid, triangles};
 use super::{Peeled, Peeler, arrange};
 use crate::build::choose::cost::Tuning;
 use crate::build::choose::set::Set;
-use crate::build::progress::Watch;
 use crate::exact::Side;
+use crate::progress::Watch;
 use crate::random::SplitMix64;
 
 fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {

@@ -9,12 +9,12 @@ use crate::Error;
 
 /// The callback is called each time about this many more pieces have been examined, which takes a
 /// millisecond. Smaller: time spent on calls; larger: cancelling takes longer.
-const PULSE: usize = 1 << 16;
-/// How many pieces are looked at before cancellation is checked. Smaller: time for checking; larger:
-/// cancelling takes longer.
-pub(super) const PIECES_AT_ONCE: usize = 4096;
+pub(crate) const PULSE: usize = 1 << 16;
+/// How many pieces (or polygons, corners and edges while polygons are prepared) are processed between two
+/// polls for cancellation. Too small: polling takes time; too large: cancelling takes longer.
+pub(crate) const PIECES_AT_ONCE: usize = 4096;
 /// A search for free planes along an axis takes about as long as examining each piece so many times.
-pub(super) const SWEEP: usize = 10;
+pub(crate) const SWEEP: usize = 10;
 
 /// What a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so
 /// that all pieces of a face add up to one face.
@@ -136,12 +136,18 @@ impl<'a> Watch<'a> {
 
     /// Lets all further work fail, as after a cancellation.
     #[cfg(feature = "parallel")]
-    pub(super) fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
     fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
+    }
+
+    /// How much work has been counted.
+    #[cfg(test)]
+    pub(crate) fn examined(&self) -> usize {
+        self.work.load(Ordering::Relaxed)
     }
 
     fn progress(&self) -> Progress {
