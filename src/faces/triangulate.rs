@@ -17,20 +17,20 @@ use glam::DVec3;
 
 use crate::Error;
 use crate::exact::{Int, Plane, cross};
-use crate::memory::collect;
 use crate::progress::Watch;
+use edge::Point;
 use outline::Triangulation;
 
 /// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter
 /// diagonal, any other as a fan from its first corner.
-pub(super) fn convex(corners: &[[f64; 3]]) -> Result<Triangulation, Error> {
+pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
     let diagonal = |a: usize, b: usize| DVec3::from(corners[a]).distance_squared(corners[b].into());
     let triangles = if corners.len() == 4 && diagonal(1, 3) < diagonal(0, 2) {
-        collect([[1, 2, 3], [1, 3, 0]].into_iter())?
+        vec![[1, 2, 3], [1, 3, 0]]
     } else {
-        collect((1..corners.len() as u32 - 1).map(|k| [0, k, k + 1]))?
+        (1..corners.len() as u32 - 1).map(|k| [0, k, k + 1]).collect()
     };
-    Ok(Triangulation { triangles, crosses_itself: false })
+    Triangulation { triangles, crosses_itself: false }
 }
 
 /// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's
@@ -48,7 +48,8 @@ pub(super) fn any(
     let area = vector_area(corners);
     let (drop, facing) = facing(&area, plane);
     let (x, y) = ((drop + 1) % 3, (drop + 2) % 3);
-    let flat = collect(corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]))?;
+    let flat: Vec<Point> =
+        corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]).collect();
     let mut found = outline::triangulate(&flat, watch)?;
     let has_area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|k| corners[k as usize]);
@@ -57,7 +58,7 @@ pub(super) fn any(
     if area.iter().any(|component| component.sign().is_ne())
         && !found.triangles.iter().any(has_area)
     {
-        return Ok(Triangulation { triangles: convex(corners)?.triangles, ..found });
+        return Ok(Triangulation { triangles: convex(corners).triangles, ..found });
     }
     if facing.is_lt() {
         found.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));

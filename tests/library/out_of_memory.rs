@@ -14,24 +14,10 @@ type Polygons = Vec<Vec<DVec3>>;
 /// Names the case to a process that this test starts.
 const CASE: &str = "BINSPACE_OUT_OF_MEMORY";
 
-const CASES: [&str; 9] =
-    ["heap", "sphere", "layers", "outline", "sampled", "extend", "frame", "read", "mesh"];
+const CASES: [&str; 8] = ["heap", "sphere", "layers", "sampled", "extend", "frame", "read", "mesh"];
 
 fn heap() -> Polygons {
     polygons(&scene::random_triangles(1500, 1))
-}
-
-/// A spiral of many corners, and another outline three times.
-fn outlines() -> Polygons {
-    let at = |k: u32, out: f64, z: f64| {
-        let angle = 0.02 * f64::from(k);
-        DVec3::new((angle + out) * angle.cos(), (angle + out) * angle.sin(), z)
-    };
-    let spiral =
-        (0..9000).map(|k| at(k, 0.0, 0.0)).chain((0..9000).rev().map(|k| at(k, 0.05, 0.0)));
-    let ring: Vec<DVec3> =
-        (0..20_000).map(|k| f64::from(k).sin_cos()).map(|(y, x)| DVec3::new(x, y, 2.0)).collect();
-    vec![spiral.collect(), ring.clone(), ring.clone(), ring]
 }
 
 /// Small blocks of free memory, which no longer list fits into: what little is asked for without a
@@ -56,7 +42,6 @@ fn run(case: &str) -> bool {
     let polygons: Polygons = match case {
         "sphere" => polygons(&scene::sphere(20_000)),
         "layers" => (0..30_000).map(|k| square(f64::from(k % 3), f64::from(k / 3))).collect(),
-        "outline" => outlines(),
         "heap" | "sampled" | "extend" | "frame" => heap(),
         "read" | "mesh" => vec![],
         other => panic!("{other}"),

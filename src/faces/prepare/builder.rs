@@ -14,7 +14,7 @@ use crate::Error;
 use crate::exact::faces::{Frame, INNER};
 use crate::exact::{Faces, Plane, cross};
 use crate::faces::triangulate;
-use crate::memory::{collect, reserve};
+use crate::memory::reserve;
 use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// What became of a polygon.
@@ -94,7 +94,7 @@ impl FaceBuilder {
         watch: &Watch<'_>,
     ) -> Result<Outcome, Error> {
         watch.work(points.len())?;
-        self.corners.keep_distinct(points, &self.faces.lattice)?;
+        self.corners.keep_distinct(points, &self.faces.lattice);
         let Some(widest) = self.corners.widest_triangle() else {
             return Ok(Outcome::Dropped);
         };
@@ -150,13 +150,13 @@ impl FaceBuilder {
         plane: &Plane,
         watch: &Watch<'_>,
     ) -> Result<Option<bool>, Error> {
-        let corners = collect(self.corners.kept.iter().map(|&(point, _)| point))?;
+        let corners: Vec<_> = self.corners.kept.iter().map(|&(point, _)| point).collect();
         let found = if convex {
-            triangulate::convex(&corners)?
+            triangulate::convex(&corners)
         } else {
             triangulate::any(&corners, plane, watch)?
         };
-        self.corners.find_runs()?;
+        self.corners.find_runs();
         let before = self.faces.len();
         for some in found.triangles.chunks(PIECES_AT_ONCE) {
             watch.work(some.len())?;

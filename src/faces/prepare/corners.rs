@@ -3,22 +3,15 @@
 
 use glam::DVec3;
 
-use crate::Error;
 use crate::exact::{Lattice, Plane, cross, have_area, is_convex};
-use crate::memory::reserve;
 
 /// A corner on the lattice, and its number.
 pub(super) type Corner = ([f64; 3], u32);
 
 /// Replaces `kept` by the corners of an outline or a line, without those that equal the one before. Of equal
 /// ones the last is kept: its edge is the one that leads on from there.
-pub(super) fn keep_distinct(
-    points: &[DVec3],
-    lattice: &Lattice,
-    kept: &mut Vec<Corner>,
-) -> Result<(), Error> {
+pub(super) fn keep_distinct(points: &[DVec3], lattice: &Lattice, kept: &mut Vec<Corner>) {
     kept.clear();
-    reserve(kept, points.len())?;
     for (number, &point) in (0..).zip(points) {
         let point = lattice.snap(point);
         match kept.last_mut() {
@@ -26,7 +19,6 @@ pub(super) fn keep_distinct(
             _ => kept.push((point, number)),
         }
     }
-    Ok(())
 }
 
 /// The corners of a polygon on the lattice.
@@ -43,18 +35,13 @@ pub(super) struct Corners {
 
 impl Corners {
     /// Replaces them by those of another polygon.
-    pub(super) fn keep_distinct(
-        &mut self,
-        points: &[DVec3],
-        lattice: &Lattice,
-    ) -> Result<(), Error> {
+    pub(super) fn keep_distinct(&mut self, points: &[DVec3], lattice: &Lattice) {
         self.runs.clear();
         self.given = points.len();
-        keep_distinct(points, lattice, &mut self.kept)?;
+        keep_distinct(points, lattice, &mut self.kept);
         while self.kept.len() > 1 && self.kept[0].0 == self.kept[self.kept.len() - 1].0 {
             self.kept.pop();
         }
-        Ok(())
     }
 
     /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
@@ -99,10 +86,9 @@ impl Corners {
     }
 
     /// Finds how far the outline runs straight from each corner, in linear time.
-    pub(super) fn find_runs(&mut self) -> Result<(), Error> {
+    pub(super) fn find_runs(&mut self) {
         let n = self.kept.len();
         self.runs.clear();
-        reserve(&mut self.runs, n)?;
         self.runs.resize(n, 1);
         // Twice round, backwards: the run of the last corner depends on that of the first.
         for k in (0..2 * n).rev() {
@@ -111,7 +97,6 @@ impl Corners {
             // This ends, because a polygon with area has corners that are not on one line.
             self.runs[k % n] = if is_straight { self.runs[(k + 1) % n] + 1 } else { 1 };
         }
-        Ok(())
     }
 }
 

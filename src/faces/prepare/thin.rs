@@ -30,7 +30,7 @@ impl Preparer {
         for line in 0..self.input.len() {
             let given = self.input.polygon(line);
             watch.work(given.len())?;
-            keep_distinct(given, &faces.lattice, &mut corners)?;
+            keep_distinct(given, &faces.lattice, &mut corners);
             reserve(numbers, corners.len())?;
             for (k, ends) in corners.windows(2).enumerate() {
                 let [(from, number), (to, _)] = *ends else { continue };

@@ -11,10 +11,13 @@ use super::arrangement::{Arrangement, Rule, Stop};
 use super::edge::{Edge, Point, shared_corner, turn};
 use super::sweep_line::{NONE, Place, SweepLine};
 use crate::Error;
-use crate::memory::{push, reserve};
 use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// The edges that the sweep has met, and those that it has yet to meet.
+///
+/// Its lists are not checked for memory. Edges that overlap are merged, so `n` edges and `n` points have
+/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of
+/// 20 000 random corners takes some megabytes, one of the most corners that a polygon may have a gigabyte.
 pub(super) struct ArrangementSweep<'a> {
     points: &'a [Point],
     rule: Rule,
@@ -53,28 +56,21 @@ struct Waiting {
 const MOST_PARTS: usize = 8;
 
 impl<'a> ArrangementSweep<'a> {
-    pub(super) fn new(points: &'a [Point], edges: &[Edge], rule: Rule) -> Result<Self, Error> {
+    pub(super) fn new(points: &'a [Point], edges: &[Edge], rule: Rule) -> Self {
         let mut sweep = ArrangementSweep {
             points,
             rule,
             line: SweepLine::new(),
             arrangement: Arrangement { edges: vec![], stops: vec![] },
-            waiting: vec![],
-            heads: vec![],
-            arriving: vec![],
+            waiting: Vec::with_capacity(edges.len()),
+            heads: vec![NONE; points.len()],
+            arriving: vec![Arriving { count: 0, last: NONE }; points.len()],
             starting: vec![],
             crossings: vec![],
             steps: 0,
         };
-        reserve(&mut sweep.heads, points.len())?;
-        sweep.heads.resize(points.len(), NONE);
-        reserve(&mut sweep.arriving, points.len())?;
-        sweep.arriving.resize(points.len(), Arriving { count: 0, last: NONE });
-        reserve(&mut sweep.waiting, edges.len())?;
-        for &edge in edges {
-            sweep.wait(edge)?;
-        }
-        Ok(sweep)
+        edges.iter().for_each(|&edge| sweep.wait(edge));
+        sweep
     }
 
     /// Sweeps over all points. `None` if there are too many parts, or if edges cross and
@@ -86,7 +82,7 @@ impl<'a> ArrangementSweep<'a> {
     ) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.points.len() as u32 {
-            self.visit(point)?;
+            self.visit(point);
             if self.steps >= PIECES_AT_ONCE {
                 watch.work(std::mem::take(&mut self.steps))?;
             }
@@ -112,21 +108,19 @@ impl<'a> ArrangementSweep<'a> {
         &self.arrangement.edges[edge as usize]
     }
 
-    fn wait(&mut self, edge: Edge) -> Result<(), Error> {
+    fn wait(&mut self, edge: Edge) {
         let head = &mut self.heads[edge.ends[0] as usize];
-        reserve(&mut self.waiting, 1)?;
         let next = std::mem::replace(head, self.waiting.len() as u32);
         self.waiting.push(Waiting { edge, next });
-        Ok(())
     }
 
     /// Takes the edges that end at a point off the line, and inserts those that begin there.
-    fn visit(&mut self, point: u32) -> Result<(), Error> {
+    fn visit(&mut self, point: u32) {
         self.steps += 1;
         let arriving = self.arriving[point as usize];
         let mut head = self.heads[point as usize];
         if arriving.count == 0 && head == NONE {
-            return Ok(());
+            return;
         }
         self.starting.clear();
         while head != NONE {
@@ -136,11 +130,10 @@ impl<'a> ArrangementSweep<'a> {
         }
         let (below, ended) = self.end_all(point, arriving.last);
         self.steps += self.starting.len();
-        self.merge(point)?;
+        self.merge(point);
         if ended || !self.starting.is_empty() {
-            self.begin_all(point, below)?;
+            self.begin_all(point, below);
         }
-        Ok(())
     }
 
     /// Takes the edges through a point off the line. Their parts behind the point begin there.
@@ -198,7 +191,7 @@ impl<'a> ArrangementSweep<'a> {
 
     /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping
     /// ones. Where the shortest of them ends, the rest begins again.
-    fn merge(&mut self, point: u32) -> Result<(), Error> {
+    fn merge(&mut self, point: u32) {
         let (points, at) = (self.points, self.points[point as usize]);
         let end = |edge: &Edge| points[edge.ends[1] as usize];
         let mut all = std::mem::take(&mut self.starting);
@@ -212,7 +205,7 @@ impl<'a> ArrangementSweep<'a> {
             let first = all[start];
             let alike = |edge: &Edge| turn(at, end(&first), end(edge)).is_eq();
             let count = all[start..].iter().take_while(|edge| alike(edge)).count();
-            if let Some(edge) = self.merge_alike(point, &all[start..start + count])? {
+            if let Some(edge) = self.merge_alike(point, &all[start..start + count]) {
                 all[kept] = edge;
                 kept += 1;
             }
@@ -220,13 +213,12 @@ impl<'a> ArrangementSweep<'a> {
         }
         all.truncate(kept);
         self.starting = all;
-        Ok(())
     }
 
     /// Merges edges that begin at a point in the same direction, given in the order of their ends,
     /// into one edge up to the nearest end, or none if they cancel. The parts further on wait for
     /// the points where they begin.
-    fn merge_alike(&mut self, point: u32, edges: &[Edge]) -> Result<Option<Edge>, Error> {
+    fn merge_alike(&mut self, point: u32, edges: &[Edge]) -> Option<Edge> {
         let (mut weight, mut from, mut kept) = (edges.iter().map(|e| e.weight).sum(), point, None);
         let mut corner = shared_corner(edges, 0, weight);
         for part in edges.chunk_by(|a, b| a.ends[1] == b.ends[1]) {
@@ -240,39 +232,36 @@ impl<'a> ArrangementSweep<'a> {
             if reduced != 0 && from == point {
                 kept = Some(edge);
             } else if reduced != 0 {
-                self.wait(edge)?;
+                self.wait(edge);
             }
             weight -= part.iter().map(|edge| edge.weight).sum::<i32>();
             (from, corner) = (to, NONE);
         }
-        Ok(kept)
+        kept
     }
 
     /// Inserts the edges that begin at a point, and tests new neighbours for crossings.
-    fn begin_all(&mut self, point: u32, below: u32) -> Result<(), Error> {
+    fn begin_all(&mut self, point: u32, below: u32) {
         let above = self.line.above(below);
         let Arrangement { edges, stops } = &mut self.arrangement;
-        reserve(stops, 1)?;
         stops.push(Stop { point, below, first: edges.len() as u32 });
-        reserve(edges, self.starting.len())?;
         let mut next = below;
         for &edge in &self.starting {
             edges.push(edge);
-            next = self.line.insert(next)?;
+            next = self.line.insert(next);
             let arriving = &mut self.arriving[edge.ends[1] as usize];
             *arriving = Arriving { count: arriving.count + 1, last: next };
         }
-        self.remove_crossing(below, self.line.above(below))?;
+        self.remove_crossing(below, self.line.above(below));
         // The first call may have taken `above` off the line.
         if self.line.contains(above) {
-            self.remove_crossing(self.line.below(above), above)?;
+            self.remove_crossing(self.line.below(above), above);
         }
-        Ok(())
     }
 
     /// Takes two neighbours off the line if they cross, and goes on with those that become
     /// neighbours by it.
-    fn remove_crossing(&mut self, mut low: u32, mut high: u32) -> Result<(), Error> {
+    fn remove_crossing(&mut self, mut low: u32, mut high: u32) {
         while low != NONE && high != NONE && self.cross(low, high) {
             let (below, above) = (self.line.below(low), self.line.above(high));
             for edge in [low, high] {
@@ -281,10 +270,9 @@ impl<'a> ArrangementSweep<'a> {
                 edge.weight = 0;
                 self.arriving[edge.ends[1] as usize].count -= 1;
             }
-            push(&mut self.crossings, [low, high])?;
+            self.crossings.push([low, high]);
             (low, high) = (below, above);
         }
-        Ok(())
     }
 
     /// Whether two edges on the line, one above the other, cross before either ends: then the one

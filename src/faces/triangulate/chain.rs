@@ -5,8 +5,6 @@
 use std::cmp::Ordering;
 
 use super::edge::{Point, turn};
-use crate::Error;
-use crate::memory::reserve;
 
 /// A point of the sweep, and the corner of the polygon that lies there.
 #[derive(Clone, Copy, Debug)]
@@ -44,33 +42,26 @@ impl Chain {
     }
 
     /// Adds the next point of one side.
-    pub(super) fn add(
-        &mut self,
-        vertex: Vertex,
-        side: ChainSide,
-        triangles: &mut Triangles,
-    ) -> Result<(), Error> {
+    pub(super) fn add(&mut self, vertex: Vertex, side: ChainSide, triangles: &mut Triangles) {
         if self.stack.len() > 1 && side == self.side {
-            self.cut_corners(vertex, triangles)?;
+            self.cut_corners(vertex, triangles);
         } else {
-            self.fan(vertex, triangles)?;
+            self.fan(vertex, triangles);
             let last = self.stack.len() - 1;
             self.stack.swap(0, last);
             self.stack.truncate(1);
             self.side = side;
         }
-        reserve(&mut self.stack, 1)?;
         self.stack.push(vertex);
-        Ok(())
     }
 
     /// Adds the last point, in which both sides end.
-    pub(super) fn close(self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
-        self.fan(vertex, triangles)
+    pub(super) fn close(self, vertex: Vertex, triangles: &mut Triangles) {
+        self.fan(vertex, triangles);
     }
 
     /// Cuts triangles off between a new point and the points of the same side that it sees.
-    fn cut_corners(&mut self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
+    fn cut_corners(&mut self, vertex: Vertex, triangles: &mut Triangles) {
         let outwards = match self.side {
             ChainSide::Lower => Ordering::Greater,
             ChainSide::Upper => Ordering::Less,
@@ -78,34 +69,24 @@ impl Chain {
         while let [.., a, b] = self.stack[..]
             && turn(a.point, b.point, vertex.point) == outwards
         {
-            self.triangle(a, b, vertex, triangles)?;
+            self.triangle(a, b, vertex, triangles);
             self.stack.pop();
         }
-        Ok(())
     }
 
     /// Cuts triangles off between the whole chain and a point of the other side, which sees all of
     /// it.
-    fn fan(&self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
+    fn fan(&self, vertex: Vertex, triangles: &mut Triangles) {
         for pair in self.stack.windows(2) {
-            self.triangle(pair[0], pair[1], vertex, triangles)?;
+            self.triangle(pair[0], pair[1], vertex, triangles);
         }
-        Ok(())
     }
 
     /// Adds the triangle of an edge of the chain, from left to right, and a point further right.
-    fn triangle(
-        &self,
-        a: Vertex,
-        b: Vertex,
-        c: Vertex,
-        triangles: &mut Triangles,
-    ) -> Result<(), Error> {
-        reserve(triangles, 1)?;
+    fn triangle(&self, a: Vertex, b: Vertex, c: Vertex, triangles: &mut Triangles) {
         triangles.push(match self.side {
             ChainSide::Lower => [a.corner, b.corner, c.corner],
             ChainSide::Upper => [a.corner, c.corner, b.corner],
         });
-        Ok(())
     }
 }

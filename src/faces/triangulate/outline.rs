@@ -6,7 +6,6 @@ use super::edge::{Edge, Point};
 use super::sweep_line::NONE;
 use super::{edge, regions, uncross};
 use crate::Error;
-use crate::memory::reserve;
 use crate::progress::Watch;
 
 /// Triangles, as corner numbers, in place of a polygon.
@@ -19,9 +18,9 @@ pub(in crate::faces) struct Triangulation {
 
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
 pub(super) fn triangulate(corners: &[Point], watch: &Watch<'_>) -> Result<Triangulation, Error> {
-    let outline = Outline::new(corners)?;
+    let outline = Outline::new(corners);
     let (points, names) = (&outline.points, &outline.corners);
-    let simple = ArrangementSweep::new(points, &outline.edges, Rule::Signed)?.run(true, watch)?;
+    let simple = ArrangementSweep::new(points, &outline.edges, Rule::Signed).run(true, watch)?;
     if let Some(sweep) = simple {
         let arrangement = sweep.finish();
         let covered = regions::triangulate(points, names, &arrangement, Rule::Signed, watch)?;
@@ -35,7 +34,7 @@ pub(super) fn triangulate(corners: &[Point], watch: &Watch<'_>) -> Result<Triang
         None => vec![],
     };
     if triangles.is_empty() {
-        triangles = fan(corners)?;
+        triangles = fan(corners);
     }
     Ok(Triangulation { triangles, crosses_itself: true })
 }
@@ -49,16 +48,11 @@ struct Outline {
 }
 
 impl Outline {
-    fn new(corners: &[Point]) -> Result<Self, Error> {
-        let (mut order, mut points, mut names) = (vec![], vec![], vec![]);
-        let mut point_of = vec![];
-        reserve(&mut order, corners.len())?;
-        order.extend(0..corners.len() as u32);
+    fn new(corners: &[Point]) -> Self {
+        let mut order: Vec<u32> = (0..corners.len() as u32).collect();
         order.sort_unstable_by_key(|&corner| (corners[corner as usize], corner));
-        reserve(&mut point_of, corners.len())?;
-        point_of.resize(corners.len(), NONE);
-        reserve(&mut points, corners.len())?;
-        reserve(&mut names, corners.len())?;
+        let (mut points, mut names) = (vec![], vec![]);
+        let mut point_of = vec![NONE; corners.len()];
         for &corner in &order {
             let point = corners[corner as usize];
             if points.last() != Some(&point) {
@@ -67,9 +61,7 @@ impl Outline {
             }
             point_of[corner as usize] = points.len() as u32 - 1;
         }
-        drop(order);
         let mut edges = vec![];
-        reserve(&mut edges, corners.len())?;
         for k in 0..corners.len() {
             let next = if k + 1 == corners.len() { 0 } else { k + 1 };
             let [from, to] = [k, next].map(|k| (k as u32, point_of[k]));
@@ -77,23 +69,20 @@ impl Outline {
                 edges.push(Edge::between(from, to));
             }
         }
-        Ok(Self { points, corners: names, edges })
+        Self { points, corners: names, edges }
     }
 }
 
 /// Triangles that fan out from the first corner: the last resort, for polygons of which nothing
 /// else is left.
-fn fan(corners: &[Point]) -> Result<Vec<[u32; 3]>, Error> {
-    let mut triangles = vec![];
-    reserve(&mut triangles, corners.len())?;
-    triangles.extend((1..corners.len().saturating_sub(1)).filter_map(|k| {
+fn fan(corners: &[Point]) -> Vec<[u32; 3]> {
+    let triangle = |k: usize| {
         let [a, b, c] = [0, k as u32, k as u32 + 1];
-        let area = edge::area(corners[0], corners[k], corners[k + 1]);
-        match area.signum() {
+        match edge::area(corners[0], corners[k], corners[k + 1]).signum() {
             0 => None,
             1 => Some([a, b, c]),
             _ => Some([a, c, b]),
         }
-    }));
-    Ok(triangles)
+    };
+    (1..corners.len().saturating_sub(1)).filter_map(triangle).collect()
 }

@@ -9,7 +9,6 @@ use super::chain::{Chain, ChainSide, Triangles, Vertex};
 use super::edge::Point;
 use super::sweep_line::NONE;
 use crate::Error;
-use crate::memory::reserve;
 use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// The triangles of the inside, counter-clockwise, and whether the outline winds around all of it
@@ -64,9 +63,8 @@ pub(super) fn triangulate(
     rule: Rule,
     watch: &Watch<'_>,
 ) -> Result<Covered, Error> {
-    let (mut above, mut triangles) = (vec![], vec![]);
-    reserve(&mut above, arrangement.edges.len())?;
-    reserve(&mut triangles, points.len())?;
+    let above = Vec::with_capacity(arrangement.edges.len());
+    let triangles = Vec::with_capacity(points.len());
     let (lowest, least, most) = (NONE, 0, 0);
     let mut sweep =
         RegionSweep { points, corners, arrangement, rule, above, lowest, triangles, least, most };
@@ -76,7 +74,7 @@ pub(super) fn triangulate(
             watch.work(PIECES_AT_ONCE)?;
         }
         let end = stops.get(index + 1).map_or(arrangement.edges.len() as u32, |next| next.first);
-        sweep.visit(stop, stop.first..end)?;
+        sweep.visit(stop, stop.first..end);
     }
     Ok(Covered { triangles: sweep.triangles, winds_once: sweep.most - sweep.least <= 1 })
 }
@@ -86,20 +84,20 @@ type End = (u32, usize);
 
 impl RegionSweep<'_> {
     /// Sweeps over a point at which the edges in `starting` begin.
-    fn visit(&mut self, stop: Stop, starting: Range<u32>) -> Result<(), Error> {
+    fn visit(&mut self, stop: Stop, starting: Range<u32>) {
         // The point lies above `below`: either in the region between it and the next edge, or at
         // the end of that edge and of others above.
         let lowest = self.next(stop.below);
         let region = self.take(stop.below);
         if self.ends_at(lowest, stop.point) {
-            let (regions, above) = self.end_all(stop, &starting, region, lowest)?;
-            self.begin_all(stop, starting, regions, above)
+            let (regions, above) = self.end_all(stop, &starting, region, lowest);
+            self.begin_all(stop, starting, regions, above);
         } else {
             // No edge ends here, so the region is divided: a diagonal leads back to its last point.
             let [first, last] = [starting.start, starting.end.saturating_sub(1)];
             let vertices = [first, last].map(|edge| self.vertex(stop.point, [(edge, 0); 2]));
-            let regions = region.split(vertices, &mut self.triangles)?;
-            self.begin_all(stop, starting, regions, lowest)
+            let regions = region.split(vertices, &mut self.triangles);
+            self.begin_all(stop, starting, regions, lowest);
         }
     }
 
@@ -111,7 +109,7 @@ impl RegionSweep<'_> {
         starting: &Range<u32>,
         region: Region,
         lowest: u32,
-    ) -> Result<([Region; 2], u32), Error> {
+    ) -> ([Region; 2], u32) {
         let point = stop.point;
         let begins = |edge: u32| if starting.is_empty() { (NONE, 0) } else { (edge, 0) };
         // Several corners may lie at this point. Which of them belongs to a region depends on the
@@ -121,7 +119,7 @@ impl RegionSweep<'_> {
         if self.winding(stop.below) < 0 {
             ends.reverse();
         }
-        let low = region.add(self.vertex(point, ends), ChainSide::Upper, &mut self.triangles)?;
+        let low = region.add(self.vertex(point, ends), ChainSide::Upper, &mut self.triangles);
         let mut edge = lowest;
         loop {
             let (winding, region, next) = (self.winding(edge), self.take(edge), self.next(edge));
@@ -131,12 +129,12 @@ impl RegionSweep<'_> {
                     ends.reverse();
                 }
                 let vertex = self.vertex(point, ends);
-                let high = region.add(vertex, ChainSide::Lower, &mut self.triangles)?;
-                return Ok(([low, high], next));
+                let high = region.add(vertex, ChainSide::Lower, &mut self.triangles);
+                return ([low, high], next);
             }
             let ends = if winding < 0 { [edge, next] } else { [next, edge] };
             let vertex = self.vertex(point, ends.map(|edge| (edge, 1)));
-            region.close(vertex, &mut self.triangles)?;
+            region.close(vertex, &mut self.triangles);
             edge = next;
         }
     }
@@ -149,10 +147,10 @@ impl RegionSweep<'_> {
         starting: Range<u32>,
         [low, high]: [Region; 2],
         above: u32,
-    ) -> Result<(), Error> {
+    ) {
         if starting.is_empty() {
             self.set(stop.below, above, low.join(high));
-            return Ok(());
+            return;
         }
         let mut winding = self.winding(stop.below);
         self.set(stop.below, starting.start, low);
@@ -171,10 +169,8 @@ impl RegionSweep<'_> {
             let next = if next == starting.end { above } else { next };
             self.least = self.least.min(winding);
             self.most = self.most.max(winding);
-            reserve(&mut self.above, 1)?;
             self.above.push(Above { edge: next, winding, region });
         }
-        Ok(())
     }
 
     fn is_inside(&self, winding: i32) -> bool {
@@ -223,14 +219,9 @@ impl RegionSweep<'_> {
 
 impl Region {
     /// Adds a point of a boundary.
-    fn add(
-        self,
-        vertex: Vertex,
-        side: ChainSide,
-        triangles: &mut Triangles,
-    ) -> Result<Self, Error> {
+    fn add(self, vertex: Vertex, side: ChainSide, triangles: &mut Triangles) -> Self {
         let (done, mut left) = match (self, side) {
-            (Self::Outside, _) => return Ok(Self::Outside),
+            (Self::Outside, _) => return Self::Outside,
             (Self::One(chain), _) => (None, chain),
             (Self::Two(chains), ChainSide::Lower) => {
                 let [low, high] = *chains;
@@ -242,34 +233,30 @@ impl Region {
             }
         };
         if let Some(done) = done {
-            done.close(vertex, triangles)?;
+            done.close(vertex, triangles);
         }
-        left.add(vertex, side, triangles)?;
-        Ok(Self::One(left))
+        left.add(vertex, side, triangles);
+        Self::One(left)
     }
 
     /// Adds the last point.
-    fn close(self, vertex: Vertex, triangles: &mut Triangles) -> Result<(), Error> {
+    fn close(self, vertex: Vertex, triangles: &mut Triangles) {
         match self {
-            Self::Outside => Ok(()),
+            Self::Outside => {}
             Self::One(chain) => chain.close(vertex, triangles),
             Self::Two(chains) => {
                 let [low, high] = *chains;
-                low.close(vertex, triangles)?;
-                high.close(vertex, triangles)
+                low.close(vertex, triangles);
+                high.close(vertex, triangles);
             }
         }
     }
 
     /// Divides the region at a point where edges begin within it. The point's corner may differ
     /// between the part below and the part above.
-    fn split(
-        self,
-        [upper, lower]: [Vertex; 2],
-        triangles: &mut Triangles,
-    ) -> Result<[Self; 2], Error> {
+    fn split(self, [upper, lower]: [Vertex; 2], triangles: &mut Triangles) -> [Self; 2] {
         let [mut low, mut high] = match self {
-            Self::Outside => return Ok([Self::Outside, Self::Outside]),
+            Self::Outside => return [Self::Outside, Self::Outside],
             Self::Two(chains) => *chains,
             // The last point sees this one, as the sweep met nothing of the region in between.
             Self::One(chain) => match chain.last() {
@@ -277,9 +264,9 @@ impl Region {
                 (last, ChainSide::Upper) => [chain, Chain::new(last)],
             },
         };
-        low.add(upper, ChainSide::Upper, triangles)?;
-        high.add(lower, ChainSide::Lower, triangles)?;
-        Ok([Self::One(low), Self::One(high)])
+        low.add(upper, ChainSide::Upper, triangles);
+        high.add(lower, ChainSide::Lower, triangles);
+        [Self::One(low), Self::One(high)]
     }
 
     /// Makes one region of two, when the edges between them have ended.

@@ -1,7 +1,5 @@
 //! The sweep line: the edges that it crosses, from the lowest to the highest.
 
-use crate::Error;
-use crate::memory::reserve;
 use crate::random::mix;
 
 /// The edge number that means "none".
@@ -75,14 +73,13 @@ impl SweepLine {
     }
 
     /// Inserts the edge with the next number above `below`, or as the lowest if that is [`NONE`].
-    pub(super) fn insert(&mut self, below: u32) -> Result<u32, Error> {
+    pub(super) fn insert(&mut self, below: u32) -> u32 {
         let edge = self.nodes.len() as u32;
         let above = self.above(below);
         // Of two neighbours in the list, one is an ancestor of the other in the tree, so one of
         // them has no child on the side of the other: the new edge becomes that child.
         let (parent, side) =
             if below != NONE && self.child(below, 1) == NONE { (below, 1) } else { (above, 0) };
-        reserve(&mut self.nodes, 1)?;
         self.nodes.push(Node { below, above, parent, children: [NONE; 2], on_line: true });
         self.link(below, above, edge, edge);
         match parent {
@@ -92,7 +89,7 @@ impl SweepLine {
         while self.parent(edge) != NONE && priority(self.parent(edge)) < priority(edge) {
             self.rotate_up(edge);
         }
-        Ok(edge)
+        edge
     }
 
     pub(super) fn remove(&mut self, edge: u32) {
@@ -193,7 +190,7 @@ mod tests {
                 let at = list.partition_point(|&edge| keys[edge as usize] < key);
                 assert_eq!(next, if at == 0 { NONE } else { list[at - 1] });
                 keys.push(key);
-                list.insert(at, line.insert(next).expect("memory"));
+                list.insert(at, line.insert(next));
             }
             if round % 50 == 0 {
                 let mut at = NONE;

@@ -12,7 +12,6 @@ use super::arrange::ArrangementSweep;
 use super::arrangement::{Arrangement, Rule};
 use super::edge::{Edge, Point, area};
 use crate::Error;
-use crate::memory::reserve;
 use crate::progress::Watch;
 
 /// Search budget of small polygons, in edges swept. Smaller: tangles of some hundred corners become
@@ -32,7 +31,7 @@ pub(super) fn uncross(
     let mut budget = PATIENCE.max(SWEEPS * edges.len());
     while let Some(left) = budget.checked_sub(edges.len()) {
         budget = left;
-        let Some(sweep) = ArrangementSweep::new(points, &edges, Rule::Parity)?.run(false, watch)?
+        let Some(sweep) = ArrangementSweep::new(points, &edges, Rule::Parity).run(false, watch)?
         else {
             return Ok(None);
         };
@@ -40,7 +39,6 @@ pub(super) fn uncross(
             return Ok(Some(sweep.finish()));
         }
         edges.clear();
-        reserve(&mut edges, sweep.uncrossed().count() + 2 * sweep.crossings.len())?;
         edges.extend(sweep.uncrossed());
         for pair in &sweep.crossings {
             edges.extend(rejoined(points, pair.map(|edge| *sweep.edge(edge))));
