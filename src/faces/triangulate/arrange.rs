@@ -7,11 +7,91 @@
 
 use std::cmp::Ordering;
 
-use super::arrangement::{Arrangement, Rule, Stop};
-use super::edge::{Edge, Point, shared_corner, turn};
-use super::sweep_line::{NONE, Place, SweepLine};
 use crate::Error;
 use crate::progress::{PIECES_AT_ONCE, Watch};
+use crate::random::mix;
+
+/// A point in lattice units. Points are numbered in the order in which the sweep meets them: by x,
+/// then by y.
+pub(super) type Point = [i64; 2];
+
+/// On which side of the line from `a` to `b` a point lies: `Greater` is to the left, above an edge
+/// whose ends come in the sweep's order. Exact.
+#[inline]
+pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
+    area(a, b, c).cmp(&0)
+}
+
+/// Twice the signed area of a triangle, below 2¹⁰⁶.
+#[inline]
+pub(super) fn area(a: Point, b: Point, c: Point) -> i128 {
+    let product = |p: i64, q: i64| i128::from(p) * i128::from(q);
+    product(b[0] - a[0], c[1] - a[1]) - product(b[1] - a[1], c[0] - a[0])
+}
+
+/// A straight part of the outline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Edge {
+    /// The points at its ends, the first one first in the sweep.
+    pub(super) ends: [u32; 2],
+    /// The polygon's corners at its ends; [`NONE`] where the outline goes straight on.
+    pub(super) corners: [u32; 2],
+    /// How often the outline runs along it from the first end to the second, minus how often it
+    /// runs back.
+    pub(super) weight: i32,
+}
+
+impl Edge {
+    /// An edge between two corners, each given by its number and its point.
+    pub(super) fn between(from: (u32, u32), to: (u32, u32)) -> Self {
+        let (low, high, weight) = if from.1 < to.1 { (from, to, 1) } else { (to, from, -1) };
+        Self { ends: [low.1, high.1], corners: [low.0, high.0], weight }
+    }
+
+    /// Divides the edge at a point on it: the part before the point, and the part behind it.
+    const fn cut(self, point: u32) -> [Self; 2] {
+        [
+            Self { ends: [self.ends[0], point], corners: [self.corners[0], NONE], ..self },
+            Self { ends: [point, self.ends[1]], corners: [NONE, self.corners[1]], ..self },
+        ]
+    }
+}
+
+/// The corner at an end that edges share: preferably of an edge with the direction of their sum.
+fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
+    let at = |edge: &&Edge| edge.corners[end] != NONE;
+    let along = |edge: &&Edge| at(edge) && edge.weight.signum() == weight.signum();
+    let best = edges.iter().find(along).or_else(|| edges.iter().find(at));
+    best.map_or(NONE, |edge| edge.corners[end])
+}
+
+/// How overlapping edges count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rule {
+    /// By direction: opposite edges cancel, two of the same direction count 2.
+    Signed,
+    /// By parity: any two cancel.
+    Parity,
+}
+
+/// Edges that meet at their ends only.
+#[derive(Debug)]
+pub(super) struct Arrangement {
+    /// In the order of their first ends; those of one point from the lowest to the highest.
+    pub(super) edges: Vec<Edge>,
+    /// The points at which edges begin or end, in order.
+    pub(super) stops: Vec<Stop>,
+}
+
+/// A point at which edges begin or end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    pub(super) point: u32,
+    /// The edge next below it, or [`NONE`].
+    pub(super) below: u32,
+    /// The first edge that begins here, or the next one that begins anywhere.
+    pub(super) first: u32,
+}
 
 /// The edges that the sweep has met, and those that it has yet to meet.
 ///
@@ -51,7 +131,7 @@ struct Waiting {
 
 /// Search budget: the sweep gives up when edges have been divided into more than this many parts
 /// per edge of the polygon. This happens to outlines that pass through the same points again and
-/// again. Smaller: such outlines are treated as if they crossed themselves; larger: they take time
+/// again. Too small: such outlines are treated as if they crossed themselves; too large: they take time
 /// and memory.
 const MOST_PARTS: usize = 8;
 
@@ -283,6 +363,209 @@ impl<'a> ArrangementSweep<'a> {
             Ordering::Less => self.place(high, low_end) == Place::Above,
             Ordering::Equal => false,
             Ordering::Greater => self.place(low, high_end) == Place::Below,
+        }
+    }
+}
+
+/// The edge number that means "none".
+pub(super) const NONE: u32 = u32::MAX;
+
+/// An ordered list of edges with a search tree over it: a treap (Seidel, Aragon, “Randomized search
+/// trees”, 1996). Its priorities are hashed edge numbers, so that every run gives the same tree.
+/// Edges are numbered from 0 in the order of insertion.
+#[derive(Debug)]
+struct SweepLine {
+    nodes: Vec<Node>,
+    root: u32,
+    lowest: u32,
+}
+
+/// An edge's neighbours in the list, and in the tree.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    below: u32,
+    above: u32,
+    parent: u32,
+    children: [u32; 2],
+    on_line: bool,
+}
+
+/// Where a point lies against an edge: where a search for it goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// Below the edge.
+    Below,
+    /// On the edge.
+    On,
+    /// Above the edge.
+    Above,
+}
+
+impl SweepLine {
+    const fn new() -> Self {
+        Self { nodes: vec![], root: NONE, lowest: NONE }
+    }
+
+    /// The edge below this one, or [`NONE`].
+    fn below(&self, edge: u32) -> u32 {
+        self.nodes[edge as usize].below
+    }
+
+    /// The edge above this one, or [`NONE`]. Above [`NONE`] is the lowest edge.
+    fn above(&self, edge: u32) -> u32 {
+        if edge == NONE { self.lowest } else { self.nodes[edge as usize].above }
+    }
+
+    fn contains(&self, edge: u32) -> bool {
+        self.nodes.get(edge as usize).is_some_and(|node| node.on_line)
+    }
+
+    /// An edge that a point lies on; if there is none, the edge next below it, or [`NONE`].
+    fn find(&self, mut place: impl FnMut(u32) -> Place) -> (u32, Place) {
+        let (mut at, mut below) = (self.root, NONE);
+        while at != NONE {
+            let children = self.nodes[at as usize].children;
+            at = match place(at) {
+                Place::On => return (at, Place::On),
+                Place::Below => children[0],
+                Place::Above => {
+                    below = at;
+                    children[1]
+                }
+            };
+        }
+        (below, Place::Above)
+    }
+
+    /// Inserts the edge with the next number above `below`, or as the lowest if that is [`NONE`].
+    fn insert(&mut self, below: u32) -> u32 {
+        let edge = self.nodes.len() as u32;
+        let above = self.above(below);
+        // Of two neighbours in the list, one is an ancestor of the other in the tree, so one of
+        // them has no child on the side of the other: the new edge becomes that child.
+        let (parent, side) =
+            if below != NONE && self.child(below, 1) == NONE { (below, 1) } else { (above, 0) };
+        self.nodes.push(Node { below, above, parent, children: [NONE; 2], on_line: true });
+        self.link(below, above, edge, edge);
+        match parent {
+            NONE => self.root = edge,
+            _ => self.nodes[parent as usize].children[side] = edge,
+        }
+        while self.parent(edge) != NONE && priority(self.parent(edge)) < priority(edge) {
+            self.rotate_up(edge);
+        }
+        edge
+    }
+
+    fn remove(&mut self, edge: u32) {
+        let Node { below, above, .. } = self.nodes[edge as usize];
+        self.link(below, above, above, below);
+        loop {
+            match self.nodes[edge as usize].children {
+                [NONE, NONE] => break,
+                [child, NONE] | [NONE, child] => self.rotate_up(child),
+                [low, high] if priority(low) > priority(high) => self.rotate_up(low),
+                [_, high] => self.rotate_up(high),
+            }
+        }
+        self.replace_child(self.parent(edge), edge, NONE);
+        self.nodes[edge as usize].on_line = false;
+    }
+
+    /// Sets the edge above `below` to `next`, and the edge below `above` to `before`.
+    fn link(&mut self, below: u32, above: u32, next: u32, before: u32) {
+        match below {
+            NONE => self.lowest = next,
+            _ => self.nodes[below as usize].above = next,
+        }
+        if above != NONE {
+            self.nodes[above as usize].below = before;
+        }
+    }
+
+    fn child(&self, edge: u32, side: usize) -> u32 {
+        self.nodes[edge as usize].children[side]
+    }
+
+    fn parent(&self, edge: u32) -> u32 {
+        self.nodes[edge as usize].parent
+    }
+
+    fn replace_child(&mut self, parent: u32, old: u32, new: u32) {
+        match parent {
+            NONE => self.root = new,
+            _ => {
+                let side = usize::from(self.child(parent, 1) == old);
+                self.nodes[parent as usize].children[side] = new;
+            }
+        }
+    }
+
+    /// Rotates the tree so that an edge becomes the parent of its parent.
+    fn rotate_up(&mut self, edge: u32) {
+        let parent = self.parent(edge);
+        let side = usize::from(self.child(parent, 1) == edge);
+        let inner = self.child(edge, 1 - side);
+        let grandparent = self.parent(parent);
+        self.nodes[parent as usize].children[side] = inner;
+        if inner != NONE {
+            self.nodes[inner as usize].parent = parent;
+        }
+        self.nodes[edge as usize].children[1 - side] = parent;
+        self.nodes[parent as usize].parent = edge;
+        self.nodes[edge as usize].parent = grandparent;
+        self.replace_child(grandparent, parent, edge);
+    }
+}
+
+fn priority(edge: u32) -> u64 {
+    mix(edge.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NONE, Place, SweepLine};
+    use crate::random::SplitMix64;
+
+    /// Against a sorted list: what is found, who is next to whom, and how deep the tree is.
+    #[test]
+    fn the_line_is_a_sorted_list() {
+        let mut random = SplitMix64::new(3);
+        let mut below = |limit: usize| (random.next() >> 16) as usize % limit;
+        let (mut line, mut list, mut keys) =
+            (SweepLine::new(), Vec::<u32>::new(), Vec::<u64>::new());
+        for round in 0..4000 {
+            if list.len() > 3 && below(5) < 2 {
+                let at = below(list.len());
+                line.remove(list.remove(at));
+            } else {
+                let key = below(1 << 40) as u64;
+                let place = |edge: u32| match key.cmp(&keys[edge as usize]) {
+                    std::cmp::Ordering::Less => Place::Below,
+                    std::cmp::Ordering::Equal => Place::On,
+                    std::cmp::Ordering::Greater => Place::Above,
+                };
+                let mut steps = 0;
+                let (next, found) = line.find(|edge| {
+                    steps += 1;
+                    place(edge)
+                });
+                assert!(steps < 64, "{steps} steps in a list of {}", list.len());
+                assert_eq!(found, Place::Above);
+                let at = list.partition_point(|&edge| keys[edge as usize] < key);
+                assert_eq!(next, if at == 0 { NONE } else { list[at - 1] });
+                keys.push(key);
+                list.insert(at, line.insert(next));
+            }
+            if round % 50 == 0 {
+                let mut at = NONE;
+                for &edge in &list {
+                    assert_eq!((line.above(at), line.below(edge)), (edge, at));
+                    assert!(line.contains(edge));
+                    at = edge;
+                }
+                assert_eq!(line.above(at), NONE);
+            }
         }
     }
 }

@@ -5,21 +5,21 @@ mod shapes;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use super::edge::{Point, area, turn};
-use super::outline::{Triangulation, triangulate};
+use super::arrange::{Point, area, turn};
+use super::{PATIENCE, Triangulation, in_plane};
 use crate::progress::{PIECES_AT_ONCE, PULSE, Watch};
 use crate::random::SplitMix64;
 use shapes::{Family, large, random_points, simple};
 
 fn run(corners: &[Point]) -> Triangulation {
-    triangulate(corners, &Watch::default()).expect("memory")
+    in_plane(corners, &Watch::default()).expect("memory")
 }
 
 /// How many steps a triangulation takes.
 fn steps(corners: &[Point]) -> (Triangulation, usize) {
     let callback = |_: &Watch<'_>| ControlFlow::Continue(());
     let watch = Watch::new(&callback);
-    let found = triangulate(corners, &watch).expect("memory");
+    let found = in_plane(corners, &watch).expect("memory");
     (found, watch.examined())
 }
 
@@ -265,7 +265,7 @@ fn polygons_that_cross_themselves_come_to_an_end() {
             let (found, steps) = steps(&corners);
             assert!(!found.triangles.is_empty() && found.triangles.len() < 8 * n);
             assert!(triangles(&corners, &found).all(|[a, b, c]| turn(a, b, c).is_gt()));
-            let budget = super::uncross::PATIENCE.max(n * 16);
+            let budget = PATIENCE.max(n * 16);
             assert!(steps < 8 * budget * (2 * n).ilog2() as usize, "{n}: {steps} steps");
         }
     }
@@ -318,7 +318,7 @@ fn a_cancel_is_heard_within_one_polygon() {
                 false => ControlFlow::Continue(()),
             };
             let watch = Watch::new(&callback);
-            let stopped = triangulate(&corners, &watch);
+            let stopped = in_plane(&corners, &watch);
             assert!(stopped.is_err_and(|error| error.is_cancelled()), "{name}");
             assert!(
                 watch.examined() * 8 < all * share + 8 * (PULSE + 2 * PIECES_AT_ONCE),

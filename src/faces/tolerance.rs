@@ -1,5 +1,5 @@
-//! What all polygons of a scene are prepared by: the lattice, and the tolerance that is asked for or follows
-//! from the scene.
+//! Chooses the coplanar tolerance of a scene: the one that the user sets, or a default from the extent and the
+//! precision of the input.
 
 use glam::DVec3;
 
@@ -11,12 +11,12 @@ use crate::input::STEPS;
 /// The least default tolerance as a share of the scene's extent, the longest side of its bounding
 /// box; see [`Tolerance::Default`].
 ///
-/// Larger: thin layers that are meant to be apart count as coplanar. Smaller: faces that are
+/// Too large: thin layers that are meant to be apart count as coplanar. Too small: faces that are
 /// coplanar except for the rounding of a computation in `f64` cut each other into slivers.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 
 /// The largest default tolerance as a share of the extent, unless it is the [`Precision`] of a type of
-/// numbers. Larger: coordinates written so coarsely would merge what they still tell apart; smaller:
+/// numbers. Too large: coordinates written so coarsely would merge what they still tell apart; too small:
 /// polygons bent by such a rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
@@ -91,9 +91,9 @@ impl Precision {
     }
 }
 
-/// What all polygons of a scene are prepared by.
+/// The lattice and the tolerances by which the polygons of a scene are prepared.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ground {
+pub(super) struct SnapParams {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
@@ -102,14 +102,14 @@ pub(super) struct Ground {
     pub(super) bend: f64,
 }
 
-impl Ground {
-    /// That of faces that are prepared.
+impl SnapParams {
+    /// The parameters of finished faces.
     pub(super) fn of(faces: &Faces) -> Self {
         let Faces { lattice, tolerance, .. } = *faces;
         Self { lattice, tolerance, bend: tolerance }
     }
 
-    /// For corners in a box, of this precision.
+    /// The parameters for corners in a box, of this precision.
     pub(super) fn new(
         lattice: Lattice,
         [min, max]: [DVec3; 2],
@@ -132,14 +132,14 @@ impl Ground {
         Self { lattice, tolerance, bend: tolerance }
     }
 
-    /// The same for polygons that are flat by definition: what their corners are off by is rounding.
+    /// The same for polygons that are flat by definition: any distance from the plane is rounding.
     pub(super) fn of_flat_polygons(self) -> Self {
         Self { bend: MAX_TOLERANCE, ..self }
     }
 
-    /// Whether a corner of a polygon is so little off the plane of the others, in lattice units, that a
-    /// rounding of the polygon's corners can be the reason. No other polygon has a say in it, nor the
-    /// extent: so it is the same however the polygons of a scene are divided.
+    /// Whether rounding can be the reason that a corner is `off` the plane of the others, in lattice units.
+    /// The answer depends on neither the other polygons nor the extent, so it is the same in every part of
+    /// a scene.
     pub(super) fn may_be_rounding(&self, off: f64, precision: f64) -> bool {
         let coarse = self.lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
         off > 0.0 && off <= coarse.max(LARGEST_ROUNDING * 2.0 * LATTICE_LIMIT)
@@ -161,6 +161,6 @@ pub(crate) fn empty_faces(
         return Err(Kind::Bounds.error());
     }
     let lattice = Lattice::new(bounds[0], bounds[1]);
-    let Ground { tolerance, .. } = Ground::new(lattice, bounds, tolerance, precision);
+    let SnapParams { tolerance, .. } = SnapParams::new(lattice, bounds, tolerance, precision);
     Ok(Faces { lattice, tolerance, ..Faces::default() })
 }

@@ -1,14 +1,81 @@
-//! Counts polygons that are given more than once.
+//! The lists of faces: clear, copy, append, shrink, and search for duplicates.
 
 use std::collections::HashSet;
 use std::ops::Range;
 
-use crate::exact::{Faces, integers};
+use crate::error::{Error, Limit};
+use crate::exact::faces::{Face, Thin};
+use crate::exact::{Faces, MAX_LABELS, integers};
+use crate::memory::{collect, reserve};
 use crate::random::mix;
 
-type Corner = [i64; 3];
-
 impl Faces {
+    pub(super) fn clear(&mut self) {
+        self.corners.clear();
+        self.numbers.clear();
+        self.numbered.clear();
+        self.faces.clear();
+        self.moved.clear();
+        self.planes.clear();
+        self.thin = Thin::default();
+    }
+
+    /// No faces, with the same lattice and tolerance.
+    pub(crate) fn without_faces(&self) -> Self {
+        let Self { lattice, tolerance, .. } = *self;
+        Self { lattice, tolerance, ..Self::default() }
+    }
+
+    /// A copy, or an error where there is no memory for it.
+    pub(crate) fn try_clone(&self) -> Result<Self, Error> {
+        let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;
+        let Self { ref faces, ref moved, ref planes, thin, .. } = *self;
+        Ok(Self {
+            lattice,
+            tolerance,
+            corners: collect(corners.iter().copied())?,
+            numbers: collect(numbers.iter().copied())?,
+            numbered: collect(numbered.iter().copied())?,
+            faces: collect(faces.iter().copied())?,
+            moved: collect(moved.iter().copied())?,
+            planes: collect(planes.iter().copied())?,
+            thin,
+        })
+    }
+
+    /// Gives memory back that is not needed.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.corners.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.numbered.shrink_to_fit();
+        self.faces.shrink_to_fit();
+        self.moved.shrink_to_fit();
+        self.planes.shrink_to_fit();
+    }
+
+    /// Adds the faces of later polygons.
+    pub(super) fn append(&mut self, next: Self) -> Result<(), Error> {
+        let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
+        if corners + next.corners.len() >= MAX_LABELS {
+            return Err(Limit::Corners(MAX_LABELS).error());
+        }
+        let first = self.faces.len() as u32;
+        reserve(&mut self.numbered, next.numbered.len())?;
+        reserve(&mut self.numbers, next.numbers.len())?;
+        let numbered = next.numbered.iter();
+        self.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
+        self.numbers.extend(next.numbers);
+        reserve(&mut self.corners, next.corners.len())?;
+        self.corners.extend(next.corners);
+        reserve(&mut self.faces, next.faces.len())?;
+        let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
+        self.faces.extend(next.faces.into_iter().map(moved));
+        reserve(&mut self.moved, next.moved.len())?;
+        let moved = next.moved.into_iter();
+        self.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
+        Ok(())
+    }
+
     /// How many polygons have the corners of an earlier one, in the same cyclic order or its reverse.
     /// Exact; takes O(n log n) time for n corners.
     ///
@@ -45,6 +112,8 @@ impl Faces {
         corners.into_iter().map(|(_, corner)| corner).collect()
     }
 }
+
+type Corner = [i64; 3];
 
 /// A hash of an outline that depends neither on its start nor on its direction.
 fn hash(corners: &[Corner]) -> u64 {

@@ -1,4 +1,4 @@
-//! Reading the corners of all polygons.
+//! Reads the corners of all polygons.
 
 use glam::DVec3;
 
@@ -10,21 +10,21 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 
 const _: () = assert!(MAX_CORNERS.is_multiple_of(PIECES_AT_ONCE), "so that it is noticed");
 
-/// The most polygons for which memory is reserved because an iterator's size hint says so. Larger:
-/// a wrong hint wastes memory; smaller: polygons are copied more often as lists grow.
+/// The most polygons for which memory is reserved on the word of an iterator's size hint. Too large:
+/// a wrong hint wastes memory; too small: polygons are copied more often as lists grow.
 const TRUSTED: usize = 1 << 16;
 
-/// An iterator's hint that it has too many polygons is believed once so many have been read. Smaller: a
-/// hint that is wrong is an error more often; larger: an iterator without end is noticed later.
+/// An iterator's hint that it has too many polygons is believed after this many polygons. Too small: a
+/// hint that is wrong is an error more often; too large: an iterator without end is noticed later.
 const DOUBTED: usize = 1 << 20;
 
-/// A polygon that says that it has no more corners than this is read at once. Larger: one that is
-/// wrong about it can take more memory than there is.
+/// A polygon with at most this many corners by its size hint is read at once. Too large: memory is reserved
+/// on the word of a wrong hint.
 const AT_HAND: usize = 64;
 
 /// All corners, and where those of each polygon end.
 #[derive(Debug, Default)]
-pub(super) struct Collected {
+pub(super) struct InputPolygons {
     points: Vec<DVec3>,
     ends: Vec<u32>,
     /// The largest of the polygons' [`precision`](Polygon::precision): how far corners may be off.
@@ -33,7 +33,7 @@ pub(super) struct Collected {
     precisions: Vec<f64>,
 }
 
-impl Collected {
+impl InputPolygons {
     /// The number of polygons.
     pub(super) fn len(&self) -> usize {
         self.ends.len()
@@ -62,16 +62,14 @@ impl Collected {
         let points = self.points.iter().chain(room.iter().flatten());
         points.fold(start, |[min, max], &p| [min.min(p), max.max(p)])
     }
-}
 
-impl Collected {
     /// The first polygon with a corner beyond the ends of a lattice.
     pub(super) fn first_off(&self, lattice: &Lattice) -> Option<usize> {
         let is_off = |point: &DVec3| lattice.snap(*point).iter().any(|c| c.abs() > LATTICE_LIMIT);
         (0..self.len()).find(|&polygon| self.polygon(polygon).iter().any(is_off))
     }
 
-    /// Reads all polygons, and forgets those before; more than `limit` is an error.
+    /// Replaces the polygons by those of an iterator; more than `limit` is an error.
     pub(super) fn read<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -131,7 +129,7 @@ impl Collected {
             }
             read = self.points.len() - before;
         }
-        // All, or those that the hint had left out.
+        // All corners, or those beyond the size hint.
         for (corner, point) in (read..).zip(corners) {
             if corner % PIECES_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {

@@ -1,0 +1,230 @@
+//! Triangulates polygons that are not convex or not planar: projected along an axis, unchanged if they do
+//! not cross themselves, uncrossed otherwise.
+
+mod arrange;
+mod monotone;
+#[cfg(test)]
+mod tests;
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+
+use crate::Error;
+use crate::exact::{Int, Plane, cross};
+use crate::progress::Watch;
+use arrange::{Arrangement, ArrangementSweep, Edge, NONE, Point, Rule, area};
+
+/// Triangles, as corner numbers, in place of a polygon.
+#[derive(Debug)]
+pub(super) struct Triangulation {
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Whether the polygon crosses itself, or does not wind exactly once around every triangle.
+    pub(super) crosses_itself: bool,
+}
+
+/// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter
+/// diagonal, any other as a fan from its first corner.
+pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
+    let diagonal = |a: usize, b: usize| DVec3::from(corners[a]).distance_squared(corners[b].into());
+    let triangles = if corners.len() == 4 && diagonal(1, 3) < diagonal(0, 2) {
+        vec![[1, 2, 3], [1, 3, 0]]
+    } else {
+        (1..corners.len() as u32 - 1).map(|k| [0, k, k + 1]).collect()
+    };
+    Triangulation { triangles, crosses_itself: false }
+}
+
+/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's
+/// normal); exact, in O(n log n). The triangles face the way the polygon does.
+///
+/// The triangles cover everything that the outline winds around, once. A polygon that crosses itself is
+/// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their
+/// areas cancel, `plane`, which must go through three of its corners, replaces the vector area. A
+/// polygon that has area, but none in the projection, becomes a fan from its first corner.
+pub(super) fn any(
+    corners: &[[f64; 3]],
+    plane: &Plane,
+    watch: &Watch<'_>,
+) -> Result<Triangulation, Error> {
+    let area = vector_area(corners);
+    let (axis, facing) = facing(&area, plane);
+    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+    let flat: Vec<Point> =
+        corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]).collect();
+    let mut found = in_plane(&flat, watch)?;
+    let has_area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|k| corners[k as usize]);
+        cross(a, b, c) != [0; 3]
+    };
+    if area.iter().any(|component| component.sign().is_ne())
+        && !found.triangles.iter().any(has_area)
+    {
+        return Ok(Triangulation { triangles: convex(corners).triangles, ..found });
+    }
+    if facing.is_lt() {
+        found.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
+    }
+    Ok(found)
+}
+
+/// Twice the vector area of a polygon (Newell's normal).
+fn vector_area(corners: &[[f64; 3]]) -> [Int<3>; 3] {
+    let mut area = [Int::<3>::ZERO; 3];
+    for pair in corners.windows(2) {
+        let part = cross(corners[0], pair[0], pair[1]);
+        area = std::array::from_fn(|axis| area[axis] + Int::from(part[axis]));
+    }
+    area
+}
+
+/// The axis to project along, and the sign that the area of a triangle has in this projection if it
+/// faces the way the polygon does.
+fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
+    let normal = plane.normal();
+    let size = DVec3::from_array(area.map(|component| component.to_f64())).abs();
+    let axis = if size.max_element() > CANCELLED * plane.normal_f64().abs().max_element() {
+        size.max_position()
+    } else {
+        plane.main_axis()
+    };
+    let facing = area[axis].sign();
+    (axis, if facing.is_eq() { normal[axis].cmp(&0) } else { facing })
+}
+
+/// A vector area counts as cancelled if it is no more than this share of a triangle of the polygon:
+/// its direction then comes from rounding alone.
+///
+/// Too large: a thin polygon that is far from planar may be projected edge-on. Too small: a polygon that
+/// is planar except for rounding may be.
+const CANCELLED: f64 = 1e-6;
+
+/// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
+fn in_plane(corners: &[Point], watch: &Watch<'_>) -> Result<Triangulation, Error> {
+    let outline = Outline::new(corners);
+    let (points, names) = (&outline.points, &outline.corners);
+    let simple = ArrangementSweep::new(points, &outline.edges, Rule::Signed).run(true, watch)?;
+    if let Some(sweep) = simple {
+        let arrangement = sweep.finish();
+        let covered = monotone::triangulate(points, names, &arrangement, Rule::Signed, watch)?;
+        let crosses_itself = !covered.winds_once;
+        return Ok(Triangulation { triangles: covered.triangles, crosses_itself });
+    }
+    let mut triangles = match uncross(points, outline.edges, watch)? {
+        Some(arrangement) => {
+            monotone::triangulate(points, names, &arrangement, Rule::Parity, watch)?.triangles
+        }
+        None => vec![],
+    };
+    if triangles.is_empty() {
+        triangles = fan(corners);
+    }
+    Ok(Triangulation { triangles, crosses_itself: true })
+}
+
+/// A polygon's distinct points and its edges.
+struct Outline {
+    points: Vec<Point>,
+    /// For each point, a corner of the polygon there.
+    corners: Vec<u32>,
+    edges: Vec<Edge>,
+}
+
+impl Outline {
+    fn new(corners: &[Point]) -> Self {
+        let mut order: Vec<u32> = (0..corners.len() as u32).collect();
+        order.sort_unstable_by_key(|&corner| (corners[corner as usize], corner));
+        let (mut points, mut names) = (vec![], vec![]);
+        let mut point_of = vec![NONE; corners.len()];
+        for &corner in &order {
+            let point = corners[corner as usize];
+            if points.last() != Some(&point) {
+                points.push(point);
+                names.push(corner);
+            }
+            point_of[corner as usize] = points.len() as u32 - 1;
+        }
+        let mut edges = vec![];
+        for k in 0..corners.len() {
+            let next = if k + 1 == corners.len() { 0 } else { k + 1 };
+            let [from, to] = [k, next].map(|k| (k as u32, point_of[k]));
+            if from.1 != to.1 {
+                edges.push(Edge::between(from, to));
+            }
+        }
+        Self { points, corners: names, edges }
+    }
+}
+
+/// Triangles that fan out from the first corner: the last resort.
+fn fan(corners: &[Point]) -> Vec<[u32; 3]> {
+    let triangle = |k: usize| {
+        let [a, b, c] = [0, k as u32, k as u32 + 1];
+        match area(corners[0], corners[k], corners[k + 1]).signum() {
+            0 => None,
+            1 => Some([a, b, c]),
+            _ => Some([a, c, b]),
+        }
+    };
+    (1..corners.len().saturating_sub(1)).filter_map(triangle).collect()
+}
+
+/// Search budget of small polygons, in edges swept. Too small: tangles of some hundred corners become
+/// fans; too large: each of them takes longer.
+const PATIENCE: usize = 1 << 17;
+/// Search budget of large polygons, in sweeps. Too small: outlines with some crossings in a row
+/// become fans; too large: tangles take longer.
+const SWEEPS: usize = 16;
+
+/// Replaces edges that cross until none do; the inside is defined by [`Rule::Parity`]. `None` if the budget
+/// runs out.
+///
+/// Two edges that cross are replaced by two edges between the same four ends that do not cross. Of the two
+/// ways to do that, this takes the one that changes less of the inside by the even-odd rule. So the result
+/// covers somewhat more or less than the outline near a crossing, and exactly the inside everywhere else.
+/// The new edges are shorter than the old ones, so the process ends, but it may take long (van Leeuwen and
+/// Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
+fn uncross(
+    points: &[Point],
+    mut edges: Vec<Edge>,
+    watch: &Watch<'_>,
+) -> Result<Option<Arrangement>, Error> {
+    let mut budget = PATIENCE.max(SWEEPS * edges.len());
+    while let Some(left) = budget.checked_sub(edges.len()) {
+        budget = left;
+        let Some(sweep) = ArrangementSweep::new(points, &edges, Rule::Parity).run(false, watch)?
+        else {
+            return Ok(None);
+        };
+        if sweep.crossings.is_empty() {
+            return Ok(Some(sweep.finish()));
+        }
+        edges.clear();
+        edges.extend(sweep.uncrossed());
+        for pair in &sweep.crossings {
+            edges.extend(rejoined(points, pair.map(|edge| *sweep.edge(edge))));
+        }
+    }
+    Ok(None)
+}
+
+/// Two edges that do not cross, between the ends of two that do.
+fn rejoined(points: &[Point], [first, second]: [Edge; 2]) -> [Edge; 2] {
+    let nearer_to_low = |edge: &Edge, other: &Edge| {
+        let [c, d] = other.ends.map(|end| points[end as usize]);
+        let [low, high] = edge.ends.map(|end| area(c, d, points[end as usize]).abs());
+        low < high
+    };
+    let end = |edge: &Edge, end: usize| (edge.corners[end], edge.ends[end]);
+    let [a, b] = [0, 1].map(|k| end(&first, k));
+    let [c, d] = [0, 1].map(|k| end(&second, k));
+    // The crossing and the four ends form four triangles. Each of the two ways changes the inside
+    // of two of them. As shares of all four, these have the areas t·u + (1 − t)(1 − u) and t(1 − u)
+    // + u(1 − t), where the crossing is at t between a and b and at u between c and d. The first is
+    // smaller if just one of t and u is below 1/2.
+    if nearer_to_low(&first, &second) == nearer_to_low(&second, &first) {
+        [Edge::between(a, d), Edge::between(c, b)]
+    } else {
+        [Edge::between(a, c), Edge::between(b, d)]
+    }
+}
