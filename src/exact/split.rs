@@ -68,12 +68,6 @@ pub struct StoredVertex {
 }
 
 impl StoredVertex {
-    /// A vertex as a file names it, which may be any.
-    #[cfg(feature = "save")]
-    pub(crate) fn new(symbol: Symbol, line: Line) -> Self {
-        Self { symbol, line }
-    }
-
     /// Its definition.
     pub(crate) fn symbol(&self) -> Symbol {
         self.symbol

@@ -1,22 +1,22 @@
 //! Trees in files.
 
-mod nodes;
-mod outlines;
+mod replay;
 
 use std::io::{self, Read, Write};
 
 use super::BspTree;
 use super::bsp_tree::next_generation;
-use super::node::MOST_FRAGMENTS;
+use super::node::{MOST_FRAGMENTS, NodeRecord, finish, make_room};
 use super::order::eye::Planes;
 use super::order::layout::Schedule;
-use super::parts::{Parts, Record, raw_nodes};
-use crate::exact::{Faces, Line, MAX_LABELS, StoredVertex, Symbol};
+use super::parts::{Parts, RawChild, RawNode, raw_nodes};
+use crate::exact::label::bits::Known;
+use crate::exact::{Faces, MAX_LABELS, PlaneId};
 use crate::faces::Preparation;
 use crate::parallel_map;
 use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
 
-const KIND: Kind = Kind { name: *b"tree", version: 2 };
+const KIND: Kind = Kind { name: *b"tree", version: 3 };
 /// Set in the flags of a tree for one view.
 const FOR_ONE_VIEW: u32 = 1;
 /// Set in the flags of a tree of a cell.
@@ -47,7 +47,7 @@ impl BspTree {
     ///
     /// # Layout
     ///
-    /// Version 2. All numbers are little-endian; a list is its length as `u64` and then its items.
+    /// Version 3. All numbers are little-endian; a list is its length as `u64` and then its items.
     ///
     /// | part | what |
     /// |---|---|
@@ -59,17 +59,14 @@ impl BspTree {
     /// | numbered faces | a list: faces, as `u32`, whose corners are not the first of their polygon |
     /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is none of the polygon |
     /// | moved corners | a list: the corner as `u32`, and where it was given, three `i64` |
-    /// | preparation | a list of the dropped polygons as `u32`; 0 (unused) and the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
-    /// | cuts | how many times a piece was cut in two: `u64` |
+    /// | preparation | a list of the dropped polygons as `u32`; the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
     /// | nodes | a list, depth first: the plane, and 16 · the fragments on it + 4 · the front + the back, where 0 is nothing, 1 a fragment and 2 a node; `u32` each |
-    /// | fragments | a list: the face, and how many vertices it has, 0 for a whole face; `u32` each |
-    /// | vertices | of all fragments: the two lines that cross in it, and the line to the next; `u32` each |
+    /// | fragments | a list: the face of each, as `u32` |
     /// | end | the CRC-32 of all bytes before, as of gzip and PNG, `u32` |
     ///
     /// A plane is 1 in bits 28 to 30 for the plane of a face, or 2, 3, 4 for one perpendicular to x, y,
-    /// z through a corner, and the number of the face or corner in the bits below. A line is the number
-    /// of an edge of the face, or a plane, with bit 31 set where the fragment lies behind it. Of the two
-    /// lines of a vertex, an edge or else the lesser number comes first; a corner is its number twice.
+    /// z through a corner, and the number of the face or corner in the bits below. Vertices are not
+    /// stored: reading splits the faces by the planes again.
     ///
     /// # Errors
     ///
@@ -80,47 +77,33 @@ impl BspTree {
         file.u32(of_cell + if self.schedule.is_none() { FOR_ONE_VIEW } else { 0 })?;
         self.faces.write(&mut file)?;
         self.write_preparation(&mut file)?;
-        file.u64(self.cuts as u64)?;
         file.u64(self.nodes.len() as u64)?;
         file.items(raw_nodes(self), |file, node| {
             file.u32(node.plane.to_bits())?;
-            file.u32(nodes::shape(&node))
+            file.u32(shape(&node))
         })?;
-        file.list(self.fragments(), |file, fragment| {
-            file.u32(fragment.face())?;
-            file.u32(fragment.stored().len() as u32)
-        })?;
-        file.items(self.vertices.iter(), |file, vertex| {
-            let symbol = vertex.symbol().to_bits();
-            let lines = symbol.into_iter().chain([vertex.line().to_bits()]);
-            file.items(lines, |file, line| file.u32(line))
-        })?;
+        file.list(self.records.iter(), |file, record| file.u32(record.face))?;
         file.finish()
     }
 
     /// Reads a tree that [`write`](Self::write) has written. Takes up no more than the tree's bytes,
     /// so that something else may follow them.
     ///
-    /// Takes O(n) time, a fourteenth to a ninth of what building takes (two fifths where nearly all
-    /// vertices are cut); a `BufReader` makes it no faster.
+    /// Splits the faces by the stored planes again. That takes O(n · mean depth) time, as building does,
+    /// but no plane has to be chosen: it takes a fifth to two fifths of the time (three quarters where
+    /// choosing takes none, by [`Heuristic::First`](crate::Heuristic::First)). A `BufReader` makes it no
+    /// faster.
     ///
     /// # Files from strangers
     ///
-    /// The file may hold anything: whatever `read` returns, no method panics, and none takes more
-    /// time or memory than it says. Memory grows with what is read, so a false length cannot ask for
-    /// more than a small multiple of the file. For this it checks that
-    ///
-    /// - the file is complete and undamaged;
-    /// - corners are within the grid, and each face is convex, planar and has area;
-    /// - sizes of subtrees add up, each plane parts something, and every number names something;
-    /// - every face has fragments, which are the face, or each bounded by a closed outline: every
-    ///   vertex is a point within the grid, exactly on both lines that meet there, and the lines of
-    ///   cuts have the next vertices on the side that they say.
-    ///
-    /// It does not check that fragments lie on their sides of the planes above, nor that they cover
-    /// their faces: [`validate`](Self::validate) does. So a forged tree may have wrong orders and
-    /// pieces. Corner numbers ([`weights`](crate::Fragment::weights), [`edges`](crate::Fragment::edges))
-    /// may be larger than any that your polygons have.
+    /// The file may hold anything. Whatever `read` returns is a tree of convex, planar faces within the
+    /// grid: each fragment lies on its side of every plane above it, and the fragments of a face cover it
+    /// once. No method panics, and none takes more time or memory than it says. What the file may choose
+    /// are the faces and the planes, so a forged tree may be deep and its polygons may be in many
+    /// pieces, but never more than the file lists. Memory grows with what is read, so a false length
+    /// cannot ask for more than a small multiple of the file. Corner numbers
+    /// ([`weights`](crate::Fragment::weights), [`edges`](crate::Fragment::edges)) may be larger than any
+    /// that your polygons have.
     ///
     /// # Errors
     ///
@@ -131,9 +114,8 @@ impl BspTree {
         let flags = file.u32("flags")?;
         let faces = Faces::read(&mut file, if flags & OF_CELL > 0 { 2 } else { 0 })?;
         let (mut preparation, dropped) = read_preparation(&mut file)?;
-        let cuts = file.count("cuts", MOST_FRAGMENTS)?;
         let nodes = file.list("nodes", MOST_FRAGMENTS, pair)?;
-        let (records, vertices) = read_records(&mut file)?;
+        let listed = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
         file.finish()?;
         // Only now is it known that nothing is damaged: what is wrong from here on was written so.
         if flags > FOR_ONE_VIEW + OF_CELL {
@@ -144,26 +126,20 @@ impl BspTree {
         let (for_one_view, known) = (flags & FOR_ONE_VIEW > 0, faces.known());
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
-            let nodes = nodes::read(&nodes, &records, known)?;
-            let schedule = || Schedule::new(&nodes, records.len() as u32);
+            let nodes = read_nodes(&nodes, listed.len(), known)?;
+            let schedule = || Schedule::new(&nodes, listed.len() as u32);
             let schedule = (!for_one_view).then(schedule).transpose();
             Ok((schedule.map_err(|_| LoadError::out_of_memory())?, nodes))
         };
-        let is_worth_it = records.len() > WORTH_A_THREAD;
+        let is_worth_it = listed.len() > WORTH_A_THREAD;
         let checked = parallel_map::beside(is_worth_it, || laid_out = lay_out(), || faces.check());
         checked?;
         check_preparation(&mut preparation, &dropped, &faces)?;
         let (schedule, nodes) = laid_out?;
-        // Each cut makes one fragment more.
-        if cuts > records.len() {
-            return Err(LoadError::of("cuts", "are more than the fragments"));
-        }
-        let positions = Vec::new();
-        let mut parts = Parts { nodes: Vec::new(), records, vertices, positions, cuts };
-        outlines::check(&faces, &mut parts, for_one_view)?;
+        let parts = replay::replay(&faces, &nodes, &listed, for_one_view)?;
         let mut planes = Planes::default();
         planes.fill(&faces, &nodes).map_err(|_| LoadError::out_of_memory())?;
-        let Parts { records, vertices, positions, .. } = parts;
+        let Parts { records, vertices, positions, cuts, .. } = parts;
         let generation = next_generation();
         Ok(Self {
             faces,
@@ -183,7 +159,7 @@ impl BspTree {
         let found = &self.preparation;
         file.u64(self.dropped().count() as u64)?;
         file.items(self.dropped(), |file, polygon| file.u32(polygon as u32))?;
-        let counts = [0, found.triangulated, found.crossing, found.flattened, found.bent];
+        let counts = [found.triangulated, found.crossing, found.flattened, found.bent];
         file.items(counts.into_iter(), |file, count| file.u64(count as u64))?;
         file.f64(found.flattened_by)?;
         file.f64(found.bent_by)
@@ -194,25 +170,66 @@ fn pair(bytes: &[u8; 8]) -> [u32; 2] {
     [u32_at(bytes, 0), u32_at(bytes, 4)]
 }
 
-/// The fragments, and the vertices of those that were cut.
-fn read_records(
-    file: &mut Reader<impl Read>,
-) -> Result<(Vec<Record>, Vec<StoredVertex>), LoadError> {
-    let mut vertices = 0_u64;
-    let records = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 8]| {
-        let [face, len] = pair(bytes);
-        let record = Record { face, vertices: u32::try_from(vertices).unwrap_or(u32::MAX) };
-        vertices += u64::from(len);
-        record
-    })?;
-    if vertices > u64::from(u32::MAX) {
-        return Err(LoadError::too_many("vertices", vertices, u32::MAX.into()));
+const EMPTY: u32 = 0;
+const FRAGMENT: u32 = 1;
+const NODE: u32 = 2;
+
+/// What a node has on its plane and its sides. (A plane has at most as many fragments as there are
+/// faces, fewer than 2²⁷.)
+fn shape(node: &RawNode) -> u32 {
+    let side = |child| match child {
+        RawChild::Leaf(0) => EMPTY,
+        RawChild::Leaf(_) => FRAGMENT,
+        RawChild::Node => NODE,
+    };
+    node.own << 4 | side(node.front) << 2 | side(node.back)
+}
+
+/// A node from the bits of a file; a side of an unknown kind is taken for empty.
+fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
+    let side = |bits| match bits {
+        FRAGMENT => RawChild::Leaf(1),
+        NODE => RawChild::Node,
+        _ => RawChild::Leaf(0),
+    };
+    let plane = PlaneId::from_bits(plane);
+    RawNode { plane, own: shape >> 4, front: side(shape >> 2 & 3), back: side(shape & 3) }
+}
+
+/// The nodes of a tree, if they are one tree of so many fragments, and each plane separates something.
+fn read_nodes(
+    bits: &[[u32; 2]],
+    fragments: usize,
+    known: Known,
+) -> Result<Vec<NodeRecord>, LoadError> {
+    // How many nodes and fragments are still to come. Where there are faces, there is a root.
+    let (mut to_come, mut left) = (usize::from(known.faces > 0), fragments);
+    for (index, bits) in bits.iter().enumerate() {
+        let fault = |fault| invalid("node", index, fault);
+        let RawNode { plane, own, front, back } = raw(bits);
+        if !plane.is_known(known) {
+            return Err(fault("names a face or corner that does not exist"));
+        }
+        if bits[1] >> 2 & 3 > NODE || bits[1] & 3 > NODE {
+            return Err(fault("has a side of an unknown kind"));
+        }
+        let count = |child| [front, back].into_iter().filter(|&side| side == child).count();
+        if own == 0 && count(RawChild::Leaf(0)) > 0 {
+            return Err(fault("has a plane that separates no fragments"));
+        }
+        // Its own place first: a node without a parent must not count as its own child.
+        let others = to_come.checked_sub(1).ok_or_else(|| fault("has no parent"))?;
+        to_come = others + count(RawChild::Node);
+        let here = own as usize + count(RawChild::Leaf(1));
+        left = left.checked_sub(here).ok_or_else(|| fault("has more fragments than there are"))?;
     }
-    let vertices = file.items("vertices", vertices as usize, |bytes: &[u8; 12]| {
-        let symbol = Symbol::from_bits([u32_at(bytes, 0), u32_at(bytes, 4)]);
-        StoredVertex::new(symbol, Line::from_bits(u32_at(bytes, 8)))
-    })?;
-    Ok((records, vertices))
+    if to_come > 0 || left > 0 {
+        return Err(LoadError::of("nodes", "are not those of its fragments"));
+    }
+    let (mut sizes, mut nodes) = (Vec::new(), Vec::new());
+    make_room(bits.len(), &mut sizes, &mut nodes).map_err(|_| LoadError::out_of_memory())?;
+    finish(bits.iter().map(raw), &mut sizes, &mut nodes);
+    Ok(nodes)
 }
 
 /// What became of the polygons, but for how many there were, and the polygons that were dropped.
@@ -220,7 +237,6 @@ fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u3
     const WHAT: &str = "counts of polygons";
     let dropped = file.list("dropped polygons", MAX_LABELS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
     let mut found = Preparation { dropped: dropped.len(), ..Preparation::default() };
-    file.count(WHAT, 0)?;
     for count in
         [&mut found.triangulated, &mut found.crossing, &mut found.flattened, &mut found.bent]
     {

@@ -103,10 +103,13 @@ fn an_absurd_length_is_refused() {
 #[test]
 fn another_version_is_named() {
     let mut file = files().swap_remove(0);
-    file[12] = 3;
-    seal(&mut file);
-    let message = message(&file);
-    assert!(message.contains("version 3") && message.contains("reads version 2"), "{message}");
+    for version in [2, 4] {
+        file[12] = version;
+        seal(&mut file);
+        let message = message(&file);
+        let is_named = message.contains(&format!("version {version},"));
+        assert!(is_named && message.contains("reads version 3"), "{message}");
+    }
 }
 
 #[test]

@@ -1,63 +1,46 @@
-//! Forged fragments: outlines and lists that are wrong in one thing, which nothing else would notice.
+//! Forged nodes and fragments, in files of right faces: what is read is a right tree, of the planes that the
+//! file names.
 
-use binspace::{BuildOptions, Heuristic};
+use std::time::Instant;
+
+use binspace::{BspTree, BuildOptions, Heuristic, scene};
+use testkit::dice::Dice;
+use testkit::effort::effort;
 use testkit::enough;
+use testkit::saved::bytes;
 
 use super::File;
 
 type Square = [[f64; 3]; 4];
 
 const FLAT: Square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
-const UPRIGHT: Square = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
 
-const FRAGMENT: usize = 8;
-const VERTEX: usize = 12;
+const NODE: usize = 8;
+const FRAGMENT: usize = 4;
 
-/// A file, and where its fragments and their vertices begin.
-fn file(polygons: &[Square]) -> (File, [usize; 2]) {
-    // The plane of the first divides the others.
-    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
-    let tree = options.with_tolerance(0.0).build(polygons).expect("a tree");
-    let cut = |f: binspace::Fragment<'_>| if f.is_whole() { 0 } else { f.vertex_count() };
-    let stored: usize = tree.fragments().map(cut).sum();
-    let file = File::of(&tree);
-    let vertices = file.0.len() - 4 - VERTEX * stored;
-    (file, [vertices - FRAGMENT * tree.len(), vertices])
+/// A square in front of another.
+fn at_height(z: f64) -> Square {
+    FLAT.map(|[x, y, _]| [x, y, z])
 }
 
-/// A cut bounds a fragment: the vertices on both sides of its ends are inside of it.
-#[test]
-fn both_neighbours_of_a_cut_are_looked_at() {
-    let mut refused = 0;
-    for piece in 0..2 {
-        let (mut file, [_, vertices]) = file(&[FLAT, UPRIGHT]);
-        let start = vertices + 4 * VERTEX * piece;
-        // Its cut comes first, which changes nothing.
-        let is_cut = |k: &usize| file.get(start + VERTEX * k + 8) >> 28 & 7 != 0;
-        let cut = (0..4).find(is_cut).expect("it is cut");
-        file.0[start..start + 4 * VERTEX].rotate_left(VERTEX * cut);
-        assert_eq!(file.message(), "");
-        for vertex in [2, 3] {
-            let at = start + VERTEX * vertex;
-            let corner = file.get(at);
-            assert!(corner < 4 && file.get(at + 4) == corner, "a corner");
-            // The one across the cut.
-            let across = 3 - corner;
-            [at, at + 4].into_iter().for_each(|at| file.put(at, across));
-            file.refused("on the wrong side of a cut");
-            [at, at + 4].into_iter().for_each(|at| file.put(at, corner));
-            refused += 1;
-        }
-    }
-    assert_eq!(refused, 4);
+/// A tree's file, and where its nodes and fragments begin.
+fn places(tree: &BspTree) -> (File, [usize; 2]) {
+    let file = File::of(tree);
+    let fragments = file.0.len() - 4 - FRAGMENT * tree.len();
+    (file, [fragments - 8 - NODE * tree.nodes().len(), fragments])
+}
+
+/// The same of squares, divided by the plane of the first.
+fn file(polygons: &[Square]) -> (File, [usize; 2]) {
+    let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+    places(&options.with_tolerance(0.0).build(polygons).expect("a tree"))
 }
 
 #[test]
 fn every_node_but_the_first_has_a_parent() {
-    let at_height = |z: f64| FLAT.map(|[x, y, _]| [x, y, z]);
-    let (mut file, [fragments, _]) = file(&[0.0, 1.0, 2.0].map(at_height));
+    let (mut file, [nodes, _]) = file(&[0.0, 1.0, 2.0].map(at_height));
     // Two nodes: the second is in front of the first.
-    let shape = fragments - 8 - 2 * 8 + 4;
+    let shape = nodes + 4;
     assert_eq!([file.get(shape), file.get(shape + 8)], [1 << 4 | 2 << 2, 1 << 4 | 1 << 2]);
     assert_eq!(file.message(), "");
     file.put(shape, 1 << 4 | 1 << 2);
@@ -66,54 +49,113 @@ fn every_node_but_the_first_has_a_parent() {
     file.refused("are not those of its fragments");
 }
 
+/// The numbers of a node's fragments follow from what is on its plane: no other is read.
 #[test]
-fn fragments_on_a_plane_must_be_in_input_order() {
+fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
     let mut other = FLAT;
     other.iter_mut().for_each(|corner| corner[0] += 5.0);
-    let mut third = FLAT;
-    third.iter_mut().for_each(|corner| corner[2] = 1.0);
-    let (mut file, [fragments, _]) = file(&[FLAT, other, third]);
-    let first = (0..2).map(|k| fragments + FRAGMENT * k);
-    let first = first.clone().find(|&at| (file.get(at), file.get(at + FRAGMENT)) == (0, 1));
-    let at = first.expect("both squares, one behind the other");
+    let (file, [_, fragments]) = file(&[FLAT, other, at_height(1.0)]);
     assert_eq!(file.message(), "");
-    for (faces, is_right) in [([1, 0], false), ([0, 0], false), ([1, 1], false), ([0, 1], true)] {
-        file.put(at, faces[0]);
-        file.put(at + FRAGMENT, faces[1]);
-        let message = file.message();
-        if faces == [1, 0] {
-            assert!(message.contains("not in input order"), "{message}");
+    for faces in [[0, 1, 2], [1, 0, 2], [0, 0, 2], [1, 1, 2], [0, 2, 1], [0, 1, 3]] {
+        let mut file = file.clone();
+        for (k, face) in faces.into_iter().enumerate() {
+            file.put(fragments + FRAGMENT * k, face);
         }
-        assert_eq!(message.is_empty(), is_right, "{faces:?}: {message}");
+        if faces == [0, 1, 2] {
+            assert_eq!(file.message(), "");
+        } else {
+            file.refused("is of another face than its plane's");
+        }
     }
 }
 
-/// Whichever comes first.
+/// Two squares on one side, and the file says that they are in its leaf.
 #[test]
-fn a_face_is_whole_or_in_pieces() {
-    let mut aside = FLAT;
-    aside.iter_mut().for_each(|corner| *corner = [corner[0] + 9.0, corner[1], corner[2] + 3.0]);
-    let mut before = FLAT;
-    before.iter_mut().for_each(|corner| *corner = [corner[0] - 9.0, corner[1], corner[2] - 3.0]);
-    let mut refused = [0; 2];
-    for polygons in [[FLAT, UPRIGHT, aside, before], [UPRIGHT, FLAT, before, aside]] {
-        let (file, [fragments, vertices]) = file(&polygons);
-        assert_eq!(file.message(), "");
-        let count = (vertices - fragments) / FRAGMENT;
-        let face = |k: usize| file.get(fragments + FRAGMENT * k);
-        let all: Vec<u32> = (0..count).map(face).collect();
-        let pieces = |face: u32| all.iter().filter(|&&other| other == face).count();
-        for (k, &own) in all.iter().enumerate().filter(|(_, own)| pieces(**own) == 1) {
-            for other in (0..4).filter(|&other| other != own) {
+fn a_leaf_has_no_more_than_one_piece() {
+    let (mut file, [nodes, fragments]) = file(&[0.0, 1.0, 2.0].map(at_height));
+    file.put(nodes + 4, 1 << 4 | 1 << 2);
+    file.0.drain(nodes + NODE..nodes + 2 * NODE);
+    file.put(nodes - 8, 1);
+    let fragments = fragments - NODE;
+    file.0.drain(fragments + 2 * FRAGMENT..fragments + 3 * FRAGMENT);
+    file.put(fragments - 8, 2);
+    file.refused("node 0 has other fragments than its plane makes");
+}
+
+/// A list of nodes of one plane, which separates something once.
+#[test]
+fn a_plane_that_is_used_again_is_refused() {
+    let squares: Vec<Square> = (0..400).map(|k| at_height(f64::from(k))).collect();
+    let (file, [nodes, _]) = file(&squares);
+    assert_eq!(file.len(nodes - 8), 399);
+    for again in 1..399 {
+        let mut file = file.clone();
+        file.put(nodes + NODE * again, file.get(nodes + NODE * (again - 1)));
+        file.refused(&format!("node {again} has other fragments than its plane makes"));
+    }
+}
+
+/// By nodes that each cut everything, a small file would have more pieces than memory holds.
+#[test]
+fn there_are_no_more_pieces_than_fragments_in_the_file() {
+    // Long strips side by side, and walls across all of them.
+    const STRIPS: usize = 2000;
+    let strip = |k: usize| {
+        let (y, z) = (2.0 * k as f64, (k * 977 % STRIPS) as f64);
+        [[0.0, y, z], [999.0, y, z], [999.0, y + 1.0, z], [0.0, y + 1.0, z]]
+    };
+    let wall = |k: usize| {
+        let far = 9.0 * STRIPS as f64;
+        let x = k as f64 + 0.5;
+        [[x, -far, -9.0], [x, -far, -8.0], [x, -far - 1.0, -8.0], [x, -far - 1.0, -9.0]]
+    };
+    let polygons: Vec<Square> = (0..STRIPS).map(strip).chain((0..900).map(wall)).collect();
+    let tree = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).build(&polygons).unwrap();
+    let (file, [nodes, _]) = places(&tree);
+    assert_eq!(tree.len(), STRIPS + 900, "nothing is cut");
+    let mut forged = file.clone();
+    for node in 0..tree.nodes().len() {
+        forged.put(nodes + NODE * node, 1 << 28 | (STRIPS + node % 900) as u32);
+    }
+    let begin = Instant::now();
+    forged.refused("has other fragments than its plane makes");
+    assert!(begin.elapsed().as_secs() < 10, "it is cut all the same");
+}
+
+/// Planes of other faces and corners, in one node or in several: refused, or right.
+#[test]
+fn whatever_planes_a_file_names_its_tree_is_right() {
+    let (mut dice, mut read) = (Dice(1), [0; 2]);
+    for scene in [
+        scene::random_triangles(12, 1),
+        scene::crossing(5),
+        scene::city(60, 1),
+        scene::newell_bars(),
+        scene::sphere(60),
+    ] {
+        for by in [Heuristic::First, Heuristic::FreePlanes, Heuristic::default()] {
+            let options = BuildOptions::DEFAULT.with_heuristic(by);
+            let tree = options.build(scene.polygons()).expect("a tree");
+            let (file, [nodes, _]) = places(&tree);
+            for _ in 0..200 * effort() {
                 let mut file = file.clone();
-                file.put(fragments + FRAGMENT * k, other);
-                if pieces(other) == 2 {
-                    let is_last = all[..k].contains(&other);
-                    refused[usize::from(is_last)] += 1;
+                for _ in 0..1 + dice.below(2) {
+                    let plane = nodes + NODE * dice.below(tree.nodes().len());
+                    // One near it, which may separate the same, or any.
+                    let near = file.get(plane) + 1 + dice.below(3) as u32;
+                    let kind = 1 + dice.below(4) as u32;
+                    let any = kind << 28 | dice.below(3 * tree.face_count()) as u32;
+                    file.put(plane, if dice.below(2) == 0 { near } else { any });
                 }
-                file.refused("is there uncut");
+                let outcome = file.read();
+                read[usize::from(outcome.is_ok())] += 1;
+                if let Ok(forged) = outcome {
+                    assert_eq!(forged.validate(), Ok(()), "{} by {by}", scene.name());
+                    assert_eq!(forged.len(), tree.len());
+                    assert_eq!(BspTree::read(&bytes(&forged)[..]).unwrap().stats(), forged.stats());
+                }
             }
         }
     }
-    enough!(refused[0] > 0, refused[1] > 0; "{refused:?}");
+    enough!(read[0] > 1000, read[1] > 50; "{read:?}");
 }

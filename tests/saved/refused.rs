@@ -9,10 +9,8 @@ const TOLERANCE: usize = 72;
 const FACES: usize = 88;
 const CORNERS: usize = FACES + 2 * 12;
 const COUNTS: usize = CORNERS + 8 * 24 + 3 * 8;
-const CUTS: usize = COUNTS + 5 * 8 + 2 * 8;
-const NODES: usize = CUTS + 8 + 8;
+const NODES: usize = COUNTS + 4 * 8 + 2 * 8 + 8;
 const FRAGMENTS: usize = NODES + 8 + 8;
-const VERTICES: usize = FRAGMENTS + 3 * 8;
 
 /// Two squares that cross: the first is whole, the second is cut in two.
 fn file() -> File {
@@ -20,7 +18,7 @@ fn file() -> File {
     let upright = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
     let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build([flat, upright]).unwrap();
     let file = File::of(&tree);
-    assert_eq!(file.0.len(), VERTICES + 8 * 12 + 4, "the layout");
+    assert_eq!(file.0.len(), FRAGMENTS + 3 * 4 + 4, "the layout");
     file
 }
 
@@ -38,18 +36,12 @@ fn put_far(file: &mut File, at: usize, sign: i64) {
     file.put_bytes(at, &(sign << 52).to_le_bytes());
 }
 
-/// The first vertex whose line to the next is a cut, or an edge.
-fn vertex(file: &File, is_cut: bool) -> usize {
-    let mut places = (0..8).map(|vertex| VERTICES + 12 * vertex);
-    places.find(|&at| (file.get(at + 8) >> 28 & 7 != 0) == is_cut).unwrap()
-}
-
 /// Changes a file.
 type Damage = fn(&mut File);
 
 #[test]
 fn what_is_wrong_in_one_thing_is_refused_for_that() {
-    let faults: [(&str, Damage); 25] = [
+    let faults: [(&str, Damage); 21] = [
         ("its tolerance is negative", |file| {
             file.put_bytes(TOLERANCE, &(-1f64).to_le_bytes());
         }),
@@ -85,30 +77,15 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
             file.0[corner(3) + 16] ^= 1;
             file.put(FACES + 8, frame(2, 1, 2));
         }),
-        ("are impossible", |file| file.put(COUNTS + 8, 3)),
-        ("0 is the most", |file| file.put(COUNTS, 1)),
-        ("are more than the fragments", |file| file.put(CUTS, 4)),
+        ("are impossible", |file| file.put(COUNTS, 3)),
         ("has a plane that separates no fragments", |file| file.put(NODES + 4, 1)),
         ("has a side of an unknown kind", |file| file.0[NODES + 4] |= 3),
         ("has more fragments than there are", |file| file.put(NODES + 4, 9 << 4)),
         ("are not those of its fragments", |file| file.put(NODES + 4, 2 << 4)),
         ("names a face or corner that does not exist", |file| file.put(NODES, 1 << 28 | 2)),
-        ("is of a face that is there uncut", |file| file.put(FRAGMENTS, 1)),
-        ("has a vertex on the wrong side of a cut", |file| {
-            let line = vertex(file, true) + 8;
-            let other = file.get(line) ^ 1 << 31;
-            file.put(line, other);
-        }),
-        ("has a vertex that is not on its line", |file| {
-            // Another corner in place of the cut's first end.
-            let at = vertex(file, true);
-            [at, at + 4].into_iter().for_each(|at| file.put(at, 0));
-        }),
-        ("has a vertex that is not on its edge", |file| {
-            let line = vertex(file, false) + 8;
-            let other = (file.get(line) + 2) % 4;
-            file.put(line, other);
-        }),
+        // The plane of the other square: nothing of this one is on it.
+        ("node 0 has other fragments than its plane makes", |file| file.put(NODES, 2 << 28)),
+        ("fragment 2 is of another face than its plane's", |file| file.put(FRAGMENTS + 8, 0)),
     ];
     assert!(BspTree::read(&file().0[..]).is_ok());
     for (expected, spoil) in faults {
@@ -137,20 +114,6 @@ fn triangles_are_checked() {
     }
 }
 
-/// The count of cuts is the builder's, and no difference of what else is in the file.
-#[test]
-fn the_count_of_cuts_is_read() {
-    let mut file = file();
-    assert_eq!((file.get(CUTS), file.get(CUTS + 4)), (1, 0));
-    assert_eq!(BspTree::read(&file.0[..]).unwrap().stats().splits, 1);
-    file.put(CUTS, 3);
-    assert_eq!(file.read().unwrap().stats().splits, 3);
-    for (place, value) in [(CUTS, u32::MAX), (CUTS + 4, 1), (CUTS + 4, u32::MAX)] {
-        file.put(place, value);
-        file.refused("cuts");
-    }
-}
-
 /// A length one above what it may be is refused for that, and the largest for something else: that so
 /// much is not there.
 #[test]
@@ -163,11 +126,10 @@ fn limits_are_where_they_are_said_to_be() {
         ("numbered faces", lists, 2),
         ("moved corners", lists + 8, 8),
         ("dropped polygons", lists + 16, labels),
-        ("cuts", CUTS, fragments),
         ("nodes", NODES - 8, fragments),
         ("fragments", FRAGMENTS - 8, fragments),
     ];
-    limits.extend((1..5).map(|k| ("counts of polygons", COUNTS + 8 * k, labels)));
+    limits.extend((0..4).map(|k| ("counts of polygons", COUNTS + 8 * k, labels)));
     for (what, at, limit) in limits {
         for (len, is_too_many) in [(limit, false), (limit + 1, true), (u64::MAX, true)] {
             let mut file = file.clone();

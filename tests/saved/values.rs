@@ -45,7 +45,7 @@ impl File {
         let moved = numbered + 8 + 4 * self.len(numbered) + 4 * numbers;
         let dropped = moved + 8 + 28 * self.len(moved);
         let lengths = dropped + 8 + 4 * self.len(dropped) + 5 * 8;
-        Places { corners, moved, lengths, nodes: lengths + 2 * 8 + 8 }
+        Places { corners, moved, lengths, nodes: lengths + 2 * 8 }
     }
 }
 
@@ -61,6 +61,10 @@ fn a_fragment_without_a_node_is_refused() {
     assert_eq!((file.len(nodes), file.message()), (1, String::new()));
     file.put_bytes(nodes, &0_u64.to_le_bytes());
     file.0.drain(nodes + 8..nodes + 16);
+    file.refused("its nodes are not those of its fragments");
+    // Neither: then the face has none.
+    file.put_bytes(nodes + 8, &0_u64.to_le_bytes());
+    file.0.drain(nodes + 16..nodes + 20);
     file.refused("its nodes are not those of its fragments");
     // Nothing at all has neither.
     let empty = BspTree::build::<[[f64; 3]; 3]>([]).expect("a tree");
@@ -138,7 +142,7 @@ fn the_box_of_a_cell_is_checked_on_each_side() {
                 let mut file = file.clone();
                 file.put_step(corner, axis, step);
                 let message = file.message();
-                assert!(!message.contains("cell"), "{message}");
+                assert!(!message.contains("its cell"), "{message}");
             }
         }
         // The lower corner is the lower one.
@@ -147,7 +151,7 @@ fn the_box_of_a_cell_is_checked_on_each_side() {
         file.put_step(high, axis, 7);
         file.refused("its cell ends before it begins");
         file.put_step(high, axis, 8);
-        assert!(!file.message().contains("cell"), "{}", file.message());
+        assert!(!file.message().contains("its cell"), "{}", file.message());
     }
 }
 

@@ -1,0 +1,253 @@
+//! Splits the faces of a file by the planes that its nodes name, as the builder did.
+//!
+//! A file holds no vertices, so a forged one cannot give wrong pieces: whatever planes it names, each
+//! piece is on its side of every plane above it, and the pieces of a face cover it. What a file says of
+//! the fragments only limits how many there may be.
+
+use std::mem::take;
+use std::ops::Range;
+
+use crate::exact::cell::Clipper;
+use crate::exact::{Faces, PreparedPlane, Side, Vertex, split};
+use crate::parallel_map;
+use crate::save::{LoadError, invalid};
+use crate::tree::node::{NodeRecord, Ranges};
+use crate::tree::parts::{Parts, Record};
+
+/// Trees with more fragments are split by several threads. Too small: waking a thread takes longer than
+/// it saves. Too large: one thread works while others are idle.
+const WORTH_A_THREAD: usize = 4096;
+/// Subtrees of less than one in so many fragments are handed over. Too small: threads wait for the last.
+/// Too large: more of the tree is split before threads share the work.
+const JOBS: usize = 32;
+/// Subtrees of less than one in so many fragments are not worth handing over.
+const MOST_JOBS: usize = 512;
+
+/// A piece of a face on its way down the tree.
+struct Piece {
+    face: u32,
+    /// Empty for a whole face.
+    vertices: Vec<Vertex>,
+    /// The bounding box of the rounded vertices.
+    bounds: [[f64; 3]; 2],
+}
+
+impl Piece {
+    fn new(faces: &Faces, face: u32, vertices: &[Vertex]) -> Self {
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let mut include = |position: [f64; 3]| {
+            for (axis, &c) in position.iter().enumerate() {
+                // Not `min` and `max`, which take more instructions because of NaN.
+                bounds[0][axis] = if c < bounds[0][axis] { c } else { bounds[0][axis] };
+                bounds[1][axis] = if c > bounds[1][axis] { c } else { bounds[1][axis] };
+            }
+        };
+        if vertices.is_empty() {
+            faces.corners(face).iter().for_each(|&corner| include(corner));
+        } else {
+            vertices.iter().for_each(|vertex| include(vertex.position()));
+        }
+        Self { face, vertices: vertices.to_vec(), bounds }
+    }
+
+    #[inline]
+    fn side(&self, faces: &Faces, plane: &PreparedPlane) -> Side {
+        let cut = (!self.vertices.is_empty()).then_some(&self.vertices[..]);
+        let of_box = plane.side_of_box(self.bounds);
+        of_box.unwrap_or_else(|| plane.classify(faces, self.face, cut))
+    }
+}
+
+/// A subtree whose pieces are known.
+struct Job {
+    node: usize,
+    /// The numbers of its fragments.
+    fragments: Range<u32>,
+    pieces: Vec<Piece>,
+}
+
+/// The fragments of a tree: what its planes make of the faces. With `keeps_positions`, the positions of
+/// their vertices too.
+///
+/// An error unless each node has as many fragments on its plane and in its leaves as it says, and these
+/// are of the `listed` faces.
+pub(super) fn replay(
+    faces: &Faces,
+    nodes: &[NodeRecord],
+    listed: &[u32],
+    keeps_positions: bool,
+) -> Result<Parts, LoadError> {
+    let replay = Replay { faces, nodes, keeps_positions };
+    let jobs = match listed.len() {
+        len if len > WORTH_A_THREAD => len / MOST_JOBS..len / JOBS,
+        _ => 0..0,
+    };
+    if nodes.is_empty() {
+        return Ok(Parts::default());
+    }
+    let (handed_over, last) = replay.run(replay.root(listed.len() as u32)?, jobs)?;
+    let finished = parallel_map::map(handed_over, |(before, job)| {
+        let (_, subtree) = replay.run(job, 0..0)?;
+        Ok([before, subtree])
+    })?;
+    let whole = join(finished.into_iter().flatten().chain([last]).collect())?;
+    let faces = whole.records.iter().map(|record| &record.face);
+    match faces.zip(listed).position(|(face, listed)| face != listed) {
+        Some(fragment) => Err(invalid("fragment", fragment, "is of another face than its plane's")),
+        None => Ok(whole),
+    }
+}
+
+/// Joins the parts of a tree.
+fn join(mut parts: Vec<Parts>) -> Result<Parts, LoadError> {
+    if parts.len() == 1 {
+        return Ok(parts.remove(0));
+    }
+    let mut whole = Parts::default();
+    let sum = |len: fn(&Parts) -> usize| parts.iter().map(len).sum();
+    reserve(&mut whole.records, sum(|parts| parts.records.len()))?;
+    reserve(&mut whole.vertices, sum(|parts| parts.vertices.len()))?;
+    reserve(&mut whole.positions, sum(|parts| parts.positions.len()))?;
+    for mut parts in parts {
+        let shift = whole.vertices.len() as u32;
+        parts.records.iter_mut().for_each(|record| record.vertices += shift);
+        whole.records.append(&mut parts.records);
+        whole.vertices.append(&mut parts.vertices);
+        whole.positions.append(&mut parts.positions);
+        whole.cuts += parts.cuts;
+    }
+    Ok(whole)
+}
+
+fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), LoadError> {
+    list.try_reserve(more).map_err(|_| LoadError::out_of_memory())
+}
+
+struct Replay<'a> {
+    faces: &'a Faces,
+    nodes: &'a [NodeRecord],
+    keeps_positions: bool,
+}
+
+impl Replay<'_> {
+    /// All faces, or what of them is in their cell.
+    fn root(&self, fragments: u32) -> Result<Job, LoadError> {
+        let mut clipper = Clipper::new(self.faces);
+        let mut pieces = Vec::new();
+        reserve(&mut pieces, self.faces.len())?;
+        for face in 0..self.faces.len() as u32 {
+            let outline = clipper.clip(face);
+            let outline =
+                outline.ok_or_else(|| invalid("face", face as usize, "is outside the cell"))?;
+            pieces.push(Piece::new(self.faces, face, outline));
+        }
+        Ok(Job { node: 0, fragments: 0..fragments, pieces })
+    }
+
+    /// Splits the pieces of a subtree. Subtrees with numbers of fragments in `jobs` are handed over, each
+    /// with the fragments before it; what comes after the last of them is returned beside.
+    fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), LoadError> {
+        let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
+        let (mut front, mut own, mut splitter) = (Vec::new(), Vec::new(), Splitter::default());
+        // The sets of pieces that are still to be split, the next one on top, and where each begins.
+        let mut pieces = job.pieces;
+        let mut pending = vec![(job.node, job.fragments, 0)];
+        while let Some((index, fragments, start)) = pending.pop() {
+            if jobs.contains(&fragments.len()) {
+                let pieces = pieces.split_off(start);
+                handed_over.push((take(&mut parts), Job { node: index, fragments, pieces }));
+                continue;
+            }
+            let node = &self.nodes[index];
+            let plane = PreparedPlane::new(self.faces, node.plane);
+            // The set is divided in place, from its end: the piece that `swap_remove` puts in the place of
+            // another has been classified.
+            for i in (start..pieces.len()).rev() {
+                let (to, piece) = match pieces[i].side(self.faces, &plane) {
+                    Side::Back => continue,
+                    Side::Front => (&mut front, pieces.swap_remove(i)),
+                    Side::Coplanar => (&mut own, pieces.swap_remove(i)),
+                    Side::Spanning => {
+                        parts.cuts += 1;
+                        (&mut front, splitter.split(self.faces, &plane, &mut pieces[i]))
+                    }
+                };
+                reserve(to, 1)?;
+                to.push(piece);
+            }
+            let ranges = node.ranges(fragments);
+            let (front_node, back_node) = (node.front_node(index), node.back_node(index));
+            // Each piece in front of a node or behind it becomes one fragment or several. So there are
+            // never more pieces than twice the fragments that the file lists.
+            let fits = |is_leaf, pieces: usize, range: &Range<u32>| {
+                if is_leaf { pieces == range.len() } else { pieces <= range.len() }
+            };
+            let Ranges { own: on_plane, front: in_front, back: behind } = ranges;
+            if !fits(true, own.len(), &on_plane)
+                || !fits(front_node.is_none(), front.len(), &in_front)
+                || !fits(back_node.is_none(), pieces.len() - start, &behind)
+            {
+                return Err(invalid("node", index, "has other fragments than its plane makes"));
+            }
+            // Coplanar polygons are painted in input order.
+            own.sort_unstable_by_key(|piece| piece.face);
+            self.store(&mut parts, own.drain(..))?;
+            if front_node.is_none() {
+                self.store(&mut parts, front.drain(..))?;
+            }
+            match back_node {
+                Some(back) => pending.push((back, behind, start)),
+                None => self.store(&mut parts, pieces.drain(start..))?,
+            }
+            if let Some(node) = front_node {
+                pending.push((node, in_front, pieces.len()));
+                reserve(&mut pieces, front.len())?;
+                pieces.append(&mut front);
+            }
+        }
+        Ok((handed_over, parts))
+    }
+
+    /// Appends pieces to the output.
+    fn store(
+        &self,
+        parts: &mut Parts,
+        pieces: impl Iterator<Item = Piece>,
+    ) -> Result<(), LoadError> {
+        for Piece { face, vertices, .. } in pieces {
+            reserve(&mut parts.records, 1)?;
+            parts.records.push(Record { face, vertices: parts.vertices.len() as u32 });
+            reserve(&mut parts.vertices, vertices.len())?;
+            parts.vertices.extend(vertices.iter().map(Vertex::stored));
+            if self.keeps_positions {
+                reserve(&mut parts.positions, vertices.len())?;
+                parts.positions.extend(vertices.iter().map(Vertex::position));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Lists that are reused for every split.
+#[derive(Default)]
+struct Splitter {
+    front: Vec<Vertex>,
+    back: Vec<Vertex>,
+}
+
+impl Splitter {
+    /// Splits a piece that spans a plane: leaves the part behind, and returns the part in front.
+    fn split(&mut self, faces: &Faces, plane: &PreparedPlane, piece: &mut Piece) -> Piece {
+        let Self { front, back } = self;
+        front.clear();
+        back.clear();
+        let face = piece.face;
+        if piece.vertices.is_empty() {
+            let corners = 0..faces.corners(face).len() as u32;
+            piece.vertices.extend(corners.map(|k| Vertex::corner(faces, face, k)));
+        }
+        split(faces, plane, face, &piece.vertices, front, back);
+        *piece = Piece::new(faces, face, back);
+        Piece::new(faces, face, front)
+    }
+}
