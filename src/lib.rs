@@ -94,9 +94,7 @@ pub use progress::Progress;
 pub use query::{Hit, Location};
 #[cfg(feature = "save")]
 pub use save::LoadError;
-pub use tree::{
-    Bounds, BspTree, Child, Culling, Flow, Fragment, Grid, Invalid, Node, Part, Sides, Stats,
-};
+pub use tree::{Bounds, BspTree, Child, Culling, Flow, Fragment, Grid, Node, Part, Sides, Stats};
 pub use viewpoint::{Frustum, Ray, Viewpoint};
 
 /// Vertex and index buffers of a tree: [`BspTree::mesh`].

@@ -110,6 +110,7 @@ impl PreparedPlane {
     }
 
     /// Whether the tolerance is a length here, within a share of 10⁻⁹: by the exact normal.
+    #[cfg(feature = "validate")]
     pub(crate) fn has_length_of(&self, faces: &Faces) -> bool {
         /// More than the normal is off by, and far more than its length is rounded.
         const SHARE: f64 = 1e-9;

@@ -12,6 +12,7 @@ pub(crate) mod parts;
 mod saved;
 #[cfg(test)]
 mod tests;
+#[cfg(feature = "validate")]
 mod validate;
 
 pub use bounds::Bounds;
@@ -22,4 +23,3 @@ pub use fragment::{Fragment, Fragments, Grid};
 pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use node::{Child, Node, Nodes};
 pub use order::{Flow, Ordered, Part};
-pub use validate::Invalid;

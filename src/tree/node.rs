@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::parts::{RawChild, RawNode};
 use super::{BspTree, fragment};
 use crate::Error;
-use crate::exact::{Eye, PlaneId, PlaneKind, Side};
+use crate::exact::{Eye, PlaneId, PlaneKind};
 use crate::memory::reserve;
 use crate::viewpoint::Viewpoint;
 
@@ -371,8 +371,6 @@ pub(super) struct Visit {
     pub(super) node: usize,
     /// How many nodes there are on the path to it, itself included.
     pub(super) depth: usize,
-    /// Whether it is in front of its parent.
-    pub(super) is_front: bool,
     /// The fragments on its plane.
     pub(super) own: Range<u32>,
     /// The fragments of a front leaf.
@@ -395,20 +393,6 @@ impl Visit {
     pub(super) fn leaves(&self) -> usize {
         self.front.len() + self.back.len()
     }
-
-    /// The fragments on its plane and in its leaves.
-    pub(super) fn fragments(&self) -> Range<u32> {
-        self.own.start..self.back.end
-    }
-
-    /// The same, by the side of the plane that they are on.
-    pub(super) fn groups(&self) -> [(Range<u32>, Side); 3] {
-        [
-            (self.own.clone(), Side::Coplanar),
-            (self.front.clone(), Side::Front),
-            (self.back.clone(), Side::Back),
-        ]
-    }
 }
 
 /// A subtree still to be walked, or its root alone.
@@ -416,7 +400,6 @@ impl Visit {
 struct Subtree {
     node: usize,
     depth: usize,
-    is_front: bool,
     /// The fragments of the whole subtree.
     fragments: Range<u32>,
     /// Whether the nodes below are on the walk as subtrees of their own.
@@ -434,7 +417,6 @@ impl Walk {
         let all = Subtree {
             node: 0,
             depth: 1,
-            is_front: false,
             fragments: 0..tree.records.len() as u32,
             is_root_alone: false,
         };
@@ -474,26 +456,26 @@ impl Walk {
 /// The root of a subtree; `None` if there is no such node, or it has more fragments than the
 /// subtree.
 fn visit(tree: &BspTree, subtree: &Subtree) -> Option<Visit> {
-    let &Subtree { node: index, depth, is_front, ref fragments, .. } = subtree;
+    let &Subtree { node: index, depth, ref fragments, .. } = subtree;
     let node = tree.nodes.get(index)?;
     let total = fragments.end - fragments.start;
     total.checked_sub(node.own())?.checked_sub(node.front_len)?;
     let Ranges { own, front: in_front, back: behind } = node.ranges(fragments.clone());
     let front = if node.front_nodes == 0 { in_front.clone() } else { own.end..own.end };
     let back = if node.back_is_node() { front.end..front.end } else { behind.clone() };
-    Some(Visit { node: index, depth, is_front, own, front, back, in_front, behind })
+    Some(Visit { node: index, depth, own, front, back, in_front, behind })
 }
 
 /// The subtrees in front of a root and behind it, where they are not leaves.
 fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2] {
     let node = &tree.nodes[root.node];
-    let child = |node, is_front, fragments: &Range<u32>| {
+    let child = |node, fragments: &Range<u32>| {
         let (depth, fragments) = (subtree.depth + 1, fragments.clone());
-        Subtree { node, depth, is_front, fragments, is_root_alone: false }
+        Subtree { node, depth, fragments, is_root_alone: false }
     };
     [
-        node.front_node(root.node).map(|front| child(front, true, &root.in_front)),
-        node.back_node(root.node).map(|back| child(back, false, &root.behind)),
+        node.front_node(root.node).map(|front| child(front, &root.in_front)),
+        node.back_node(root.node).map(|back| child(back, &root.behind)),
     ]
 }
 

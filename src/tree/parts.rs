@@ -1,7 +1,5 @@
-//! The output of a builder, from which a tree is made, and into which it is taken apart.
+//! The output of a builder, from which a tree is made.
 
-use super::BspTree;
-use super::node::{NodeRecord, Walk};
 use crate::exact::{PlaneId, StoredVertex};
 
 /// A node as the builder writes it.
@@ -70,21 +68,4 @@ impl Parts {
         self.positions.clear();
         self.cuts = 0;
     }
-}
-
-/// The nodes of a tree as the builder wrote them, in their order. Takes O(depth) memory.
-pub(super) fn raw_nodes(tree: &BspTree) -> impl Iterator<Item = RawNode> {
-    let mut walk = Walk::new(tree);
-    std::iter::from_fn(move || {
-        let visit = walk.next(tree)?;
-        let node = &tree.nodes[visit.node];
-        let &NodeRecord { plane, front_len, front_nodes, .. } = node;
-        let child = |is_node, len| if is_node { RawChild::Node } else { RawChild::Leaf(len) };
-        Some(RawNode {
-            plane,
-            own: node.own(),
-            front: child(front_nodes > 0, front_len),
-            back: child(node.back_is_node(), visit.behind.len() as u32),
-        })
-    })
 }

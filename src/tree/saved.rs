@@ -3,13 +3,14 @@
 mod replay;
 
 use std::io::{self, Read, Write};
+use std::ops::Range;
 
 use super::BspTree;
 use super::bsp_tree::next_generation;
-use super::node::{MOST_FRAGMENTS, NodeRecord, finish, make_room};
+use super::node::{MOST_FRAGMENTS, NodeRecord, Visit, Walk, finish, make_room};
 use super::order::eye::Planes;
 use super::order::layout::Schedule;
-use super::parts::{Parts, RawChild, RawNode, raw_nodes};
+use super::parts::{Parts, RawChild, RawNode};
 use crate::exact::label::bits::Known;
 use crate::exact::{Faces, MAX_LABELS, PlaneId};
 use crate::faces::Preparation;
@@ -78,10 +79,12 @@ impl BspTree {
         self.faces.write(&mut file)?;
         self.write_preparation(&mut file)?;
         file.u64(self.nodes.len() as u64)?;
-        file.items(raw_nodes(self), |file, node| {
+        let mut walk = Walk::new(self);
+        while let Some(visit) = walk.next(self) {
+            let node = &self.nodes[visit.node];
             file.u32(node.plane.to_bits())?;
-            file.u32(shape(&node))
-        })?;
+            file.u32(shape(node, &visit))?;
+        }
         file.list(self.records.iter(), |file, record| file.u32(record.face))?;
         file.finish()
     }
@@ -176,13 +179,14 @@ const NODE: u32 = 2;
 
 /// What a node has on its plane and its sides. (A plane has at most as many fragments as there are
 /// faces, fewer than 2²⁷.)
-fn shape(node: &RawNode) -> u32 {
-    let side = |child| match child {
-        RawChild::Leaf(0) => EMPTY,
-        RawChild::Leaf(_) => FRAGMENT,
-        RawChild::Node => NODE,
+fn shape(node: &NodeRecord, visit: &Visit) -> u32 {
+    let side = |is_node, leaf: &Range<u32>| match is_node {
+        true => NODE,
+        false if leaf.is_empty() => EMPTY,
+        false => FRAGMENT,
     };
-    node.own << 4 | side(node.front) << 2 | side(node.back)
+    let front = side(node.front_nodes > 0, &visit.front);
+    node.own() << 4 | front << 2 | side(node.back_is_node(), &visit.back)
 }
 
 /// A node from the bits of a file; a side of an unknown kind is taken for empty.

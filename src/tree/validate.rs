@@ -1,17 +1,26 @@
-//! Checking a tree against what it promises.
+//! Checking a tree against what it promises, for tests and fuzzers.
 
 mod cover;
-mod fault;
-mod shape;
-mod sides;
 #[cfg(test)]
 mod tests;
 
+use std::fmt::Display;
+use std::ops::Range;
+
+use super::node::{Visit, Walk};
 use super::order::eye::Planes;
 use super::order::layout::Schedule;
 use super::{BspTree, Fragment};
-use fault::Fault;
-pub use fault::Invalid;
+use crate::exact::{
+    Line, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, SymbolKind, Vertex,
+};
+
+const COUNTS: &str = "the sizes of its subtrees contradict each other";
+
+/// What is wrong, and at which node, counted depth first.
+fn fault(node: usize, what: impl Display) -> String {
+    format!("node {node}: {what}")
+}
 
 impl BspTree {
     /// Checks every invariant of the tree:
@@ -26,7 +35,7 @@ impl BspTree {
     /// - the data from which orders are written matches the nodes, and positions that are kept match
     ///   the vertices.
     ///
-    /// All of this is decided exactly. A tree that the library built is always valid; this is for
+    /// All of this is decided exactly. A tree that the library built or read is always valid; this is for
     /// tests and fuzzers.
     ///
     /// Takes O(n · mean depth + n log² n) time for fragments of few vertices, and O(n) memory.
@@ -34,7 +43,8 @@ impl BspTree {
     /// # Errors
     ///
     /// The first fault found. The invariants are checked in the order above.
-    pub fn validate(&self) -> Result<(), Invalid> {
+    #[doc(hidden)]
+    pub fn validate(&self) -> Result<(), String> {
         let visits = self.check_sizes()?;
         self.check_names(&visits)?;
         self.check_sides(&visits)?;
@@ -42,25 +52,199 @@ impl BspTree {
         self.check_layout()
     }
 
-    fn check_layout(&self) -> Result<(), Invalid> {
+    /// The nodes in memory order, if every node and every fragment is visited exactly once and every
+    /// node separates something.
+    ///
+    /// The other checks rely on this: they index by whatever a visit names.
+    fn check_sizes(&self) -> Result<Vec<Visit>, String> {
+        let mut visits: Vec<Visit> = Vec::new();
+        let mut walk = Walk::new(self);
+        let mut fragments = 0;
+        while let Some(visit) = walk.next(self) {
+            fragments += visit.own.len() + visit.leaves();
+            if visit.front.len().max(visit.back.len()) > 1 {
+                return Err(fault(visit.node, "a leaf has more than one fragment"));
+            }
+            // This makes the walk end whatever the sizes say, because each node takes fragments or
+            // divides them. It also bounds the number of nodes, for which order buffers have room.
+            let has_empty_side = visit.in_front.is_empty() || visit.behind.is_empty();
+            if visit.own.is_empty() && has_empty_side {
+                return Err(fault(visit.node, "its plane separates no fragments"));
+            }
+            visits.push(visit);
+        }
+        if visits.len() != self.nodes.len() || fragments != self.records.len() {
+            return Err(fault(visits.len().saturating_sub(1), COUNTS));
+        }
+        self.check_node_counts(&visits)?;
+        Ok(visits)
+    }
+
+    /// Checks how many nodes each subtree has, from the last to the first. If all agree, the nodes
+    /// were met in the order in which they stand.
+    fn check_node_counts(&self, visits: &[Visit]) -> Result<(), String> {
+        // The subtrees whose parent is still to come, the front's above the back's.
+        let mut sizes: Vec<u32> = Vec::new();
+        for visit in visits.iter().rev() {
+            let node = &self.nodes[visit.node];
+            let mut child = |is_node: bool| if is_node { sizes.pop() } else { Some(0) };
+            match (child(node.front_nodes > 0), child(node.back_is_node())) {
+                (Some(front), Some(back)) if front == node.front_nodes => {
+                    sizes.push(1 + front + back);
+                }
+                _ => return Err(fault(visit.node, COUNTS)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that planes, faces and vertices name things of the input.
+    fn check_names(&self, visits: &[Visit]) -> Result<(), String> {
+        for visit in visits {
+            let plane = self.nodes[visit.node].plane;
+            if !self.names_input(plane) {
+                let what =
+                    format!("its plane {plane:?} names a face or corner that does not exist");
+                return Err(fault(visit.node, what));
+            }
+            for fragment in visit.own.start..visit.back.end {
+                let fault =
+                    |what| Err(fault(visit.node, format_args!("fragment {fragment} {what}")));
+                if !self.has_outline(fragment) {
+                    return fault("does not have three or more known vertices");
+                }
+                let stored = self.fragment(fragment).stored();
+                let is_cut = stored.iter().any(|vertex| vertex.line().as_cut().is_some());
+                if !stored.is_empty() && !is_cut {
+                    return fault("was never cut, but is stored as a cut piece");
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn names_input(&self, plane: PlaneId) -> bool {
+        match plane.kind() {
+            PlaneKind::Face(face) => (face as usize) < self.faces.len(),
+            PlaneKind::Axis(axis, corner) => {
+                axis < 3 && (corner as usize) < self.faces.corner_count()
+            }
+        }
+    }
+
+    /// Whether a fragment has a face, a place among the vertices, and three known vertices or
+    /// more.
+    fn has_outline(&self, id: u32) -> bool {
+        let record = self.records[id as usize];
+        let next = self.records.get(id as usize + 1);
+        let end = next.map_or(self.vertices.len(), |next| next.vertices as usize);
+        // All vertices are some fragment's.
+        let begins = id > 0 || record.vertices == 0;
+        if !begins || record.face as usize >= self.faces.len() {
+            return false;
+        }
+        let Some(stored) = self.vertices.get(record.vertices as usize..end) else { return false };
+        let corners = self.faces.corners(record.face).len() as u32;
+        let knows_line = |line: Line| match (line.as_edge(), line.as_cut()) {
+            (Some(edge), _) => edge < corners,
+            (None, plane) => plane.is_some_and(|plane| self.names_input(plane)),
+        };
+        let knows = |vertex: &StoredVertex| {
+            let known = match vertex.symbol().kind() {
+                SymbolKind::Corner(k) => k < corners,
+                SymbolKind::OnEdge(k, plane) => k < corners && self.names_input(plane),
+                SymbolKind::Inside(g, h) => self.names_input(g) && self.names_input(h),
+            };
+            known && knows_line(vertex.line())
+        };
+        stored.iter().all(knows) && (stored.is_empty() || stored.len() >= 3)
+    }
+
+    /// Holds each fragment against every plane above it, and those on a plane against the order of
+    /// the input.
+    fn check_sides(&self, visits: &[Visit]) -> Result<(), String> {
+        let mut path: Vec<(PreparedPlane, Side)> = Vec::new();
+        // The fragments in front of each node of the path.
+        let mut in_front: Vec<&Range<u32>> = Vec::new();
+        for visit in visits {
+            let fault = |what: String| fault(visit.node, what);
+            let plane = self.nodes[visit.node].plane;
+            path.truncate(visit.depth - 1);
+            in_front.truncate(visit.depth - 1);
+            if let (Some(parent), Some(in_front)) = (path.last_mut(), in_front.last()) {
+                let is_front = in_front.contains(&visit.own.start);
+                parent.1 = if is_front { Side::Front } else { Side::Back };
+            }
+            in_front.push(&visit.in_front);
+            let prepared = PreparedPlane::new(&self.faces, plane);
+            // Otherwise the classification below, which is the builder's, proves nothing.
+            if !prepared.has_length_of(&self.faces) {
+                let what = "at its plane the tolerance is not the length that it should be";
+                return Err(fault(what.to_owned()));
+            }
+            path.push((prepared, Side::Coplanar));
+            for (range, side) in [
+                (&visit.own, Side::Coplanar),
+                (&visit.front, Side::Front),
+                (&visit.back, Side::Back),
+            ] {
+                if let Some(last) = path.last_mut() {
+                    last.1 = side;
+                }
+                for fragment in range.clone() {
+                    self.check_sides_of(fragment, &path).map_err(fault)?;
+                }
+            }
+            let face = |fragment: u32| self.records[fragment as usize].face;
+            if let Some(late) = visit.own.clone().skip(1).find(|&id| face(id) < face(id - 1)) {
+                let what = "on its plane comes before one of an earlier polygon";
+                return Err(fault(format!("fragment {} {what}", late - 1)));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_sides_of(&self, id: u32, path: &[(PreparedPlane, Side)]) -> Result<(), String> {
+        let vertices = self.restored(id);
+        let cut = (!vertices.is_empty()).then_some(&vertices[..]);
+        let face = self.records[id as usize].face;
+        for &(ref prepared, expected) in path {
+            let found = prepared.classify(&self.faces, face, cut);
+            if found != expected {
+                return Err(format!(
+                    "fragment {id} is {found:?}, not {expected:?} as its place says"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertices of a fragment as the builder had them; none of a whole face.
+    fn restored(&self, id: u32) -> Vec<Vertex> {
+        let fragment = self.fragment(id);
+        let stored = fragment.stored().iter();
+        stored.map(|stored| stored.restored(&self.faces, fragment.face())).collect()
+    }
+
+    fn check_layout(&self) -> Result<(), String> {
         let mut planes = Planes::default();
-        let out_of_memory = |_| Invalid { node: 0, what: Fault::OutOfMemory };
+        let out_of_memory = |error| fault(0, error);
         planes.fill(&self.faces, &self.nodes).map_err(out_of_memory)?;
         if self.planes != planes {
-            return Err(Invalid { node: 0, what: Fault::RoundedPlanes });
+            return Err(fault(0, "the rounded planes are not those of the nodes"));
         }
         if let Some(schedule) = &self.schedule {
             let expected = Schedule::new(&self.nodes, self.records.len() as u32);
             if *schedule != expected.map_err(out_of_memory)? {
-                return Err(Invalid { node: 0, what: Fault::Schedule });
+                return Err(fault(0, "the layout for orders does not match the nodes"));
             }
         }
         self.check_positions()
     }
 
     /// Positions that are kept are those that are computed for the vertices.
-    fn check_positions(&self) -> Result<(), Invalid> {
-        let fault = Err(Invalid { node: 0, what: Fault::Positions });
+    fn check_positions(&self) -> Result<(), String> {
+        let fault = Err(fault(0, "the positions are not those of the vertices"));
         if !self.positions.is_empty() && self.positions.len() != self.vertices.len() {
             return fault;
         }

@@ -15,8 +15,8 @@ use binspace::verify::Verification;
 use binspace::view::{Camera, CameraError, Projection};
 use binspace::{
     Bounds, BspTree, BuildOptions, Child, Culling, Error, Fragment, FrameBuilder, Frustum, Grid,
-    Heuristic, Hit, Invalid, Location, Node, ParseHeuristicError, Part, Preparation, Progress, Ray,
-    Stats, Viewpoint,
+    Heuristic, Hit, Location, Node, ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
+    Viewpoint,
 };
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
@@ -37,7 +37,7 @@ assert_shared!(Overlay, Overlaid<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
 
 // Building, and what can go wrong.
-assert_shared!(BuildOptions, Heuristic, Progress, Error, Invalid, ParseHeuristicError, CameraError,);
+assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, CameraError,);
 
 // Geometry.
 assert_shared!(

@@ -113,7 +113,7 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
             }
         }
     }
-    tree.validate().map_err(|invalid| invalid.to_string())
+    tree.validate()
 }
 
 /// Whether the normal of a face's triangle, computed in floats, has another length.

@@ -37,7 +37,7 @@ pub fn ensure(condition: bool, message: impl FnOnce() -> String) -> Verdict {
 
 /// Every check of this file; `corners` are the corners of each polygon as given to the library.
 pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
-    tree.validate().map_err(|invalid| invalid.to_string())?;
+    tree.validate()?;
     let judge = Judge::new(tree);
     judge.outlines()?;
     judge.coverage()?;
@@ -47,7 +47,7 @@ pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
 
 /// Every check of this file that holds for a tree of a cell: all but that faces are there as a whole.
 pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
-    tree.validate().map_err(|invalid| invalid.to_string())?;
+    tree.validate()?;
     let judge = Judge::new(tree);
     judge.outlines()?;
     judge.sides()?;

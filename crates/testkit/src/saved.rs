@@ -42,7 +42,7 @@ const EYES: [Viewpoint; 4] = [
 /// Calls every method of a tree, which may be of a forged file: its faces and planes may be any, but the
 /// tree is right.
 pub fn use_all(tree: &BspTree) -> Verdict {
-    tree.validate().map_err(|fault| fault.to_string())?;
+    tree.validate()?;
     // What is only looked at here must not panic.
     let _ = (tree.stats(), tree.bytes(), format!("{tree:?}"));
     ensure(tree.dropped().count() == tree.preparation().dropped, || "dropped".into())?;

@@ -17,7 +17,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::fault::{Culprit, Fault, Invalid};
+use super::fault;
 use crate::exact::cell::Clipper;
 use crate::exact::{Line, PlaneId, PreparedPlane, Symbol, Vertex};
 use crate::tree::BspTree;
@@ -29,12 +29,12 @@ type Set = BTreeMap<u32, Vec<Vertex>>;
 impl BspTree {
     /// Glues the fragments together, and compares the result with the faces, and the number of
     /// cuts that were undone with what the builder counted.
-    pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), Invalid> {
+    pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), String> {
         // The sets of subtrees whose parent is still to come, the front's above the back's.
         let mut sets: Vec<Set> = Vec::new();
         let mut splits = 0;
         for visit in visits.iter().rev() {
-            let fault = |what| Invalid { node: visit.node, what };
+            let fault = |what| fault(visit.node, what);
             let leaf = |fragment| (self.records[fragment as usize].face, self.restored(fragment));
             let node = &self.nodes[visit.node];
             let mut front = visit.front.clone().map(leaf).collect();
@@ -48,15 +48,19 @@ impl BspTree {
             let mut set = self.glue_sets(node.plane, front, back, &mut splits).map_err(fault)?;
             for (face, piece) in visit.own.clone().map(leaf) {
                 if set.insert(face, piece).is_some() {
-                    return Err(fault(Fault::Overlap(self.culprit(face))));
+                    let what = "occurs twice, or another piece overlaps it";
+                    return Err(fault(format!("a piece of {} {what}", self.culprit(face))));
                 }
             }
             sets.push(set);
         }
-        let fault = |what| Invalid { node: 0, what };
-        self.check_faces(&sets.pop().unwrap_or_default()).map_err(fault)?;
-        let (counted, found) = (self.cuts, splits);
-        if counted == found { Ok(()) } else { Err(fault(Fault::Splits { counted, found })) }
+        self.check_faces(&sets.pop().unwrap_or_default()).map_err(|what| fault(0, what))?;
+        let counted = self.cuts;
+        if counted == splits {
+            return Ok(());
+        }
+        let what = format_args!("the builder counted {counted} cuts, but the pieces show {splits}");
+        Err(fault(0, what))
     }
 
     /// The pieces of a set from those on the two sides of a plane. The smaller set goes into the
@@ -67,7 +71,7 @@ impl BspTree {
         front: Set,
         back: Set,
         splits: &mut usize,
-    ) -> Result<Set, Fault> {
+    ) -> Result<Set, String> {
         let front_is_large = front.len() > back.len();
         let (mut large, small) = if front_is_large { (front, back) } else { (back, front) };
         let prepared = PreparedPlane::new(&self.faces, plane);
@@ -79,20 +83,25 @@ impl BspTree {
             let parts =
                 if front_is_large { [&other[..], &piece[..]] } else { [&piece[..], &other[..]] };
             let side = |vertex: &_| prepared.side(&self.faces, face, vertex);
-            *other = glue(plane, parts, side).ok_or_else(|| Fault::Cut(self.culprit(face)))?;
+            *other = glue(plane, parts, side).ok_or_else(|| {
+                let culprit = self.culprit(face);
+                format!("the pieces of {culprit} on its two sides do not fit along the cut")
+            })?;
             *splits += 1;
         }
         Ok(large)
     }
 
     /// Compares the set of the root with the faces, or what of them is in their cell.
-    fn check_faces(&self, set: &Set) -> Result<(), Fault> {
+    fn check_faces(&self, set: &Set) -> Result<(), String> {
+        let incomplete =
+            |face| Err(format!("the pieces of {} do not add up to it", self.culprit(face)));
         let mut clipper = Clipper::new(&self.faces);
         for face in 0..self.faces.len() as u32 {
             let part = clipper.clip(face);
             if let Some(part) = part.filter(|part| !part.is_empty()) {
                 if !set.get(&face).is_some_and(|outline| is_same(outline, part)) {
-                    return Err(Fault::Incomplete(self.culprit(face)));
+                    return incomplete(face);
                 }
                 continue;
             }
@@ -107,14 +116,15 @@ impl BspTree {
                 outline.is_empty() || outline.len() == corners && (0..corners).all(is_corner)
             };
             if part.is_none() || !set.get(&face).is_some_and(is_face) {
-                return Err(Fault::Incomplete(self.culprit(face)));
+                return incomplete(face);
             }
         }
         Ok(())
     }
 
-    fn culprit(&self, face: u32) -> Culprit {
-        Culprit { face, polygon: self.faces.polygon(face) }
+    /// The polygon of a face whose pieces do not cover it once.
+    fn culprit(&self, face: u32) -> String {
+        format!("polygon {} (face {face})", self.faces.polygon(face))
     }
 }
 

@@ -60,7 +60,7 @@ impl Dismantled {
 
 /// What validation says of a tree, in words; empty if all is well.
 fn verdict(tree: &BspTree) -> String {
-    tree.validate().err().map(|invalid| invalid.to_string()).unwrap_or_default()
+    tree.validate().err().unwrap_or_default()
 }
 
 /// Fails unless validation says so, of the tree that an edit makes of another's parts.

@@ -72,7 +72,7 @@ fn check(given: &[Given], options: BuildOptions, dice: &mut Dice) -> Verdict {
     });
     match built {
         Ok(tree) => {
-            tree.validate().map_err(|invalid| invalid.to_string())?;
+            tree.validate()?;
             cover::covers(&tree)
         }
         // Triangles of polygons that cross, or are planar but for rounding, cut each other.

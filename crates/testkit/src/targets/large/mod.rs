@@ -95,7 +95,7 @@ struct Base<'a> {
 
 impl Base<'_> {
     fn check(&self, question: Question, dice: &mut Dice) -> Verdict {
-        self.tree.validate().map_err(|invalid| invalid.to_string())?;
+        self.tree.validate()?;
         cover::covers(self.tree)?;
         limits::progress(self.heard, self.tree.faces().len())?;
         if self.tree.len() <= JUDGED {
