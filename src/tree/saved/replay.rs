@@ -4,7 +4,7 @@
 //! piece is on its side of every plane above it, and the pieces of a face cover it. What a file says of
 //! the fragments only limits how many there may be.
 
-use std::mem::take;
+use std::mem::{replace, take};
 use std::ops::Range;
 
 use crate::exact::cell::Clipper;
@@ -23,30 +23,43 @@ const JOBS: usize = 32;
 /// Subtrees of less than one in so many fragments are not worth handing over.
 const MOST_JOBS: usize = 512;
 
+/// How many pieces of a list have a bounding box in common. Too small: more boxes are tested. Too large:
+/// more pieces near the plane.
+const BLOCK: usize = 16;
+/// The fewest fragments of a list whose pieces get boxes. Too small: boxes take longer to make than they
+/// save. Too large: all pieces are tested against each plane.
+const LARGE: usize = 8 * BLOCK;
+/// In place of the face of a piece that is no longer in a list.
+const GONE: u32 = u32::MAX;
+
+type Bounds = [[f64; 3]; 2];
+
+const NOWHERE: Bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+
+fn union([low, high]: Bounds, other: Bounds) -> Bounds {
+    // Not `min` and `max`, which take more instructions because of NaN.
+    let least = |axis: usize| if other[0][axis] < low[axis] { other[0][axis] } else { low[axis] };
+    let most = |axis: usize| if other[1][axis] > high[axis] { other[1][axis] } else { high[axis] };
+    [std::array::from_fn(least), std::array::from_fn(most)]
+}
+
 /// A piece of a face on its way down the tree.
 struct Piece {
     face: u32,
     /// Empty for a whole face.
     vertices: Vec<Vertex>,
     /// The bounding box of the rounded vertices.
-    bounds: [[f64; 3]; 2],
+    bounds: Bounds,
 }
 
 impl Piece {
     fn new(faces: &Faces, face: u32, vertices: &[Vertex]) -> Self {
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        let mut include = |position: [f64; 3]| {
-            for (axis, &c) in position.iter().enumerate() {
-                // Not `min` and `max`, which take more instructions because of NaN.
-                bounds[0][axis] = if c < bounds[0][axis] { c } else { bounds[0][axis] };
-                bounds[1][axis] = if c > bounds[1][axis] { c } else { bounds[1][axis] };
-            }
-        };
-        if vertices.is_empty() {
-            faces.corners(face).iter().for_each(|&corner| include(corner));
+        let include = |bounds, position| union(bounds, [position; 2]);
+        let bounds = if vertices.is_empty() {
+            faces.corners(face).iter().copied().fold(NOWHERE, include)
         } else {
-            vertices.iter().for_each(|vertex| include(vertex.position()));
-        }
+            vertices.iter().map(Vertex::position).fold(NOWHERE, include)
+        };
         Self { face, vertices: vertices.to_vec(), bounds }
     }
 
@@ -55,6 +68,24 @@ impl Piece {
         let cut = (!self.vertices.is_empty()).then_some(&self.vertices[..]);
         let of_box = plane.side_of_box(self.bounds);
         of_box.unwrap_or_else(|| plane.classify(faces, self.face, cut))
+    }
+
+    /// Splits a piece that spans a plane into the parts in front and behind.
+    fn split(
+        &mut self,
+        faces: &Faces,
+        plane: &PreparedPlane,
+        parts: &mut [Vec<Vertex>; 2],
+    ) -> [Self; 2] {
+        let [front, back] = parts;
+        front.clear();
+        back.clear();
+        if self.vertices.is_empty() {
+            let corners = 0..faces.corners(self.face).len() as u32;
+            self.vertices.extend(corners.map(|k| Vertex::corner(faces, self.face, k)));
+        }
+        split(faces, plane, self.face, &self.vertices, front, back);
+        [&*front, &*back].map(|part| Self::new(faces, self.face, part))
     }
 }
 
@@ -148,61 +179,111 @@ impl Replay<'_> {
     /// with the fragments before it; what comes after the last of them is returned beside.
     fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), LoadError> {
         let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
-        let (mut front, mut own, mut splitter) = (Vec::new(), Vec::new(), Splitter::default());
+        let (mut own, mut others, mut scratch) = (Vec::new(), Vec::new(), Default::default());
+        // In a list each node has one node below, such as those of layers that were peeled off: most
+        // pieces stay in their places, in blocks with boxes. Those that do not leave gaps.
+        let (mut boxes, mut gaps): (Vec<Bounds>, _) = (Vec::new(), 0);
         // The sets of pieces that are still to be split, the next one on top, and where each begins.
         let mut pieces = job.pieces;
         let mut pending = vec![(job.node, job.fragments, 0)];
         while let Some((index, fragments, start)) = pending.pop() {
-            if jobs.contains(&fragments.len()) {
+            let node = &self.nodes[index];
+            let (front_node, back_node) = (node.front_node(index), node.back_node(index));
+            let is_job = jobs.contains(&fragments.len());
+            let is_list = front_node.is_some() != back_node.is_some() && fragments.len() >= LARGE;
+            if !is_list || is_job {
+                if gaps > 0 {
+                    let set = pieces.split_off(start);
+                    pieces.extend(set.into_iter().filter(|piece| piece.face != GONE));
+                }
+                boxes.clear();
+                gaps = 0;
+            } else if boxes.is_empty() {
+                let unite = |pieces: &[Piece]| {
+                    pieces.iter().fold(NOWHERE, |bounds, piece| union(bounds, piece.bounds))
+                };
+                boxes.extend(pieces[start..].chunks(BLOCK).map(unite));
+            }
+            if is_job {
                 let pieces = pieces.split_off(start);
                 handed_over.push((take(&mut parts), Job { node: index, fragments, pieces }));
                 continue;
             }
-            let node = &self.nodes[index];
+            // Pieces on one side stay in their places.
+            let stays = if back_node.is_some() { Side::Back } else { Side::Front };
             let plane = PreparedPlane::new(self.faces, node.plane);
-            // The set is divided in place, from its end: the piece that `swap_remove` puts in the place of
-            // another has been classified.
-            for i in (start..pieces.len()).rev() {
-                let (to, piece) = match pieces[i].side(self.faces, &plane) {
-                    Side::Back => continue,
-                    Side::Front => (&mut front, pieces.swap_remove(i)),
-                    Side::Coplanar => (&mut own, pieces.swap_remove(i)),
-                    Side::Spanning => {
-                        parts.cuts += 1;
-                        (&mut front, splitter.split(self.faces, &plane, &mut pieces[i]))
+            for (block, begin) in (start..pieces.len()).step_by(BLOCK).enumerate().rev() {
+                let of_block = boxes.get(block).and_then(|&bounds| plane.side_of_box(bounds));
+                if of_block == Some(stays) {
+                    continue;
+                }
+                // From the end: the piece that takes the place of another has been classified.
+                for i in (begin..pieces.len().min(begin + BLOCK)).rev() {
+                    if pieces[i].face == GONE {
+                        continue;
                     }
-                };
-                reserve(to, 1)?;
-                to.push(piece);
+                    let side = pieces[i].side(self.faces, &plane);
+                    let piece = match side {
+                        Side::Spanning => {
+                            let [front, back] = pieces[i].split(self.faces, &plane, &mut scratch);
+                            let (part, other) =
+                                if stays == Side::Front { (front, back) } else { (back, front) };
+                            pieces[i] = part;
+                            parts.cuts += 1;
+                            other
+                        }
+                        side if side == stays => continue,
+                        _ if boxes.is_empty() => pieces.swap_remove(i),
+                        _ => {
+                            gaps += 1;
+                            let gap = Piece { face: GONE, vertices: vec![], bounds: NOWHERE };
+                            replace(&mut pieces[i], gap)
+                        }
+                    };
+                    let list = if side == Side::Coplanar { &mut own } else { &mut others };
+                    reserve(list, 1)?;
+                    list.push(piece);
+                }
             }
-            let ranges = node.ranges(fragments);
-            let (front_node, back_node) = (node.front_node(index), node.back_node(index));
             // Each piece in front of a node or behind it becomes one fragment or several. So there are
             // never more pieces than twice the fragments that the file lists.
+            let Ranges { own: on_plane, front: in_front, back: behind } = node.ranges(fragments);
+            let stay = pieces.len() - start - gaps;
+            let counts = match stays {
+                Side::Front => [stay, others.len()],
+                _ => [others.len(), stay],
+            };
             let fits = |is_leaf, pieces: usize, range: &Range<u32>| {
                 if is_leaf { pieces == range.len() } else { pieces <= range.len() }
             };
-            let Ranges { own: on_plane, front: in_front, back: behind } = ranges;
             if !fits(true, own.len(), &on_plane)
-                || !fits(front_node.is_none(), front.len(), &in_front)
-                || !fits(back_node.is_none(), pieces.len() - start, &behind)
+                || !fits(front_node.is_none(), counts[0], &in_front)
+                || !fits(back_node.is_none(), counts[1], &behind)
             {
                 return Err(invalid("node", index, "has other fragments than its plane makes"));
             }
             // Coplanar polygons are painted in input order.
             own.sort_unstable_by_key(|piece| piece.face);
             self.store(&mut parts, own.drain(..))?;
-            if front_node.is_none() {
-                self.store(&mut parts, front.drain(..))?;
-            }
-            match back_node {
-                Some(back) => pending.push((back, behind, start)),
-                None => self.store(&mut parts, pieces.drain(start..))?,
-            }
-            if let Some(node) = front_node {
-                pending.push((node, in_front, pieces.len()));
-                reserve(&mut pieces, front.len())?;
-                pieces.append(&mut front);
+            match (front_node, back_node) {
+                (Some(front), Some(back)) => {
+                    pending.push((back, behind, start));
+                    pending.push((front, in_front, pieces.len()));
+                    reserve(&mut pieces, others.len())?;
+                    pieces.append(&mut others);
+                }
+                (Some(front), None) => {
+                    self.store(&mut parts, others.drain(..))?;
+                    pending.push((front, in_front, start));
+                }
+                (None, Some(back)) => {
+                    self.store(&mut parts, others.drain(..))?;
+                    pending.push((back, behind, start));
+                }
+                (None, None) => {
+                    self.store(&mut parts, pieces.drain(start..))?;
+                    self.store(&mut parts, others.drain(..))?;
+                }
             }
         }
         Ok((handed_over, parts))
@@ -225,29 +306,5 @@ impl Replay<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// Lists that are reused for every split.
-#[derive(Default)]
-struct Splitter {
-    front: Vec<Vertex>,
-    back: Vec<Vertex>,
-}
-
-impl Splitter {
-    /// Splits a piece that spans a plane: leaves the part behind, and returns the part in front.
-    fn split(&mut self, faces: &Faces, plane: &PreparedPlane, piece: &mut Piece) -> Piece {
-        let Self { front, back } = self;
-        front.clear();
-        back.clear();
-        let face = piece.face;
-        if piece.vertices.is_empty() {
-            let corners = 0..faces.corners(face).len() as u32;
-            piece.vertices.extend(corners.map(|k| Vertex::corner(faces, face, k)));
-        }
-        split(faces, plane, face, &piece.vertices, front, back);
-        *piece = Piece::new(faces, face, back);
-        Piece::new(faces, face, front)
     }
 }
