@@ -44,7 +44,7 @@ impl File {
         let numbers = with_numbers.map(sides).sum::<usize>();
         let moved = numbered + 8 + 4 * self.len(numbered) + 4 * numbers;
         let dropped = moved + 8 + 28 * self.len(moved);
-        let lengths = dropped + 8 + 4 * self.len(dropped) + 5 * 8;
+        let lengths = dropped + 8 + 4 * self.len(dropped) + 4 * 8;
         Places { corners, moved, lengths, nodes: lengths + 2 * 8 }
     }
 }

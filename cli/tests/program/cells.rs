@@ -182,8 +182,10 @@ fn notes_on_cells_are_those_on_the_whole() {
             })
             .collect()
     };
-    let expected = notes("build s.obj -o s.bsp");
+    let mut expected = notes("build s.obj -o s.bsp");
     assert!(expected.len() >= 5, "{expected:?}");
+    // Duplicates are counted within a tree, so cells do not tell.
+    expected.retain(|note| !note.contains("given more than once"));
     for cells in [1, 2, 3, 5, 9, 16] {
         let found = notes(&format!("build s.obj --cells {cells} -o d{cells}"));
         assert_eq!(found, expected, "{cells} cells");
