@@ -115,8 +115,8 @@ pub mod internals {
     pub use crate::build::choose::{Quick, Tuning};
     pub use crate::build::driver::tree_of;
     pub use crate::exact::{
-        Eye, Faces, LATTICE_LIMIT, Lattice, Line, PlaneId, PlaneKind, PreparedPlane, Side,
-        StoredVertex, Symbol, SymbolKind, Vertex, split,
+        EdgeLine, Eye, Faces, LATTICE_LIMIT, Lattice, PlaneId, PlaneKind, PreparedPlane, Side,
+        StoredVertex, Vertex, VertexId, VertexKind, split,
     };
     pub use crate::faces::DEFAULT_TOLERANCE;
     pub use crate::input::MAX_CORNERS;

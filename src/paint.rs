@@ -1,6 +1,6 @@
 //! Painting a tree's fragments, with exact coverage of every pixel.
 
-use crate::exact::Line;
+use crate::exact::EdgeLine;
 use crate::raster::{Image, Layers, Order, Outline, Painter, Piece, Rays, blend, for_each_shaded};
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
@@ -105,7 +105,7 @@ pub fn for_each_painted(
 /// Makes pieces to paint of fragments, in memory that the next one uses again.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
-    lines: Vec<Line>,
+    lines: Vec<EdgeLine>,
     vertices: Vec<[f64; 3]>,
 }
 

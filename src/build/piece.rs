@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::Error;
-use crate::exact::{Faces, PreparedPlane, Side, SymbolKind, Vertex, split};
+use crate::exact::{Faces, PreparedPlane, Side, Vertex, VertexKind, split};
 use crate::memory::reserve;
 
 /// A piece of a face on its way down the tree.
@@ -42,7 +42,7 @@ impl Piece {
             live.include(vertex.position());
         }
         for vertex in vertices {
-            if let SymbolKind::Corner(_) = vertex.symbol().kind() {
+            if let VertexKind::Corner(_) = vertex.vertex_id().kind() {
                 let p = vertex.position();
                 for (axis, &c) in p.iter().enumerate() {
                     live.on_corner |= u8::from(c == live.min[axis]) << axis;

@@ -3,7 +3,7 @@
 use super::subtree::{Builder, Pending, Shared, is_leaf_of_table};
 use crate::Error;
 use crate::bits::bits;
-use crate::build::choose::{Best, MOST_IN_TABLE, Quick, Rules, Set, crosses};
+use crate::build::choose::{Best, ChooseContext, MOST_IN_TABLE, Quick, Set, crosses};
 use crate::build::piece::Piece;
 use crate::exact::{PlaneId, PreparedPlane, Side};
 use crate::tree::parts::{RawChild, RawNode};
@@ -145,7 +145,7 @@ impl Builder<'_> {
 
     /// The slot of the best own plane of a set, and whether no free plane is better.
     fn best_own_of_table(&mut self, set: u64, quick: &Quick) -> Result<(usize, bool), Error> {
-        let Shared { faces, rules: Rules { tuning, .. }, .. } = self.shared;
+        let Shared { faces, rules: ChooseContext { tuning, .. }, .. } = self.shared;
         let mut best: Option<Best> = None;
         for slot in bits(set) {
             let row = self.table.slots[slot].row;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use smallvec::SmallVec;
 
-use super::choose::{Choice, Chooser, Peeled, Rules, Set, Tuning};
+use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning};
 use super::jobs::{Job, Output, is_worth_a_job};
 use super::options::BuildOptions;
 use super::piece::{Piece, Splitter};
@@ -99,7 +99,7 @@ const COMPACT: usize = 1 << 13;
 pub(in crate::build) struct Shared<'a> {
     pub(super) faces: &'a Faces,
     pub(super) options: &'a BuildOptions,
-    pub(super) rules: Rules<'a>,
+    pub(super) rules: ChooseContext<'a>,
     pub(super) budget: Budget,
     /// Whether the rounded positions of vertices go into the output.
     pub(super) keeps_positions: bool,
@@ -114,7 +114,7 @@ impl<'a> Shared<'a> {
         watch: &'a Watch<'a>,
     ) -> Result<Self, Error> {
         let budget = Budget::new(options, faces.len())?;
-        let rules = Rules { heuristic: options.heuristic, tuning, watch };
+        let rules = ChooseContext { heuristic: options.heuristic, tuning, watch };
         Ok(Self { faces, options, rules, budget, keeps_positions: false })
     }
 

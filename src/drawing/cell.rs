@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::lines::{Half, Lines};
+use super::lines::{HalfPlane, LineTable};
 use super::stock::FEW_CORNERS;
 use crate::Error;
 use crate::progress::Watch;
@@ -13,7 +13,7 @@ use crate::progress::Watch;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     /// The half that the cell lies in.
-    pub(super) half: Half,
+    pub(super) half: HalfPlane,
     pub(super) start: Corner,
 }
 
@@ -40,12 +40,12 @@ pub(super) struct Cell {
 
 impl Cell {
     /// A rectangle between borders: the least and the largest coordinates, in steps.
-    pub(super) fn rectangle(lines: &Lines<'_>, low: [i64; 2], high: [i64; 2]) -> Self {
+    pub(super) fn rectangle(lines: &LineTable<'_>, low: [i64; 2], high: [i64; 2]) -> Self {
         let halves = [
-            Half::beyond(1, low[1]),
-            Half::beyond(0, high[0]).flipped(true),
-            Half::beyond(1, high[1]).flipped(true),
-            Half::beyond(0, low[0]),
+            HalfPlane::beyond(1, low[1]),
+            HalfPlane::beyond(0, high[0]).flipped(true),
+            HalfPlane::beyond(1, high[1]).flipped(true),
+            HalfPlane::beyond(0, low[0]),
         ];
         let sides = (0..4).map(|i| {
             let start = Corner::of(lines, [halves[(i + 3) % 4], halves[i]]);
@@ -58,8 +58,8 @@ impl Cell {
     /// convex parts.
     pub(super) fn within(
         &self,
-        lines: &Lines<'_>,
-        halves: &[Half],
+        lines: &LineTable<'_>,
+        halves: &[HalfPlane],
         outside: Option<&mut Vec<Self>>,
         watch: &Watch<'_>,
     ) -> Result<Option<Self>, Error> {
@@ -70,8 +70,8 @@ impl Cell {
     /// Whether any of the cell is in all of the halves.
     pub(super) fn meets(
         &self,
-        lines: &Lines<'_>,
-        halves: &[Half],
+        lines: &LineTable<'_>,
+        halves: &[HalfPlane],
         watch: &Watch<'_>,
     ) -> Result<bool, Error> {
         Ok(self.common(lines, halves, None, watch)?.is_some())
@@ -81,13 +81,13 @@ impl Cell {
     /// end before one is made.)
     fn common(
         &self,
-        lines: &Lines<'_>,
-        halves: &[Half],
+        lines: &LineTable<'_>,
+        halves: &[HalfPlane],
         mut outside: Option<&mut Vec<Self>>,
         watch: &Watch<'_>,
     ) -> Result<Option<Option<Self>>, Error> {
         // Most cells lie outside of one of the halves: that is found out before any is cut.
-        let mut near: SmallVec<[Half; 8]> = SmallVec::new();
+        let mut near: SmallVec<[HalfPlane; 8]> = SmallVec::new();
         for &half in halves {
             watch.work(self.corners_work())?;
             let signs = self.signs(lines, half);
@@ -138,7 +138,7 @@ impl Cell {
     /// On which side of a half's line each corner lies. Floats tell it where the line's value at the rounded corner is
     /// larger than its error and what it can change by on the way from there to the corner: the length of the way times
     /// that of the slope.
-    fn signs(&self, lines: &Lines<'_>, half: Half) -> SmallVec<[Ordering; 8]> {
+    fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
         let sign = |i: usize, side: &Side| {
             let Corner { at, radius } = side.start;
@@ -154,7 +154,13 @@ impl Cell {
     }
 
     /// The part whose corners have a sign, with a new side along the line.
-    fn part(&self, lines: &Lines<'_>, half: Half, signs: &[Ordering], keep: Ordering) -> Self {
+    fn part(
+        &self,
+        lines: &LineTable<'_>,
+        half: HalfPlane,
+        signs: &[Ordering],
+        keep: Ordering,
+    ) -> Self {
         let n = self.sides.len();
         let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
         // The cell is convex: the way around it enters the part once, and leaves it once.
@@ -207,7 +213,7 @@ impl Corner {
     /// 8 are taken away. If parts of the slopes are off by s and t, a × b is off by s (|b₁| + |b₂|) + t (|a₁| + |a₂|) +
     /// 2 s t, of which a sum of two parts is at most 1.4 of a line's `slope`; 2 are taken away. A hundredth is added for
     /// the roundings of the bound itself.
-    fn of(lines: &Lines<'_>, [first, second]: [Half; 2]) -> Self {
+    fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);
         let (p, q) = (ax * by, ay * bx);
@@ -226,7 +232,7 @@ impl Corner {
         if radius > FINE { Self::exact(lines, [first, second]) } else { Self { at, radius } }
     }
 
-    fn exact(lines: &Lines<'_>, halves: [Half; 2]) -> Self {
+    fn exact(lines: &LineTable<'_>, halves: [HalfPlane; 2]) -> Self {
         let (at, radius) = lines.exact_meeting(halves);
         Self { at, radius }
     }
@@ -268,7 +274,7 @@ pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
 mod tests {
     use super::Corner;
     use crate::drawing::exact_lines::meeting;
-    use crate::drawing::lines::Half;
+    use crate::drawing::lines::HalfPlane;
     use crate::drawing::lines::tests::{all_lines, quads};
     use crate::random::SplitMix64;
     use crate::tree::BspTree;
@@ -289,7 +295,7 @@ mod tests {
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, fov, [320, 200]).unwrap();
             let rims = all_lines(&tree, &camera).unwrap();
             let lines = &rims.lines;
-            let halves: Vec<Half> = (0..lines.len() as u32).map(Half::of).collect();
+            let halves: Vec<HalfPlane> = (0..lines.len() as u32).map(HalfPlane::of).collect();
             for (i, &a) in halves.iter().enumerate() {
                 for &b in &halves[..i] {
                     let exact = [a, b].map(|half| lines.exact(half));

@@ -8,12 +8,12 @@ use smallvec::SmallVec;
 use super::cell::Cell;
 use super::edges::{Depths, EdgeKind, EdgeRun, SHORTEST, in_layers};
 use super::exact_lines::compare;
-use super::lines::{Half, Lines, Table};
+use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
-use super::sight::{Sight, parts};
-use super::stock::{Rims, Stock, View};
+use super::sight::{ProjectedSegment, parts};
+use super::stock::{OutlineCache, Primitives, View};
 use super::tile::{CUT, IN_VAIN, LINES, NARROWED, Tile, VISITED, found_in, in_vain};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
@@ -23,7 +23,7 @@ use crate::{Error, parallel_map};
 #[derive(Clone, Copy, Debug)]
 struct CutSide {
     /// On which the line is positive.
-    line: Half,
+    line: HalfPlane,
     face: u32,
     /// The edge of its face that lies there, inside the polygon, which goes on across it.
     inner: Option<FaceEdge>,
@@ -37,7 +37,7 @@ struct CutSide {
 /// What two such sides have in common: a part of a crossing that shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CommonSide {
-    line: Half,
+    line: HalfPlane,
     /// The lower number first. Of two faces that meet at the line it is the one of the lower number, though the
     /// other shows.
     pub(super) faces: [u32; 2],
@@ -45,7 +45,7 @@ pub(super) struct CommonSide {
 }
 
 /// Whether two faces go through one another in a line: by the line and the faces.
-type Known = Table<(Half, [u32; 2]), bool>;
+type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
     /// Where polygons go through one another, as far as it shows: runs of [`EdgeKind::Crossing`], all
@@ -114,7 +114,7 @@ impl VisibilityMap<'_> {
     /// cut along one line, and what is beyond a border of a tile or a third polygon's edge was not cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
-        let is_wanted = |line: Half| self.rims.lines.is_cut(line) || bends.contains_key(&line);
+        let is_wanted = |line: HalfPlane| self.rims.lines.is_cut(line) || bends.contains_key(&line);
         let edges = self.edges_on(is_wanted, inner, watch)?;
         let mut found = Vec::new();
         let add_sides = |item: u32, cell: &Cell| {
@@ -142,13 +142,13 @@ impl VisibilityMap<'_> {
     }
 
     /// The outlines of faces. (Those of polygons that do not show have no lines.)
-    fn outlines(&self) -> impl Iterator<Item = (u32, &[Half])> {
+    fn outlines(&self) -> impl Iterator<Item = (u32, &[HalfPlane])> {
         let faces = 0..self.stock.views.len() as u32;
         faces.map(|face| (face, self.rims.known_outline(face)))
     }
 
     /// The lines of edges inside polygons.
-    fn bends(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Table<Half, ()>, Error> {
+    fn bends(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Table<HalfPlane, ()>, Error> {
         let mut bends = Table::default();
         for outline in each(watch, 1, self.outlines()) {
             let (face, halves) = outline?;
@@ -165,10 +165,10 @@ impl VisibilityMap<'_> {
     /// The edges of faces that lie on some lines, by face and line, `None` for those of outlines: a phase.
     fn edges_on(
         &self,
-        is_wanted: impl Fn(Half) -> bool,
+        is_wanted: impl Fn(HalfPlane) -> bool,
         inner: &InnerEdges,
         watch: &Watch<'_>,
-    ) -> Result<Table<(u32, Half), Option<FaceEdge>>, Error> {
+    ) -> Result<Table<(u32, HalfPlane), Option<FaceEdge>>, Error> {
         let mut edges = Table::default();
         for outline in each(watch, 1, self.outlines()) {
             let (face, halves) = outline?;
@@ -186,7 +186,7 @@ impl VisibilityMap<'_> {
     }
 
     /// The ends of a side in the order in which they are along a line, and where that is.
-    fn along(&self, line: Half, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
+    fn along(&self, line: HalfPlane, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
         let [_, kx, ky] = self.rims.lines.rounded(line).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
         if place(ends[0]) > place(ends[1]) {
@@ -286,7 +286,7 @@ const SHARE: usize = 256;
 struct Crossing {
     /// As those of [`CommonSide`].
     faces: [u32; 2],
-    sight: Sight,
+    sight: ProjectedSegment,
 }
 
 impl VisibilityMap<'_> {
@@ -318,7 +318,7 @@ impl VisibilityMap<'_> {
     pub fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(6, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
-            let mut sights: Vec<Sight> = Vec::with_capacity(crossings.len());
+            let mut sights: Vec<ProjectedSegment> = Vec::with_capacity(crossings.len());
             for crossing in each(watch, VISITED, &crossings) {
                 sights.push(crossing?.sight);
             }
@@ -388,14 +388,14 @@ impl VisibilityMap<'_> {
 /// Those pairs that go through one another in the picture: a phase.
 fn crossings_of(
     pairs: &[Pair],
-    stock: &Stock<'_>,
+    stock: &Primitives<'_>,
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Crossing>, Error> {
     let shares: Vec<_> = pairs.chunks(SHARE).enumerate().collect();
     let count = shares.len();
     let share = |(i, pairs): (usize, &[Pair])| {
-        let (mut rims, mut found) = (Rims::new(stock), Vec::new());
+        let (mut rims, mut found) = (OutlineCache::new(stock), Vec::new());
         for &Pair { below, above } in pairs {
             let faces = [below, above];
             let corners: usize = faces.map(|face| stock.edges_work(face)).iter().sum();
@@ -423,11 +423,11 @@ fn crossings_of(
 /// away.
 fn straight(
     [one, other]: [u32; 2],
-    stock: &Stock<'_>,
-    rims: &mut Rims<'_>,
+    stock: &Primitives<'_>,
+    rims: &mut OutlineCache<'_>,
     watch: &Watch<'_>,
-) -> Result<Option<Sight>, Error> {
-    let mut halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, one)?);
+) -> Result<Option<ProjectedSegment>, Error> {
+    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(rims.outline(stock, one)?);
     halves.extend_from_slice(rims.outline(stock, other)?);
     let View { is_positive, .. } = stock.views[one as usize];
     let cut = rims.lines.cut(one, PlaneId::face(other), true, is_positive)?;
@@ -441,28 +441,29 @@ fn straight(
     let Some(Cell { sides }) = common.within(lines, &[cut], None, watch)? else { return Ok(None) };
     let Some(i) = sides.iter().position(|side| side.half == cut) else { return Ok(None) };
     let next = if i + 1 == sides.len() { 0 } else { i + 1 };
-    Ok(Sight::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
+    Ok(ProjectedSegment::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
 }
 
 /// Where a face goes through a polygon along an edge inside it.
 fn bent(
     bend: &Bend,
-    stock: &Stock<'_>,
-    rims: &mut Rims<'_>,
+    stock: &Primitives<'_>,
+    rims: &mut OutlineCache<'_>,
     watch: &Watch<'_>,
-) -> Result<Option<Sight>, Error> {
+) -> Result<Option<ProjectedSegment>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
     let faces = stock.frame.faces;
-    let sight = Sight::new(&rims.lines, faces.ends(face, k));
+    let sight = ProjectedSegment::new(&rims.lines, faces.ends(face, k));
     // Along a border of the picture, there is nothing on the other side.
     let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
     let common = match other_edge {
-        Some(k) => Sight::new(&rims.lines, faces.ends(other, k)).map(|along| {
+        Some(k) => ProjectedSegment::new(&rims.lines, faces.ends(other, k)).map(|along| {
             let [a, b] = along.course.places.map(|at| sight.course.place(along.course.at(at)));
             [a.min(b), a.max(b)]
         }),
         None => {
-            let halves: SmallVec<[Half; 8]> = SmallVec::from_slice(rims.outline(stock, other)?);
+            let halves: SmallVec<[HalfPlane; 8]> =
+                SmallVec::from_slice(rims.outline(stock, other)?);
             let cell = picture(stock, &rims.lines).within(&rims.lines, &halves, None, watch)?;
             cell.and_then(|cell| sight.chord(&rims.lines, &cell))
         }
@@ -471,7 +472,7 @@ fn bent(
 }
 
 /// All of the picture.
-fn picture(stock: &Stock<'_>, lines: &Lines<'_>) -> Cell {
+fn picture(stock: &Primitives<'_>, lines: &LineTable<'_>) -> Cell {
     let Tile { low, high } = Tile::picture(stock.frame.rays.size());
     Cell::rectangle(lines, low, high)
 }
@@ -491,7 +492,7 @@ struct Block {
 /// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
 /// these than the tolerance, that may go through one another: a phase.
 pub(super) fn straddling(
-    stock: &Stock<'_>,
+    stock: &Primitives<'_>,
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {

@@ -9,11 +9,11 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::crossings::{FaceEdge, InnerEdges};
-use super::lines::{Lines, Table};
+use super::lines::{LineTable, Table};
 use super::map::{VisibilityMap, Visible, each, finish_item, sort_by};
 use super::overlaid::{LineRun, sights};
-use super::sight::{Course, Pass, Passing, Pieces, Sight, merged, parts, passes};
-use super::stock::Rims;
+use super::sight::{ImageLine, Pass, Passing, Pieces, ProjectedSegment, merged, parts, passes};
+use super::stock::OutlineCache;
 use super::tile::{CUT, LINES, Reaches, VISITED};
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
@@ -143,7 +143,7 @@ impl Views<'_> {
 
     /// Gives the runs of an edge, in the direction of that of its faces which they are told of, unless no
     /// polygon shows a side there.
-    fn runs(&mut self, edge: &SharedEdge, course: &Course, give: impl FnMut(EdgeRun)) {
+    fn runs(&mut self, edge: &SharedEdge, course: &ImageLine, give: impl FnMut(EdgeRun)) {
         let fronts_only = self.map.stock.frame.rays.is_front_only();
         let sides: SmallVec<[Ordering; 2]> =
             edge.faces.iter().map(|&(face, _)| self.side(face)).collect();
@@ -180,7 +180,7 @@ pub(super) struct SharedEdge {
     /// Faces, and which of their edges it is.
     pub(super) faces: SmallVec<[FaceEdge; 2]>,
     /// Where the edge of the first of the faces is in the picture; `None` if that does not show it as a line.
-    pub(super) course: Option<Course>,
+    pub(super) course: Option<ImageLine>,
     /// The side of that edge's line on which the picture lies, if it runs along a border of it; else `Equal`.
     picture: Ordering,
     /// Where it shows: places along it.
@@ -191,7 +191,7 @@ pub(super) struct SharedEdge {
 /// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have gaps
 /// without them.
 pub(super) fn shared_edges(
-    lines: &Lines<'_>,
+    lines: &LineTable<'_>,
     is_drawn: impl Fn(u32) -> bool,
     mut side: impl FnMut(u32) -> Ordering,
     watch: &Watch<'_>,
@@ -236,9 +236,9 @@ pub(super) fn shared_edges(
             };
             if number == new {
                 let (first, k) = known[0];
-                let sight = Sight::new(lines, faces.ends(first, k));
+                let sight = ProjectedSegment::new(lines, faces.ends(first, k));
                 let (course, picture) = match sight {
-                    Some(Sight { course, picture, .. }) => (Some(course), picture),
+                    Some(ProjectedSegment { course, picture, .. }) => (Some(course), picture),
                     None => (None, Ordering::Equal),
                 };
                 // Lists of edges that grow by an eighth are moved too often.
@@ -396,7 +396,7 @@ impl VisibilityMap<'_> {
                     continue;
                 }
                 let (face, k) = edge.faces[0];
-                if let Some(sight) = Sight::new(&self.rims.lines, faces.ends(face, k)) {
+                if let Some(sight) = ProjectedSegment::new(&self.rims.lines, faces.ends(face, k)) {
                     *place = hidden.len() as u32;
                     hidden.push(*number);
                     sights.push(sight);
@@ -451,7 +451,7 @@ impl VisibilityMap<'_> {
     /// How many polygons are in front of segments: two phases. A face that is a segment's own does not count.
     pub(super) fn depths(
         &self,
-        sights: &[Sight],
+        sights: &[ProjectedSegment],
         is_own: impl Fn(u32, u32) -> bool,
         watch: &Watch<'_>,
     ) -> Result<Depths, Error> {
@@ -461,7 +461,7 @@ impl VisibilityMap<'_> {
         let (stock, faces) = (&self.stock, self.stock.frame.faces);
         let mut reaches = Reaches::default();
         // Polygons that do not show hide edges too.
-        let mut rims = Rims::new(stock);
+        let mut rims = OutlineCache::new(stock);
         for face in 0..faces.len() {
             let number = face as u32;
             watch.work(1)?;
@@ -515,7 +515,7 @@ impl VisibilityMap<'_> {
 pub(super) fn in_layers(
     ends: Ends,
     is_visible: bool,
-    depths: Option<(&Sight, &[Depth])>,
+    depths: Option<(&ProjectedSegment, &[Depth])>,
     watch: &Watch<'_>,
 ) -> Result<Vec<(Ends, u32)>, Error> {
     let Some((sight, depths)) = depths.filter(|_| !is_visible) else {

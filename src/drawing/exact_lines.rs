@@ -16,16 +16,16 @@
 
 use std::cmp::Ordering;
 
-use super::lines::{Half, Lines, NOWHERE};
+use super::lines::{HalfPlane, LineTable, NOWHERE};
 use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Faces, Int, Plane, PlaneId, dot};
-use crate::raster::{Pencil, Rays};
+use crate::raster::{RayOrigin, Rays};
 
-impl Lines<'_> {
+impl LineTable<'_> {
     /// On which side of a half's line the point lies where two others meet, the second turning to the
     /// left of the first as seen from their halves: exact.
     #[cold]
-    pub(super) fn exact_side(&self, half: Half, [first, second]: [Half; 2]) -> Ordering {
+    pub(super) fn exact_side(&self, half: HalfPlane, [first, second]: [HalfPlane; 2]) -> Ordering {
         let lines = [first, second, half];
         if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
             return Ordering::Equal;
@@ -39,7 +39,7 @@ impl Lines<'_> {
 
     /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
     #[cold]
-    pub(super) fn exact_side_of(&self, line: &ExactLine, corner: [Half; 2]) -> Ordering {
+    pub(super) fn exact_side_of(&self, line: &ExactLine, corner: [HalfPlane; 2]) -> Ordering {
         let [a, b] = corner.map(|half| self.exact(half));
         let side = orientation([&a, &b, line]);
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
@@ -47,7 +47,7 @@ impl Lines<'_> {
 
     /// Where two lines meet, from integers, and how far off that may be by rounding.
     #[cold]
-    pub(super) fn exact_meeting(&self, halves: [Half; 2]) -> ([f64; 2], f64) {
+    pub(super) fn exact_meeting(&self, halves: [HalfPlane; 2]) -> ([f64; 2], f64) {
         let exact = halves.map(|half| self.exact(half));
         let at = meeting(exact.each_ref());
         let radius = 8.0 * ROUNDING * self.reach[0].max(self.reach[1]);
@@ -55,7 +55,7 @@ impl Lines<'_> {
     }
 
     /// Whether three lines are known to go through one point.
-    fn share_point(&self, lines: [Half; 3]) -> bool {
+    fn share_point(&self, lines: [HalfPlane; 3]) -> bool {
         let through = lines.map(|half| half.number().map(|line| self.through[line as usize]));
         let [Some(a), Some(b), Some(c)] = through else { return false };
         a.iter().any(|point| *point != NOWHERE && b.contains(point) && c.contains(point))
@@ -63,13 +63,13 @@ impl Lines<'_> {
 
     /// The orientation of three lines by pairs of floats, if that is certain. Not if none is an edge of a
     /// face of which corners were moved: others that floats cannot tell apart go through one point.
-    fn twofold_side(&self, lines: [Half; 3]) -> Option<Ordering> {
+    fn twofold_side(&self, lines: [HalfPlane; 3]) -> Option<Ordering> {
         let known = lines.map(|half| self.twofold.get(&half.number()?));
         if known.iter().all(Option::is_none) {
             return None;
         }
-        let twofold: [Twofold; 3] = std::array::from_fn(|i| {
-            known[i].copied().unwrap_or_else(|| Twofold::of(&self.exact(lines[i])))
+        let twofold: [DoubleDouble; 3] = std::array::from_fn(|i| {
+            known[i].copied().unwrap_or_else(|| DoubleDouble::of(&self.exact(lines[i])))
         });
         orientation_in_pairs(twofold.each_ref())
     }
@@ -111,11 +111,11 @@ impl Frame<'_> {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let point = plane.point();
         let (kappa, first) = match pencil {
-            Pencil::From { eye, shift } => {
+            RayOrigin::From { eye, shift } => {
                 let kappa = plane.along(eye).shifted::<4>(shift) - plane.along(point).resize();
                 (kappa, base)
             }
-            Pencil::Along { direction } => {
+            RayOrigin::Along { direction } => {
                 let first = std::array::from_fn(|i| base[i] - point[i]);
                 (plane.along(direction).resize(), first)
             }
@@ -136,11 +136,11 @@ impl Frame<'_> {
         // With `base`, `right` and `down`, or `right`, `down` and the direction, as axes: G. Cramer's rule.
         // (Both are right-handed: cameras look along right × down.)
         match pencil {
-            Pencil::From { eye, shift } => {
+            RayOrigin::From { eye, shift } => {
                 let duals = [product(right, down), product(down, base), product(base, right)];
                 duals.map(|dual| dot(dual, point).resize() - dot(dual, eye).shifted(shift))
             }
-            Pencil::Along { direction } => {
+            RayOrigin::Along { direction } => {
                 let arm = std::array::from_fn(|i| point[i] - base[i]);
                 let [x, y] = [product(down, direction), product(direction, right)];
                 [(x, right), (x, arm), (y, arm)].map(|(dual, v)| dot(dual, v).resize())
@@ -157,12 +157,12 @@ impl Frame<'_> {
         let arm = std::array::from_fn(|i| b[i] - a[i]);
         match pencil {
             // v · ((a − eye) × (b − eye)) = v · (a × arm) − v · (eye × arm)
-            Pencil::From { eye, shift } => {
+            RayOrigin::From { eye, shift } => {
                 let (near, far) = (product(a, arm), product(eye, arm));
                 [base, right, down].map(|v| dot(near, v).resize() - dot(far, v).shifted(shift))
             }
             // (p − a) · (direction × arm)
-            Pencil::Along { direction } => {
+            RayOrigin::Along { direction } => {
                 let normal = product(direction, arm);
                 let first = std::array::from_fn(|i| base[i] - a[i]);
                 [first, right, down].map(|v| dot(normal, v).resize())
@@ -300,7 +300,7 @@ struct Pair(f64, f64);
 /// The coefficients of a line, times a power of two that brings the largest to 1 or 2. Each is off by at most
 /// 2⁻¹⁰⁵ of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Twofold([Pair; 3]);
+pub(super) struct DoubleDouble([Pair; 3]);
 
 /// Error bound of the orientation, as a share of the magnitudes of its six terms: a term is a product of
 /// three coefficients by two roundings to pairs, of which each is off by at most 2⁻¹⁰² of the product, and
@@ -309,7 +309,7 @@ const ERROR: f64 = 1.0 / (1u128 << 98) as f64;
 /// What is lost where products leave the range of `f64`.
 const LOST: f64 = f64::MIN_POSITIVE * (1u64 << 60) as f64;
 
-impl Twofold {
+impl DoubleDouble {
     pub(super) fn of(line: &ExactLine) -> Self {
         let high = line.map(Int::to_f64);
         let largest = high.iter().fold(0.0f64, |largest, k| largest.max(k.abs()));
@@ -328,7 +328,7 @@ impl Twofold {
 
 /// On which side of a third line two lines meet, times the sign of the turn from the first to the
 /// second; `None` if that is not certain.
-pub(super) fn orientation_in_pairs([a, b, c]: [&Twofold; 3]) -> Option<Ordering> {
+pub(super) fn orientation_in_pairs([a, b, c]: [&DoubleDouble; 3]) -> Option<Ordering> {
     let (mut sum, mut size) = (Pair(0.0, 0.0), 0.0);
     for (i, j, k) in [(1, 2, 0), (2, 0, 1), (0, 1, 2)] {
         let (left, right) = (a.0[i].times(b.0[j]), a.0[j].times(b.0[i]));
@@ -420,7 +420,7 @@ mod twofold_tests {
                 let c = through([&a, &b], &mut random, aside);
                 let lines = [&a, &b, &c];
                 let exact = orientation(lines);
-                let twofold = lines.map(Twofold::of);
+                let twofold = lines.map(DoubleDouble::of);
                 if let Some(side) = orientation_in_pairs(twofold.each_ref()) {
                     assert_eq!(side, exact, "{lines:?}");
                     certain += 1;
@@ -439,7 +439,7 @@ mod twofold_tests {
                 let a = line(&mut random, bits).map(|k| k.shifted::<6>(shift));
                 let b = line(&mut random, 90);
                 let sum: ExactLine = std::array::from_fn(|i| a[i] + b[i]);
-                let twofold = [&a, &b, &sum].map(Twofold::of);
+                let twofold = [&a, &b, &sum].map(DoubleDouble::of);
                 assert_eq!(orientation_in_pairs(twofold.each_ref()), None, "{bits} {shift}");
             }
         }
@@ -450,7 +450,7 @@ mod twofold_tests {
         let mut random = SplitMix64::new(7);
         for shift in [0, 30, 120, 230] {
             let line = line(&mut random, 125).map(|k| k.shifted::<6>(shift));
-            let Twofold(pairs) = Twofold::of(&line);
+            let DoubleDouble(pairs) = DoubleDouble::of(&line);
             let largest = pairs.iter().fold(0.0f64, |most, pair| most.max(pair.0.abs()));
             assert!((1.0..2.0 + 1e-9).contains(&largest), "{largest}");
             for Pair(high, low) in pairs {

@@ -7,7 +7,7 @@ use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use smallvec::SmallVec;
 
-use super::exact_lines::{ExactLine, Frame, ROUNDING, Rounded, Twofold, compare, is_opposite};
+use super::exact_lines::{DoubleDouble, ExactLine, Frame, ROUNDING, Rounded, compare, is_opposite};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::random::mix;
@@ -22,7 +22,7 @@ const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// All lines that a picture was asked for.
 #[derive(Debug)]
-pub(super) struct Lines<'t> {
+pub(super) struct LineTable<'t> {
     pub(super) frame: Frame<'t>,
     /// The largest coordinates in the picture.
     pub(super) reach: [f64; 2],
@@ -32,13 +32,13 @@ pub(super) struct Lines<'t> {
     pub(super) through: Vec<[u32; 2]>,
     /// Edges of faces of which corners were moved, by their numbers: floats often cannot tell on which side
     /// of them others meet.
-    pub(super) twofold: Table<u32, Twofold>,
+    pub(super) twofold: Table<u32, DoubleDouble>,
     /// The half of each key on which it is positive.
-    halves: Table<Key, Half>,
+    halves: Table<Key, HalfPlane>,
     /// All lines, by where they are.
-    feet: Feet,
+    feet: LineIndex,
     /// The lines of cuts, by their halves that are positive.
-    cuts: Table<Half, ()>,
+    cuts: Table<HalfPlane, ()>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
     /// The numbers of where corners were moved to.
@@ -47,7 +47,7 @@ pub(super) struct Lines<'t> {
     corners: Vec<u32>,
 }
 
-impl<'t> Lines<'t> {
+impl<'t> LineTable<'t> {
     /// No lines yet.
     pub(super) fn new(frame: Frame<'t>) -> Self {
         let reach = frame.rays.size().map(|side| f64::from(side) + 1.0);
@@ -59,7 +59,7 @@ impl<'t> Lines<'t> {
             through: vec![],
             twofold: Table::default(),
             halves: Table::default(),
-            feet: Feet::default(),
+            feet: LineIndex::default(),
             cuts: Table::default(),
             points: Table::default(),
             moved: Table::default(),
@@ -69,7 +69,7 @@ impl<'t> Lines<'t> {
 
     /// The half of a line on which its key is positive. The line is added if it is new; it goes through the
     /// points.
-    fn half(&mut self, key: Key, points: [u32; 2]) -> Result<Half, Error> {
+    fn half(&mut self, key: Key, points: [u32; 2]) -> Result<HalfPlane, Error> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);
         }
@@ -77,7 +77,12 @@ impl<'t> Lines<'t> {
     }
 
     /// The same of a key that is new.
-    fn new_half(&mut self, key: Key, rounded: Rounded, points: [u32; 2]) -> Result<Half, Error> {
+    fn new_half(
+        &mut self,
+        key: Key,
+        rounded: Rounded,
+        points: [u32; 2],
+    ) -> Result<HalfPlane, Error> {
         let half = self.half_of_line(key, rounded, points)?;
         if matches!(key, Key::Cut(..)) {
             self.cuts.insert(half.positive(), ());
@@ -94,7 +99,7 @@ impl<'t> Lines<'t> {
         key: Key,
         rounded: Rounded,
         points: [u32; 2],
-    ) -> Result<Half, Error> {
+    ) -> Result<HalfPlane, Error> {
         let exact = OnceCell::new();
         let exact = || exact.get_or_init(|| self.exact_of(key));
         if let Some(border) = self.near_border(&rounded) {
@@ -108,18 +113,18 @@ impl<'t> Lines<'t> {
             Ok(line) => {
                 let is_opposite = is_opposite(exact(), &self.exact_of(self.key(line)));
                 self.remember(line, points);
-                Ok(Half::of(line).flipped(is_opposite))
+                Ok(HalfPlane::of(line).flipped(is_opposite))
             }
             Err(at) => {
                 let line = self.add(key, rounded, points)?;
                 self.feet.add(&foot, at, line);
-                Ok(Half::of(line))
+                Ok(HalfPlane::of(line))
             }
         }
     }
 
     /// The border on which a line may lie.
-    fn near_border(&self, line: &Rounded) -> Option<Half> {
+    fn near_border(&self, line: &Rounded) -> Option<HalfPlane> {
         let [k0, kx, ky] = line.k;
         let (axis, [along, across]) =
             if kx.abs() > ky.abs() { (0, [ky, kx]) } else { (1, [kx, ky]) };
@@ -127,7 +132,7 @@ impl<'t> Lines<'t> {
         let is_near = along.abs() <= self.slope_error(line)
             && (steps - steps.round()).abs() <= 2.0 * line.error * STEPS
             && steps.abs() < FURTHEST;
-        is_near.then(|| Half::beyond(axis, steps.round() as i64))
+        is_near.then(|| HalfPlane::beyond(axis, steps.round() as i64))
     }
 
     /// Points through which a line is known to go, if there is room for them.
@@ -152,7 +157,12 @@ impl<'t> Lines<'t> {
     }
 
     /// The half of a face's edge `k` on which the face lies, by whether its κ is positive.
-    pub(super) fn edge(&mut self, face: u32, k: u32, is_positive: bool) -> Result<Half, Error> {
+    pub(super) fn edge(
+        &mut self,
+        face: u32,
+        k: u32,
+        is_positive: bool,
+    ) -> Result<HalfPlane, Error> {
         let faces = self.frame.faces;
         let range = faces.corner_range(face);
         let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
@@ -184,16 +194,16 @@ impl<'t> Lines<'t> {
     }
 
     /// The half on which the edge from one point to another is positive.
-    fn edge_between(&mut self, [a, b]: [u32; 2]) -> Result<Half, Error> {
+    fn edge_between(&mut self, [a, b]: [u32; 2]) -> Result<HalfPlane, Error> {
         let points = [a.min(b), a.max(b)];
         Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
     }
 
     /// Keeps a line in pairs of floats, if it is not kept yet.
-    fn keep_twofold(&mut self, half: Half) {
+    fn keep_twofold(&mut self, half: HalfPlane) {
         match half.number() {
             Some(line) if !self.twofold.contains_key(&line) => {
-                let twofold = Twofold::of(&self.exact_of(self.key(line)));
+                let twofold = DoubleDouble::of(&self.exact_of(self.key(line)));
                 insert(&mut self.twofold, line, twofold);
             }
             _ => {}
@@ -208,7 +218,7 @@ impl<'t> Lines<'t> {
         plane: PlaneId,
         behind: bool,
         is_positive: bool,
-    ) -> Result<Half, Error> {
+    ) -> Result<HalfPlane, Error> {
         let own = PlaneId::face(face);
         let (key, swapped) = match plane.kind() {
             PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
@@ -274,13 +284,13 @@ impl<'t> Lines<'t> {
     }
 
     /// Whether a cut was made along a half's line.
-    pub(super) fn is_cut(&self, half: Half) -> bool {
+    pub(super) fn is_cut(&self, half: HalfPlane) -> bool {
         self.cuts.contains_key(&half.positive())
     }
 
     /// Whether the cut of a face by another's plane, the lower number first, is known to have been made along a half's
     /// line.
-    pub(super) fn is_cut_of(&self, half: Half, [one, other]: [u32; 2]) -> bool {
+    pub(super) fn is_cut_of(&self, half: HalfPlane, [one, other]: [u32; 2]) -> bool {
         let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
         cut.is_some_and(|cut| cut.line() == half.line())
     }
@@ -308,23 +318,23 @@ impl<'t> Lines<'t> {
 }
 
 /// The halves on which another list's lines are positive, by their numbers there, of those that were taken over.
-pub(in crate::drawing) struct Adopted(Vec<Option<Half>>);
+pub(in crate::drawing) struct Adopted(Vec<Option<HalfPlane>>);
 
 impl Adopted {
     /// None of another list's lines so far.
-    pub(in crate::drawing) fn of(other: &Lines<'_>) -> Adopted {
+    pub(in crate::drawing) fn of(other: &LineTable<'_>) -> Adopted {
         Self(vec![None; other.keys.len()])
     }
 }
 
-impl Lines<'_> {
+impl LineTable<'_> {
     /// The half that another list's half is in this one, to which its line is added if it is new.
     pub(in crate::drawing) fn adopted(
         &mut self,
         other: &Self,
-        half: Half,
+        half: HalfPlane,
         Adopted(adopted): &mut Adopted,
-    ) -> Result<Half, Error> {
+    ) -> Result<HalfPlane, Error> {
         let Some(line) = half.number() else { return Ok(half) };
         let own = match adopted[line as usize] {
             Some(own) => own,
@@ -338,7 +348,7 @@ impl Lines<'_> {
     pub(in crate::drawing) fn adopt_cuts(&mut self, other: &Self, Adopted(adopted): &Adopted) {
         for half in other.cuts.keys() {
             let own = match half.number() {
-                Some(line) => adopted[line as usize].map(Half::positive),
+                Some(line) => adopted[line as usize].map(HalfPlane::positive),
                 None => Some(*half),
             };
             if let Some(own) = own {
@@ -348,7 +358,7 @@ impl Lines<'_> {
     }
 
     /// The half on which another list's line is positive.
-    fn adopted_line(&mut self, other: &Self, line: u32) -> Result<Half, Error> {
+    fn adopted_line(&mut self, other: &Self, line: u32) -> Result<HalfPlane, Error> {
         let mut points = other.through[line as usize];
         for point in points.iter_mut().filter(|point| **point != NOWHERE) {
             let corner = other.corners[*point as usize];
@@ -382,10 +392,10 @@ impl Lines<'_> {
     }
 }
 
-impl Lines<'_> {
+impl LineTable<'_> {
     /// A half's line in floats.
     #[inline]
-    pub(in crate::drawing) fn rounded(&self, half: Half) -> Rounded {
+    pub(in crate::drawing) fn rounded(&self, half: HalfPlane) -> Rounded {
         match half.number() {
             Some(line) => self.rounded[line as usize],
             None => {
@@ -418,7 +428,7 @@ impl Lines<'_> {
     }
 
     /// The line of a half, in integers.
-    pub(in crate::drawing) fn exact(&self, half: Half) -> ExactLine {
+    pub(in crate::drawing) fn exact(&self, half: HalfPlane) -> ExactLine {
         match half.number() {
             Some(line) => self.exact_of(self.key(line)),
             None => {
@@ -558,7 +568,7 @@ pub(super) struct Foot {
 /// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture that
 /// shows a scene from very far, all are in one place.
 #[derive(Debug, Default)]
-pub(super) struct Feet(Table<Place, SmallVec<[u32; 2]>>);
+pub(super) struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
 
 type Place = [i64; 3];
 
@@ -600,7 +610,7 @@ impl Foot {
     }
 }
 
-impl Feet {
+impl LineIndex {
     /// The line with this foot that a comparison of lines with another one says is the same; or else where to
     /// [`add`](Self::add) that one.
     pub(super) fn search(
@@ -642,13 +652,13 @@ pub(super) const STEP_BITS: u32 = 24;
 /// The last bit is set for the side on which the line is negative. Above it is the number of the line;
 /// or, with the first bit set, what a border of a tile is: so these need no list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Half(u64);
+pub(super) struct HalfPlane(u64);
 
 const BORDER: u64 = 1 << 63;
 /// Borders are this many steps from where their number is 0, so that all numbers are positive.
 const OFFSET: i64 = 1 << 60;
 
-impl Half {
+impl HalfPlane {
     /// The side of a line on which it is positive.
     pub(super) const fn of(line: u32) -> Self {
         Self((line as u64) << 1)

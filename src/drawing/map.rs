@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 use super::cell::{Cell, Rect, Side, are_apart};
 use super::lines::Adopted;
-use super::stock::{FEW_CORNERS, Rims, Stock};
+use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
 use super::tile::{CUT, IN_VAIN, LINES, List, Tile, found_in, in_vain};
 use crate::error::{Error, InputFault};
 use crate::progress::Progress;
@@ -48,9 +48,9 @@ use crate::tree::BspTree;
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
-    pub(super) stock: Stock<'t>,
+    pub(super) stock: Primitives<'t>,
     /// Of the faces of polygons that show, and of the items of translucent ones.
-    pub(super) rims: Rims<'t>,
+    pub(super) rims: OutlineCache<'t>,
     pub(super) leaves: Vec<Leaf>,
     pub(super) reporter: Reporter<'t>,
 }
@@ -144,7 +144,7 @@ impl<'t> VisibilityMap<'t> {
         let opacities = checked(tree, opacity)?;
         let (stock, rims, leaves) = reporter.watch(3, |watch| {
             let picture = Tile::picture(rays.size());
-            let stock = Stock::new(tree, rays, opacities, watch)?;
+            let stock = Primitives::new(tree, rays, opacities, watch)?;
             let (leaves, mut rims) = visible(&stock, picture, watch)?;
             add_shown(&mut rims, &stock, &leaves, watch)?;
             Ok((stock, rims, leaves))
@@ -181,8 +181,8 @@ impl<'t> VisibilityMap<'t> {
 
 /// Adds the outlines of all faces of polygons that show, and of the items of translucent ones: a phase.
 fn add_shown<'t>(
-    rims: &mut Rims<'t>,
-    stock: &Stock<'t>,
+    rims: &mut OutlineCache<'t>,
+    stock: &Primitives<'t>,
     leaves: &[Leaf],
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
@@ -211,7 +211,7 @@ fn add_shown<'t>(
 
 /// The opacities of all polygons; none if all are opaque.
 fn checked(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> Result<Vec<f64>, Error> {
-    let opacities = ((0..tree.preparation().polygons).map(opacity)).collect::<Vec<_>>();
+    let opacities: Vec<_> = (0..tree.preparation().polygons).map(opacity).collect();
     let is_wrong = |opacity: &f64| !(0.0..=1.0).contains(opacity);
     match opacities.iter().position(is_wrong) {
         Some(polygon) => Err(InputFault::Opacity { value: opacities[polygon] }.of_polygon(polygon)),
@@ -273,7 +273,7 @@ struct TileList {
 
 /// What a thread finds in its part of the picture, with the lines that it needed.
 struct Found<'t> {
-    rims: Rims<'t>,
+    rims: OutlineCache<'t>,
     leaves: Vec<Leaf>,
 }
 
@@ -291,11 +291,11 @@ impl Open {
 
 /// What is visible of all items, in the order of the tiles, by lines that are made for it: two phases.
 pub(super) fn visible<'t>(
-    stock: &Stock<'t>,
+    stock: &Primitives<'t>,
     picture: Tile,
     watch: &Watch<'_>,
-) -> Result<(Vec<Leaf>, Rims<'t>), Error> {
-    let new = || Found { rims: Rims::new(stock), leaves: vec![] };
+) -> Result<(Vec<Leaf>, OutlineCache<'t>), Error> {
+    let new = || Found { rims: OutlineCache::new(stock), leaves: vec![] };
     let halves =
         |part: &TileList, found: &mut Found<'t>| part.halves(stock, &mut found.rims, watch);
     let leaf = |part: &TileList, found: &mut Found<'t>| {
@@ -306,7 +306,7 @@ pub(super) fn visible<'t>(
         found.leaves.push(leaf);
         Ok(())
     };
-    let mut rims = Rims::new(stock);
+    let mut rims = OutlineCache::new(stock);
     let list = List::of_all(stock, &mut rims, picture, watch)?;
     let all = TileList { tile: picture, list, in_vain: 0 };
     let mut leaves = Vec::new();
@@ -332,8 +332,8 @@ impl TileList {
     /// Both halves of the tile, each with what may show in it; `None` of a leaf.
     fn halves<'t>(
         &self,
-        stock: &Stock<'t>,
-        rims: &mut Rims<'t>,
+        stock: &Primitives<'t>,
+        rims: &mut OutlineCache<'t>,
         watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
@@ -359,8 +359,8 @@ impl TileList {
     /// Takes what each piece shows from what is left open of the tile.
     fn leaf<'t>(
         &self,
-        stock: &Stock<'t>,
-        rims: &mut Rims<'t>,
+        stock: &Primitives<'t>,
+        rims: &mut OutlineCache<'t>,
         watch: &Watch<'_>,
     ) -> Result<Leaf, Error> {
         let Self { tile, list, .. } = self;

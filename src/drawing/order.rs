@@ -9,9 +9,9 @@ use std::collections::{BinaryHeap, HashSet};
 use std::hash::BuildHasherDefault;
 
 use super::cell::{NOWHERE, Rect, are_apart};
-use super::lines::{Lines, Mixer};
+use super::lines::{LineTable, Mixer};
 use super::map::{Leaf, Visible, each, sort_by, sort_unique};
-use super::stock::{FEW_CORNERS, Rims, Stock};
+use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
 use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
 use crate::progress::Watch;
@@ -371,8 +371,8 @@ struct LeafReaches<'l> {
 /// All pairs, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does not show; in
 /// pairs, opaque polygons have that, translucent items their own.
 pub(super) fn pairs<'l>(
-    stock: &Stock<'_>,
-    rims: &Rims<'_>,
+    stock: &Primitives<'_>,
+    rims: &OutlineCache<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     watch: &Watch<'_>,
@@ -405,8 +405,8 @@ impl<'l> LeafReaches<'l> {
     /// The first and the second half of the leaves; `None` of a single one.
     fn halves(
         &self,
-        stock: &Stock<'_>,
-        lines: &Lines<'_>,
+        stock: &Primitives<'_>,
+        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
@@ -427,8 +427,8 @@ impl<'l> LeafReaches<'l> {
     /// Adds the pairs of a single leaf.
     fn leaf(
         &self,
-        stock: &Stock<'_>,
-        rims: &Rims<'_>,
+        stock: &Primitives<'_>,
+        rims: &OutlineCache<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         found: &mut Found,
         watch: &Watch<'_>,
@@ -480,8 +480,8 @@ impl<'l> LeafReaches<'l> {
     /// pair, that of the one behind.
     fn add_blended(
         &self,
-        stock: &Stock<'_>,
-        rims: &Rims<'_>,
+        stock: &Primitives<'_>,
+        rims: &OutlineCache<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         &Visible { item, ref cell }: &Visible,
         found: &mut Found,
@@ -511,7 +511,12 @@ impl<'l> LeafReaches<'l> {
 }
 
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
-fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, tile: &Tile, visible: &Visible) -> bool {
+fn is_whole(
+    stock: &Primitives<'_>,
+    rims: &OutlineCache<'_>,
+    tile: &Tile,
+    visible: &Visible,
+) -> bool {
     let outline = rims.known_outline(stock.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);
     // Edges of others may lie where tiles elsewhere have borders.
@@ -520,7 +525,7 @@ fn is_whole(stock: &Stock<'_>, rims: &Rims<'_>, tile: &Tile, visible: &Visible) 
     if outline.len() <= FEW_CORNERS {
         return sides.all(|side| outline.iter().any(|half| half.line() == side.line()));
     }
-    let mut own = outline.iter().map(|half| half.line()).collect::<Vec<_>>();
+    let mut own: Vec<_> = outline.iter().map(|half| half.line()).collect();
     own.sort_unstable();
     sides.all(|side| own.binary_search(&side.line()).is_ok())
 }

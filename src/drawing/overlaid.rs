@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::cell::are_apart;
 use super::edges::SHORTEST;
-use super::lines::Lines;
+use super::lines::LineTable;
 use super::map::{Leaf, VisibilityMap, Visible, each, sort_by};
 use super::order::{Found, Pair, add, around};
-use super::sight::{Pass, Passes, Passing, Pieces, Sight, Spot, kept, parts, passes};
-use super::stock::{Rims, Stock};
+use super::sight::{Pass, Passes, Passing, Pieces, ProjectedSegment, Spot, kept, parts, passes};
+use super::stock::{OutlineCache, Primitives};
 use super::tile::{CUT, Reaches, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
@@ -87,7 +87,7 @@ impl VisibilityMap<'_> {
     pub(super) fn line_runs(
         &self,
         segments: &[GivenSegment],
-        sights: &[Sight],
+        sights: &[ProjectedSegment],
         watch: &Watch<'_>,
     ) -> Result<Vec<LineRun>, Error> {
         let mut hidden = self.covered(Passing { sights, spots: &[] }, watch)?.hidden;
@@ -127,8 +127,8 @@ impl VisibilityMap<'_> {
 
     /// What is hidden of segments and points, in no particular order: a phase.
     fn covered<'m>(&'m self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Covered, Error> {
-        let sights = (0..passing.sights.len() as u32).collect::<Vec<_>>();
-        let spots = (0..passing.spots.len() as u32).collect::<Vec<_>>();
+        let sights: Vec<_> = (0..passing.sights.len() as u32).collect();
+        let spots: Vec<_> = (0..passing.spots.len() as u32).collect();
         let all = LeafPasses { leaves: &self.leaves, sights, spots };
         let halves = |part: &LeafPasses<'m>, _: &mut Covered| part.halves(passing, watch);
         let leaf =
@@ -147,14 +147,14 @@ impl VisibilityMap<'_> {
 
 /// The segments of an overlay that the picture shows as lines.
 pub(super) fn sights(
-    lines: &Lines<'_>,
+    lines: &LineTable<'_>,
     overlay: &Overlay,
     watch: &Watch<'_>,
-) -> Result<(Vec<GivenSegment>, Vec<Sight>), Error> {
+) -> Result<(Vec<GivenSegment>, Vec<ProjectedSegment>), Error> {
     let (mut segments, mut sights) = (Vec::new(), Vec::new());
     for segment in each(watch, CUT, overlay.given_segments()) {
         let segment = segment?;
-        if let Some(sight) = Sight::new(lines, segment.ends) {
+        if let Some(sight) = ProjectedSegment::new(lines, segment.ends) {
             segments.push(segment);
             sights.push(sight);
         }
@@ -164,7 +164,7 @@ pub(super) fn sights(
 
 /// The points of an overlay that are in the picture, not hidden so far.
 pub(super) fn spots(
-    lines: &Lines<'_>,
+    lines: &LineTable<'_>,
     overlay: &Overlay,
     watch: &Watch<'_>,
 ) -> Result<(Vec<MarkerView>, Vec<Spot>), Error> {
@@ -267,7 +267,7 @@ pub(super) type Placed = Vec<(u32, Overlaid)>;
 /// The lines and points of an overlay, with the items that they pass.
 pub(super) struct Between {
     segments: Vec<GivenSegment>,
-    sights: Vec<Sight>,
+    sights: Vec<ProjectedSegment>,
     markers: Vec<MarkerView>,
     /// Sorted by the lines and points.
     passes: Passes,
@@ -275,8 +275,8 @@ pub(super) struct Between {
 
 impl Between {
     pub(super) fn of(
-        stock: &Stock<'_>,
-        rims: &Rims<'_>,
+        stock: &Primitives<'_>,
+        rims: &OutlineCache<'_>,
         overlay: &Overlay,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {

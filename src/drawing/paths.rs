@@ -9,11 +9,11 @@ use std::ops::Range;
 
 use super::cell::{Cell, Corner, Side};
 use super::exact_lines::{ROUNDING, Rounded};
-use super::lines::{Half, Lines};
+use super::lines::{HalfPlane, LineTable};
 use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
 use super::order::{Ordered, order, pairs};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
-use super::stock::Stock;
+use super::stock::Primitives;
 use super::tile::{CUT, Tile, VISITED};
 use super::translucent::mixed;
 use crate::memory::place;
@@ -59,7 +59,7 @@ impl Drawing {
         polygon: usize,
         is_clipped: bool,
         area: &Area,
-        lines: &Lines<'_>,
+        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
@@ -129,8 +129,8 @@ impl<'d> Path<'d> {
 
 /// Adds a convex piece to an area, as far as it is in the picture.
 pub(super) fn add_piece(
-    lines: &Lines<'_>,
-    halves: &[Half],
+    lines: &LineTable<'_>,
+    halves: &[HalfPlane],
     area: &mut Area,
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
@@ -158,7 +158,7 @@ const NONE: u32 = u32::MAX;
 
 /// Sides of parts, by numbers; corners have the numbers of the sides that begin there.
 struct Sides<'a> {
-    lines: &'a Lines<'a>,
+    lines: &'a LineTable<'a>,
     sides: &'a [Side],
     /// The side before each and the one after it.
     before: Vec<u32>,
@@ -173,7 +173,7 @@ struct End {
     place: f64,
     radius: f64,
     /// The other half that meets there.
-    across: Half,
+    across: HalfPlane,
     is_start: bool,
     /// Whether that half lies ahead.
     is_ahead: bool,
@@ -182,7 +182,7 @@ struct End {
 /// A part of an outline on one line, from one corner to another, in the direction of a half.
 #[derive(Clone, Copy)]
 struct Piece {
-    half: Half,
+    half: HalfPlane,
     from: u32,
     to: u32,
 }
@@ -213,12 +213,12 @@ impl Area {
     /// opposite directions cancel. Where parts overlap, outlines wind around both.
     pub(super) fn outlines(
         &self,
-        lines: &Lines<'_>,
+        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Vec<Vec<[f64; 2]>>, Error> {
         if let [_] = self.ends[..] {
             let corners = self.sides.iter().map(|side| side.start.at);
-            return Ok(vec![corners.collect::<Vec<_>>()]);
+            return Ok(vec![corners.collect()]);
         }
         let sides = Sides::new(lines, self)?;
         // Corners that are one point.
@@ -261,17 +261,17 @@ impl Area {
             let is_one_line = outline.first().map(|p| p.half) == outline.last().map(|p| p.half);
             let corner = |piece: &Piece| self.sides[piece.from as usize].start.at;
             let corners = outline[usize::from(is_one_line)..].iter().map(corner);
-            outlines.push(corners.collect::<Vec<_>>());
+            outlines.push(corners.collect());
         }
         Ok(outlines)
     }
 }
 
 impl<'a> Sides<'a> {
-    fn new(lines: &'a Lines<'a>, area: &'a Area) -> Result<Self, Error> {
+    fn new(lines: &'a LineTable<'a>, area: &'a Area) -> Result<Self, Error> {
         let count = place(area.sides.len())?;
-        let mut before = ((0..count).map(|side| side.wrapping_sub(1))).collect::<Vec<_>>();
-        let mut after = ((0..count).map(|side| side + 1)).collect::<Vec<_>>();
+        let mut before: Vec<_> = (0..count).map(|side| side.wrapping_sub(1)).collect();
+        let mut after: Vec<_> = (0..count).map(|side| side + 1).collect();
         let mut start = 0;
         for &end in &area.ends {
             (before[start as usize], after[end as usize - 1]) = (end - 1, start);
@@ -308,7 +308,7 @@ impl<'a> Sides<'a> {
     fn ends(&self, side: u32, line: &Rounded) -> [End; 2] {
         let [before, after] = [&self.before, &self.after].map(|list| list[side as usize]);
         let half = |side: u32| self.sides[side as usize].half;
-        let end = |corner: u32, across: Half, is_start: bool| {
+        let end = |corner: u32, across: HalfPlane, is_start: bool| {
             let Corner { at: [x, y], radius } = self.sides[corner as usize].start;
             let place = x * line.k[2] - y * line.k[1];
             let is_ahead = is_start != half(side).is_negative();
@@ -334,7 +334,13 @@ impl<'a> Sides<'a> {
 
     /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the ends of
     /// these sides in order along the line; ends in one place become one point.
-    fn add_pieces(&self, line: Half, ends: &[End], points: &mut Union, pieces: &mut Vec<Piece>) {
+    fn add_pieces(
+        &self,
+        line: HalfPlane,
+        ends: &[End],
+        points: &mut Union,
+        pieces: &mut Vec<Piece>,
+    ) {
         let rounded = self.lines.rounded(line);
         // How many more sides run forwards than backwards, and from where.
         let (mut count, mut from) = (0i32, 0);
@@ -356,7 +362,7 @@ impl<'a> Sides<'a> {
     }
 
     /// By how much an outline turns to the left where it goes from one half to another.
-    fn turn(&self, from: Half, to: Half) -> f64 {
+    fn turn(&self, from: HalfPlane, to: HalfPlane) -> f64 {
         let [[ax, ay], [bx, by]] = [from, to].map(|half| {
             let [_, kx, ky] = self.lines.rounded(half).flipped(half.is_negative()).k;
             [ky, -kx]
@@ -443,7 +449,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn of(stock: &Stock<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
+    fn of(stock: &Primitives<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
         let faces = stock.frame.faces;
         let most = stock.polygons_end(watch)?;
         let mut last: Vec<Option<u32>> = ((0..most).map(|_| None)).collect();
@@ -479,7 +485,7 @@ impl Nodes {
     /// The cells of the polygons that are clipped.
     fn cells<'l>(
         &self,
-        stock: &Stock<'_>,
+        stock: &Primitives<'_>,
         leaves: &'l [Leaf],
         is_clipped: &[bool],
         watch: &Watch<'_>,

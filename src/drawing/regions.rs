@@ -3,10 +3,10 @@
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
-use super::lines::{Half, Lines, Table};
+use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
 use super::paths::Area;
-use super::stock::Stock;
+use super::stock::Primitives;
 use super::tile::{CUT, VISITED};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -104,7 +104,7 @@ impl Stacks {
     }
 
     /// The regions, in the order of their polygons: a phase.
-    fn regions(self, lines: &Lines<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
+    fn regions(self, lines: &LineTable<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
         let Self { layers, parts, of_parts, .. } = self;
         let layer = |part: u32| of_parts[part as usize];
         let mut by_layer: Vec<u32> = (0..of_parts.len() as u32).collect();
@@ -199,8 +199,8 @@ impl Divided {
     /// What is visible in a tile is laid over what was there, front to back.
     pub(super) fn new(
         leaf: &Leaf,
-        stock: &Stock<'_>,
-        lines: &Lines<'_>,
+        stock: &Primitives<'_>,
+        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let none = ItemLayer { item: u32::MAX, before: 0, newest: 0 };
@@ -218,7 +218,8 @@ impl Divided {
         let (mut left, mut outside) = (Vec::new(), Vec::new());
         for Visible { item, cell } in &leaf.cells {
             watch.work(CUT)?;
-            let halves: SmallVec<[Half; 8]> = cell.sides.iter().map(|side| side.half).collect();
+            let halves: SmallVec<[HalfPlane; 8]> =
+                cell.sides.iter().map(|side| side.half).collect();
             let around = cell.around();
             let mut i = 0;
             while let Some(part) = open.get(i) {
@@ -302,6 +303,6 @@ impl LayeredCell {
 }
 
 /// Whether nothing shows through anything in a tile.
-fn is_opaque(leaf: &Leaf, stock: &Stock<'_>) -> bool {
+fn is_opaque(leaf: &Leaf, stock: &Primitives<'_>) -> bool {
     leaf.cells.iter().all(|visible| stock.is_opaque(visible.item))
 }

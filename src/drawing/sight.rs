@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::cell::{Cell, Corner, NOWHERE, Rect, are_apart, side_on_line};
 use super::edges::SHORTEST;
 use super::exact_lines::{ExactLine, Image, Rounded, meeting, side_at};
-use super::lines::Lines;
+use super::lines::LineTable;
 use super::map::each;
 use super::tile::{CUT, IN_VAIN, NARROWED, Reaches, Tile, found_in, in_vain};
 use crate::Error;
@@ -16,11 +16,11 @@ use crate::progress::Watch;
 
 /// A segment of the scene, as far as the picture has it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sight {
+pub(super) struct ProjectedSegment {
     source: Source,
     /// The line of the picture that it is on.
     rounded: Rounded,
-    pub(super) course: Course,
+    pub(super) course: ImageLine,
     /// On which side of its line the picture lies, if it runs along a border of it; else `Equal`.
     pub(super) picture: Ordering,
     /// A box around that part.
@@ -30,7 +30,7 @@ pub(super) struct Sight {
 /// Where a segment is in the picture. How far along something is, is its place: in pixels, rising from the
 /// first end to the second, if these are lattice points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course {
+pub(super) struct ImageLine {
     /// The point of its line that is nearest to the origin.
     foot: [f64; 2],
     /// Along that line; of length 1.
@@ -54,9 +54,9 @@ const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Boxes are larger than what they are around by this, in pixels: far more than rounding.
 pub(super) const MARGIN: f64 = 1e-3;
 
-impl Sight {
+impl ProjectedSegment {
     /// `None` if it is not in the picture, or a point there.
-    pub(super) fn new(lines: &Lines<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
+    pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
         let picture = Tile::picture(lines.frame.rays.size()).sides();
         let certain = certain_ends(lines, ends, &picture);
         if certain == Certain::Outside {
@@ -81,7 +81,7 @@ impl Sight {
 
     /// The line in which two faces go through one another, between these points of the picture.
     pub(super) fn crossing(
-        lines: &Lines<'_>,
+        lines: &LineTable<'_>,
         faces: [u32; 2],
         ends: [[f64; 2]; 2],
     ) -> Option<Self> {
@@ -106,13 +106,13 @@ impl Sight {
         let square = kx * kx + ky * ky;
         let slope = square.sqrt();
         let (foot, direction) = (-k0 / square, [ky / slope, -kx / slope]);
-        let course = Course { foot: [foot * kx, foot * ky], direction, places: [0.0; 2] };
+        let course = ImageLine { foot: [foot * kx, foot * ky], direction, places: [0.0; 2] };
         let picture = Ordering::Equal;
         (slope > 0.0).then_some(Self { source, rounded, course, picture, around: NOWHERE })
     }
 
     /// From where to where it is in a cell, by its ends.
-    fn in_cell(&self, lines: &Lines<'_>, cell: &Cell, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
+    fn in_cell(&self, lines: &LineTable<'_>, cell: &Cell, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
         let [mut from, mut to] = self.chord(lines, cell)?;
         let images = ends.map(|end| lines.frame.image(end));
         let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
@@ -140,7 +140,7 @@ impl Sight {
         self.course.place([x / weight, y / weight])
     }
 
-    fn exact(&self, lines: &Lines<'_>) -> ExactLine {
+    fn exact(&self, lines: &LineTable<'_>) -> ExactLine {
         match self.source {
             Source::Points(ends) => lines.frame.edge(ends),
             Source::Crossing(faces) => cut(lines, faces),
@@ -162,7 +162,7 @@ impl Sight {
 
     /// From where to where the line goes through a cell or along one of its sides: which of these it does is
     /// exact, where is rounded.
-    pub(super) fn chord(&self, lines: &Lines<'_>, cell: &Cell) -> Option<[f64; 2]> {
+    pub(super) fn chord(&self, lines: &LineTable<'_>, cell: &Cell) -> Option<[f64; 2]> {
         let n = cell.sides.len();
         let signs = self.signs(lines, cell);
         let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
@@ -185,11 +185,11 @@ impl Sight {
     }
 
     /// On which side of the line each corner of a cell lies.
-    fn signs(&self, lines: &Lines<'_>, cell: &Cell) -> SmallVec<[Ordering; 8]> {
+    fn signs(&self, lines: &LineTable<'_>, cell: &Cell) -> SmallVec<[Ordering; 8]> {
         (0..cell.sides.len()).map(|i| self.side(lines, cell, i)).collect()
     }
 
-    fn side(&self, lines: &Lines<'_>, cell: &Cell, corner: usize) -> Ordering {
+    fn side(&self, lines: &LineTable<'_>, cell: &Cell, corner: usize) -> Ordering {
         let Corner { at, radius } = cell.sides[corner].start;
         let value = self.rounded.at(at);
         if value.abs() > self.rounded.error + self.rounded.slope * radius {
@@ -202,7 +202,12 @@ impl Sight {
 
     /// The places where it is further away than a face's plane, which is seen from a side; `None` if it is
     /// nowhere. No further off than the tolerance it is on the plane, and not behind it.
-    pub(super) fn behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> Option<[f64; 2]> {
+    pub(super) fn behind(
+        &self,
+        lines: &LineTable<'_>,
+        face: u32,
+        seen: Ordering,
+    ) -> Option<[f64; 2]> {
         match self.source {
             Source::Points(ends) => self.points_behind(lines, ends, face, seen),
             Source::Crossing([own, _]) => self.crossing_behind(lines, own, face, seen),
@@ -213,7 +218,7 @@ impl Sight {
     /// both in one line. (No tolerance: the ends are no lattice points.)
     fn crossing_behind(
         &self,
-        lines: &Lines<'_>,
+        lines: &LineTable<'_>,
         own: u32,
         face: u32,
         seen: Ordering,
@@ -246,7 +251,7 @@ impl Sight {
 
     fn points_behind(
         &self,
-        lines: &Lines<'_>,
+        lines: &LineTable<'_>,
         ends: [[f64; 3]; 2],
         face: u32,
         seen: Ordering,
@@ -279,7 +284,7 @@ impl Sight {
     }
 }
 
-impl Course {
+impl ImageLine {
     /// The point of its line at a place.
     pub(super) fn at(&self, place: f64) -> [f64; 2] {
         [0, 1].map(|axis: usize| self.foot[axis] + self.direction[axis] * place)
@@ -303,7 +308,7 @@ fn beside(signs: &[Ordering]) -> Ordering {
 }
 
 /// The line in which rays meet the planes of two faces.
-fn cut(lines: &Lines<'_>, faces: [u32; 2]) -> ExactLine {
+fn cut(lines: &LineTable<'_>, faces: [u32; 2]) -> ExactLine {
     let [one, other] = faces.map(|face| lines.frame.sheet(PlaneId::face(face)));
     one.cut(&other)
 }
@@ -317,7 +322,7 @@ pub(super) struct Spot {
 
 impl Spot {
     /// `None` if it is not in the picture.
-    pub(super) fn new(lines: &Lines<'_>, point: [f64; 3]) -> Option<Self> {
+    pub(super) fn new(lines: &LineTable<'_>, point: [f64; 3]) -> Option<Self> {
         let image = lines.frame.image(point);
         if !image[0].sign().is_gt() {
             return None;
@@ -334,7 +339,7 @@ impl Spot {
     }
 
     /// Whether it is in a cell, or on one of its sides: exact.
-    pub(super) fn is_in(&self, lines: &Lines<'_>, cell: &Cell) -> bool {
+    pub(super) fn is_in(&self, lines: &LineTable<'_>, cell: &Cell) -> bool {
         cell.sides.iter().all(|side| {
             let line = lines.rounded(side.half);
             let value = line.at(self.at);
@@ -351,7 +356,7 @@ impl Spot {
     }
 
     /// Whether it is further away than a face's plane.
-    pub(super) fn is_behind(&self, lines: &Lines<'_>, face: u32, seen: Ordering) -> bool {
+    pub(super) fn is_behind(&self, lines: &LineTable<'_>, face: u32, seen: Ordering) -> bool {
         let faces = lines.frame.faces;
         let prepared = PreparedPlane::new(faces, PlaneId::face(face));
         prepared.side_beyond(faces, &self.point) == seen.reverse()
@@ -382,7 +387,7 @@ pub(super) struct SpotPass {
 /// What passes pieces.
 #[derive(Clone, Copy)]
 pub(super) struct Passing<'a> {
-    pub(super) sights: &'a [Sight],
+    pub(super) sights: &'a [ProjectedSegment],
     pub(super) spots: &'a [Spot],
 }
 
@@ -395,7 +400,7 @@ pub(super) struct Passes {
 
 /// Convex pieces of faces, all by their numbers.
 pub(super) struct Pieces<'a> {
-    pub(super) lines: &'a Lines<'a>,
+    pub(super) lines: &'a LineTable<'a>,
     pub(super) reaches: Reaches,
     /// The face of a piece.
     pub(super) face: &'a (dyn Fn(u32) -> u32 + Sync),
@@ -426,8 +431,8 @@ pub(super) fn passes(
 ) -> Result<Passes, Error> {
     let tile = Tile::picture(pieces.lines.frame.rays.size());
     let reaches = std::mem::take(&mut pieces.reaches);
-    let sights = (0..passing.sights.len() as u32).collect::<Vec<_>>();
-    let spots = (0..passing.spots.len() as u32).collect::<Vec<_>>();
+    let sights: Vec<_> = (0..passing.sights.len() as u32).collect();
+    let spots: Vec<_> = (0..passing.spots.len() as u32).collect();
     let all = TilePasses { tile, reaches, sights, spots, in_vain: 0 };
     let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
     let leaf = |part: &TilePasses, found: &mut Passes| {
@@ -575,7 +580,11 @@ pub(super) enum Certain {
 const FAR: f64 = (1u64 << 30) as f64;
 
 /// What floats tell of the segment between two lattice points. (Most are inside or outside.)
-pub(super) fn certain_ends(lines: &Lines<'_>, ends: [[f64; 3]; 2], [low, high]: &Rect) -> Certain {
+pub(super) fn certain_ends(
+    lines: &LineTable<'_>,
+    ends: [[f64; 3]; 2],
+    [low, high]: &Rect,
+) -> Certain {
     let projected = ends.map(|end| lines.frame.rays.project(end));
     // What is positive in the picture and ahead of the eye, and how far off that may be.
     let inside = |([x, y, z], [ex, ey, ez]): ([f64; 3], [f64; 3])| {
@@ -617,7 +626,7 @@ pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator
 /// A segment in parts that are in some intervals and parts that are not, in the order of their beginnings; the
 /// intervals are given in that of theirs.
 pub(super) fn parts(
-    course: &Course,
+    course: &ImageLine,
     intervals: impl Iterator<Item = [f64; 2]>,
 ) -> SmallVec<[([[f64; 2]; 2], bool); 4]> {
     let mut found = SmallVec::new();

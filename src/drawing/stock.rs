@@ -4,11 +4,11 @@ use smallvec::SmallVec;
 
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
 use super::exact_lines::Frame;
-use super::lines::{Half, Lines, Table};
+use super::lines::{HalfPlane, LineTable, Table};
 use super::map::each;
 use super::tile::{Across, Tile};
 use crate::error::{Error, Kind};
-use crate::exact::{Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
+use crate::exact::{Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use crate::memory::place;
 use crate::parallel_map;
 use crate::progress::Watch;
@@ -40,7 +40,7 @@ pub(super) struct View {
 
 /// All pieces that may show, front to back.
 #[derive(Debug)]
-pub(super) struct Stock<'t> {
+pub(super) struct Primitives<'t> {
     tree: &'t BspTree,
     pub(super) frame: Frame<'t>,
     pub(super) items: Vec<Item>,
@@ -57,7 +57,7 @@ pub(super) const FEW_CORNERS: usize = 32;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
-impl<'t> Stock<'t> {
+impl<'t> Primitives<'t> {
     /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
     /// are opaque.
     pub(super) fn new(
@@ -221,19 +221,19 @@ impl Frame<'_> {
     pub(super) fn near_vertices(&self, fragment: &Fragment<'_>) -> SmallVec<[[f64; 3]; 8]> {
         let (faces, face) = (self.faces, fragment.face());
         let near: Option<_> =
-            fragment.symbols().map(|symbol| near_vertex(faces, face, symbol)).collect();
+            fragment.vertex_ids().map(|vertex_id| near_vertex(faces, face, vertex_id)).collect();
         near.unwrap_or_else(|| fragment.lattice_vertices().collect())
     }
 }
 
 /// A vertex of a face to within [`NEAR_VERTEX`]; `None` if floats cannot tell.
-fn near_vertex(faces: &Faces, face: u32, vertex: Symbol) -> Option<[f64; 3]> {
+fn near_vertex(faces: &Faces, face: u32, vertex: VertexId) -> Option<[f64; 3]> {
     match vertex.kind() {
-        SymbolKind::Corner(k) => Some(faces.corners(face)[k as usize]),
+        VertexKind::Corner(k) => Some(faces.corners(face)[k as usize]),
         // Edges of faces of which corners were moved are not straight through these.
-        SymbolKind::OnEdge(..) if faces.upright_axis(face).is_some() => None,
-        SymbolKind::OnEdge(k, plane) => on_edge(faces, faces.ends(face, k), plane),
-        SymbolKind::Inside(g, h) => meeting(faces, faces.triangle(face), [g, h]),
+        VertexKind::OnEdge(..) if faces.upright_axis(face).is_some() => None,
+        VertexKind::OnEdge(k, plane) => on_edge(faces, faces.ends(face, k), plane),
+        VertexKind::Inside(g, h) => meeting(faces, faces.triangle(face), [g, h]),
     }
 }
 
@@ -323,17 +323,17 @@ fn sum(factors: [f64; 3], numbers: [f64; 3]) -> f64 {
 /// Most of what is hidden is never asked for. Parts of a picture that several threads look at have rims
 /// each, with numbers of their own for lines.
 #[derive(Debug)]
-pub(super) struct Rims<'t> {
-    pub(super) lines: Lines<'t>,
-    halves: Vec<Half>,
+pub(super) struct OutlineCache<'t> {
+    pub(super) lines: LineTable<'t>,
+    halves: Vec<HalfPlane>,
     of_faces: Table<u32, [u32; 2]>,
     of_items: Table<u32, [u32; 2]>,
 }
 
-impl<'t> Rims<'t> {
+impl<'t> OutlineCache<'t> {
     /// None so far.
-    pub(super) fn new(stock: &Stock<'t>) -> Self {
-        let lines = Lines::new(stock.frame.clone());
+    pub(super) fn new(stock: &Primitives<'t>) -> Self {
+        let lines = LineTable::new(stock.frame.clone());
         Self { lines, halves: vec![], of_faces: Table::default(), of_items: Table::default() }
     }
 
@@ -341,24 +341,32 @@ impl<'t> Rims<'t> {
     ///
     /// No ray from an eye is in all of them that meets the face's plane behind the eye: the point where it
     /// does would be outside of every edge of a bounded convex polygon. Nor is one along the plane.
-    pub(super) fn outline(&mut self, stock: &Stock<'_>, face: u32) -> Result<&[Half], Error> {
+    pub(super) fn outline(
+        &mut self,
+        stock: &Primitives<'_>,
+        face: u32,
+    ) -> Result<&[HalfPlane], Error> {
         let ends = self.outline_place(stock, face)?;
         Ok(self.at(ends))
     }
 
     /// The same, if it was asked for before; else none.
-    pub(super) fn known_outline(&self, face: u32) -> &[Half] {
+    pub(super) fn known_outline(&self, face: u32) -> &[HalfPlane] {
         self.of_faces.get(&face).map_or(&[], |&ends| self.at(ends))
     }
 
     /// The halves that bound an item.
-    pub(super) fn item(&mut self, stock: &Stock<'_>, item: u32) -> Result<&[Half], Error> {
+    pub(super) fn item(
+        &mut self,
+        stock: &Primitives<'_>,
+        item: u32,
+    ) -> Result<&[HalfPlane], Error> {
         let ends = self.item_place(stock, item)?;
         Ok(self.at(ends))
     }
 
     /// The same of an item that was asked for before, or is a whole face whose outline was.
-    pub(super) fn known_item(&self, stock: &Stock<'_>, item: u32) -> &[Half] {
+    pub(super) fn known_item(&self, stock: &Primitives<'_>, item: u32) -> &[HalfPlane] {
         match self.of_items.get(&item) {
             Some(&ends) => self.at(ends),
             None => {
@@ -371,7 +379,7 @@ impl<'t> Rims<'t> {
     /// Where a box lies against an item: inside, the item covers it.
     pub(super) fn across_item(
         &mut self,
-        stock: &Stock<'_>,
+        stock: &Primitives<'_>,
         item: u32,
         sides: &Rect,
     ) -> Result<Across, Error> {
@@ -382,10 +390,10 @@ impl<'t> Rims<'t> {
     /// The halves of an item whose lines may cross a box; `None` if the item certainly lies beside it.
     pub(super) fn crossing(
         &mut self,
-        stock: &Stock<'_>,
+        stock: &Primitives<'_>,
         item: u32,
         sides: &Rect,
-    ) -> Result<Option<SmallVec<[Half; 8]>>, Error> {
+    ) -> Result<Option<SmallVec<[HalfPlane; 8]>>, Error> {
         let ends = self.item_place(stock, item)?;
         if is_within(&stock.items[item as usize].around, sides) {
             return Ok(Some(SmallVec::from_slice(self.at(ends))));
@@ -404,7 +412,7 @@ impl<'t> Rims<'t> {
     /// Whether a face certainly covers a box.
     pub(super) fn covers(
         &mut self,
-        stock: &Stock<'_>,
+        stock: &Primitives<'_>,
         face: u32,
         sides: &Rect,
     ) -> Result<bool, Error> {
@@ -427,11 +435,11 @@ impl<'t> Rims<'t> {
         all
     }
 
-    fn at(&self, [start, end]: [u32; 2]) -> &[Half] {
+    fn at(&self, [start, end]: [u32; 2]) -> &[HalfPlane] {
         &self.halves[start as usize..end as usize]
     }
 
-    fn outline_place(&mut self, stock: &Stock<'_>, face: u32) -> Result<[u32; 2], Error> {
+    fn outline_place(&mut self, stock: &Primitives<'_>, face: u32) -> Result<[u32; 2], Error> {
         if let Some(&ends) = self.of_faces.get(&face) {
             return Ok(ends);
         }
@@ -446,7 +454,7 @@ impl<'t> Rims<'t> {
         Ok(ends)
     }
 
-    fn item_place(&mut self, stock: &Stock<'_>, item: u32) -> Result<[u32; 2], Error> {
+    fn item_place(&mut self, stock: &Primitives<'_>, item: u32) -> Result<[u32; 2], Error> {
         if let Some(&ends) = self.of_items.get(&item) {
             return Ok(ends);
         }

@@ -5,9 +5,9 @@ use std::ops::Range;
 use smallvec::SmallVec;
 
 use super::cell::{Rect, are_apart, is_within, reaches_across};
-use super::lines::{Half, Lines, STEPS};
+use super::lines::{HalfPlane, LineTable, STEPS};
 use super::map::{each, finish_item};
-use super::stock::{Item, Rims, Stock};
+use super::stock::{Item, OutlineCache, Primitives};
 use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -53,7 +53,7 @@ impl Tile {
     }
 
     /// Whether a half's line is one of its borders.
-    pub(super) fn has_border(&self, half: Half) -> bool {
+    pub(super) fn has_border(&self, half: HalfPlane) -> bool {
         half.number().is_none() && {
             let (axis, steps) = half.border();
             steps == self.low[axis] || steps == self.high[axis]
@@ -82,9 +82,9 @@ pub(super) fn in_vain(before: u32, all: usize, parts: [usize; 2]) -> [u32; 2] {
     })
 }
 
-impl Lines<'_> {
+impl LineTable<'_> {
     /// Where a box lies against a half.
-    pub(super) fn across(&self, half: Half, [low, high]: &Rect) -> Across {
+    pub(super) fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [w, h] = [0, 1].map(|axis: usize| 0.5 * (high[axis] - low[axis]));
@@ -186,8 +186,8 @@ pub(super) struct List {
 impl List {
     /// What of all items may show in a tile.
     pub(super) fn of_all<'t>(
-        stock: &Stock<'t>,
-        rims: &mut Rims<'t>,
+        stock: &Primitives<'t>,
+        rims: &mut OutlineCache<'t>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
@@ -203,8 +203,8 @@ impl List {
     /// What of the list may show in a part of the tile.
     pub(super) fn narrowed<'t>(
         &self,
-        stock: &Stock<'t>,
-        rims: &mut Rims<'t>,
+        stock: &Primitives<'t>,
+        rims: &mut OutlineCache<'t>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
@@ -220,8 +220,8 @@ impl List {
 
 /// Makes the list of a tile.
 struct Narrow<'a, 't> {
-    stock: &'a Stock<'t>,
-    rims: &'a mut Rims<'t>,
+    stock: &'a Primitives<'t>,
+    rims: &'a mut OutlineCache<'t>,
     sides: Rect,
     list: List,
 }
@@ -229,8 +229,8 @@ struct Narrow<'a, 't> {
 impl<'a, 't> Narrow<'a, 't> {
     /// The list will be of so many items at most, none behind `limit`.
     fn new(
-        stock: &'a Stock<'t>,
-        rims: &'a mut Rims<'t>,
+        stock: &'a Primitives<'t>,
+        rims: &'a mut OutlineCache<'t>,
         tile: Tile,
         limit: u32,
         most: usize,
@@ -312,12 +312,12 @@ impl Reach {
 #[derive(Debug, Default)]
 pub(super) struct Reaches {
     pub(super) list: Vec<Reach>,
-    halves: Vec<Half>,
+    halves: Vec<HalfPlane>,
 }
 
 impl Reaches {
     /// Adds a piece.
-    pub(super) fn push(&mut self, number: u32, halves: &[Half]) -> Result<(), Error> {
+    pub(super) fn push(&mut self, number: u32, halves: &[HalfPlane]) -> Result<(), Error> {
         let start = place(self.halves.len())?;
         self.halves.reserve(halves.len());
         self.halves.extend_from_slice(halves);
@@ -325,7 +325,7 @@ impl Reaches {
         Ok(())
     }
 
-    pub(super) fn halves_of(&self, reach: &Reach) -> &[Half] {
+    pub(super) fn halves_of(&self, reach: &Reach) -> &[HalfPlane] {
         let [start, end] = reach.halves;
         &self.halves[start as usize..end as usize]
     }
@@ -333,7 +333,7 @@ impl Reaches {
     /// Those that may reach into a box; `around` gives a box around a piece.
     pub(super) fn narrowed(
         &self,
-        lines: &Lines<'_>,
+        lines: &LineTable<'_>,
         sides: &Rect,
         around: impl Fn(u32) -> Rect,
         watch: &Watch<'_>,
@@ -349,7 +349,7 @@ impl Reaches {
                 part.push(reach.number, self.halves_of(reach))?;
                 continue;
             }
-            let mut kept: SmallVec<[Half; 8]> = SmallVec::new();
+            let mut kept: SmallVec<[HalfPlane; 8]> = SmallVec::new();
             for &half in self.halves_of(reach) {
                 match lines.across(half, sides) {
                     Across::Inside => {}

@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::join::Groups;
-use super::lines::Lines;
+use super::lines::LineTable;
 use super::map::{Leaf, Reporter, Visible, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Ordered, Pair, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
-use super::stock::{Rims, Stock};
+use super::stock::{OutlineCache, Primitives};
 use super::tile::{CUT, IN_VAIN, LINES, Reaches, Tile, VISITED, found_in, in_vain};
 use crate::Error;
 use crate::overlay::Overlay;
@@ -112,8 +112,8 @@ impl Drawing {
         }
         reporter.watch(if overlay.is_some() { 4 } else { 3 }, |watch| {
             let picture = Tile::picture(rays.size());
-            let stock = Stock::new(tree, rays, vec![], watch)?;
-            let (mut rims, count) = (Rims::new(&stock), stock.items.len());
+            let stock = Primitives::new(tree, rays, vec![], watch)?;
+            let (mut rims, count) = (OutlineCache::new(&stock), stock.items.len());
             for item in 0..count {
                 watch.work(LINES)?;
                 rims.item(&stock, item as u32)?;
@@ -158,18 +158,15 @@ impl Drawing {
 /// The drawing of a map where something shows through: opaque polygons are in one path each, translucent ones
 /// as in [`Drawing::translucent`], and what shows nowhere is left out. Two phases.
 pub(super) fn mixed(
-    stock: &Stock<'_>,
-    rims: &Rims<'_>,
+    stock: &Primitives<'_>,
+    rims: &OutlineCache<'_>,
     leaves: &[Leaf],
     watch: &Watch<'_>,
 ) -> Result<Drawing, Error> {
     // Polygons that show are known by their first items.
     let polygon = |item: u32| stock.polygon(item);
     let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
-    let (mut shows, mut first): (Vec<bool>, Vec<u32>) = (
-        ((0..count).map(|_| false)).collect::<Vec<_>>(),
-        ((0..count).map(|_| u32::MAX)).collect::<Vec<_>>(),
-    );
+    let (mut shows, mut first): (Vec<bool>, Vec<u32>) = (vec![false; count], vec![u32::MAX; count]);
     for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
         shows[polygon(visible?.item)] = true;
     }
@@ -213,8 +210,8 @@ const FEW: usize = 8;
 /// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
 /// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
 pub(super) fn overlaps(
-    stock: &Stock<'_>,
-    rims: &Rims<'_>,
+    stock: &Primitives<'_>,
+    rims: &OutlineCache<'_>,
     picture: Tile,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
@@ -240,8 +237,8 @@ impl TileStack {
     /// Both halves of the tile; `None` of a leaf.
     fn halves(
         &self,
-        stock: &Stock<'_>,
-        lines: &Lines<'_>,
+        stock: &Primitives<'_>,
+        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
@@ -258,8 +255,8 @@ impl TileStack {
 
     fn narrowed(
         &self,
-        stock: &Stock<'_>,
-        lines: &Lines<'_>,
+        stock: &Primitives<'_>,
+        lines: &LineTable<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
@@ -271,8 +268,8 @@ impl TileStack {
     /// Adds the pairs of the tile.
     fn leaf(
         &self,
-        stock: &Stock<'_>,
-        lines: &Lines<'_>,
+        stock: &Primitives<'_>,
+        lines: &LineTable<'_>,
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
@@ -328,7 +325,7 @@ impl Parts {
     /// Parts of which an order is left that keeps the pairs of items that overlap, and as many as can be of
     /// others that only touch: those the order of the tree may not keep.
     pub(super) fn new(
-        stock: &Stock<'_>,
+        stock: &Primitives<'_>,
         overlaps: &[Pair],
         touching: &[Pair],
         watch: &Watch<'_>,
@@ -398,14 +395,14 @@ impl Parts {
     /// hidden, `leaves` have what shows, and opaque polygons in cycles are clipped.
     pub(super) fn order(
         &self,
-        stock: &Stock<'_>,
+        stock: &Primitives<'_>,
         pairs: &[Pair],
         leaves: Option<&[Leaf]>,
         watch: &Watch<'_>,
     ) -> Result<Ordered, Error> {
         let count = stock.items.len() as u32;
         let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
-        let ranks = self.items.iter().map(rank).collect::<Vec<_>>();
+        let ranks: Vec<_> = self.items.iter().map(rank).collect();
         let is_opaque = |part: u32| {
             let first = self.items[part as usize].first();
             leaves.is_some() && first.is_some_and(|&item| stock.is_opaque(item))
@@ -429,8 +426,8 @@ impl Parts {
     /// of parts.
     pub(super) fn drawing(
         &self,
-        stock: &Stock<'_>,
-        rims: &Rims<'_>,
+        stock: &Primitives<'_>,
+        rims: &OutlineCache<'_>,
         ordered: &Ordered,
         leaves: Option<&[Leaf]>,
         watch: &Watch<'_>,
@@ -491,7 +488,7 @@ struct Counts {
 }
 
 impl Counts {
-    fn of(stock: &Stock<'_>) -> Counts {
+    fn of(stock: &Primitives<'_>) -> Counts {
         let mut of_face: Vec<u32> = vec![0; stock.views.len()];
         stock.items.iter().for_each(|item| of_face[item.face as usize] += 1);
         let count = (0..stock.items.len() as u32).map(|item| stock.polygon(item) + 1).max();
@@ -503,8 +500,8 @@ impl Counts {
     /// Adds items to an area, those of one face after another.
     fn add_pieces(
         &self,
-        stock: &Stock<'_>,
-        rims: &Rims<'_>,
+        stock: &Primitives<'_>,
+        rims: &OutlineCache<'_>,
         items: &[u32],
         area: &mut Area,
         watch: &Watch<'_>,
@@ -525,7 +522,7 @@ impl Counts {
 }
 
 /// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
-fn units(stock: &Stock<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
+fn units(stock: &Primitives<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
     let polygon = |item: u32| stock.polygon(item);
     let count = (0..stock.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
     let mut is_folded: Vec<bool> = vec![false; count];

@@ -6,8 +6,8 @@
 use smallvec::SmallVec;
 
 use super::classify::{PreparedPlane, Side};
-use super::label::PlaneId;
 use super::lattice::{LIMIT, MAX_TOLERANCE};
+use super::names::PlaneId;
 use super::split::Vertex;
 use super::{Faces, Lattice, split};
 

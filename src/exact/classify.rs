@@ -14,8 +14,8 @@
 
 use std::cmp::Ordering;
 
-use super::label::{PlaneId, PlaneKind, Symbol};
 use super::lattice::LIMIT;
+use super::names::{PlaneId, PlaneKind, VertexId};
 use super::plane::RoundedNormal;
 use super::split::Vertex;
 use super::{Faces, Int};
@@ -169,7 +169,7 @@ impl PreparedPlane {
     fn classify_exactly(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
         let corners = faces.corners(face);
         let corner = |k: usize, threshold| {
-            compare(faces, self, face, Symbol::corner(k as u32), corners[k], threshold)
+            compare(faces, self, face, VertexId::corner(k as u32), corners[k], threshold)
         };
         // The third corner of a segment is no part of it.
         let count = faces.reach(face);
@@ -188,7 +188,7 @@ impl PreparedPlane {
         // The face spans the plane by more than the tolerance, so its pieces are decided exactly.
         let (mut in_front, mut behind) = (false, false);
         for vertex in vertices {
-            match compare(faces, self, face, vertex.symbol, vertex.position, 0.0) {
+            match compare(faces, self, face, vertex.vertex_id, vertex.position, 0.0) {
                 Ordering::Greater => in_front = true,
                 Ordering::Less => behind = true,
                 Ordering::Equal => {}
@@ -206,7 +206,7 @@ impl PreparedPlane {
     /// On which side of the plane a vertex of a face's piece lies, exactly.
     #[inline]
     pub fn side(&self, faces: &Faces, face: u32, vertex: &Vertex) -> Ordering {
-        compare(faces, self, face, vertex.symbol, vertex.position, 0.0)
+        compare(faces, self, face, vertex.vertex_id, vertex.position, 0.0)
     }
 }
 
@@ -254,7 +254,7 @@ pub(super) fn compare(
     faces: &Faces,
     prepared: &PreparedPlane,
     face: u32,
-    vertex: Symbol,
+    vertex: VertexId,
     position: [f64; 3],
     threshold: f64,
 ) -> Ordering {
@@ -276,7 +276,7 @@ fn compare_exactly(
     faces: &Faces,
     prepared: &PreparedPlane,
     face: u32,
-    vertex: Symbol,
+    vertex: VertexId,
     threshold: f64,
 ) -> Ordering {
     let plane = faces.plane(prepared.plane);

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use super::Lattice;
-use super::label::MAX_LABELS;
+use super::names::MAX_NAMES;
 use crate::error::{Error, Limit};
 use crate::memory::reserve;
 
@@ -208,8 +208,8 @@ impl Faces {
         frame: Frame,
     ) -> Result<(), Error> {
         let start = self.corners.len();
-        if start + corners.len() >= MAX_LABELS {
-            return Err(Limit::Corners(MAX_LABELS).error());
+        if start + corners.len() >= MAX_NAMES {
+            return Err(Limit::Corners(MAX_NAMES).error());
         }
         // Both at first: corners without a face would be those of the face before.
         reserve(&mut self.corners, corners.len())?;

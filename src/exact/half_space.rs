@@ -10,8 +10,8 @@ use std::cmp::Ordering;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::label::Symbol;
 use super::lattice::{HalfSpaceNumbers, Lattice};
+use super::names::VertexId;
 use super::plane::{dot, relative_to};
 use super::vertex::Weights;
 use super::{Faces, Int};
@@ -32,7 +32,7 @@ pub(crate) type LineValues = [Int<3>; 3];
 #[derive(Clone, Copy, Debug)]
 enum PartVertex {
     /// One of the fragment's own.
-    Own(Symbol),
+    Own(VertexId),
     /// Where two lines meet, by their numbers.
     Crossing(usize, usize),
 }
@@ -70,20 +70,20 @@ impl ExactHalfSpace {
 pub(crate) fn meets(
     faces: &Faces,
     face: u32,
-    outline: impl Iterator<Item = (Symbol, LineValues)>,
+    outline: impl Iterator<Item = (VertexId, LineValues)>,
     half_spaces: &[&ExactHalfSpace],
 ) -> bool {
     let triangle = faces.triangle(face);
     let mut lines = SmallVec::<[LineValues; 12]>::new();
     let mut part = SmallVec::<[(PartVertex, usize); 12]>::new();
-    for (symbol, line) in outline {
-        part.push((PartVertex::Own(symbol), lines.len()));
+    for (vertex_id, line) in outline {
+        part.push((PartVertex::Own(vertex_id), lines.len()));
         lines.push(line);
     }
     for half_space in half_spaces {
         let values = triangle.map(|point| half_space.at(&point));
         let side = |corner: PartVertex| match corner {
-            PartVertex::Own(symbol) => side(half_space, faces.weights(face, symbol)),
+            PartVertex::Own(vertex_id) => side(half_space, faces.weights(face, vertex_id)),
             PartVertex::Crossing(a, b) => side_of_crossing([&lines[a], &lines[b]], &values),
         };
         let sides: SmallVec<[Ordering; 12]> =

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `lattice` | how corners are rounded to the grid |
 //! | `faces` | which corners make a face, and which plane it has |
-//! | `label` | by which points and planes a vertex is named |
+//! | `names` | by which points and planes a vertex is named |
 //! | `plane` | the plane of a face, in integers and rounded |
 //! | `edge` | what an edge of a face is, and where corners off its plane are moved |
 //! | `vertex` | on which side of a plane a vertex lies, in integers; its weights |
@@ -23,8 +23,8 @@ pub(crate) mod eye;
 pub(crate) mod faces;
 pub(crate) mod half_space;
 pub(crate) mod int;
-pub(crate) mod label;
 pub(crate) mod lattice;
+pub(crate) mod names;
 mod plane;
 mod position;
 mod split;
@@ -36,11 +36,11 @@ pub use eye::Eye;
 pub use faces::Faces;
 pub(crate) use faces::{is_convex, turns_one_way};
 pub(crate) use int::Int;
-pub(crate) use label::MAX_LABELS;
-pub use label::{Line, PlaneId, PlaneKind, Symbol, SymbolKind};
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub(crate) use lattice::integers;
+pub(crate) use names::MAX_NAMES;
+pub use names::{EdgeLine, PlaneId, PlaneKind, VertexId, VertexKind};
 #[cfg(feature = "drawing")]
 pub(crate) use plane::{Plane, RoundedNormal, cross, dot, have_area};
 pub(crate) use position::OFF as POSITION_OFF;

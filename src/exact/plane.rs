@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::Int;
 use super::faces::Faces;
-use super::label::PlaneId;
+use super::names::PlaneId;
 
 /// The integer vector product (q − p) × (r − p) of three lattice points.
 pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {

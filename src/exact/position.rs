@@ -7,8 +7,8 @@
 use super::Int;
 use super::edge::{ExactEdge, Moved};
 use super::faces::Faces;
-use super::label::{PlaneKind, Symbol, SymbolKind};
 use super::lattice::LIMIT;
+use super::names::{PlaneKind, VertexId, VertexKind};
 use super::plane::{LOW, LOW_BITS, Plane, rounded};
 use super::vertex::Weights;
 
@@ -38,11 +38,11 @@ impl Faces {
     /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to
     /// that axis defines the vertex. All pieces, of any face, that define the vertex by the same
     /// points and planes get the same bits, whichever way their faces run.
-    pub(crate) fn position(&self, face: u32, vertex: Symbol) -> [f64; 3] {
+    pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         let (leading, planes) = match vertex.kind() {
-            SymbolKind::Corner(k) => return self.corners(face)[k as usize],
-            SymbolKind::OnEdge(k, g) => (on_edge(&self.edge(face, k), &self.plane(g)), [g; 2]),
-            SymbolKind::Inside(g, h) => {
+            VertexKind::Corner(k) => return self.corners(face)[k as usize],
+            VertexKind::OnEdge(k, g) => (on_edge(&self.edge(face, k), &self.plane(g)), [g; 2]),
+            VertexKind::Inside(g, h) => {
                 (meeting(&self.triangle(face), &self.plane(g), &self.plane(h)), [g, h])
             }
         };
@@ -56,7 +56,7 @@ impl Faces {
     }
 
     #[cold]
-    fn position_in_full(&self, face: u32, vertex: Symbol) -> [f64; 3] {
+    fn position_in_full(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         match self.weights(face, vertex) {
             Weights::Corner(point) => point,
             Weights::Edge(points, weights) => ratio(&points, &weights.map(|w| w.resize())),

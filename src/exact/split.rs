@@ -6,21 +6,21 @@ use smallvec::SmallVec;
 
 use super::Faces;
 use super::classify::PreparedPlane;
-use super::label::{Line, Symbol};
+use super::names::{EdgeLine, VertexId};
 
 /// A vertex of a piece of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     pub(crate) position: [f64; 3],
-    pub(crate) symbol: Symbol,
-    pub(crate) line: Line,
+    pub(crate) vertex_id: VertexId,
+    pub(crate) line: EdgeLine,
 }
 
 impl Vertex {
     /// Corner `k` of a face.
     pub fn corner(faces: &Faces, face: u32, k: u32) -> Self {
-        let symbol = Symbol::corner(k);
-        Self { position: faces.position(face, symbol), symbol, line: Line::edge(k) }
+        let vertex_id = VertexId::corner(k);
+        Self { position: faces.position(face, vertex_id), vertex_id, line: EdgeLine::edge(k) }
     }
 
     /// Its position in lattice units, rounded.
@@ -31,57 +31,57 @@ impl Vertex {
 
     /// Its definition.
     #[inline]
-    pub fn symbol(&self) -> Symbol {
-        self.symbol
+    pub fn vertex_id(&self) -> VertexId {
+        self.vertex_id
     }
 
     /// The line that bounds the piece from this vertex to the next.
     #[inline]
-    pub fn line(&self) -> Line {
+    pub fn line(&self) -> EdgeLine {
         self.line
     }
 
     /// The vertex where a plane cuts the edge that begins here.
     pub fn cut(&self, faces: &Faces, face: u32, plane: &PreparedPlane) -> Self {
-        let symbol = Symbol::crossing(self.line, plane.plane);
-        Self { position: faces.position(face, symbol), symbol, line: self.line }
+        let vertex_id = VertexId::crossing(self.line, plane.plane);
+        Self { position: faces.position(face, vertex_id), vertex_id, line: self.line }
     }
 
     /// The same vertex with another line to the next one.
     #[inline]
-    pub(crate) fn with_line(self, line: Line) -> Self {
+    pub(crate) fn with_line(self, line: EdgeLine) -> Self {
         Self { line, ..self }
     }
 
     /// The vertex as a finished tree keeps it.
     #[inline]
     pub fn stored(&self) -> StoredVertex {
-        StoredVertex { symbol: self.symbol, line: self.line }
+        StoredVertex { vertex_id: self.vertex_id, line: self.line }
     }
 }
 
 /// A vertex by its definition alone. Its position is computed when it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoredVertex {
-    pub(super) symbol: Symbol,
-    pub(super) line: Line,
+    pub(super) vertex_id: VertexId,
+    pub(super) line: EdgeLine,
 }
 
 impl StoredVertex {
     /// Its definition.
-    pub(crate) fn symbol(&self) -> Symbol {
-        self.symbol
+    pub(crate) fn vertex_id(&self) -> VertexId {
+        self.vertex_id
     }
 
     /// The line that bounds the piece from this vertex to the next.
-    pub(crate) fn line(&self) -> Line {
+    pub(crate) fn line(&self) -> EdgeLine {
         self.line
     }
 
     /// The vertex with its position.
     pub fn restored(&self, faces: &Faces, face: u32) -> Vertex {
-        let &Self { symbol, line } = self;
-        Vertex { position: faces.position(face, symbol), symbol, line }
+        let &Self { vertex_id, line } = self;
+        Vertex { position: faces.position(face, vertex_id), vertex_id, line }
     }
 }
 
@@ -101,7 +101,7 @@ pub fn split(
     front: &mut Vec<Vertex>,
     back: &mut Vec<Vertex>,
 ) {
-    let cut = |side: Ordering| Line::cut(plane.plane, side.is_lt());
+    let cut = |side: Ordering| EdgeLine::cut(plane.plane, side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
         vertices.iter().map(|vertex| plane.side(faces, face, vertex)).collect();
     // A segment: an outline would come back along it.

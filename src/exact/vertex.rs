@@ -23,7 +23,7 @@ use smallvec::SmallVec;
 use super::Int;
 use super::edge::{ExactEdge, Flattener, Moved, Off};
 use super::faces::Faces;
-use super::label::{PlaneId, PlaneKind, Symbol, SymbolKind};
+use super::names::{PlaneId, PlaneKind, VertexId, VertexKind};
 use super::plane::{Plane, cross, relative_to};
 
 /// A vertex as a combination of lattice points. The sum of the weights is not zero; it and the
@@ -76,7 +76,7 @@ impl Faces {
         id: PlaneId,
         plane: &Plane,
         face: u32,
-        vertex: Symbol,
+        vertex: VertexId,
         threshold: f64,
     ) -> Ordering {
         if threshold == 0.0 && vertex.is_on(id) {
@@ -101,8 +101,8 @@ impl Faces {
     }
 
     /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
-    pub(super) fn edge_ends(&self, face: u32, vertex: Symbol) -> Option<[[f64; 3]; 2]> {
-        let SymbolKind::OnEdge(k, _) = vertex.kind() else { return None };
+    pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
+        let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
         if self.upright_axis(face).is_some() {
             return None;
         }
@@ -111,9 +111,9 @@ impl Faces {
     }
 
     /// A vertex as a combination of corners of its face.
-    pub(crate) fn weights(&self, face: u32, vertex: Symbol) -> Weights {
+    pub(crate) fn weights(&self, face: u32, vertex: VertexId) -> Weights {
         match vertex.kind() {
-            SymbolKind::Corner(k) => {
+            VertexKind::Corner(k) => {
                 let corner = self.corners(face)[k as usize];
                 let Some(axis) = self.axis_of_move(face, k) else {
                     return Weights::Corner(corner);
@@ -122,7 +122,7 @@ impl Faces {
                 let [a, b, c] = self.triangle(face);
                 Weights::Inside([a, b, c], [area(b, c), area(c, a), area(a, b)])
             }
-            SymbolKind::OnEdge(k, plane) => {
+            VertexKind::OnEdge(k, plane) => {
                 let ExactEdge { ends: [a, b], moved } = self.edge(face, k);
                 let plane = self.plane(plane);
                 match moved {
@@ -132,7 +132,7 @@ impl Faces {
                     }
                 }
             }
-            SymbolKind::Inside(g, h) => {
+            VertexKind::Inside(g, h) => {
                 meeting(self.triangle(face), &self.plane(g), &self.plane(h))
             }
         }
@@ -154,15 +154,15 @@ fn meeting(triangle: [[f64; 3]; 3], g: &Plane, h: &Plane) -> Weights {
 impl Faces {
     /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
     /// and its weight. The weights sum to 1.
-    pub(crate) fn barycentric(&self, face: u32, vertex: Symbol) -> SmallVec<[(u32, f64); 3]> {
+    pub(crate) fn barycentric(&self, face: u32, vertex: VertexId) -> SmallVec<[(u32, f64); 3]> {
         let len = self.corners(face).len() as u32;
         let edge = |k: u32| [k, (k + 1) % len];
-        if let SymbolKind::Corner(k) = vertex.kind() {
+        if let VertexKind::Corner(k) = vertex.kind() {
             return SmallVec::from_slice(&[(k, 1.0)]);
         }
         match (vertex.kind(), self.weights(face, vertex)) {
-            (SymbolKind::OnEdge(k, _), Weights::Edge(_, weights)) => shares(edge(k), weights),
-            (SymbolKind::OnEdge(k, _), _) => {
+            (VertexKind::OnEdge(k, _), Weights::Edge(_, weights)) => shares(edge(k), weights),
+            (VertexKind::OnEdge(k, _), _) => {
                 // The edge of a face that is planar only by definition: the exact weights are over
                 // the reference triangle, so take the rounded position's share of the edge.
                 let [a, b] = edge(k).map(|k| DVec3::from(self.corners(face)[k as usize]));
@@ -275,7 +275,7 @@ impl Faces {
     }
 
     /// A coordinate of a vertex.
-    pub(crate) fn along(&self, face: u32, vertex: Symbol, axis: usize) -> Fraction {
+    pub(crate) fn along(&self, face: u32, vertex: VertexId, axis: usize) -> Fraction {
         match self.weights(face, vertex) {
             Weights::Corner(point) => Fraction::whole(point[axis]),
             Weights::Edge(ends, weights) => {

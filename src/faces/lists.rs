@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::error::{Error, Limit};
 use crate::exact::faces::{Face, Thin};
-use crate::exact::{Faces, MAX_LABELS, integers};
+use crate::exact::{Faces, MAX_NAMES, integers};
 use crate::memory::{collect, reserve};
 use crate::random::mix;
 
@@ -56,8 +56,8 @@ impl Faces {
     /// Adds the faces of later polygons.
     pub(super) fn append(&mut self, next: Self) -> Result<(), Error> {
         let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
-        if corners + next.corners.len() >= MAX_LABELS {
-            return Err(Limit::Corners(MAX_LABELS).error());
+        if corners + next.corners.len() >= MAX_NAMES {
+            return Err(Limit::Corners(MAX_NAMES).error());
         }
         let first = self.faces.len() as u32;
         reserve(&mut self.numbered, next.numbered.len())?;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, InputFault, Limit};
-use crate::exact::{LATTICE_LIMIT, Lattice, MAX_LABELS};
+use crate::exact::{LATTICE_LIMIT, Lattice, MAX_NAMES};
 use crate::input::{MAX_CORNERS, Polygon};
 use crate::memory::{push, reserve};
 use crate::progress::{PIECES_AT_ONCE, Watch};
@@ -77,11 +77,11 @@ impl InputPolygons {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let mut polygons = polygons.into_iter();
-        let too_many = match limit <= MAX_LABELS {
+        let too_many = match limit <= MAX_NAMES {
             true => Limit::PolygonsOfBudget(limit),
-            false => Limit::Polygons(MAX_LABELS),
+            false => Limit::Polygons(MAX_NAMES),
         };
-        let limit = limit.min(MAX_LABELS);
+        let limit = limit.min(MAX_NAMES);
         let expected = polygons.size_hint().0;
         self.points.clear();
         self.ends.clear();
@@ -158,8 +158,8 @@ impl InputPolygons {
 
     /// An error if there are more corners than can be named.
     fn check_count(&self) -> Result<(), Error> {
-        if self.points.len() > MAX_LABELS {
-            return Err(Limit::Corners(MAX_LABELS).error());
+        if self.points.len() > MAX_NAMES {
+            return Err(Limit::Corners(MAX_NAMES).error());
         }
         Ok(())
     }

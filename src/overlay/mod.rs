@@ -11,7 +11,7 @@ use std::fmt;
 pub use order::Overlaid;
 use place::Placer;
 pub use replace::{Marker, Segment, Shape, Shapes};
-use skeleton::Skeleton;
+use skeleton::InsertionTree;
 
 use crate::error::{Error, Kind};
 use crate::exact::Faces;
@@ -155,7 +155,7 @@ pub struct Overlay {
     preparer: Preparer,
     placer: Placer,
     pieces: Parts,
-    skeleton: Skeleton,
+    skeleton: InsertionTree,
     preparation: Preparation,
     /// For each face that is a segment, its number in its line.
     segments: Vec<u32>,
@@ -191,7 +191,7 @@ impl Overlay {
             preparer: Preparer::default(),
             placer: Placer::default(),
             pieces: Parts::default(),
-            skeleton: Skeleton::new(tree.len()),
+            skeleton: InsertionTree::new(tree.len()),
             preparation: Preparation::default(),
             segments: vec![],
         }

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::planes::{CellTree, Opened, Region, Whose};
-use super::skeleton::{Anchors, Place, Skeleton, SlotSide};
+use super::skeleton::{Anchors, InsertionTree, Place, SlotSide};
 use super::{Overlay, planes};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, InputFault, Limit};
-use crate::exact::{Faces, Line, PreparedPlane, Side, StoredVertex, Vertex};
+use crate::exact::{EdgeLine, Faces, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
 use crate::tree::node::MOST_FRAGMENTS;
@@ -30,7 +30,7 @@ impl Placer {
         tree: &BspTree,
         faces: &Faces,
         pieces: &mut Parts,
-        skeleton: &mut Skeleton,
+        skeleton: &mut InsertionTree,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let mut work = Work { tree, faces, placer: self, pieces, skeleton, watch };
@@ -62,7 +62,7 @@ impl Work<'_> {
             let start = arena.len();
             let ends = 0..faces.reach(face) as u32;
             // Both ends are on the segment, which is the first edge of its face.
-            let end = |k| Vertex::corner(faces, face, k).with_line(Line::edge(0));
+            let end = |k| Vertex::corner(faces, face, k).with_line(EdgeLine::edge(0));
             arena.extend(ends.map(end));
             pieces.push(Piece::thin(face, &arena[start..], start));
         }
@@ -258,7 +258,7 @@ pub(super) struct Work<'a> {
     pub(super) faces: &'a Faces,
     pub(super) placer: &'a mut Placer,
     pub(super) pieces: &'a mut Parts,
-    pub(super) skeleton: &'a mut Skeleton,
+    pub(super) skeleton: &'a mut InsertionTree,
     pub(super) watch: &'a Watch<'a>,
 }
 
@@ -317,17 +317,17 @@ impl Work<'_> {
             let end =
                 records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
             let range = records[fragment].vertices as usize..end;
-            let (symbols, places) = (&vertices[range.clone()], &positions[range]);
+            let (vertex_ids, places) = (&vertices[range.clone()], &positions[range]);
             let face = records[fragment].face;
-            add(self.pieces, face, symbols.iter().copied(), places.iter().copied());
+            add(self.pieces, face, vertex_ids.iter().copied(), places.iter().copied());
         }
         let Placer { own: list, arena, .. } = &*self.placer;
         // Coplanar polygons are painted in input order, which sets keep when they are divided.
         debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
         for live in &list[..own] {
             let cut = live.cut_vertices(arena).unwrap_or_default();
-            let symbols = cut.iter().map(|vertex| vertex.stored());
-            add(self.pieces, live.face, symbols, cut.iter().map(Vertex::position));
+            let vertex_ids = cut.iter().map(|vertex| vertex.stored());
+            add(self.pieces, live.face, vertex_ids, cut.iter().map(Vertex::position));
             self.watch.finish(live.cuts);
         }
         self.skeleton.group(first..self.pieces.records.len() as u32)
@@ -353,13 +353,13 @@ impl Work<'_> {
 fn add(
     pieces: &mut Parts,
     face: u32,
-    symbols: impl ExactSizeIterator<Item = StoredVertex>,
+    vertex_ids: impl ExactSizeIterator<Item = StoredVertex>,
     places: impl ExactSizeIterator<Item = [f64; 3]>,
 ) {
     let Parts { records, vertices, positions, .. } = pieces;
     records.push(Record { face, vertices: vertices.len() as u32 });
-    vertices.reserve(symbols.len());
-    vertices.extend(symbols);
+    vertices.reserve(vertex_ids.len());
+    vertices.extend(vertex_ids);
     positions.reserve(places.len());
     positions.extend(places);
 }

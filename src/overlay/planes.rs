@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 use super::skeleton::{Anchors, Branch, SlotSide};
 use crate::Error;
 use crate::build::piece::Piece;
-use crate::exact::{Faces, PlaneId, PreparedPlane, Side, SymbolKind, Vertex};
+use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind};
 use crate::tree::BspTree;
 use crate::tree::node::{NodeRecord, Ranges, Sizes, finish, make_room};
 use crate::tree::order::eye::rounded;
@@ -102,7 +102,7 @@ fn medians<'a>(
     for piece in sample {
         let start = faces.corner_range(piece.face).start as u32;
         for vertex in piece.cut_vertices(arena).unwrap_or_default() {
-            if let SymbolKind::Corner(k) = vertex.symbol().kind() {
+            if let VertexKind::Corner(k) = vertex.vertex_id().kind() {
                 corners.push(start + k);
             }
         }

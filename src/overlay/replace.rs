@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::Overlay;
 use crate::error::Error;
-use crate::exact::SymbolKind;
+use crate::exact::VertexKind;
 use crate::input::{Point, Polygon};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
@@ -251,9 +251,9 @@ impl Segment<'_> {
 
     /// Whether each of its ends was cut, and so is no corner of the line.
     pub fn cuts(&self) -> [bool; 2] {
-        let mut ends = self.piece.symbols();
+        let mut ends = self.piece.vertex_ids();
         [(); 2]
-            .map(|()| ends.next().is_some_and(|end| !matches!(end.kind(), SymbolKind::Corner(_))))
+            .map(|()| ends.next().is_some_and(|end| !matches!(end.kind(), VertexKind::Corner(_))))
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Group {
 /// What is on one side of a plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlotSide {
-    /// What it is: see [`Skeleton::part`].
+    /// What it is: see [`InsertionTree::part`].
     pub(super) slot: u32,
     /// How many fragments and pieces it has.
     pub(super) len: u32,
@@ -74,7 +74,7 @@ pub(super) enum Place {
 
 /// The skeleton of an overlay. Branches come after those that they hang on.
 #[derive(Debug)]
-pub(super) struct Skeleton {
+pub(super) struct InsertionTree {
     root: SlotSide,
     pub(super) branches: Vec<Branch>,
     pub(super) groups: Vec<Group>,
@@ -82,7 +82,7 @@ pub(super) struct Skeleton {
     open: Vec<Place>,
 }
 
-impl Skeleton {
+impl InsertionTree {
     /// That of an overlay of nothing on a tree of so many fragments.
     pub(super) fn new(fragments: usize) -> Self {
         let root = SlotSide { slot: 0, len: fragments as u32 };

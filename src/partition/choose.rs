@@ -1,7 +1,7 @@
 //! Chooses the planes between cells: medians of samples (J. L. Bentley, "Multidimensional binary search
 //! trees used for associative searching", 1975), along the axis on which these reach furthest.
 
-use super::{CellRange, Extent, Partition, Wall};
+use super::{CellRange, Extent, Partition, SplitPlane};
 use crate::Error;
 use crate::exact::cell::CellBox;
 use crate::exact::{Faces, LATTICE_LIMIT};
@@ -47,7 +47,7 @@ struct Samples {
     room: CellBox,
 }
 
-fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<Wall> {
+fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPlane> {
     let mut planes = Vec::with_capacity(cells - 1);
     let subtree = CellRange { plane: 0, cells: 0..cells };
     let mut parts = vec![Samples { subtree, samples: 0..samples.len(), room }];
@@ -71,7 +71,7 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<Wall> {
 
 /// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, as
 /// that often is a corner, which cuts fewer polygons. The same in whatever order the samples are.
-fn wall(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> Wall {
+fn wall(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {
     let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for sample in &*samples {
         for axis in 0..3 {
@@ -85,7 +85,7 @@ fn wall(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> Wall {
     if samples.is_empty() || reach[1][axis] == least {
         let axis = longest(room);
         let middle = 0.5 * room[0][axis] + 0.5 * room[1][axis];
-        return Wall { axis, at: middle.round() + 0.0 };
+        return SplitPlane { axis, at: middle.round() + 0.0 };
     }
     let place = (samples.len() as u128 * (count / 2) as u128 / count as u128) as usize;
     let by_axis = |a: &[f64; 3], b: &[f64; 3]| a[axis].total_cmp(&b[axis]);
@@ -95,7 +95,7 @@ fn wall(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> Wall {
         let above = samples.iter().map(|sample| sample[axis]).filter(|&c| c > least);
         above.fold(f64::INFINITY, f64::min)
     };
-    Wall { axis, at: if at > least { at } else { next() } }
+    SplitPlane { axis, at: if at > least { at } else { next() } }
 }
 
 /// The axis on which a box reaches furthest, the first of equals.
@@ -105,7 +105,7 @@ fn longest([low, high]: &CellBox) -> usize {
 }
 
 /// Moves the samples behind a plane to the beginning, and counts them.
-fn move_behind(samples: &mut [[f64; 3]], wall: Wall) -> usize {
+fn move_behind(samples: &mut [[f64; 3]], wall: SplitPlane) -> usize {
     let mut behind = 0;
     for i in 0..samples.len() {
         if samples[i][wall.axis] < wall.at {

@@ -92,12 +92,12 @@ pub struct Partition {
     tolerance: f64,
     /// The planes, depth first, what is behind a plane before what is in front. A plane over n cells has
     /// half of them behind it, rounded down: so their numbers say which subtree is where.
-    planes: Vec<Wall>,
+    planes: Vec<SplitPlane>,
 }
 
 /// A plane between cells. Its front is the side of larger coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Wall {
+struct SplitPlane {
     axis: usize,
     /// Where it is on the axis, a lattice coordinate.
     at: f64,
@@ -165,7 +165,7 @@ impl Partition {
         assert!(cell < self.cells(), "cell {cell} of {}", self.cells());
         let (mut found, mut subtree) = (EVERYWHERE, self.root());
         while subtree.cells.len() > 1 {
-            let Wall { axis, at } = self.planes[subtree.plane];
+            let SplitPlane { axis, at } = self.planes[subtree.plane];
             let [back, front] = subtree.sides();
             let is_behind = back.cells.contains(&cell);
             found[usize::from(is_behind)][axis] = at;
@@ -185,7 +185,7 @@ impl Partition {
                 order.push(subtree.cells.start);
                 continue;
             }
-            let Wall { axis, at } = self.planes[subtree.plane];
+            let SplitPlane { axis, at } = self.planes[subtree.plane];
             let [back, front] = subtree.sides();
             let is_in_front = Plane::axis_at_eye(axis, [at; 3], &eye).is_gt();
             // The nearer side is put below the further one, so that it comes later.
@@ -242,7 +242,7 @@ impl Partition {
                 }
                 continue;
             }
-            let Wall { axis, at } = self.planes[subtree.plane];
+            let SplitPlane { axis, at } = self.planes[subtree.plane];
             let [back, front] = subtree.sides();
             let [mut back_part, mut front_part] = [part; 2];
             back_part[1][axis] = at.min(part[1][axis]);

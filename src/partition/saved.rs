@@ -2,7 +2,7 @@
 
 use std::io::{self, Read, Write};
 
-use super::{Partition, Wall};
+use super::{Partition, SplitPlane};
 use crate::exact::cell::EVERYWHERE;
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{LATTICE_LIMIT, Lattice};
@@ -53,7 +53,7 @@ impl Partition {
         let mut file = Reader::new(input, KIND)?;
         let lattice = Lattice::read(&mut file)?;
         let tolerance = file.f64("tolerance")?;
-        let planes = file.list("planes", MOST, |bytes: &[u8; 12]| Wall {
+        let planes = file.list("planes", MOST, |bytes: &[u8; 12]| SplitPlane {
             axis: u32_at(bytes, 0) as usize,
             at: u64_at(bytes, 4) as i64 as f64,
         })?;
@@ -62,7 +62,7 @@ impl Partition {
         if !(0.0..=MAX_TOLERANCE).contains(&tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
-        let is_wrong = |wall: &Wall| wall.axis > 2 || wall.at.abs() > LATTICE_LIMIT;
+        let is_wrong = |wall: &SplitPlane| wall.axis > 2 || wall.at.abs() > LATTICE_LIMIT;
         if let Some(plane) = planes.iter().position(is_wrong) {
             return Err(invalid("plane", plane, "is outside the grid"));
         }
@@ -78,7 +78,7 @@ impl Partition {
             if subtree.cells.len() == 1 {
                 continue;
             }
-            let Wall { axis, at } = self.planes[subtree.plane];
+            let SplitPlane { axis, at } = self.planes[subtree.plane];
             if !(part[0][axis]..=part[1][axis]).contains(&at) {
                 return Err(invalid("plane", subtree.plane, "is outside of what it divides"));
             }

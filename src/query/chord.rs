@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 
 use crate::exact::eye::{AtRay, ExactRay, Parameter};
-use crate::exact::{Faces, Line, Plane, PlaneId, integers};
+use crate::exact::{EdgeLine, Faces, Plane, PlaneId, integers};
 use crate::tree::Fragment;
 use crate::tree::fragment::{along, plane_points};
 
@@ -88,7 +88,7 @@ struct Bound {
 /// The planes that bound a fragment, along a ray.
 fn bounds(ray: &ExactRay, fragment: &Fragment<'_>, faces: &Faces) -> impl Iterator<Item = Bound> {
     let face = fragment.face();
-    fragment.lines().map(move |line: Line| match (line.as_cut(), line.as_edge()) {
+    fragment.lines().map(move |line: EdgeLine| match (line.as_cut(), line.as_edge()) {
         (Some(plane), _) => Bound {
             spot: Spot::Plane(plane),
             at: ray.at(&faces.plane(plane)),

@@ -1,7 +1,7 @@
 //! Where a ray meets a fragment, in floats, where these are certain.
 
-use super::probe::Probe;
-use crate::exact::{Faces, Line, PlaneId, PlaneKind, RoundedNormal};
+use super::probe::RayQuery;
+use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind, RoundedNormal};
 use crate::tree::Fragment;
 
 /// What floats can say.
@@ -26,7 +26,7 @@ struct RoundedAtRay {
 /// d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ; the
 /// origin less a corner by 2uM, the direction by ud. With three products and two sums, the start is off
 /// by 7uπM and the slope by 6uπd, less for planes along an axis; a thousandth of that for what
-/// [`Probe::is_precise`] allows.
+/// [`RayQuery::is_precise`] allows.
 /// Smaller: wrong signs pass. Larger: more is decided by integers.
 const START_ERROR: f64 = 3.6 * f64::EPSILON;
 const SLOPE_ERROR: f64 = 3.1 * f64::EPSILON;
@@ -39,7 +39,7 @@ const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 
 impl RoundedAtRay {
     #[inline]
-    fn face(probe: &Probe, faces: &Faces, face: u32) -> (Self, RoundedNormal) {
+    fn face(probe: &RayQuery, faces: &Faces, face: u32) -> (Self, RoundedNormal) {
         let corners = faces.triangle(face);
         let rounded = RoundedNormal::through(corners);
         let mut at = Self { start: 0.0, slope: 0.0, size: rounded.size };
@@ -51,7 +51,7 @@ impl RoundedAtRay {
     }
 
     #[inline]
-    fn plane(probe: &Probe, faces: &Faces, plane: PlaneId) -> Self {
+    fn plane(probe: &RayQuery, faces: &Faces, plane: PlaneId) -> Self {
         match plane.kind() {
             PlaneKind::Face(face) => Self::face(probe, faces, face).0,
             PlaneKind::Axis(axis, corner) => Self {
@@ -64,7 +64,7 @@ impl RoundedAtRay {
 
     /// The plane through an edge of a face and along an axis.
     #[inline]
-    fn edge(probe: &Probe, corners: &[[f64; 3]], line: Line, axis: usize) -> Self {
+    fn edge(probe: &RayQuery, corners: &[[f64; 3]], line: EdgeLine, axis: usize) -> Self {
         let k = line.as_edge().unwrap_or(0) as usize;
         let next = if k + 1 == corners.len() { 0 } else { k + 1 };
         Self::upright(probe, &corners[k], &corners[next], axis)
@@ -73,7 +73,7 @@ impl RoundedAtRay {
     /// The plane through two corners and along an axis, in front on the right of the way from one to the
     /// other, seen against the axis.
     #[inline]
-    fn upright(probe: &Probe, a: &[f64; 3], b: &[f64; 3], axis: usize) -> Self {
+    fn upright(probe: &RayQuery, a: &[f64; 3], b: &[f64; 3], axis: usize) -> Self {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         let (x, y) = (b[k] - a[k], a[j] - b[j]);
         Self {
@@ -85,13 +85,13 @@ impl RoundedAtRay {
 }
 
 /// Whether the beginning of a ray certainly is off the plane of a face.
-pub(super) fn is_off_plane(probe: &Probe, faces: &Faces, face: u32) -> bool {
+pub(super) fn is_off_plane(probe: &RayQuery, faces: &Faces, face: u32) -> bool {
     let (own, _) = RoundedAtRay::face(probe, faces, face);
     own.start.abs() > START_ERROR * own.size * probe.reach
 }
 
 /// Whether a ray meets a fragment, as far as floats can tell.
-pub(super) fn guess(probe: &Probe, fragment: &Fragment<'_>, faces: &Faces) -> Guess {
+pub(super) fn guess(probe: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Guess {
     if !probe.is_precise {
         return Guess::Unsure;
     }

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::chord::{Chord, Spot, chord};
 use super::filter::{Guess, guess};
-use super::probe::{Depth, Meeting, Probe};
+use super::probe::{Depth, Meeting, RayQuery};
 use super::walk::Walk;
 use crate::exact::Faces;
 use crate::exact::eye::{ExactRay, Parameter};
@@ -30,16 +30,16 @@ pub struct Hits<'t> {
 
 #[derive(Clone, Debug)]
 struct Search<'t> {
-    probe: Probe,
+    probe: RayQuery,
     walk: Walk<'t>,
     /// What the ray meets of what it has come to.
     found: Found,
-    reached: Reached,
+    reached: SeenPolygons,
 }
 
 /// For each polygon hit so far, the depth at which the hit ends.
 #[derive(Clone, Debug, Default)]
-struct Reached {
+struct SeenPolygons {
     /// The last few.
     few: SmallVec<[(usize, Depth); FEW]>,
     /// Others that may have gone on when there were more than a few.
@@ -50,7 +50,7 @@ struct Reached {
 /// allocate. Larger: looking through them takes longer than a map.
 const FEW: usize = 8;
 
-impl Reached {
+impl SeenPolygons {
     /// Where what was hit of a polygon ends. Those that end before a depth may be forgotten.
     fn get(&mut self, polygon: usize, from: &Depth) -> Option<&mut Depth> {
         self.few.retain(|(_, end)| end.high >= from.low);
@@ -101,11 +101,11 @@ impl Search<'_> {
 
 impl<'t> Hits<'t> {
     fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, ray: Ray) -> Self {
-        let search = Probe::new(ray, tree.faces.lattice()).map(|probe| Search {
+        let search = RayQuery::new(ray, tree.faces.lattice()).map(|probe| Search {
             walk: Walk::new(tree, bounds, &probe),
             probe,
             found: Found::default(),
-            reached: Reached::default(),
+            reached: SeenPolygons::default(),
         });
         Self { tree, ray, search }
     }
@@ -318,13 +318,13 @@ impl Found {
     }
 
     /// Puts one in: O(log n) comparisons.
-    pub(super) fn push(&mut self, meeting: Meeting, probe: &mut Probe, faces: &Faces) {
+    pub(super) fn push(&mut self, meeting: Meeting, probe: &mut RayQuery, faces: &Faces) {
         self.heap.push(meeting);
         self.rise(self.heap.len() - 1, probe, faces);
     }
 
     /// Takes the nearest out: O(log n) comparisons.
-    pub(super) fn pop(&mut self, probe: &mut Probe, faces: &Faces) -> Option<Meeting> {
+    pub(super) fn pop(&mut self, probe: &mut RayQuery, faces: &Faces) -> Option<Meeting> {
         if self.heap.len() <= 1 {
             return self.heap.pop();
         }
@@ -346,7 +346,7 @@ impl Found {
     }
 
     /// Moves a meeting up before those that it comes before.
-    fn rise(&mut self, mut at: usize, probe: &mut Probe, faces: &Faces) {
+    fn rise(&mut self, mut at: usize, probe: &mut RayQuery, faces: &Faces) {
         while at > 0 {
             let above = (at - 1) / 2;
             if self.heap[at].compare(&self.heap[above], probe, faces).is_gt() {
@@ -359,7 +359,7 @@ impl Found {
 }
 
 /// Whether a ray meets a fragment between its ends.
-fn is_between(probe: &mut Probe, fragment: &Fragment<'_>, faces: &Faces) -> bool {
+fn is_between(probe: &mut RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> bool {
     match guess(probe, fragment, faces) {
         Guess::Misses => false,
         Guess::Meets { .. } => true,
@@ -426,7 +426,7 @@ impl Bounds {
 }
 
 fn is_blocked(tree: &BspTree, bounds: Option<&Bounds>, ray: Ray) -> bool {
-    let Some(mut probe) = Probe::new(ray, tree.faces.lattice()) else { return false };
+    let Some(mut probe) = RayQuery::new(ray, tree.faces.lattice()) else { return false };
     let mut walk = Walk::new(tree, bounds, &probe);
     while let Some(fragment) = walk.next(f64::INFINITY) {
         if is_between(&mut probe, &tree.fragment(fragment), &tree.faces) {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::filter::is_off_plane;
-use super::probe::Probe;
+use super::probe::RayQuery;
 use crate::exact::PlaneId;
 use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
@@ -70,7 +70,7 @@ impl<'t> Location<'t> {
         let (tree, faces) = (self.tree, &self.tree.faces);
         let ray = Ray::between(self.point, self.point);
         let exact = ExactRay::new(ray, faces.lattice());
-        let prepared = Probe::new(ray, faces.lattice()).zip(exact);
+        let prepared = RayQuery::new(ray, faces.lattice()).zip(exact);
         prepared.into_iter().flat_map(move |(probe, exact)| {
             tree.fragments().filter_map(move |fragment| {
                 let face = fragment.face();

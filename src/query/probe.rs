@@ -12,7 +12,7 @@ use crate::viewpoint::Ray;
 
 /// A ray in lattice units, rounded, and in integers as soon as they are needed.
 #[derive(Clone, Debug)]
-pub(super) struct Probe {
+pub(super) struct RayQuery {
     ray: Ray,
     lattice: Lattice,
     exact: Option<ExactRay>,
@@ -45,7 +45,7 @@ const SPEED_BITS: i32 = 52;
 /// Smaller: floats decide what integers decide otherwise; larger: more is decided by integers.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
 
-impl Probe {
+impl RayQuery {
     /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
     pub(super) fn new(ray: Ray, lattice: &Lattice) -> Option<Self> {
         let (from, direction, least) = match ray {
@@ -132,14 +132,14 @@ impl Depth {
         Self { spot, low, high }
     }
 
-    fn exact(spot: Spot, probe: &mut Probe, faces: &Faces) -> Option<Self> {
+    fn exact(spot: Spot, probe: &mut RayQuery, faces: &Faces) -> Option<Self> {
         let exact = probe.exact()?;
-        let t = Probe::rounded(exact, &spot.parameter(exact, faces));
+        let t = RayQuery::rounded(exact, &spot.parameter(exact, faces));
         Some(Self::between(spot, t * (1.0 - QUOTIENT_ERROR), t * (1.0 + QUOTIENT_ERROR)))
     }
 
     /// How the depths of two spots of a ray compare: exact.
-    pub(super) fn compare(&self, other: &Self, probe: &mut Probe, faces: &Faces) -> Ordering {
+    pub(super) fn compare(&self, other: &Self, probe: &mut RayQuery, faces: &Faces) -> Ordering {
         if self.high < other.low {
             return Ordering::Less;
         }
@@ -156,7 +156,11 @@ impl Depth {
 
 impl Meeting {
     /// Where a ray meets a fragment; `None` if it does not.
-    pub(super) fn new(probe: &mut Probe, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
+    pub(super) fn new(
+        probe: &mut RayQuery,
+        fragment: &Fragment<'_>,
+        faces: &Faces,
+    ) -> Option<Self> {
         let (enter, leave, facing) = match guess(probe, fragment, faces) {
             Guess::Misses => return None,
             Guess::Meets { low, high, from_front } => {
@@ -175,7 +179,7 @@ impl Meeting {
     }
 
     /// Nearest first; at the same point, in the order of the input.
-    pub(super) fn compare(&self, other: &Self, probe: &mut Probe, faces: &Faces) -> Ordering {
+    pub(super) fn compare(&self, other: &Self, probe: &mut RayQuery, faces: &Faces) -> Ordering {
         // Faces are numbered in the order of their polygons.
         self.enter
             .compare(&other.enter, probe, faces)

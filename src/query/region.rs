@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::chord::upright;
 use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
-use crate::exact::{Faces, Line, SymbolKind};
+use crate::exact::{EdgeLine, Faces, VertexKind};
 use crate::tree::{BLOCK, Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
 use crate::viewpoint::Frustum;
 
@@ -95,8 +95,8 @@ impl<'t> FragmentsIn<'t> {
 fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> Option<bool> {
     let mut is_out = SmallVec::<[bool; 6]>::from_elem(true, sides.len());
     let moved = faces.upright_axis(fragment.face());
-    for (vertex, symbol) in fragment.lattice_vertices().zip(fragment.symbols()) {
-        let is_cut = !matches!(symbol.kind(), SymbolKind::Corner(_));
+    for (vertex, vertex_id) in fragment.lattice_vertices().zip(fragment.vertex_ids()) {
+        let is_cut = !matches!(vertex_id.kind(), VertexKind::Corner(_));
         let off = rounding(vertex, is_cut, moved);
         let mut is_in = true;
         for (side, is_out) in sides.iter().zip(&mut is_out) {
@@ -115,17 +115,17 @@ fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> O
 fn outline<'f>(
     fragment: &Fragment<'f>,
     faces: &'f Faces,
-) -> impl Iterator<Item = (crate::exact::Symbol, LineValues)> + use<'f> {
+) -> impl Iterator<Item = (crate::exact::VertexId, LineValues)> + use<'f> {
     let face = fragment.face();
     let triangle = faces.triangle(face);
-    let values = move |line: Line| {
+    let values = move |line: EdgeLine| {
         let plane = match line.as_cut() {
             Some(plane) => faces.plane(plane),
             None => upright(faces, face, line.as_edge().unwrap_or(0) as usize).0,
         };
         triangle.map(|point| plane.at(&point))
     };
-    fragment.symbols().zip(fragment.lines().map(values))
+    fragment.vertex_ids().zip(fragment.lines().map(values))
 }
 
 impl Iterator for FragmentsIn<'_> {

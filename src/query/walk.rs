@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::probe::Probe;
+use super::probe::RayQuery;
 use crate::exact::LATTICE_LIMIT;
 use crate::exact::lattice::MAX_CORNER;
 use crate::tree::node::Ranges;
@@ -58,7 +58,7 @@ const REACH_ERROR: f64 = 16.0 * f64::EPSILON;
 
 impl<'t> Walk<'t> {
     /// The whole tree. With boxes, what the ray passes by is left out.
-    pub(super) fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, probe: &Probe) -> Self {
+    pub(super) fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, probe: &RayQuery) -> Self {
         let unit = 1.0 / LATTICE_LIMIT;
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
         let mut walk = Self {
@@ -179,7 +179,7 @@ impl<'t> Walk<'t> {
     }
 
     /// The parameters between which the ray is where corners can be; `None` if it never is.
-    fn within_reach(&self, probe: &Probe) -> Option<[f64; 2]> {
+    fn within_reach(&self, probe: &RayQuery) -> Option<[f64; 2]> {
         let reach = MAX_CORNER / LATTICE_LIMIT + self.slack;
         // An endless ray without a direction is a point as well.
         let is_endless = probe.is_endless && probe.speed > 0.0;
@@ -242,7 +242,7 @@ const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
     /// `None` if boxes cannot be trusted with a ray.
-    pub(super) fn new(probe: &Probe, bounds: &'t Bounds) -> Option<Self> {
+    pub(super) fn new(probe: &RayQuery, bounds: &'t Bounds) -> Option<Self> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [reach, speed] = [probe.reach * unit, probe.speed * unit];
         if ![reach, speed].iter().all(|size| SIZES.contains(size)) {

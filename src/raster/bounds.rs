@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::rays::{Pencil, Rays, float};
+use super::rays::{RayOrigin, Rays, float};
 
 /// Columns and rows of pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,8 +95,8 @@ impl Rays {
     #[inline]
     fn in_picture(&self, point: [f64; 3], off: f64) -> (DVec3, DVec3) {
         let (arm, parallel) = match self.pencil {
-            Pencil::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
-            Pencil::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
+            RayOrigin::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
+            RayOrigin::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
         };
         // The matrix is the inverse of one with nearly perpendicular columns. So the errors of its
         // entries, and of their products with the arm, are far below the 2⁻⁴⁶ allowed here.

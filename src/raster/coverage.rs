@@ -19,7 +19,7 @@ use super::bounds::Window;
 use super::exact::Plane;
 use super::line::{Boundary, Seen, Sheet, Source};
 use super::rays::Rays;
-use crate::exact::{Faces, Line, PlaneId};
+use crate::exact::{EdgeLine, Faces, PlaneId};
 
 /// In windows of at most this many columns every pixel is tested; in wider ones the lines first
 /// narrow each row. Smaller: the narrowing costs more than it saves; larger: more pixels are
@@ -43,7 +43,7 @@ pub enum Outline<'a> {
     /// The part on the inner side of each of these lines. It is exact, however small the piece.
     Lines {
         /// The lines that bound the piece: edges of the face, and cuts.
-        lines: &'a [Line],
+        lines: &'a [EdgeLine],
         /// The piece's vertices in lattice units, each coordinate within 2 of the exact one. They
         /// only say which pixels to look at.
         vertices: &'a [[f64; 3]],

@@ -8,7 +8,7 @@
 use std::cmp::Ordering;
 
 use super::digits::{self, Long, Short, dot};
-use super::rays::{Given, Pencil, Rays};
+use super::rays::{Given, RayOrigin, Rays};
 use crate::exact::{Faces, PlaneId, PlaneKind};
 
 /// A plane: the points x with normal · x = offset.
@@ -61,10 +61,10 @@ impl Plane {
     /// κ: for a perspective the plane at the eye, for parallel rays its slope along them.
     pub(super) fn kappa(&self, rays: &Rays) -> Short {
         match rays.pencil {
-            Pencil::From { eye, shift } => {
+            RayOrigin::From { eye, shift } => {
                 dot(self.normal, eye.map(|c| i128::from(c) << shift)) - self.offset
             }
-            Pencil::Along { direction } => dot(self.normal, direction.map(i128::from)),
+            RayOrigin::Along { direction } => dot(self.normal, direction.map(i128::from)),
         }
     }
 
@@ -128,14 +128,14 @@ pub(super) fn volume(rays: &Rays, [a, b]: [[f64; 3]; 2], given: Given) -> Short 
     let (a, b) = (integer(a), integer(b));
     let arm = std::array::from_fn(|i| b[i] - a[i]);
     match (rays.pencil, given) {
-        (Pencil::From { eye, shift }, Given::Step(v) | Given::Point(v)) => {
+        (RayOrigin::From { eye, shift }, Given::Step(v) | Given::Point(v)) => {
             let v = v.map(i128::from);
             dot(cross(a, b), v) - dot(cross(arm, v), eye.map(|c| i128::from(c) << shift))
         }
-        (Pencil::Along { direction }, Given::Step(v)) => {
+        (RayOrigin::Along { direction }, Given::Step(v)) => {
             dot(cross(direction.map(i128::from), arm), v.map(i128::from))
         }
-        (Pencil::Along { direction }, Given::Point(v)) => {
+        (RayOrigin::Along { direction }, Given::Point(v)) => {
             let to = std::array::from_fn(|i| i128::from(v[i]) - a[i]);
             dot(cross(direction.map(i128::from), arm), to)
         }

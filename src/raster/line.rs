@@ -11,8 +11,8 @@
 use std::cmp::Ordering;
 
 use super::exact::{Plane, determinant, volume};
-use super::rays::{Given, Pencil, Rays, float};
-use crate::exact::{Faces, Line, PlaneId, PlaneKind};
+use super::rays::{Given, RayOrigin, Rays, float};
+use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
 
 /// Where a boundary line comes from.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(super) enum Source {
     /// The edge of a face where the plane through two lattice points and along an axis meets it.
     Upright([[f64; 3]; 2], usize),
     /// A plane that cut the face.
-    Cut(Line),
+    Cut(EdgeLine),
     /// The plane through the eye across the direction of view: inside is ahead of it.
     Ahead,
 }
@@ -120,9 +120,9 @@ pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
     let (u, w, first) = match rays.pencil {
         // (a − eye) × arm = arm × (eye − a)
-        Pencil::From { .. } => (arm, origin, float(rays.base).to_array()),
+        RayOrigin::From { .. } => (arm, origin, float(rays.base).to_array()),
         // (a − b) × direction = direction × arm
-        Pencil::Along { direction } => (float(direction).to_array(), arm, origin),
+        RayOrigin::Along { direction } => (float(direction).to_array(), arm, origin),
     };
     let (right, down) = (float(rays.right).to_array(), float(rays.down).to_array());
     let [width, height] = rays.size.map(f64::from);
@@ -195,8 +195,8 @@ impl Sheet {
         // φ₀ and κ are scalar products of the normal. One of the two uses the eye, or the first
         // pixel's point, relative to the plane.
         let (first, common) = match rays.pencil {
-            Pencil::From { .. } => (float(rays.base).to_array(), from),
-            Pencil::Along { direction } => (from, float(direction).to_array()),
+            RayOrigin::From { .. } => (float(rays.base).to_array(), from),
+            RayOrigin::Along { direction } => (from, float(direction).to_array()),
         };
         Self {
             kappa: sum(normal, common),

@@ -40,7 +40,7 @@ pub(crate) use painter::{Layers, covers};
 pub(crate) use picture::for_each_shaded;
 pub use picture::{blend, brightness, colour_of, depth_map, difference, picture};
 #[cfg(feature = "drawing")]
-pub(crate) use rays::Pencil;
+pub(crate) use rays::RayOrigin;
 pub use rays::Rays;
 pub(crate) use zbuffer::zbuffer_layers;
 pub use zbuffer::{DepthImage, zbuffer};

@@ -34,7 +34,7 @@ pub struct Rays {
     /// Whether faces seen from behind are left out.
     pub(super) front_only: bool,
     viewpoint: Viewpoint,
-    pub(crate) pencil: Pencil,
+    pub(crate) pencil: RayOrigin,
     pub(crate) base: [i64; 3],
     pub(crate) right: [i64; 3],
     pub(crate) down: [i64; 3],
@@ -49,7 +49,7 @@ pub struct Rays {
 
 /// The start or the direction that all rays share.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Pencil {
+pub(crate) enum RayOrigin {
     /// They start at the eye: an integer times 2^shift.
     From { eye: [i64; 3], shift: u32 },
     /// They have this direction.
@@ -116,7 +116,7 @@ impl Rays {
                 let reach = DVec3::new(x, y, 1.0).length();
                 // A power of two, so that simple views of simple scenes have simple rays.
                 let scale = (DIRECTION / reach).log2().floor().exp2();
-                let pencil = Pencil::From { eye: eye.integer(), shift };
+                let pencil = RayOrigin::From { eye: eye.integer(), shift };
                 let depth_unit = lattice.length_to_world(scale);
                 let (middle, step) = (forward * scale, pixel * scale);
                 let finest = finest(size, samples) * reach;
@@ -129,7 +129,7 @@ impl Rays {
                 let middle = centre - forward * centre.dot(forward);
                 let step = lattice.length_to_lattice(pixel);
                 let depth_unit = lattice.length_to_world(float(direction).length());
-                let pencil = Pencil::Along { direction };
+                let pencil = RayOrigin::Along { direction };
                 let finest = finest(size, samples);
                 Self::build(camera, lattice, size, pencil, middle, [step, finest], depth_unit)
             }
@@ -143,7 +143,7 @@ impl Rays {
         camera: &Camera,
         lattice: Lattice,
         size: [u32; 2],
-        pencil: Pencil,
+        pencil: RayOrigin,
         middle: DVec3,
         [step, finest]: [f64; 2],
         depth_unit: f64,
@@ -167,8 +167,8 @@ impl Rays {
         let base =
             std::array::from_fn(|i| middle[i] - (right[i] / 2) * columns - (down[i] / 2) * rows);
         let third = match pencil {
-            Pencil::From { .. } => middle,
-            Pencil::Along { direction } => direction,
+            RayOrigin::From { .. } => middle,
+            RayOrigin::Along { direction } => direction,
         };
         let to_picture = inverse([right, down, third].map(float));
         Ok(Self {
@@ -241,10 +241,10 @@ impl Rays {
     pub fn ray(&self, x: u32, y: u32) -> [[i128; 3]; 2] {
         let wide = |v: [i64; 3]| v.map(i128::from);
         match (self.pencil, self.pixel(x, y)) {
-            (Pencil::From { eye, shift }, Given::Point(v) | Given::Step(v)) => {
+            (RayOrigin::From { eye, shift }, Given::Point(v) | Given::Step(v)) => {
                 [wide(eye).map(|c| c << shift), wide(v)]
             }
-            (Pencil::Along { direction }, Given::Point(v) | Given::Step(v)) => {
+            (RayOrigin::Along { direction }, Given::Point(v) | Given::Step(v)) => {
                 [wide(v), wide(direction)]
             }
         }
@@ -252,7 +252,7 @@ impl Rays {
 
     /// Whether the rays start at an eye.
     pub(crate) fn is_perspective(&self) -> bool {
-        matches!(self.pencil, Pencil::From { .. })
+        matches!(self.pencil, RayOrigin::From { .. })
     }
 
     /// The ray of a pixel.
@@ -261,15 +261,15 @@ impl Rays {
             self.base[i] + i64::from(x) * self.right[i] + i64::from(y) * self.down[i]
         });
         match self.pencil {
-            Pencil::From { .. } => Given::Step(v),
-            Pencil::Along { .. } => Given::Point(v),
+            RayOrigin::From { .. } => Given::Step(v),
+            RayOrigin::Along { .. } => Given::Point(v),
         }
     }
 
     /// The unit vector along the ray of a pixel, rounded.
     pub(super) fn direction(&self, x: u32, y: u32) -> DVec3 {
         match (self.pencil, self.pixel(x, y)) {
-            (Pencil::Along { direction }, _) => float(direction).normalize(),
+            (RayOrigin::Along { direction }, _) => float(direction).normalize(),
             (_, Given::Step(v) | Given::Point(v)) => float(v).normalize(),
         }
     }
@@ -281,12 +281,12 @@ impl Rays {
     #[inline]
     pub(super) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
         match self.pencil {
-            Pencil::From { eye, shift: 0 } => std::array::from_fn(|i| eye[i] as f64 - point[i]),
-            Pencil::From { eye, shift } => {
+            RayOrigin::From { eye, shift: 0 } => std::array::from_fn(|i| eye[i] as f64 - point[i]),
+            RayOrigin::From { eye, shift } => {
                 let unit = (1u64 << shift) as f64;
                 std::array::from_fn(|i| eye[i] as f64 * unit - point[i])
             }
-            Pencil::Along { .. } => std::array::from_fn(|i| self.base[i] as f64 - point[i]),
+            RayOrigin::Along { .. } => std::array::from_fn(|i| self.base[i] as f64 - point[i]),
         }
     }
 }

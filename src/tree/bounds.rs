@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3, Vec4};
 use super::order::eye::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
 use crate::exact::lattice::{exponent_of, scaled};
-use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, SymbolKind};
+use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, VertexKind};
 use crate::memory::collect;
 use crate::viewpoint::Viewpoint;
 use crate::{Error, parallel_map};
@@ -125,8 +125,8 @@ impl Fragment<'_> {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut stored = self.stored().iter();
         for vertex in self.lattice_vertices() {
-            let symbol = stored.next().map(StoredVertex::symbol);
-            let is_cut = symbol.is_some_and(|s| !matches!(s.kind(), SymbolKind::Corner(_)));
+            let vertex_id = stored.next().map(StoredVertex::vertex_id);
+            let is_cut = vertex_id.is_some_and(|s| !matches!(s.kind(), VertexKind::Corner(_)));
             let off = rounding(vertex, is_cut, moved);
             for axis in 0..3 {
                 low[axis] = low[axis].min(vertex[axis] - off[axis]);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::node::{NodeRecord, Sizes, Walk, finish, make_room};
 use super::order::eye::Planes;
-use super::order::layout::Schedule;
+use super::order::layout::OrderLayout;
 use super::parts::{Parts, RawNode, Record};
 use crate::Error;
 use crate::exact::{Faces, Plane, PlaneId, StoredVertex};
@@ -243,7 +243,7 @@ pub struct BspTree {
     pub(crate) nodes: Vec<NodeRecord>,
     pub(crate) planes: Planes,
     /// None in a tree for one view.
-    pub(super) schedule: Option<Schedule>,
+    pub(super) schedule: Option<OrderLayout>,
     pub(crate) records: Vec<Record>,
     pub(super) vertices: Vec<StoredVertex>,
     /// Rounded positions of the vertices, in lattice units; only in a tree for one view.
@@ -318,7 +318,7 @@ impl BspTree {
         tree.nodes.shrink_to_fit();
         tree.records.shrink_to_fit();
         tree.vertices.shrink_to_fit();
-        tree.schedule = Some(Schedule::new(&tree.nodes, tree.records.len() as u32)?);
+        tree.schedule = Some(OrderLayout::new(&tree.nodes, tree.records.len() as u32)?);
         Ok(tree)
     }
 

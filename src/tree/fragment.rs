@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 
 use super::BspTree;
 use super::parts::{Record, Stored};
-use crate::exact::{Eye, Faces, Line, PlaneId, PlaneKind, StoredVertex, Symbol, integers};
+use crate::exact::{EdgeLine, Eye, Faces, PlaneId, PlaneKind, StoredVertex, VertexId, integers};
 use crate::viewpoint::Viewpoint;
 
 /// A convex piece of a polygon, or the whole polygon.
@@ -153,22 +153,22 @@ impl<'t> Fragment<'t> {
     #[doc(hidden)]
     pub fn lines(
         &self,
-    ) -> impl DoubleEndedIterator<Item = Line> + ExactSizeIterator + Clone + use<'t> {
+    ) -> impl DoubleEndedIterator<Item = EdgeLine> + ExactSizeIterator + Clone + use<'t> {
         let stored = self.stored;
         (0..self.vertex_count()).map(move |i| match stored.get(i) {
             Some(stored) => stored.line(),
-            None => Line::edge(i as u32),
+            None => EdgeLine::edge(i as u32),
         })
     }
 
     /// For each vertex, its exact definition on its face.
     #[doc(hidden)]
-    pub fn symbols(
+    pub fn vertex_ids(
         &self,
-    ) -> impl DoubleEndedIterator<Item = Symbol> + ExactSizeIterator + Clone + use<'t> {
+    ) -> impl DoubleEndedIterator<Item = VertexId> + ExactSizeIterator + Clone + use<'t> {
         let stored = self.stored;
         (0..self.vertex_count())
-            .map(move |i| stored.get(i).map_or(Symbol::corner(i as u32), StoredVertex::symbol))
+            .map(move |i| stored.get(i).map_or(VertexId::corner(i as u32), StoredVertex::vertex_id))
     }
 
     /// For each vertex, weights over the polygon's corners: pairs of a corner's number and its
@@ -182,8 +182,8 @@ impl<'t> Fragment<'t> {
     ) -> impl DoubleEndedIterator<Item = SmallVec<[(u32, f64); 3]>> + ExactSizeIterator + Clone + use<'t>
     {
         let (faces, face) = (self.faces, self.face);
-        self.symbols().map(move |symbol| {
-            let mut weights = faces.barycentric(face, symbol);
+        self.vertex_ids().map(move |vertex_id| {
+            let mut weights = faces.barycentric(face, vertex_id);
             weights.iter_mut().for_each(|(k, _)| *k = faces.corner_number(face, *k));
             weights
         })

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::BspTree;
 use crate::error::{Error, Limit};
-use crate::exact::{Symbol, SymbolKind};
+use crate::exact::{VertexId, VertexKind};
 use crate::memory::{empty, reserve};
 use survey::{FragmentEdge, Node, OutlineVertex, Points, Survey, coordinate, ends, triangulate};
 
@@ -318,21 +318,21 @@ impl<'s, 't> Assembler<'s, 't> {
     /// A vertex that the face itself has.
     fn own_vertex(&mut self, face: u32, node: Node) -> Result<u32, Error> {
         let faces = &self.survey.tree.faces;
-        let symbol = match self.survey.cut(node) {
-            Some((_, symbol)) => symbol,
-            None => Symbol::corner(node - faces.corner_range(face).start as u32),
+        let vertex_id = match self.survey.cut(node) {
+            Some((_, vertex_id)) => vertex_id,
+            None => VertexId::corner(node - faces.corner_range(face).start as u32),
         };
         let number = |k: u32| faces.corner_number(face, k);
-        let corners = match symbol.kind() {
-            SymbolKind::Corner(k) => [number(k), NONE, NONE],
-            SymbolKind::OnEdge(k, _) => pair(edge_numbers(self.survey, face, k)),
-            SymbolKind::Inside(..) => {
+        let corners = match vertex_id.kind() {
+            VertexKind::Corner(k) => [number(k), NONE, NONE],
+            VertexKind::OnEdge(k, _) => pair(edge_numbers(self.survey, face, k)),
+            VertexKind::Inside(..) => {
                 let first = faces.corner_range(face).start as u32;
                 faces.reference_triangle(face).map(|corner| number(corner - first))
             }
         };
         self.vertex(node, corners, || {
-            let weights = faces.barycentric(face, symbol).into_iter();
+            let weights = faces.barycentric(face, vertex_id).into_iter();
             weights.map(|(k, weight)| (number(k), weight)).collect()
         })
     }
@@ -382,7 +382,7 @@ impl<'s, 't> Assembler<'s, 't> {
         let faces = &self.survey.tree.faces;
         let place = match self.survey.cut(root) {
             None => faces.given_corner(root),
-            Some((face, symbol)) => place_of_cut(self.survey, face, symbol),
+            Some((face, vertex_id)) => place_of_cut(self.survey, face, vertex_id),
         };
         reserve(&mut self.made.positions, 1)?;
         self.made.positions.push(faces.lattice().to_world(place));
@@ -401,14 +401,14 @@ fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
 
 /// Where a vertex is that is no corner, in lattice units: on an edge as given, if it is on one, so
 /// that all faces at the edge agree.
-fn place_of_cut(survey: &Survey<'_>, face: u32, symbol: Symbol) -> [f64; 3] {
+fn place_of_cut(survey: &Survey<'_>, face: u32, vertex_id: VertexId) -> [f64; 3] {
     let faces = &survey.tree.faces;
-    match symbol.kind() {
-        SymbolKind::OnEdge(k, plane) if faces.upright_axis(face).is_some() => {
+    match vertex_id.kind() {
+        VertexKind::OnEdge(k, plane) if faces.upright_axis(face).is_some() => {
             let cut = faces.cut_of_segment(ends(faces, face, k), plane);
-            cut.map_or_else(|| faces.position(face, symbol), |cut| cut.position())
+            cut.map_or_else(|| faces.position(face, vertex_id), |cut| cut.position())
         }
-        _ => faces.position(face, symbol),
+        _ => faces.position(face, vertex_id),
     }
 }
 

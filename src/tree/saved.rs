@@ -9,10 +9,10 @@ use super::BspTree;
 use super::bsp_tree::next_generation;
 use super::node::{MOST_FRAGMENTS, NodeRecord, Visit, Walk, finish, make_room};
 use super::order::eye::Planes;
-use super::order::layout::Schedule;
+use super::order::layout::OrderLayout;
 use super::parts::{Parts, RawChild, RawNode};
-use crate::exact::label::bits::Known;
-use crate::exact::{Faces, MAX_LABELS, PlaneId};
+use crate::exact::names::bits::Known;
+use crate::exact::{Faces, MAX_NAMES, PlaneId};
 use crate::faces::Preparation;
 use crate::parallel_map;
 use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
@@ -130,7 +130,7 @@ impl BspTree {
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
             let nodes = read_nodes(&nodes, listed.len(), known)?;
-            let schedule = || Schedule::new(&nodes, listed.len() as u32);
+            let schedule = || OrderLayout::new(&nodes, listed.len() as u32);
             let schedule = (!for_one_view).then(schedule).transpose();
             Ok((schedule.map_err(|_| LoadError::out_of_memory())?, nodes))
         };
@@ -239,12 +239,12 @@ fn read_nodes(
 /// What became of the polygons, but for how many there were, and the polygons that were dropped.
 fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u32>), LoadError> {
     const WHAT: &str = "counts of polygons";
-    let dropped = file.list("dropped polygons", MAX_LABELS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
+    let dropped = file.list("dropped polygons", MAX_NAMES, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
     let mut found = Preparation { dropped: dropped.len(), ..Preparation::default() };
     for count in
         [&mut found.triangulated, &mut found.crossing, &mut found.flattened, &mut found.bent]
     {
-        *count = file.count(WHAT, MAX_LABELS)?;
+        *count = file.count(WHAT, MAX_NAMES)?;
     }
     (found.flattened_by, found.bent_by) = (file.f64(WHAT)?, file.f64(WHAT)?);
     Ok((found, dropped))

@@ -9,10 +9,10 @@ use std::ops::Range;
 
 use super::node::{Visit, Walk};
 use super::order::eye::Planes;
-use super::order::layout::Schedule;
+use super::order::layout::OrderLayout;
 use super::{BspTree, Fragment};
 use crate::exact::{
-    Line, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, SymbolKind, Vertex,
+    EdgeLine, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex, VertexKind,
 };
 
 const COUNTS: &str = "the sizes of its subtrees contradict each other";
@@ -145,15 +145,15 @@ impl BspTree {
         }
         let Some(stored) = self.vertices.get(record.vertices as usize..end) else { return false };
         let corners = self.faces.corners(record.face).len() as u32;
-        let knows_line = |line: Line| match (line.as_edge(), line.as_cut()) {
+        let knows_line = |line: EdgeLine| match (line.as_edge(), line.as_cut()) {
             (Some(edge), _) => edge < corners,
             (None, plane) => plane.is_some_and(|plane| self.names_input(plane)),
         };
         let knows = |vertex: &StoredVertex| {
-            let known = match vertex.symbol().kind() {
-                SymbolKind::Corner(k) => k < corners,
-                SymbolKind::OnEdge(k, plane) => k < corners && self.names_input(plane),
-                SymbolKind::Inside(g, h) => self.names_input(g) && self.names_input(h),
+            let known = match vertex.vertex_id().kind() {
+                VertexKind::Corner(k) => k < corners,
+                VertexKind::OnEdge(k, plane) => k < corners && self.names_input(plane),
+                VertexKind::Inside(g, h) => self.names_input(g) && self.names_input(h),
             };
             known && knows_line(vertex.line())
         };
@@ -234,7 +234,7 @@ impl BspTree {
             return Err(fault(0, "the rounded planes are not those of the nodes"));
         }
         if let Some(schedule) = &self.schedule {
-            let expected = Schedule::new(&self.nodes, self.records.len() as u32);
+            let expected = OrderLayout::new(&self.nodes, self.records.len() as u32);
             if *schedule != expected.map_err(out_of_memory)? {
                 return Err(fault(0, "the layout for orders does not match the nodes"));
             }
@@ -252,7 +252,7 @@ impl BspTree {
         let is_wrong = |fragment: Fragment<'_>| {
             let stored = fragment.stored().iter().zip(&mut kept);
             stored.into_iter().any(|(stored, &position)| {
-                self.faces.position(fragment.face(), stored.symbol()) != position
+                self.faces.position(fragment.face(), stored.vertex_id()) != position
             })
         };
         if self.fragments().any(is_wrong) { fault } else { Ok(()) }

@@ -5,7 +5,7 @@ use testkit::enough;
 
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
-use binspace::internals::{PlaneKind, SymbolKind};
+use binspace::internals::{PlaneKind, VertexKind};
 use binspace::scene;
 
 use crate::cells::polygons::triangles;
@@ -37,21 +37,21 @@ fn places(scene: &Divided) -> BTreeMap<Name, Vec<([u64; 3], usize)>> {
                 }
                 _ => None,
             };
-            for (vertex, symbol) in fragment.vertices().zip(fragment.symbols()) {
-                let name = match symbol.kind() {
-                    SymbolKind::OnEdge(k, plane) => wall(plane).map(|wall| {
+            for (vertex, vertex_id) in fragment.vertices().zip(fragment.vertex_ids()) {
+                let name = match vertex_id.kind() {
+                    VertexKind::OnEdge(k, plane) => wall(plane).map(|wall| {
                         let corners = faces.corners(fragment.face());
                         let ends = [k as usize, (k as usize + 1) % corners.len()];
                         let mut ends = ends.map(|k| corners[k].map(f64::to_bits));
                         ends.sort_unstable();
                         Name::OnEdge(ends, wall)
                     }),
-                    SymbolKind::Inside(g, h) => wall(g).zip(wall(h)).map(|(g, h)| {
+                    VertexKind::Inside(g, h) => wall(g).zip(wall(h)).map(|(g, h)| {
                         let mut walls = [g, h];
                         walls.sort_unstable();
                         Name::Inside(cell.polygon(fragment.index()), walls)
                     }),
-                    SymbolKind::Corner(_) => None,
+                    VertexKind::Corner(_) => None,
                 };
                 if let Some(name) = name {
                     let place = vertex.to_array().map(f64::to_bits);

@@ -1,6 +1,6 @@
 //! The sets that a tree's nodes divided, cut anew in exact rationals.
 
-use binspace::internals::{Faces, Line, PlaneId, PlaneKind};
+use binspace::internals::{EdgeLine, Faces, PlaneId, PlaneKind};
 use binspace::{BspTree, Node};
 use std::collections::HashMap;
 use testkit::model::{self, Face, Vertex, clip};
@@ -255,7 +255,7 @@ pub(super) fn divided(set: &[Piece], id: PlaneId, plane: &Plane) -> [Vec<Piece>;
             (true, true) => {
                 for (side, behind) in [(1, false), (2, true)] {
                     let outline: Vec<Vertex> = clip(&piece.outline, &values, id, behind);
-                    assert!(outline.iter().any(|v| v.line == Line::cut(id, behind)));
+                    assert!(outline.iter().any(|v| v.line == EdgeLine::cut(id, behind)));
                     sides[side].push(Piece { face: piece.face, outline });
                 }
             }

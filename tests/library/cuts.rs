@@ -1,7 +1,7 @@
 //! Cuts that other libraries get wrong, and cuts that neighbours must agree on.
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, SymbolKind, Vertex, split};
+use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind, split};
 use proptest::prelude::*;
 use std::collections::HashMap;
 use testkit::enough;
@@ -38,7 +38,7 @@ fn parts(faces: &Faces, plane: PlaneId, face: u32) -> [Vec<Vertex>; 2] {
 
 fn has_area(faces: &Faces, face: u32, part: &[Vertex]) -> bool {
     let exact = Face::new(faces, face);
-    let points: Vec<_> = part.iter().map(|v| exact.resolve(faces, v.symbol())).collect();
+    let points: Vec<_> = part.iter().map(|v| exact.resolve(faces, v.vertex_id())).collect();
     rational::area(&points).iter().any(|c| !c.is_zero())
 }
 
@@ -221,8 +221,8 @@ fn a_vertex_on_an_axis_plane_is_on_it_to_the_last_bit() {
                 let (at, by) = (faces.corner(corner)[axis], model::plane(&faces, plane));
                 let [front, back] = parts(&faces, plane, face);
                 for vertex in front.iter().chain(&back) {
-                    let exact = by.at(&exact.resolve(&faces, vertex.symbol()));
-                    let corner = matches!(vertex.symbol().kind(), SymbolKind::Corner(_));
+                    let exact = by.at(&exact.resolve(&faces, vertex.vertex_id()));
+                    let corner = matches!(vertex.vertex_id().kind(), VertexKind::Corner(_));
                     prop_assert!(corner || exact.is_zero());
                     prop_assert!(corner || vertex.position()[axis] == at);
                     *vertices += usize::from(!corner);

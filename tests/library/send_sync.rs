@@ -1,8 +1,8 @@
 //! Public types are `Send` and `Sync`: trees above all, with everything that they return.
 
 use binspace::internals::{
-    Eye, Faces, Lattice, Line, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Symbol,
-    SymbolKind, Vertex,
+    EdgeLine, Eye, Faces, Lattice, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex,
+    VertexId, VertexKind,
 };
 use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
@@ -48,12 +48,12 @@ assert_shared!(
     StoredVertex,
     Vertex,
     Eye,
-    Line,
+    EdgeLine,
     PlaneId,
     PlaneKind,
     Side,
-    Symbol,
-    SymbolKind,
+    VertexId,
+    VertexKind,
 );
 
 // Scenes, cameras, pictures.

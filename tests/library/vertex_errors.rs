@@ -2,7 +2,7 @@
 //! rationals: in scenes far from the origin, tiny, and huge.
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, Line, PlaneId, PlaneKind, SymbolKind};
+use binspace::internals::{EdgeLine, Faces, PlaneId, PlaneKind, VertexKind};
 use binspace::{BspTree, BuildOptions, Heuristic};
 use num_traits::Signed;
 use proptest::prelude::*;
@@ -67,15 +67,16 @@ impl Errors {
         let mut places: HashMap<String, [u64; 3]> = HashMap::new();
         for fragment in tree.fragments() {
             let exact = Face::new(faces, fragment.face());
-            let lines: Vec<Line> = fragment.lines().collect();
+            let lines: Vec<EdgeLine> = fragment.lines().collect();
             let corners = faces.corners(fragment.face()).len() as u32;
-            for (i, (vertex, name)) in fragment.vertices().zip(fragment.symbols()).enumerate() {
-                let symbol = meeting(lines[(i + lines.len() - 1) % lines.len()], lines[i], corners);
-                let point = exact.resolve(faces, symbol);
+            for (i, (vertex, name)) in fragment.vertices().zip(fragment.vertex_ids()).enumerate() {
+                let vertex_id =
+                    meeting(lines[(i + lines.len() - 1) % lines.len()], lines[i], corners);
+                let point = exact.resolve(faces, vertex_id);
                 // The same, bit for bit, for all pieces that the same cuts made.
                 let bits = vertex.to_array().map(f64::to_bits);
                 let name = format!("{} {name:?}", fragment.face());
-                prop_assert_eq!(*places.entry(name).or_insert(bits), bits, "{:?}", symbol);
+                prop_assert_eq!(*places.entry(name).or_insert(bits), bits, "{:?}", vertex_id);
                 for axis in 0..3 {
                     let place = (&point[axis] + &world.origin[axis]) * &world.step;
                     let off = (rational::exact(vertex[axis]) - &place).abs();
@@ -121,15 +122,19 @@ fn vertices_on_an_axis_aligned_plane_have_its_coordinate_exactly() {
         let tree = options.with_heuristic(Heuristic::FreePlanes).build(scene.polygons());
         let tree = tree.unwrap();
         for fragment in tree.fragments() {
-            for (symbol, position) in fragment.symbols().zip(fragment.lattice_vertices()) {
-                let planes = match symbol.kind() {
-                    SymbolKind::Corner(_) => [None; 3],
-                    SymbolKind::OnEdge(_, plane) => [Some(plane), None, None],
-                    SymbolKind::Inside(g, h) => [None, Some(g), Some(h)],
+            for (vertex_id, position) in fragment.vertex_ids().zip(fragment.lattice_vertices()) {
+                let planes = match vertex_id.kind() {
+                    VertexKind::Corner(_) => [None; 3],
+                    VertexKind::OnEdge(_, plane) => [Some(plane), None, None],
+                    VertexKind::Inside(g, h) => [None, Some(g), Some(h)],
                 };
                 for (plane, compared) in planes.into_iter().zip(&mut compared) {
                     if let Some(PlaneKind::Axis(axis, corner)) = plane.map(PlaneId::kind) {
-                        assert_eq!(position[axis], tree.faces().corner(corner)[axis], "{symbol:?}");
+                        assert_eq!(
+                            position[axis],
+                            tree.faces().corner(corner)[axis],
+                            "{vertex_id:?}"
+                        );
                         *compared += 1;
                     }
                 }

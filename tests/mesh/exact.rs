@@ -3,7 +3,7 @@
 use super::open_edges;
 use binspace::BspTree;
 use binspace::glam::DVec3;
-use binspace::internals::{LATTICE_LIMIT, Line};
+use binspace::internals::{EdgeLine, LATTICE_LIMIT};
 use binspace::mesh::Mesh;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
@@ -39,7 +39,7 @@ fn places(
             mesh.triangles().indices()[mesh.triangles().range(fragment.index())].to_vec();
         vertices.sort_unstable();
         vertices.dedup();
-        for (symbol, rounded) in fragment.symbols().zip(fragment.vertices()) {
+        for (vertex_id, rounded) in fragment.vertex_ids().zip(fragment.vertices()) {
             let distance = |&v: &u32| mesh.vertex(v).position.distance(rounded);
             vertices.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
             prop_assert!(vertices.len() >= 3, "a fragment without triangles");
@@ -48,7 +48,7 @@ fn places(
             if distance(&vertices[1]) <= 4e-12 * hard_size(tree) {
                 continue;
             }
-            let exact = face.resolve(tree.faces(), symbol);
+            let exact = face.resolve(tree.faces(), vertex_id);
             let place = &mut places[mesh.vertex(vertices[0]).point as usize];
             prop_assert!(
                 place.as_ref().is_none_or(|place| *place == exact),
@@ -76,7 +76,7 @@ fn check(tree: &BspTree, polygons: &[Vec<DVec3>], seen: &mut Seen) -> Result<(),
         let axis = main_axis(&face.plane);
         let facing = rational::sign(&face.plane.normal[axis]);
         let outline: Vec<Point> =
-            fragment.symbols().map(|symbol| face.resolve(tree.faces(), symbol)).collect();
+            fragment.vertex_ids().map(|vertex_id| face.resolve(tree.faces(), vertex_id)).collect();
         let whole = rational::area(&outline);
         let mut sum = [0.0; 3].map(rational::exact);
         let triangles = &mesh.triangles().indices()[mesh.triangles().range(fragment.index())];
@@ -135,7 +135,7 @@ pub(crate) fn check_moved(
         let axis = main_axis(&face.plane);
         let facing = if rational::sign(&face.plane.normal[axis]).is_gt() { 1.0 } else { -1.0 };
         let outline: Vec<Point> =
-            fragment.symbols().map(|symbol| face.resolve(faces, symbol)).collect();
+            fragment.vertex_ids().map(|vertex_id| face.resolve(faces, vertex_id)).collect();
         let whole = facing * rational::area(&outline)[axis].to_f64().value();
         let corners: HashMap<u32, DVec3> = (0..)
             .zip(&face.corners)
@@ -180,7 +180,7 @@ fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), Test
         by_face.entry(fragment.face()).or_default().push(fragment.index());
         // Those that are shorter than corners were moved may have no length as given.
         let vertices: Vec<DVec3> = fragment.vertices().collect();
-        let outer = |(k, line): &(usize, Line)| {
+        let outer = |(k, line): &(usize, EdgeLine)| {
             let next = vertices[(k + 1) % vertices.len()];
             line.as_edge().is_some() && vertices[*k].distance(next) > slack
         };

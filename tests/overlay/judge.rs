@@ -125,7 +125,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
         let piece = overlay.piece(number as u32).expect("a piece");
         let at = (piece.face() - first) as usize;
         let points: Vec<Point> =
-            piece.symbols().map(|symbol| models[at].resolve(faces, symbol)).collect();
+            piece.vertex_ids().map(|vertex_id| models[at].resolve(faces, vertex_id)).collect();
         let area = rational::area(&points);
         // Pieces have their face's orientation: none counts against another.
         let along = rational::scalar(&area, &models[at].plane.normal);

@@ -20,7 +20,7 @@ fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {
     let all: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
     let of = |fragment: binspace::Fragment<'_>| {
         let face = &all[fragment.face() as usize];
-        fragment.symbols().map(|symbol| world(face.resolve(faces, symbol))).collect()
+        fragment.vertex_ids().map(|vertex_id| world(face.resolve(faces, vertex_id))).collect()
     };
     tree.fragments().map(of).collect()
 }

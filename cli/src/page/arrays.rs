@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use binspace::internals::{LATTICE_LIMIT, Line};
+use binspace::internals::{EdgeLine, LATTICE_LIMIT};
 use binspace::{BspTree, Child, Fragment, Node};
 use serde::Serialize;
 
@@ -180,7 +180,7 @@ impl Fragments {
 
 /// The kinds of a fragment's edges, from each vertex to the next.
 fn edge_kinds(fragment: &Fragment<'_>) -> impl Iterator<Item = u32> {
-    let kind = |(line, edge): (Line, Option<u32>)| match (line.as_cut(), edge) {
+    let kind = |(line, edge): (EdgeLine, Option<u32>)| match (line.as_cut(), edge) {
         (Some(_), _) => CUT,
         (None, Some(_)) => ORIGINAL,
         (None, None) => INNER,

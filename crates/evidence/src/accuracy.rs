@@ -6,7 +6,7 @@ use num_traits::{FromPrimitive, Zero};
 use crate::place::{Place, Plane};
 use crate::residue::{Residue, twice_area};
 use crate::tree::{self, Node, Tree};
-use binspace::internals::{Faces, PlaneId, PlaneKind, Side, Symbol};
+use binspace::internals::{Faces, PlaneId, PlaneKind, Side, VertexId};
 
 /// The errors of the vertices of a tree's fragments, and the number of those on a wrong side; see
 /// [`accuracy`].
@@ -45,7 +45,7 @@ struct Above {
 
 /// A vertex where its definition puts it.
 struct Vertex {
-    symbol: Symbol,
+    vertex_id: VertexId,
     place: Place,
     /// The place, each coordinate within three roundings.
     rounded: [f64; 3],
@@ -107,9 +107,10 @@ impl<'a> Count<'a> {
         let plane = Plane::of(self.faces, id);
         let axis = plane.main_axis();
         let mut outline = Some(Vec::new());
-        for (symbol, position) in tree.symbols(fragment).zip(tree.lattice_vertices(fragment)) {
+        for (vertex_id, position) in tree.vertex_ids(fragment).zip(tree.lattice_vertices(fragment))
+        {
             self.result.vertices += 1;
-            let Some(place) = Place::of(self.faces, face, &plane, symbol) else {
+            let Some(place) = Place::of(self.faces, face, &plane, vertex_id) else {
                 self.result.undefined += 1;
                 outline = None;
                 continue;
@@ -122,7 +123,7 @@ impl<'a> Count<'a> {
                 outline.push(point);
                 outline
             });
-            let vertex = Vertex { symbol, rounded: place.rounded(), place };
+            let vertex = Vertex { vertex_id, rounded: place.rounded(), place };
             let is_wrong = path.iter().any(|above| above.has_misplaced(id, &vertex));
             self.result.misplaced += usize::from(is_wrong);
         }
@@ -134,7 +135,7 @@ impl<'a> Count<'a> {
     fn area(&self, face: u32) -> Option<Residue> {
         let plane = Plane::of(self.faces, PlaneId::face(face));
         let axis = plane.main_axis();
-        let corners = (0..self.faces.corners(face).len() as u32).map(Symbol::corner);
+        let corners = (0..self.faces.corners(face).len() as u32).map(VertexId::corner);
         let point = |corner| Residue::place(&Place::of(self.faces, face, &plane, corner)?, axis);
         let outline: Option<Vec<_>> = corners.map(point).collect();
         outline.map(|outline| twice_area(&outline))
@@ -173,7 +174,7 @@ impl Above {
             return self.side != Side::Coplanar;
         }
         // What a plane defines lies on it.
-        if vertex.symbol.is_on(self.id) {
+        if vertex.vertex_id.is_on(self.id) {
             return false;
         }
         match self.side {

@@ -4,7 +4,7 @@
 //! of segments and by Cramer's rule. It takes over the input: the corners on the lattice, which of
 //! them define a face's plane, and the names of planes and vertices.
 
-use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, Symbol, SymbolKind};
+use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use dashu_int::IBig;
 use num_traits::{One, Signed};
 
@@ -104,15 +104,15 @@ pub(crate) struct Place {
 
 impl Place {
     /// Where a vertex of a face is; `None` if what defines it is parallel. `plane` is the face's.
-    pub(crate) fn of(faces: &Faces, face: u32, plane: &Plane, vertex: Symbol) -> Option<Self> {
+    pub(crate) fn of(faces: &Faces, face: u32, plane: &Plane, vertex: VertexId) -> Option<Self> {
         match vertex.kind() {
-            SymbolKind::Corner(k) => Some(Self::corner(faces, face, plane, k as usize)),
-            SymbolKind::OnEdge(k, by) => {
+            VertexKind::Corner(k) => Some(Self::corner(faces, face, plane, k as usize)),
+            VertexKind::OnEdge(k, by) => {
                 let (k, len) = (k as usize, faces.corners(face).len());
                 let ends = [k, (k + 1) % len].map(|k| Self::corner(faces, face, plane, k));
                 Self::crossing(&ends, &Plane::of(faces, by))
             }
-            SymbolKind::Inside(g, h) => {
+            VertexKind::Inside(g, h) => {
                 Self::meeting([plane, &Plane::of(faces, g), &Plane::of(faces, h)])
             }
         }

@@ -4,7 +4,9 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-use binspace::internals::{Eye, Faces, LATTICE_LIMIT, Line, PlaneId, PlaneKind, Side, Symbol};
+use binspace::internals::{
+    EdgeLine, Eye, Faces, LATTICE_LIMIT, PlaneId, PlaneKind, Side, VertexId,
+};
 
 use crate::tree::{self, Fragment, Node, Tree, Vertex};
 
@@ -122,7 +124,7 @@ impl<T: Precision> RoundedPlane<T> {
             let crossing = || self.crossing(&vertex, &piece.vertices[j]);
             for (part, own) in parts.iter_mut().zip([Ordering::Greater, Ordering::Less]) {
                 // The line along the plane, where the part's outline leaves the piece's.
-                let cut = Line::cut(self.plane, own.is_lt());
+                let cut = EdgeLine::cut(self.plane, own.is_lt());
                 let leaves = next == own.reverse();
                 if here == own || here.is_eq() {
                     let line = if here.is_eq() && leaves { cut } else { vertex.line };
@@ -145,8 +147,8 @@ impl<T: Precision> RoundedPlane<T> {
             let (p, q) = (from.position[i], to.position[i]);
             T::round(p + T::round(T::round(q - p) * t))
         });
-        let symbol = Symbol::crossing(from.line, self.plane);
-        Vertex { position, symbol, line: from.line }
+        let vertex_id = VertexId::crossing(from.line, self.plane);
+        Vertex { position, vertex_id, line: from.line }
     }
 }
 
@@ -155,8 +157,8 @@ impl RoundedPiece {
     pub fn whole<T: Precision>(faces: &Faces, face: u32) -> Self {
         let vertex = |(k, corner): (u32, &[f64; 3])| Vertex {
             position: corner.map(T::round),
-            symbol: Symbol::corner(k),
-            line: Line::edge(k),
+            vertex_id: VertexId::corner(k),
+            line: EdgeLine::edge(k),
         };
         let vertices = (0..).zip(faces.corners(face)).map(vertex).collect();
         Self { face, vertices, is_whole: true }
@@ -168,8 +170,8 @@ impl RoundedPiece {
     }
 
     /// The definitions of its vertices.
-    pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
-        self.vertices.iter().map(|vertex| vertex.symbol)
+    pub fn vertex_ids(&self) -> impl Iterator<Item = VertexId> {
+        self.vertices.iter().map(|vertex| vertex.vertex_id)
     }
 }
 

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::ops::Range;
 
-use binspace::internals::{Eye, Faces, Line, PlaneId, Symbol};
+use binspace::internals::{EdgeLine, Eye, Faces, PlaneId, VertexId};
 use binspace::{BspTree, Child, Viewpoint};
 
 /// A BSP tree whose vertices have a definition and a position: the library's, or one of
@@ -56,8 +56,8 @@ pub(crate) struct Fragment {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Vertex {
     pub(crate) position: [f64; 3],
-    pub(crate) symbol: Symbol,
-    pub(crate) line: Line,
+    pub(crate) vertex_id: VertexId,
+    pub(crate) line: EdgeLine,
 }
 
 impl Tree {
@@ -121,11 +121,13 @@ impl Tree {
     }
 
     /// For each vertex of a fragment, its definition.
-    pub fn symbols(&self, fragment: u32) -> impl Iterator<Item = Symbol> {
+    pub fn vertex_ids(&self, fragment: u32) -> impl Iterator<Item = VertexId> {
         let stored = self.stored(fragment);
         let corners =
             if stored.is_empty() { self.faces.corners(self.face(fragment)).len() } else { 0 };
-        (0..corners as u32).map(Symbol::corner).chain(stored.iter().map(|vertex| vertex.symbol))
+        (0..corners as u32)
+            .map(VertexId::corner)
+            .chain(stored.iter().map(|vertex| vertex.vertex_id))
     }
 
     /// The partition planes, depth first, each with the fragments on it, and all in front and
@@ -200,11 +202,11 @@ impl From<&BspTree> for Tree {
         for fragment in tree.fragments() {
             fragments.push(Fragment { face: fragment.face(), start: vertices.len() as u32 });
             if !fragment.is_whole() {
-                let names = fragment.symbols().zip(fragment.lines());
+                let names = fragment.vertex_ids().zip(fragment.lines());
                 let placed = fragment.lattice_vertices().zip(names);
-                vertices.extend(placed.map(|(position, (symbol, line))| Vertex {
+                vertices.extend(placed.map(|(position, (vertex_id, line))| Vertex {
                     position,
-                    symbol,
+                    vertex_id,
                     line,
                 }));
             }

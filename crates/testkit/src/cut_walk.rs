@@ -4,7 +4,7 @@ use super::judge::{POSITION_ERROR, Verdict, ensure};
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
 use binspace::internals::{
-    Faces, PlaneId, PlaneKind, PreparedPlane, Side, SymbolKind, Vertex, split,
+    Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex, VertexKind, split,
 };
 use num_traits::Signed;
 
@@ -105,7 +105,7 @@ impl<'a> Walk<'a> {
     }
 
     fn resolve(&self, piece: &[Vertex]) -> Vec<Point> {
-        piece.iter().map(|v| self.exact.resolve(self.faces, v.symbol())).collect()
+        piece.iter().map(|v| self.exact.resolve(self.faces, v.vertex_id())).collect()
     }
 
     fn check_part(&mut self, part: &[Vertex], expected: &[model::Vertex]) -> Verdict {
@@ -119,9 +119,9 @@ impl<'a> Walk<'a> {
             ensure(error <= POSITION_ERROR, || format!("{vertex:?} is {error} off"))?;
             let stored = vertex.stored();
             let restored = stored.restored(self.faces, self.face);
-            let parts = |v: &Vertex| (v.position(), v.symbol(), v.line());
+            let parts = |v: &Vertex| (v.position(), v.vertex_id(), v.line());
             ensure(parts(&restored) == parts(vertex), || format!("{vertex:?} is not stored"))?;
-            let by_two_cuts = matches!(vertex.symbol().kind(), SymbolKind::Inside(..));
+            let by_two_cuts = matches!(vertex.vertex_id().kind(), VertexKind::Inside(..));
             self.tally.inside += usize::from(by_two_cuts);
         }
         Ok(())

@@ -307,7 +307,7 @@ impl<'t> Oracle<'t> {
     pub fn vertices(&self, fragment: u32) -> Vec<Point> {
         let fragment = self.tree.fragment(fragment);
         let face = self.model(fragment.face());
-        fragment.symbols().map(|symbol| face.resolve(self.faces(), symbol)).collect()
+        fragment.vertex_ids().map(|vertex_id| face.resolve(self.faces(), vertex_id)).collect()
     }
 
     fn line(&self, ray: Ray) -> Line {

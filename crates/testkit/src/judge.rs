@@ -6,7 +6,7 @@
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
 use binspace::glam::DVec3;
-use binspace::internals::{Lattice, Line, Side, Symbol};
+use binspace::internals::{EdgeLine, Lattice, Side, VertexId};
 use binspace::{BspTree, Fragment};
 use num_traits::Zero;
 
@@ -20,7 +20,7 @@ pub const POSITION_ERROR: f64 = 0.77;
 /// A fragment in rationals.
 struct Piece {
     points: Vec<Point>,
-    lines: Vec<Line>,
+    lines: Vec<EdgeLine>,
 }
 
 /// A tree with its faces and fragments in rationals.
@@ -76,14 +76,14 @@ impl<'t> Judge<'t> {
         let faces: Vec<Face> =
             (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
         let piece = |fragment: Fragment<'_>| {
-            let lines: Vec<Line> = fragment.lines().collect();
+            let lines: Vec<EdgeLine> = fragment.lines().collect();
             let corners = tree.faces().corners(fragment.face()).len() as u32;
-            let symbol = |i: usize| {
+            let vertex_id = |i: usize| {
                 let before = lines[(i + lines.len() - 1) % lines.len()];
                 meeting(before, lines[i], corners)
             };
             let face = &faces[fragment.face() as usize];
-            let resolve = |i| face.resolve(tree.faces(), symbol(i));
+            let resolve = |i| face.resolve(tree.faces(), vertex_id(i));
             let points: Vec<Point> = (0..lines.len()).map(resolve).collect();
             Piece { points, lines }
         };
@@ -257,11 +257,11 @@ fn along(face: &Face, edge: usize, point: &Point) -> Rational {
 }
 
 /// The vertex where two lines that follow one another around a piece meet.
-pub fn meeting(before: Line, after: Line, corners: u32) -> Symbol {
+pub fn meeting(before: EdgeLine, after: EdgeLine, corners: u32) -> VertexId {
     match (before.as_edge(), before.as_cut(), after.as_cut()) {
-        (_, _, Some(plane)) => Symbol::crossing(before, plane),
-        (_, Some(plane), None) => Symbol::crossing(after, plane),
-        (Some(edge), _, None) => Symbol::corner((edge + 1) % corners),
+        (_, _, Some(plane)) => VertexId::crossing(before, plane),
+        (_, Some(plane), None) => VertexId::crossing(after, plane),
+        (Some(edge), _, None) => VertexId::corner((edge + 1) % corners),
         (None, None, None) => unreachable!("a line is an edge or a cut"),
     }
 }

@@ -4,14 +4,14 @@
 
 use super::rational::{self, Plane, Point, Rational};
 use super::vector;
-use binspace::internals::{Faces, Line, PlaneId, PlaneKind, Side, Symbol, SymbolKind};
+use binspace::internals::{EdgeLine, Faces, PlaneId, PlaneKind, Side, VertexId, VertexKind};
 use std::cmp::Ordering;
 
 /// A vertex of a piece, and what bounds the piece from it to the next.
 #[derive(Clone, Debug)]
 pub struct Vertex {
     pub point: Point,
-    pub line: Line,
+    pub line: EdgeLine,
 }
 
 /// A face in rationals.
@@ -39,22 +39,22 @@ impl Face {
 
     /// The whole face as a piece.
     pub fn outline(&self) -> Vec<Vertex> {
-        let lines = (0..).map(Line::edge);
+        let lines = (0..).map(EdgeLine::edge);
         self.corners.iter().zip(lines).map(|(c, line)| Vertex { point: c.clone(), line }).collect()
     }
 
-    /// The point that a symbol stands for.
-    pub fn resolve(&self, faces: &Faces, symbol: Symbol) -> Point {
-        match symbol.kind() {
-            SymbolKind::Corner(k) => self.corners[k as usize].clone(),
-            SymbolKind::OnEdge(k, by) => {
+    /// The point that a name stands for.
+    pub fn resolve(&self, faces: &Faces, vertex_id: VertexId) -> Point {
+        match vertex_id.kind() {
+            VertexKind::Corner(k) => self.corners[k as usize].clone(),
+            VertexKind::OnEdge(k, by) => {
                 let k = k as usize;
                 let ends = [&self.corners[k], &self.corners[(k + 1) % self.corners.len()]];
                 let by = plane(faces, by);
                 let values = ends.map(|end| by.at(end));
                 rational::crossing(ends, [&values[0], &values[1]])
             }
-            SymbolKind::Inside(g, h) => {
+            VertexKind::Inside(g, h) => {
                 rational::meeting(&self.plane, &plane(faces, g), &plane(faces, h))
             }
         }
@@ -152,7 +152,7 @@ fn lattice(corner: [f64; 3]) -> Point {
 /// piece's vertices.
 pub fn clip(piece: &[Vertex], values: &[Rational], plane: PlaneId, behind: bool) -> Vec<Vertex> {
     let inside = if behind { Ordering::Less } else { Ordering::Greater };
-    let cut = Line::cut(plane, behind);
+    let cut = EdgeLine::cut(plane, behind);
     let mut part = Vec::new();
     for (i, vertex) in piece.iter().enumerate() {
         let j = (i + 1) % piece.len();

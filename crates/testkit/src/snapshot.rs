@@ -1,11 +1,11 @@
 //! A tree's planes and fragments, for comparing trees bit for bit.
 
-use binspace::internals::{Line, PlaneId};
+use binspace::internals::{EdgeLine, PlaneId};
 use binspace::{BspTree, Viewpoint};
 use std::ops::Range;
 
 /// A fragment: its face, its polygon, its lines, its vertices in lattice units.
-type Piece = (u32, usize, Vec<Line>, Vec<[u64; 3]>);
+type Piece = (u32, usize, Vec<EdgeLine>, Vec<[u64; 3]>);
 
 /// A partition plane by its name, its depth, and the fragments on it, in front and behind.
 type Node = (PlaneId, usize, [Range<u32>; 3]);

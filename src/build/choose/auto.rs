@@ -1,12 +1,12 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
 use super::axis_planes::FreePlanes;
-use super::cost::{Candidate, Quick, Terms, Tuning};
+use super::cost::{Candidate, CostModel, Quick, Tuning};
 use super::own::{Contest, Sample};
 use super::peel::{Peeler, arrange};
 use super::quick::{Middle, even_plane};
 use super::set::{LANES, Set};
-use super::{Choice, Rules};
+use super::{Choice, ChooseContext};
 use crate::Error;
 use crate::build::piece::Piece;
 use crate::exact::{PlaneId, Side};
@@ -28,11 +28,11 @@ impl Auto {
     /// peeled off; the plane of least cost.
     pub(super) fn choose(
         &mut self,
-        rules: &Rules<'_>,
+        rules: &ChooseContext<'_>,
         set: &Set<'_>,
         is_peeled: bool,
     ) -> Result<Choice, Error> {
-        let Rules { tuning, watch, .. } = *rules;
+        let ChooseContext { tuning, watch, .. } = *rules;
         if let Some(plane) = self.common_plane(set, tuning) {
             return Ok(Choice::Split(plane));
         }
@@ -116,13 +116,13 @@ impl Auto {
 
     fn best_of_small(
         &mut self,
-        rules: &Rules<'_>,
+        rules: &ChooseContext<'_>,
         set: &Set<'_>,
         free: Option<Candidate>,
         is_peeled: bool,
     ) -> Choice {
-        let Rules { tuning, watch, .. } = *rules;
-        let terms = Terms::small(set, tuning);
+        let ChooseContext { tuning, watch, .. } = *rules;
+        let terms = CostModel::small(set, tuning);
         self.sample.restart(set, set.len());
         self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
         let own = self.contest.best(set, &mut self.sample, &terms, tuning);
@@ -144,12 +144,12 @@ impl Auto {
 
     fn best_of_large(
         &mut self,
-        rules: &Rules<'_>,
+        rules: &ChooseContext<'_>,
         set: &Set<'_>,
         free: Option<Candidate>,
     ) -> Result<Choice, Error> {
-        let Rules { tuning, watch, .. } = *rules;
-        let terms = Terms::large(set, tuning);
+        let ChooseContext { tuning, watch, .. } = *rules;
+        let terms = CostModel::large(set, tuning);
         // Each step is a pass over the set, or several.
         watch.work(set.len())?;
         self.begin_large(set, &terms, tuning);
@@ -166,7 +166,7 @@ impl Auto {
             if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch) {
                 return Ok(Choice::Peel(peeled));
             }
-            // The sketch has another order now, in which the first are no sample.
+            // The packed pieces have another order now, in which the first are no sample.
             self.begin_large(set, &terms, tuning);
             watch.work(set.len())?;
         }
@@ -175,7 +175,7 @@ impl Auto {
     }
 
     /// Compares own planes of a large set with a first sample of it.
-    fn begin_large(&mut self, set: &Set<'_>, terms: &Terms, tuning: &Tuning) {
+    fn begin_large(&mut self, set: &Set<'_>, terms: &CostModel, tuning: &Tuning) {
         let count = tuning.few_own_planes;
         self.sample.restart(set, count.next_multiple_of(LANES));
         self.contest.begin(set, &mut self.sample, count, terms, tuning);
@@ -192,7 +192,12 @@ fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
 }
 
 /// The better of an own plane and a free one; any, if there are none.
-fn better(set: &Set<'_>, terms: &Terms, own: Option<Candidate>, free: Option<Candidate>) -> Choice {
+fn better(
+    set: &Set<'_>,
+    terms: &CostModel,
+    own: Option<Candidate>,
+    free: Option<Candidate>,
+) -> Choice {
     Choice::Split(match (own, free) {
         (Some(own), Some(free)) if terms.compared(free.cost).is_less(&own.cost) => free.plane,
         (Some(one), _) | (None, Some(one)) => one.plane,

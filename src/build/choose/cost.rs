@@ -32,7 +32,7 @@ impl AddAssign for Counts {
 ///
 /// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later.
 /// (Any tree of a set, restricted to one side of a plane, is a tree of that side.) In large sets
-/// whether a plane cuts is left out (see `Terms::large`).
+/// whether a plane cuts is left out (see `CostModel::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -76,14 +76,14 @@ impl Cost {
 
 /// What decides between candidates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Terms {
+pub(super) struct CostModel {
     /// What a polygon that fills the box is worth.
     reward: f64,
     /// Whether a plane that cuts nothing is preferred to all that cut.
     prefers_uncut: bool,
 }
 
-impl Terms {
+impl CostModel {
     /// Of a small set: what cuts nothing is preferred.
     pub(super) fn small(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
@@ -269,7 +269,7 @@ impl Quick {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cost, Counts, Terms, work};
+    use super::{Cost, CostModel, Counts, work};
 
     #[test]
     fn work_is_a_power() {
@@ -293,19 +293,20 @@ mod tests {
     #[test]
     fn terms_of_large_sets_leave_out_whether_a_plane_cuts() {
         let [small, large] =
-            [true, false].map(|prefers_uncut| Terms { reward: 10.0, prefers_uncut });
+            [true, false].map(|prefers_uncut| CostModel { reward: 10.0, prefers_uncut });
         let even = Counts { front: 45, back: 45, splits: 10 };
         let rim = Counts { front: 99, back: 0, splits: 0 };
-        let is_even_better = |terms: &Terms| terms.cost(&even, 0.5).is_less(&terms.cost(&rim, 0.5));
+        let is_even_better =
+            |terms: &CostModel| terms.cost(&even, 0.5).is_less(&terms.cost(&rim, 0.5));
         assert!(!is_even_better(&small) && is_even_better(&large));
-        let counts_cuts = |terms: &Terms| terms.compared(Cost::of(&even)).cuts;
+        let counts_cuts = |terms: &CostModel| terms.compared(Cost::of(&even)).cuts;
         assert!(counts_cuts(&small) && !counts_cuts(&large));
     }
 
     /// Half of a set, and half of each count: all costs are less by the same factor.
     #[test]
     fn costs_of_samples_compare_as_those_of_all() {
-        let terms = Terms { reward: 300.0, prefers_uncut: false };
+        let terms = CostModel { reward: 300.0, prefers_uncut: false };
         let half = terms.of_sample(200, 400);
         for (front, back, splits, share) in
             [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)]

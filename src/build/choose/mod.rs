@@ -39,7 +39,7 @@ impl Chooser {
     /// builder checks.
     pub(super) fn choose(
         &mut self,
-        rules: &Rules<'_>,
+        rules: &ChooseContext<'_>,
         set: &Set<'_>,
         is_peeled: bool,
     ) -> Result<Choice, Error> {
@@ -76,14 +76,14 @@ impl Chooser {
     }
 
     /// A free plane that cuts nothing.
-    pub(super) fn clean(&mut self, rules: &Rules<'_>, set: &Set<'_>) -> Option<PlaneId> {
+    pub(super) fn clean(&mut self, rules: &ChooseContext<'_>, set: &Set<'_>) -> Option<PlaneId> {
         self.auto.free.clean(set, rules.tuning).map(|free| free.plane)
     }
 
     /// The own plane of least weighted sum.
     fn weighted(
         &mut self,
-        rules: &Rules<'_>,
+        rules: &ChooseContext<'_>,
         set: &Set<'_>,
         candidates: usize,
         [splits, balance, axial]: [f64; 3],
@@ -111,14 +111,14 @@ pub(in crate::build) enum Choice {
 
 /// The settings of the chooser.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::build) struct Rules<'a> {
+pub(in crate::build) struct ChooseContext<'a> {
     pub(in crate::build) heuristic: Heuristic,
     pub(in crate::build) tuning: &'a Tuning,
     /// Once a build is cancelled, any plane is chosen, quickly.
     pub(in crate::build) watch: &'a Watch<'a>,
 }
 
-impl<'a> Rules<'a> {
+impl<'a> ChooseContext<'a> {
     /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
     pub(in crate::build) fn tabled(&self, pieces: usize) -> Option<&'a Quick> {
         let quick = self.tuning.quick.as_ref()?;

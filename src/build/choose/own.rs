@@ -1,7 +1,7 @@
 //! The best of the pieces' own planes, by successive halving.
 
-use super::cost::{Candidate, Cost, Counts, Terms, Tuning};
-use super::set::{LANES, Set, Sketch, SketchPlane};
+use super::cost::{Candidate, Cost, CostModel, Counts, Tuning};
+use super::set::{LANES, PackedPieces, PackedPlane, Set};
 use crate::build::piece::Piece;
 use crate::exact::PlaneId;
 use crate::progress::{PIECES_AT_ONCE, Watch};
@@ -15,7 +15,7 @@ struct Entrant {
     cost: Cost,
     /// How much of the set's bounding box the piece fills, 0 to 1.
     share: f64,
-    plane: SketchPlane,
+    plane: PackedPlane,
     /// Of the pieces that it was compared with.
     counts: Counts,
 }
@@ -48,12 +48,12 @@ impl Shares {
 #[derive(Debug, Default)]
 pub(super) struct Contest {
     field: Vec<Entrant>,
-    /// How many groups of the sketch they were compared with.
+    /// How many groups of the packed pieces they were compared with.
     seen: usize,
     /// The costs of the field, by their places in it.
     ranks: Vec<(Cost, u32)>,
     /// Places of those that had all pieces of the first sample on one side: the same in the field,
-    /// as it began, and in the sketch.
+    /// as it began, and in the packed pieces.
     one_sided: Vec<usize>,
 }
 
@@ -65,7 +65,7 @@ impl Contest {
         set: &Set<'_>,
         sample: &mut Sample,
         count: usize,
-        terms: &Terms,
+        terms: &CostModel,
         tuning: &Tuning,
     ) {
         let shares = Shares::of(set.size());
@@ -88,7 +88,7 @@ impl Contest {
         self.one_sided.extend(found.map(|(place, _)| place));
     }
 
-    /// The places in the sketch of the candidates that had all pieces of the first sample on one
+    /// The places in the packed pieces of the candidates that had all pieces of the first sample on one
     /// side of their planes.
     pub(super) fn one_sided(&self) -> &[usize] {
         &self.one_sided
@@ -99,7 +99,7 @@ impl Contest {
         &mut self,
         set: &Set<'_>,
         sample: &mut Sample,
-        terms: &Terms,
+        terms: &CostModel,
         tuning: &Tuning,
     ) -> Option<Candidate> {
         let mut pieces = tuning.first_sample;
@@ -132,7 +132,7 @@ impl Contest {
     }
 
     /// Compares all candidates with the first `pieces` pieces.
-    fn look(&mut self, set: &Set<'_>, sample: &mut Sample, pieces: usize, terms: &Terms) {
+    fn look(&mut self, set: &Set<'_>, sample: &mut Sample, pieces: usize, terms: &CostModel) {
         sample.grow(set, pieces);
         let sketch = &sample.sketch;
         let groups = self.seen..pieces.min(set.len()).div_ceil(LANES);
@@ -149,7 +149,7 @@ impl Contest {
 /// Tries own planes; its lists are kept to be used again.
 #[derive(Debug, Default)]
 pub(super) struct Scored {
-    sketch: Sketch,
+    sketch: PackedPieces,
     tried: Vec<Tried>,
 }
 
@@ -157,7 +157,7 @@ pub(super) struct Scored {
 #[derive(Debug)]
 struct Tried {
     piece: usize,
-    plane: SketchPlane,
+    plane: PackedPlane,
     counts: Counts,
 }
 
@@ -201,11 +201,11 @@ impl Scored {
     }
 }
 
-/// A sketch of some pieces of a set, to which others are added in an order of which every beginning
+/// Some packed pieces of a set, to which others are added in an order of which every beginning
 /// is a sample of the set.
 #[derive(Debug, Default)]
 pub(super) struct Sample {
-    pub(super) sketch: Sketch,
+    pub(super) sketch: PackedPieces,
     rest: Spread,
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::cost::Tuning;
-use super::set::{LANES, Reach, Set, Sketch, SketchBox, SketchPlane};
+use super::set::{LANES, PackedPieces, PackedPlane, Reach, Set, SketchBox};
 use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
@@ -52,14 +52,14 @@ impl Peeled {
 /// its plane left out, is one of the rest, with no more fragments. A set in convex position comes
 /// apart entirely if all places are tried.
 ///
-/// Exact: only what the sketch calls certain is believed, and exact arithmetic decides on what is near a
+/// Exact: only what the packed pieces call certain is believed, and exact arithmetic decides on what is near a
 /// plane. A tree of boxes around the pieces tells for all but the neighbours of a piece on which
 /// side of its plane they are, so that a set in convex position takes O(n log n) where boxes can
 /// tell at all; where many pieces have a vertex in common, as the sides of a cone, it takes O(n²).
 #[derive(Debug, Default)]
 pub(super) struct Peeler {
     boxes: Boxes,
-    /// For each group of the sketch, which of its pieces are left: a bit each.
+    /// For each group of the packed pieces, which of its pieces are left: a bit each.
     left: Vec<u8>,
     /// Why the current piece cannot be taken: a piece in front of its plane and one behind, or twice
     /// one across.
@@ -80,13 +80,13 @@ const BACK: usize = 1;
 const NO_PIECE: u32 = u32::MAX;
 
 impl Peeler {
-    /// Searches a set of which the sketch holds all pieces for those at some places; gives what was
+    /// Searches a set of which the packed pieces hold all pieces for those at some places; gives what was
     /// found, if anything. If there are more groups than `tuning.groups_per_box`, groups must be near
     /// one another (see [`arrange`]), or the boxes tell nothing.
     pub(super) fn search(
         &mut self,
         set: &Set<'_>,
-        sketch: &Sketch,
+        sketch: &PackedPieces,
         places: impl Iterator<Item = usize>,
         tuning: &Tuning,
         watch: &Watch<'_>,
@@ -108,7 +108,7 @@ impl Peeler {
 struct Search<'a, 'w> {
     lists: &'a mut Peeler,
     set: &'a Set<'a>,
-    sketch: &'a Sketch,
+    sketch: &'a PackedPieces,
     watch: &'a Watch<'w>,
     peeled: Peeled,
     /// How many pieces are left.
@@ -148,7 +148,7 @@ impl Search<'_, '_> {
 
     /// Compares the others with a piece's plane until there are some on both sides. Gives how many
     /// comparisons that took, and whether there may be none on one side.
-    fn look(&mut self, p: usize, plane: &SketchPlane) -> (usize, bool) {
+    fn look(&mut self, p: usize, plane: &PackedPlane) -> (usize, bool) {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
         self.lists.near.clear();
@@ -191,7 +191,7 @@ impl Search<'_, '_> {
     /// Notes which pieces of a group, among those left, are witnesses against taking piece `p`, and
     /// which are near its plane.
     #[inline]
-    fn see(&mut self, p: usize, plane: &SketchPlane, group: usize) {
+    fn see(&mut self, p: usize, plane: &PackedPlane, group: usize) {
         let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
         let left = self.lists.left[group] & others;
         let Reach { front, back, near } = self.sketch.reach(plane, group);
@@ -272,7 +272,7 @@ pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) ->
     order
 }
 
-/// A balanced tree of boxes around the groups of a sketch: the children of node i are 2i + 1 and
+/// A balanced tree of boxes around the groups of packed pieces: the children of node i are 2i + 1 and
 /// 2i + 2. If the root is a leaf, there are no boxes.
 #[derive(Debug, Default)]
 struct Boxes {
@@ -289,7 +289,7 @@ struct Node {
 }
 
 impl Boxes {
-    fn fill(&mut self, sketch: &Sketch, groups_per_box: usize) {
+    fn fill(&mut self, sketch: &PackedPieces, groups_per_box: usize) {
         self.groups_per_box = groups_per_box;
         self.around.clear();
         if sketch.groups() <= groups_per_box {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::cost::{Cost, Counts, Quick, Terms, Tuning};
+use super::cost::{Cost, CostModel, Counts, Quick, Tuning};
 use super::own::Shares;
 use super::set::Set;
 use crate::build::piece::Piece;
@@ -29,7 +29,7 @@ impl Quick {
 /// The best own plane of a small set, by exact counts of all its pieces.
 #[derive(Debug)]
 pub(in crate::build) struct Best {
-    terms: Terms,
+    terms: CostModel,
     pieces: usize,
     shares: Shares,
     trusted_share: f64,
@@ -59,7 +59,7 @@ impl Best {
             }
         }
         let size = std::array::from_fn(|axis| max[axis] - min[axis]);
-        let terms = Terms::of(count, cuts, tuning);
+        let terms = CostModel::of(count, cuts, tuning);
         let shares = Shares::of(size);
         Self {
             terms,

@@ -16,7 +16,7 @@ pub(super) const LANES: usize = 4;
 ///
 /// Used to rank planes, which may err. What it calls certain holds exactly, beyond the tolerance.
 #[derive(Debug, Default)]
-pub(super) struct Sketch {
+pub(super) struct PackedPieces {
     middle: DVec3,
     /// What a distance may be off by, and the tolerance: in lattice units, as all coordinates.
     slack: f32,
@@ -31,9 +31,9 @@ pub(super) struct Sketch {
     lanes: Vec<Vec4>,
 }
 
-/// A plane in the coordinates of a sketch: a unit normal, and its distance from the middle.
+/// A plane in the coordinates of packed pieces: a unit normal, and its distance from the middle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SketchPlane {
+pub(super) struct PackedPlane {
     normal: [f32; 3],
     offset: f32,
 }
@@ -54,7 +54,7 @@ pub(super) struct SketchBox {
     half: Vec3,
 }
 
-impl Sketch {
+impl PackedPieces {
     /// Forgets all pieces.
     pub(super) fn clear(&mut self) {
         self.rows.clear();
@@ -134,17 +134,17 @@ impl Sketch {
         start..self.ends[groups.end - 1] as usize
     }
 
-    /// The number in the set of a piece of the sketch.
+    /// The number in the set of a piece of the packed pieces.
     pub(super) fn number(&self, piece: usize) -> usize {
         self.numbers[piece] as usize
     }
 
-    /// The plane of a piece of the set in the coordinates of the sketch.
+    /// The plane of a piece of the set in the coordinates of the packed pieces.
     #[inline]
-    pub(super) fn plane(&self, set: &Set<'_>, piece: usize) -> SketchPlane {
+    pub(super) fn plane(&self, set: &Set<'_>, piece: usize) -> PackedPlane {
         let (normal, point) = set.rounded_plane(piece);
         let offset = normal.as_dvec3().dot(point - self.middle);
-        SketchPlane { normal: normal.to_array(), offset: offset as f32 }
+        PackedPlane { normal: normal.to_array(), offset: offset as f32 }
     }
 
     /// Whether a piece of the set may lie on the plane of another.
@@ -160,7 +160,7 @@ impl Sketch {
 
     /// Where the pieces of a group lie against a plane; lanes that hold none say nothing.
     #[inline]
-    pub(super) fn reach(&self, plane: &SketchPlane, group: usize) -> Reach {
+    pub(super) fn reach(&self, plane: &PackedPlane, group: usize) -> Reach {
         let plane = Splat::new(plane, self.slack);
         let (low, high) = plane.extents(&self.rows[self.rows_of(group..group + 1)]);
         Reach {
@@ -190,7 +190,7 @@ impl Sketch {
 
     /// On which side of a plane a box certainly lies: 0 in front, 1 behind; none if it may reach it.
     #[inline]
-    pub(super) fn side_of_box(&self, plane: &SketchPlane, around: &SketchBox) -> Option<usize> {
+    pub(super) fn side_of_box(&self, plane: &PackedPlane, around: &SketchBox) -> Option<usize> {
         let normal = Vec3::from_array(plane.normal);
         let distance = normal.dot(around.middle) - plane.offset;
         // The box is rounded once more, and so is its distance.
@@ -200,7 +200,7 @@ impl Sketch {
 
     /// Counts the pieces of some groups against a plane.
     #[inline]
-    pub(super) fn count(&self, plane: &SketchPlane, groups: Range<usize>) -> Counts {
+    pub(super) fn count(&self, plane: &PackedPlane, groups: Range<usize>) -> Counts {
         let plane = Splat::new(plane, self.slack);
         // Sums above 2²⁴ are rounded in `f32`; they only rank planes.
         let (mut front, mut back, mut both) = (Vec4::ZERO, Vec4::ZERO, Vec4::ZERO);
@@ -230,7 +230,7 @@ struct Splat {
 
 impl Splat {
     #[inline]
-    fn new(plane: &SketchPlane, slack: f32) -> Self {
+    fn new(plane: &PackedPlane, slack: f32) -> Self {
         Self {
             normal: plane.normal.map(Vec4::splat),
             above: Vec4::splat(plane.offset + slack),

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, EulerRot};
 
 use super::cost::Tuning;
 use super::set::Set;
-use super::{Choice, Chooser, Rules};
+use super::{Choice, ChooseContext, Chooser};
 use crate::build::piece::{Piece, Splitter};
 use crate::build::{BuildOptions, FrameBuilder, Heuristic};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
@@ -110,7 +110,7 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
     let watch = Watch::default();
     for sides in 8..14 {
         let fixture = Fixture::new(&prism(sides), 1e-9);
-        let rules = Rules { heuristic: Heuristic::Auto, tuning: &tuning, watch: &watch };
+        let rules = ChooseContext { heuristic: Heuristic::Auto, tuning: &tuning, watch: &watch };
         let mut chooser = Chooser::default();
         let choice = chooser.choose(&rules, &fixture.set(), false).unwrap();
         let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
@@ -128,7 +128,7 @@ fn a_sample_is_spread_over_the_set() {
 
 fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> PlaneId {
     let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
-    let rules = Rules { heuristic, tuning: &Tuning::DEFAULT, watch: &watch };
+    let rules = ChooseContext { heuristic, tuning: &Tuning::DEFAULT, watch: &watch };
     match Chooser::default().choose(&rules, &fixture.set(), false).unwrap() {
         Choice::Split(plane) => plane,
         Choice::Peel(_) => panic!("own planes alone are chosen"),

@@ -16,12 +16,13 @@ fn pairs_of_floats_decide_in_a_drawing() {
     let camera = Camera::looking_at_all([low, high], scene.up(), [320, 240]).unwrap();
     let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
     let lines = &map.rims.lines;
-    let is_twofold = |half: &Half| half.number().is_some_and(|n| lines.twofold.contains_key(&n));
+    let is_twofold =
+        |half: &HalfPlane| half.number().is_some_and(|n| lines.twofold.contains_key(&n));
     let (mut asked, mut decided) = (0, 0);
     for leaf in &map.leaves {
         // All lines in a tile against all corners there.
         let cells = || leaf.cells.iter().map(|visible| &visible.cell.sides);
-        let mut halves: Vec<Half> = cells().flatten().map(|side| side.half).collect();
+        let mut halves: Vec<HalfPlane> = cells().flatten().map(|side| side.half).collect();
         halves.sort();
         halves.dedup_by_key(|half| half.line());
         let corners = cells().flat_map(|sides| {

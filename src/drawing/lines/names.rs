@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::tests::all_lines;
 use crate::BuildOptions;
 use crate::drawing::exact_lines::compare;
-use crate::drawing::lines::{Half, STEPS};
+use crate::drawing::lines::{HalfPlane, STEPS};
 use crate::tree::BspTree;
 use crate::view::Camera;
 
@@ -40,7 +40,7 @@ fn lines(tree: &BspTree, camera: &Camera) -> usize {
         assert_eq!(other, None, "{:?}", lines.keys[i]);
         let axis = usize::from(line[1].sign().is_eq());
         let [k0, k] = [line[0], line[axis + 1]].map(|k| k.to_f64());
-        let border = lines.exact(Half::beyond(axis, (-k0 / k * STEPS).round() as i64));
+        let border = lines.exact(HalfPlane::beyond(axis, (-k0 / k * STEPS).round() as i64));
         assert!(compare(line, &border).is_ne(), "{:?}", lines.keys[i]);
     }
     exact.len()

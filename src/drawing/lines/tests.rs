@@ -1,9 +1,9 @@
 use glam::DVec3;
 
-use super::{Adopted, Half, Key, Lines, Rounded};
+use super::{Adopted, HalfPlane, Key, LineTable, Rounded};
 use crate::BuildOptions;
-use crate::drawing::exact_lines::Twofold;
-use crate::drawing::stock::{Rims, Stock};
+use crate::drawing::exact_lines::DoubleDouble;
+use crate::drawing::stock::{OutlineCache, Primitives};
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 use crate::raster::Rays;
@@ -14,10 +14,13 @@ use crate::view::Camera;
 const SIZE: [u32; 2] = [320, 200];
 
 /// All lines of all pieces that a camera sees.
-pub(in crate::drawing) fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Rims<'t>> {
+pub(in crate::drawing) fn all_lines<'t>(
+    tree: &'t BspTree,
+    camera: &Camera,
+) -> Option<OutlineCache<'t>> {
     let rays = Rays::new(camera, tree.faces()).ok()?;
-    let stock = Stock::new(tree, rays, vec![], &Watch::default()).unwrap();
-    let mut rims = Rims::new(&stock);
+    let stock = Primitives::new(tree, rays, vec![], &Watch::default()).unwrap();
+    let mut rims = OutlineCache::new(&stock);
     for item in 0..stock.items.len() as u32 {
         rims.item(&stock, item).unwrap();
     }
@@ -65,7 +68,7 @@ fn lines_in_floats_are_as_near_as_they_say() {
         let parallel = Camera::parallel(towards, DVec3::Z, off, 3.0 * size, SIZE);
         for camera in [perspective, parallel] {
             let Some(rims) = all_lines(&tree, &camera.unwrap()) else { continue };
-            let Lines { keys, rounded, reach, .. } = &rims.lines;
+            let LineTable { keys, rounded, reach, .. } = &rims.lines;
             for (key, rounded) in keys.iter().zip(rounded) {
                 let exact = Rounded::new(&rims.lines.exact_of(*key), *reach);
                 assert!(agree(rounded, &exact, *reach), "{key:?}: {rounded:?}, not {exact:?}");
@@ -101,7 +104,7 @@ fn edges_on_one_line_are_one() {
     for face in 0..7 {
         // Walls are above the ground and below the beam; those beside share an edge from two sides.
         assert_eq!([halves(face)[0], halves(face)[2]], [halves(0)[0], halves(0)[2]]);
-        let beam: Half = halves(7)[0];
+        let beam: HalfPlane = halves(7)[0];
         assert_eq!(halves(face)[2], beam.flipped(true));
     }
     assert_eq!(halves(2)[1], halves(3)[3].flipped(true));
@@ -124,11 +127,11 @@ fn lines_of_another_list_keep_their_sides() {
 
 fn check_lists(tree: &BspTree, camera: &Camera) {
     let rays = Rays::new(camera, tree.faces()).unwrap();
-    let stock = Stock::new(tree, rays, vec![], &Watch::default()).unwrap();
+    let stock = Primitives::new(tree, rays, vec![], &Watch::default()).unwrap();
     let count = stock.items.len() as u32;
     assert!(count > 15, "{count}");
     // The one list asks from the front to the back, the other the other way.
-    let (mut first, mut second) = (Rims::new(&stock), Rims::new(&stock));
+    let (mut first, mut second) = (OutlineCache::new(&stock), OutlineCache::new(&stock));
     for item in 0..count {
         first.item(&stock, item).unwrap();
         second.item(&stock, count - 1 - item).unwrap();
@@ -143,7 +146,7 @@ fn check_lists(tree: &BspTree, camera: &Camera) {
     }
     assert_eq!(first.lines.keys.len(), before);
     // A list that knows nothing has the same lines afterwards.
-    let mut third = Rims::new(&stock);
+    let mut third = OutlineCache::new(&stock);
     let mut adopted = Adopted::of(&second.lines);
     for item in 0..count {
         for half in second.known_item(&stock, item).to_vec() {
@@ -156,8 +159,8 @@ fn check_lists(tree: &BspTree, camera: &Camera) {
             assert!(off <= ours.error + theirs.error, "{ours:?}, {theirs:?}");
         }
     }
-    let Lines { keys, twofold, .. } = &third.lines;
-    let of_line = |line: u32| Twofold::of(&third.lines.exact_of(keys[line as usize]));
+    let LineTable { keys, twofold, .. } = &third.lines;
+    let of_line = |line: u32| DoubleDouble::of(&third.lines.exact_of(keys[line as usize]));
     assert!(twofold.len() > 20, "{}", twofold.len());
     for (&line, own) in twofold {
         assert_eq!(*own, of_line(line), "{line}");

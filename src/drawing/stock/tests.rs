@@ -39,17 +39,18 @@ fn vertices_are_as_near_as_they_say() {
         let faces = tree.faces();
         for fragment in tree.fragments() {
             let is_upright = faces.upright_axis(fragment.face()).is_some();
-            for (symbol, exact) in fragment.symbols().zip(fragment.lattice_vertices()) {
-                upright += u32::from(is_upright && matches!(symbol.kind(), SymbolKind::OnEdge(..)));
+            for (vertex_id, exact) in fragment.vertex_ids().zip(fragment.lattice_vertices()) {
+                upright +=
+                    u32::from(is_upright && matches!(vertex_id.kind(), VertexKind::OnEdge(..)));
                 all += 1;
-                let Some(near) = near_vertex(faces, fragment.face(), symbol) else {
+                let Some(near) = near_vertex(faces, fragment.face(), vertex_id) else {
                     continue;
                 };
                 by_floats += 1;
                 let off = difference(near, exact).map(f64::abs);
                 assert!(
                     off.iter().all(|off| *off <= NEAR_VERTEX),
-                    "{symbol:?}: {near:?}, not {exact:?}"
+                    "{vertex_id:?}: {near:?}, not {exact:?}"
                 );
             }
         }

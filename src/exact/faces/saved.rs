@@ -4,9 +4,9 @@ use std::io::{self, Read, Write};
 use std::ops::Range;
 
 use super::{Face, Faces, Frame, INNER};
-use crate::exact::label::MAX_LABELS;
-use crate::exact::label::bits::Known;
 use crate::exact::lattice::{LIMIT, MAX_CORNER, MAX_TOLERANCE};
+use crate::exact::names::MAX_NAMES;
+use crate::exact::names::bits::Known;
 use crate::exact::{Lattice, Plane, RoundedNormal, have_area, is_convex};
 use crate::parallel_map;
 use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
@@ -46,14 +46,14 @@ impl Faces {
         let lattice = Lattice::read(file)?;
         let tolerance = file.f64("tolerance")?;
         let mut corners = u64::from(of_cell);
-        let faces = file.list("faces", MAX_LABELS, |bytes: &[u8; 12]| {
+        let faces = file.list("faces", MAX_NAMES, |bytes: &[u8; 12]| {
             // Saturated rather than wrong: too many are refused below.
             let start = u32::try_from(corners).unwrap_or(u32::MAX);
             corners += u64::from(u32_at(bytes, 4));
             Face { start, polygon: u32_at(bytes, 0), frame: Frame(u32_at(bytes, 8)) }
         })?;
-        if corners >= MAX_LABELS as u64 {
-            return Err(LoadError::too_many("corners", corners, MAX_LABELS as u64 - 1));
+        if corners >= MAX_NAMES as u64 {
+            return Err(LoadError::too_many("corners", corners, MAX_NAMES as u64 - 1));
         }
         let corners =
             file.items("corners", corners as usize, |bytes: &[u8; 24]| point(bytes, 0))?;
@@ -129,7 +129,7 @@ impl Faces {
             }
             next = face + 1;
         }
-        let is_large = |&number: &u32| (number & !INNER) as usize >= MAX_LABELS;
+        let is_large = |&number: &u32| (number & !INNER) as usize >= MAX_NAMES;
         match self.numbers.iter().position(is_large) {
             Some(at) => Err(invalid("corner number", at, "is too large")),
             None => Ok(()),

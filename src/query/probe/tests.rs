@@ -5,7 +5,7 @@ use dashu_ratio::RBig;
 use glam::DVec3;
 use num_traits::{FromPrimitive, Signed};
 
-use super::{Probe, SPEED_BITS};
+use super::{RayQuery, SPEED_BITS};
 use crate::exact::Lattice;
 use crate::exact::eye::ExactRay;
 use crate::random::SplitMix64;
@@ -58,7 +58,7 @@ fn floats_are_off_by_one_rounding_and_a_thousandth() {
             to[other] = from[other] * ROUNDING * random.range(0.9999, 1.0);
         }
         let ray = if round % 5 == 0 { Ray::new(from, to - from) } else { Ray::between(from, to) };
-        let probe = Probe::new(ray, lattice).unwrap();
+        let probe = RayQuery::new(ray, lattice).unwrap();
         let (origin, direction, bits) = ExactRay::new(ray, lattice).unwrap().parts();
         origins = origins.max(off(probe.origin, origin, bits, probe.reach));
         if probe.is_precise {

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::faces;
-use crate::exact::{Faces, Line, PlaneId};
+use crate::exact::{EdgeLine, Faces, PlaneId};
 use crate::raster::{
     Comparison, Image, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare,
     depth_error, depth_map, difference, is_open, picture, zbuffer,
@@ -171,7 +171,7 @@ fn nothing_behind_the_eye_is_shown_mirrored() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, quarter, SIZE).unwrap();
     let rays = Rays::new(&camera, &scene).unwrap();
-    let lines = [Line::edge(1)];
+    let lines = [EdgeLine::edge(1)];
     let outline = Outline::Lines { lines: &lines, vertices: scene.corners(0) };
     let image = paint(&rays, &scene, [Piece { face: 0, outline }]);
     assert_eq!(drawn(image.faces()), "...... ...... ...... AAA... AAA... AAA...");
@@ -189,20 +189,20 @@ fn rays_through_lines_belong_to_the_piece_on_their_right() {
     let scene = faces(&[square([0.0; 2], [5.5; 2], 0.0), cut(4.5), lower], None);
     let rays = rays(&scene);
     let corners = scene.corners(0);
-    let show = |lines: &[Line]| {
+    let show = |lines: &[EdgeLine]| {
         let outline = Outline::Lines { lines, vertices: corners };
         drawn(paint(&rays, &scene, [Piece { face: 0, outline }]).faces())
     };
     let [upper, lower] = [1, 2].map(PlaneId::face);
     let left = [
-        Line::edge(0),
-        Line::cut(lower, false),
-        Line::cut(upper, false),
-        Line::edge(2),
-        Line::edge(3),
+        EdgeLine::edge(0),
+        EdgeLine::cut(lower, false),
+        EdgeLine::cut(upper, false),
+        EdgeLine::edge(2),
+        EdgeLine::edge(3),
     ];
     assert_eq!(show(&left), "AA.... AAA... AAAA.. AAAAA. AAAA.. AAA...");
-    let below = [Line::edge(0), Line::edge(1), Line::cut(lower, true)];
+    let below = [EdgeLine::edge(0), EdgeLine::edge(1), EdgeLine::cut(lower, true)];
     assert_eq!(show(&below), "...... ...... ...... ...... ....A. ...AA.");
 }
 

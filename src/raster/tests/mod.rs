@@ -11,7 +11,7 @@ mod tiling;
 use dashu_int::IBig;
 use glam::DVec3;
 
-use super::rays::{Pencil, Rays};
+use super::rays::{RayOrigin, Rays};
 use crate::exact::Faces;
 use crate::random::SplitMix64;
 use crate::view::Camera;
@@ -85,7 +85,7 @@ pub(super) fn ray(rays: &Rays, x: u32, y: u32) -> [[IBig; 3]; 2] {
         IBig::from(rays.base[i]) + IBig::from(rays.right[i]) * x + IBig::from(rays.down[i]) * y
     });
     match rays.pencil {
-        Pencil::From { eye, shift } => [eye.map(|c| IBig::from(c) << shift as usize), given],
-        Pencil::Along { direction } => [given, direction.map(IBig::from)],
+        RayOrigin::From { eye, shift } => [eye.map(|c| IBig::from(c) << shift as usize), given],
+        RayOrigin::Along { direction } => [given, direction.map(IBig::from)],
     }
 }

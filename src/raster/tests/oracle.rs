@@ -7,8 +7,8 @@ use dashu_ratio::RBig;
 use num_traits::{FromPrimitive, Signed, Zero};
 
 use super::ray;
-use crate::exact::{Faces, Line, PlaneId, PlaneKind};
-use crate::raster::rays::{Pencil, Rays};
+use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
+use crate::raster::rays::{RayOrigin, Rays};
 
 type Vector = [IBig; 3];
 
@@ -53,7 +53,7 @@ fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     if !moved {
         return Ray(Point(start, IBig::from(1)), direction);
     }
-    let perspective = matches!(rays.pencil, Pencil::From { .. });
+    let perspective = matches!(rays.pencil, RayOrigin::From { .. });
     let given = if perspective { &direction } else { &start };
     let given: Vector = std::array::from_fn(|i| {
         let [right, down] = [rays.right[i], rays.down[i]].map(IBig::from);
@@ -125,7 +125,7 @@ pub(crate) fn meets_piece(
     rays: &Rays,
     faces: &Faces,
     face: u32,
-    lines: &[Line],
+    lines: &[EdgeLine],
     [x, y]: [u32; 2],
 ) -> bool {
     let side = |moved, cut| {
@@ -133,7 +133,7 @@ pub(crate) fn meets_piece(
         let (n, p) = named(faces, cut);
         Some(dot(&n, &minus(&point, &times(&p, &divisor))))
     };
-    let is_inside = |line: &Line| {
+    let is_inside = |line: &EdgeLine| {
         let Some(cut) = line.as_cut() else { return true };
         let Some(value) = side(false, cut) else { return false };
         let value = if value.is_zero() { side(true, cut).expect("a face met") } else { value };

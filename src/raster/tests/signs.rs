@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, oracle};
-use crate::exact::{Faces, Line, PlaneId};
+use crate::exact::{EdgeLine, Faces, PlaneId};
 use crate::raster::coverage::Coverage;
 use crate::raster::exact::Plane;
 use crate::raster::line::Seen;
@@ -95,8 +95,11 @@ fn the_filter_never_contradicts_the_integers() {
     for_each_case(2, |rays, faces, case| {
         for face in 0..faces.len() as u32 {
             let plane = PlaneId::face((face + 1) % faces.len() as u32);
-            let lines =
-                [Line::cut(plane, false), Line::cut(PlaneId::axis(1, 2), true), Line::edge(1)];
+            let lines = [
+                EdgeLine::cut(plane, false),
+                EdgeLine::cut(PlaneId::axis(1, 2), true),
+                EdgeLine::edge(1),
+            ];
             let whole = Outline::Lines { lines: &lines, vertices: faces.corners(face) };
             let side = Plane::of(faces, face).kappa(rays).sign();
             let seen = Seen::new(rays, faces, face);

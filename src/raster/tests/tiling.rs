@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Random, cameras, faces, oracle};
-use crate::exact::{Faces, Line, PlaneId, PreparedPlane, Vertex, split};
+use crate::exact::{EdgeLine, Faces, PlaneId, PreparedPlane, Vertex, split};
 use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays};
 
@@ -11,7 +11,7 @@ use crate::raster::{Outline, Rays};
 const PIXELS: [u32; 2] = [64, 32];
 
 struct Tile {
-    lines: Vec<Line>,
+    lines: Vec<EdgeLine>,
     vertices: Vec<[f64; 3]>,
 }
 

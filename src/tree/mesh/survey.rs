@@ -5,7 +5,7 @@ use std::collections::{HashMap, TryReserveError};
 
 use crate::error::{Error, Limit};
 use crate::exact::vertex::Fraction;
-use crate::exact::{Faces, POSITION_OFF, PlaneId, Symbol, SymbolKind};
+use crate::exact::{Faces, POSITION_OFF, PlaneId, VertexId, VertexKind};
 use crate::memory::{empty, reserve};
 use crate::tree::BspTree;
 use crate::union::Union;
@@ -30,7 +30,7 @@ pub(super) struct Survey<'t> {
     pub(super) starts: Vec<u32>,
     pub(super) edges: Vec<FragmentEdge>,
     /// Nodes that are no corners: a face, and the vertex on it.
-    pub(super) cuts: Vec<(u32, Symbol)>,
+    pub(super) cuts: Vec<(u32, VertexId)>,
     pub(super) carriers: Vec<Carrier>,
 }
 
@@ -50,8 +50,8 @@ impl<'t> Survey<'t> {
             names.enter(&tree.faces, fragment.face())?;
             survey.make_room(&mut names, fragment.vertex_count())?;
             survey.starts.push(survey.edges.len() as u32);
-            for (symbol, line) in fragment.symbols().zip(fragment.lines()) {
-                let from = survey.node(&mut names, symbol);
+            for (vertex_id, line) in fragment.vertex_ids().zip(fragment.lines()) {
+                let from = survey.node(&mut names, vertex_id);
                 let carrier = match line.as_cut() {
                     Some(plane) => survey.carrier_of_cut(&mut names, plane),
                     None => survey.carrier_of_edge(&mut names, line.as_edge().unwrap_or(0)),
@@ -68,20 +68,20 @@ impl<'t> Survey<'t> {
         reserve(&mut self.cuts, vertices)?;
         reserve(&mut self.carriers, vertices)?;
         let rooms = [
-            names.symbols.try_reserve(vertices),
+            names.vertex_ids.try_reserve(vertices),
             names.planes.try_reserve(vertices),
             names.lines.try_reserve(vertices),
         ];
         rooms.into_iter().collect::<Result<(), _>>().map_err(|_| Error::out_of_memory())
     }
 
-    fn node(&mut self, names: &mut Names, symbol: Symbol) -> Node {
-        if let SymbolKind::Corner(k) = symbol.kind() {
+    fn node(&mut self, names: &mut Names, vertex_id: VertexId) -> Node {
+        if let VertexKind::Corner(k) = vertex_id.kind() {
             return names.first_corner + k;
         }
         let corners = self.tree.faces.corner_count();
-        *names.symbols.entry(symbol).or_insert_with(|| {
-            self.cuts.push((names.face, symbol));
+        *names.vertex_ids.entry(vertex_id).or_insert_with(|| {
+            self.cuts.push((names.face, vertex_id));
             (corners + self.cuts.len() - 1) as u32
         })
     }
@@ -103,7 +103,7 @@ impl<'t> Survey<'t> {
     }
 
     /// Which face and vertex a node is, unless it is a corner.
-    pub(super) fn cut(&self, node: Node) -> Option<(u32, Symbol)> {
+    pub(super) fn cut(&self, node: Node) -> Option<(u32, VertexId)> {
         let at = (node as usize).checked_sub(self.tree.faces.corner_count())?;
         self.cuts.get(at).copied()
     }
@@ -126,7 +126,7 @@ pub(super) fn ends(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
 struct Names {
     face: u32,
     first_corner: u32,
-    symbols: HashMap<Symbol, Node>,
+    vertex_ids: HashMap<VertexId, Node>,
     planes: HashMap<PlaneId, u32>,
     edges: Vec<Option<u32>>,
     lines: Lines,
@@ -139,7 +139,7 @@ impl Names {
         }
         let corners = faces.corner_range(face);
         (self.face, self.first_corner) = (face, corners.start as u32);
-        empty(&mut self.symbols);
+        empty(&mut self.vertex_ids);
         empty(&mut self.planes);
         self.edges.clear();
         reserve(&mut self.edges, corners.len())?;
@@ -363,8 +363,8 @@ fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
 /// Whether two ends on a line that faces share are corners given there in one place, or where the same
 /// plane cuts it.
 fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
-    let plane = |(face, symbol): (u32, Symbol)| match symbol.kind() {
-        SymbolKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
+    let plane = |(face, vertex_id): (u32, VertexId)| match vertex_id.kind() {
+        VertexKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
         _ => None,
     };
     survey.carriers[line].face.is_none()
@@ -390,20 +390,20 @@ pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fracti
         (None, None) => Fraction::whole(faces.given_corner(node)[carrier.axis]),
         (None, Some(face)) => {
             let first = faces.corner_range(face).start as u32;
-            faces.along(face, Symbol::corner(node - first), carrier.axis)
+            faces.along(face, VertexId::corner(node - first), carrier.axis)
         }
-        (Some((face, symbol)), None) => {
-            let given = match symbol.kind() {
-                SymbolKind::OnEdge(k, plane) => faces.cut_of_segment(ends(faces, face, k), plane),
+        (Some((face, vertex_id)), None) => {
+            let given = match vertex_id.kind() {
+                VertexKind::OnEdge(k, plane) => faces.cut_of_segment(ends(faces, face, k), plane),
                 _ => None,
             };
             // The plane may cut the edge as moved and not as given; then the former decides.
             given.map_or_else(
-                || faces.along(face, symbol, carrier.axis),
+                || faces.along(face, vertex_id, carrier.axis),
                 |cut| cut.along(carrier.axis),
             )
         }
-        (Some((face, symbol)), Some(_)) => faces.along(face, symbol, carrier.axis),
+        (Some((face, vertex_id)), Some(_)) => faces.along(face, vertex_id, carrier.axis),
     }
 }
 
@@ -454,7 +454,7 @@ fn rounded_places(survey: &Survey<'_>) -> Result<Vec<[f64; 3]>, Error> {
     let mut places = Vec::new();
     reserve(&mut places, survey.cuts.len())?;
     let faces = &survey.tree.faces;
-    places.extend(survey.cuts.iter().map(|&(face, symbol)| faces.position(face, symbol)));
+    places.extend(survey.cuts.iter().map(|&(face, vertex_id)| faces.position(face, vertex_id)));
     Ok(places)
 }
 
@@ -463,8 +463,8 @@ mod points_tests;
 
 #[cfg(test)]
 mod tests {
-    use super::{BspTree, Names, PlaneId, Symbol};
-    use crate::exact::Line;
+    use super::{BspTree, Names, PlaneId, VertexId};
+    use crate::exact::EdgeLine;
 
     #[test]
     fn a_face_cut_very_often_costs_the_faces_after_it_nothing() {
@@ -474,12 +474,12 @@ mod tests {
         names.enter(&tree.faces, 0).unwrap();
         for k in 0..100_000 {
             let plane = PlaneId::face(k);
-            names.symbols.insert(Symbol::crossing(Line::edge(0), plane), k);
+            names.vertex_ids.insert(VertexId::crossing(EdgeLine::edge(0), plane), k);
             names.planes.insert(plane, k);
         }
         // The first face after it still pays for the entries.
         (1..3).for_each(|face| names.enter(&tree.faces, face).unwrap());
-        let room = names.symbols.capacity() + names.planes.capacity();
+        let room = names.vertex_ids.capacity() + names.planes.capacity();
         assert!(room < 1000, "room for {room} names is emptied for each face");
     }
 }

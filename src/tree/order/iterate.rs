@@ -6,7 +6,7 @@ use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
 use super::eye::View;
-use super::layout::{Branch, FRAGMENTS, List, NEXT, NODES, ROOT, Run, Schedule};
+use super::layout::{Branch, FRAGMENTS, List, NEXT, NODES, OrderLayout, ROOT, Run};
 use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
 
@@ -335,7 +335,7 @@ pub(in crate::tree) fn write_from_nodes(
 /// `write_signs` fills `words` words with a bit for each node, 1 if the eye is in front.
 #[inline]
 fn write_order(
-    schedule: &Schedule,
+    schedule: &OrderLayout,
     fragments: usize,
     words: usize,
     order: &mut Vec<u32>,
@@ -395,7 +395,7 @@ fn write_branches(branches: &[Branch], signs: &[u32], begins: &mut [u32], number
 }
 
 /// Writes subtrees of up to four fragments, each by one look into a table.
-fn write_twigs(schedule: &Schedule, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
+fn write_twigs(schedule: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
     for (twig, &begin) in schedule.twigs.iter().zip(begins) {
         let word = twig.node as usize / 32;
         // The bits of a twig's nodes may lie across two words; `signs` has one word more than it needs.

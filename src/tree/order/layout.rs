@@ -11,7 +11,7 @@ use crate::tree::node::NodeRecord;
 /// saves.
 const SHORTEST_LIST: usize = 8;
 
-impl Schedule {
+impl OrderLayout {
     /// Lays out a tree. O(nodes).
     pub(in crate::tree) fn new(nodes: &[NodeRecord], fragments: u32) -> Result<Self, Error> {
         let mut layout = Layout { nodes, schedule: Self::default(), rows: HashMap::new(), next: 0 };
@@ -56,7 +56,7 @@ enum BranchSide {
 
 struct Layout<'a> {
     nodes: &'a [NodeRecord],
-    schedule: Schedule,
+    schedule: OrderLayout,
     rows: HashMap<TwigShape, u32>,
     /// The first fragment that is not yet in a part.
     next: u32,
@@ -220,7 +220,7 @@ pub(in crate::tree) const ROOT: u32 = 2;
 /// exception is a branch with nothing beside its plane; it contains one run, which has more than
 /// [`FRAGMENTS`](FRAGMENTS) fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::tree) struct Schedule {
+pub(in crate::tree) struct OrderLayout {
     pub(in crate::tree) branches: Vec<Branch>,
     pub(in crate::tree) twigs: Vec<Twig>,
     pub(in crate::tree) runs: Vec<Run>,
@@ -289,7 +289,7 @@ pub(in crate::tree) struct Twig {
     pub(in crate::tree) node: u32,
     /// Its first fragment.
     pub(in crate::tree) first: u32,
-    /// Its row of [`Schedule::permutations`].
+    /// Its row of [`OrderLayout::permutations`].
     pub(in crate::tree) row: u32,
 }
 
@@ -300,7 +300,7 @@ pub(in crate::tree) struct Run {
     pub(in crate::tree) len: u32,
 }
 
-impl Schedule {
+impl OrderLayout {
     /// How many parts there are, [`NOBODY`] and [`NEXT`] included.
     pub(in crate::tree) fn parts(&self) -> usize {
         ROOT as usize + self.branches.len() + self.twigs.len() + self.runs.len()

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 
 use super::fault;
 use crate::exact::cell::Clipper;
-use crate::exact::{Line, PlaneId, PreparedPlane, Symbol, Vertex};
+use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Vertex, VertexId};
 use crate::tree::BspTree;
 use crate::tree::node::Visit;
 
@@ -107,11 +107,11 @@ impl BspTree {
             }
             let corners = self.faces.corners(face).len();
             let is_face = |outline: &Vec<Vertex>| {
-                let first = outline.iter().position(|v| v.symbol() == Symbol::corner(0));
+                let first = outline.iter().position(|v| v.vertex_id() == VertexId::corner(0));
                 let is_corner = |k: usize| {
                     let vertex = outline[(first.unwrap_or(0) + k) % corners];
                     let k = k as u32;
-                    vertex.symbol() == Symbol::corner(k) && vertex.line() == Line::edge(k)
+                    vertex.vertex_id() == VertexId::corner(k) && vertex.line() == EdgeLine::edge(k)
                 };
                 outline.is_empty() || outline.len() == corners && (0..corners).all(is_corner)
             };
@@ -130,7 +130,7 @@ impl BspTree {
 
 /// Whether two outlines are one, wherever they begin.
 fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
-    let name = |vertex: &Vertex| (vertex.symbol(), vertex.line());
+    let name = |vertex: &Vertex| (vertex.vertex_id(), vertex.line());
     let Some(first) = other.first().map(name) else { return outline.is_empty() };
     let start = outline.iter().position(|vertex| name(vertex) == first);
     start.is_some_and(|start| {
@@ -147,8 +147,8 @@ fn glue(
     side: impl Fn(&Vertex) -> Ordering,
 ) -> Option<Vec<Vertex>> {
     // From the cut's first vertex on: the cut is then the edge from vertex 0 to vertex 1.
-    let front = from_cut(front, Line::cut(plane, false))?;
-    let back = from_cut(back, Line::cut(plane, true))?;
+    let front = from_cut(front, EdgeLine::cut(plane, false))?;
+    let back = from_cut(back, EdgeLine::cut(plane, true))?;
     let mut outline = Vec::with_capacity(front.len() + back.len());
     for (here, there, expected) in
         [(&front, &back, Ordering::Greater), (&back, &front, Ordering::Less)]
@@ -156,13 +156,13 @@ fn glue(
         // Where this side begins, and the other one ends.
         let (begin, last) = (here[1], there[there.len() - 1]);
         let end = there[0];
-        if begin.symbol() != end.symbol() || begin.position() != end.position() {
+        if begin.vertex_id() != end.vertex_id() || begin.position() != end.position() {
             return None;
         }
         // A line that goes on across the plane has no vertex there but for the cut.
         let is_made = begin.line() == last.line();
         if is_made {
-            let is_crossing = begin.symbol() == Symbol::crossing(begin.line(), plane);
+            let is_crossing = begin.vertex_id() == VertexId::crossing(begin.line(), plane);
             let next = here[2];
             if !is_crossing || side(&next) != expected || side(&last) != expected.reverse() {
                 return None;
@@ -175,7 +175,7 @@ fn glue(
 
 /// An outline turned so that it begins with its edge on a line. It has one such edge: a second one would
 /// be left over in the end, and be found at the root.
-fn from_cut(outline: &[Vertex], cut: Line) -> Option<Vec<Vertex>> {
+fn from_cut(outline: &[Vertex], cut: EdgeLine) -> Option<Vec<Vertex>> {
     // Fragments have three vertices, but what is glued wrongly may have fewer.
     if outline.len() < 3 {
         return None;
@@ -193,26 +193,26 @@ mod tests {
     /// The two parts of a square, in front of the plane and behind it: x is the distance from the plane.
     fn parts() -> [Vec<Vertex>; 2] {
         let corner = |k, x, y| Vertex {
-            symbol: Symbol::corner(k),
-            line: Line::edge(k),
+            vertex_id: VertexId::corner(k),
+            line: EdgeLine::edge(k),
             position: [x, y, 0.0],
         };
         let crossing = |k, line, y| Vertex {
-            symbol: Symbol::crossing(Line::edge(k), PLANE),
+            vertex_id: VertexId::crossing(EdgeLine::edge(k), PLANE),
             line,
             position: [0.0, y, 0.0],
         };
         let front = [
-            crossing(0, Line::edge(0), 0.0),
+            crossing(0, EdgeLine::edge(0), 0.0),
             corner(1, 1.0, 0.0),
             corner(2, 1.0, 1.0),
-            crossing(2, Line::cut(PLANE, false), 1.0),
+            crossing(2, EdgeLine::cut(PLANE, false), 1.0),
         ];
         let back = [
-            crossing(2, Line::edge(2), 1.0),
+            crossing(2, EdgeLine::edge(2), 1.0),
             corner(3, -1.0, 1.0),
             corner(0, -1.0, 0.0),
-            crossing(0, Line::cut(PLANE, true), 0.0),
+            crossing(0, EdgeLine::cut(PLANE, true), 0.0),
         ];
         [front.to_vec(), back.to_vec()]
     }
@@ -225,8 +225,8 @@ mod tests {
     #[test]
     fn parts_of_a_square_are_glued_to_its_corners() {
         let whole = glued(&parts()).expect("two parts of one square");
-        let corners: Vec<Symbol> = [1, 2, 3, 0].map(Symbol::corner).into();
-        assert_eq!(whole.iter().map(Vertex::symbol).collect::<Vec<_>>(), corners);
+        let corners: Vec<VertexId> = [1, 2, 3, 0].map(VertexId::corner).into();
+        assert_eq!(whole.iter().map(Vertex::vertex_id).collect::<Vec<_>>(), corners);
     }
 
     /// A vertex more on the plane, on a line that goes on across it, would stand there twice.

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::exact::{Line, PlaneId};
+use crate::exact::{EdgeLine, PlaneId};
 use crate::paint::paint_list;
 use crate::random::SplitMix64;
 use crate::raster::tests::oracle::{Height, height, meets, meets_piece};
@@ -60,7 +60,7 @@ fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2
 /// The fragment of a face that the ray of a pixel meets.
 fn fragment_of(tree: &BspTree, rays: &Rays, face: u32, pixel: [u32; 2]) -> u32 {
     let mut met = tree.fragments().filter(|fragment| {
-        let lines: Vec<Line> = fragment.lines().collect();
+        let lines: Vec<EdgeLine> = fragment.lines().collect();
         fragment.face() == face && meets_piece(rays, tree.faces(), face, &lines, pixel)
     });
     let first = met.next().expect("a fragment that is met").index();

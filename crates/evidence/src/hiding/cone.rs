@@ -1,6 +1,6 @@
 //! What an eye sees of a face: the cone of rays through it.
 
-use binspace::internals::{Faces, PlaneId, Symbol};
+use binspace::internals::{Faces, PlaneId, VertexId};
 use dashu_int::IBig;
 use num_traits::Signed;
 
@@ -27,7 +27,7 @@ impl Seen {
         let plane = Plane::of(faces, PlaneId::face(face));
         let count = faces.corners(face).len() as u32;
         let corners: Vec<Quad> = (0..count)
-            .filter_map(|k| Place::of(faces, face, &plane, Symbol::corner(k)))
+            .filter_map(|k| Place::of(faces, face, &plane, VertexId::corner(k)))
             .map(|place| place.homogeneous())
             .collect();
         let triangle = faces.reference_triangle(face).map(|c| faces.corner(c));

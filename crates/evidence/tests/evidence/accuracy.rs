@@ -2,7 +2,7 @@
 //! definitions of vertices and planes.
 
 use binspace::glam::DVec3;
-use binspace::internals::{Faces, PlaneId, Side, Symbol, SymbolKind, Tuning, tree_of};
+use binspace::internals::{Faces, PlaneId, Side, Tuning, VertexId, VertexKind, tree_of};
 use binspace::scene;
 use binspace::{BuildOptions, Heuristic, Preparation};
 use binspace_evidence::{Family, Precision, Tree, accuracy};
@@ -37,15 +37,15 @@ struct Placed {
 }
 
 /// The place of a vertex; `None` if what defines it is parallel.
-fn place(faces: &Faces, face: &Face, vertex: Symbol) -> Option<Point> {
+fn place(faces: &Faces, face: &Face, vertex: VertexId) -> Option<Point> {
     let is_defined = match vertex.kind() {
-        SymbolKind::Corner(_) => true,
-        SymbolKind::OnEdge(k, by) => {
+        VertexKind::Corner(_) => true,
+        VertexKind::OnEdge(k, by) => {
             let (k, by) = (k as usize, model::plane(faces, by));
             let ends = [k, (k + 1) % face.corners.len()].map(|k| by.at(&face.corners[k]));
             ends[0] != ends[1]
         }
-        SymbolKind::Inside(g, h) => {
+        VertexKind::Inside(g, h) => {
             let [g, h] = [g, h].map(|id| model::plane(faces, id).normal);
             !rational::scalar(&face.plane.normal, &rational::product(&g, &h)).is_zero()
         }
@@ -70,8 +70,9 @@ fn figures(tree: &Tree) -> Figures {
     let mut pieces: Vec<Vec<Option<Placed>>> = Vec::new();
     for fragment in 0..tree.len() as u32 {
         let mut piece = Vec::new();
-        for (symbol, position) in tree.symbols(fragment).zip(tree.lattice_vertices(fragment)) {
-            let point = place(faces, &models[tree.face(fragment) as usize], symbol);
+        for (vertex_id, position) in tree.vertex_ids(fragment).zip(tree.lattice_vertices(fragment))
+        {
+            let point = place(faces, &models[tree.face(fragment) as usize], vertex_id);
             if let Some(point) = &point {
                 let off = drift(point, position);
                 figures.drift_max = figures.drift_max.max(off);

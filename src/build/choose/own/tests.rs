@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::cost::{Candidate, Cost, work};
 use super::super::tests::{Fixture, triangles};
-use super::{Contest, Sample, Terms};
+use super::{Contest, CostModel, Sample};
 use crate::build::choose::cost::Tuning;
 use crate::build::choose::set::Set;
 use crate::exact::{PlaneKind, Side};
@@ -18,7 +18,7 @@ fn best(set: &Set<'_>, tuning: &Tuning) -> Candidate {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len());
-    let terms = Terms::small(set, tuning);
+    let terms = CostModel::small(set, tuning);
     contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
     contest.best(set, &mut sample, &terms, tuning).unwrap()
 }
@@ -89,7 +89,7 @@ fn begun(set: &Set<'_>, tuning: &Tuning) -> Contest {
     let (mut sample, mut contest) = (Sample::default(), Contest::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len());
-    let terms = Terms::small(set, tuning);
+    let terms = CostModel::small(set, tuning);
     contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
     contest
 }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::super::set::Sketch;
+use super::super::set::PackedPieces;
 use super::super::tests::{Fixture, grid, triangles};
 use super::{Peeled, Peeler, arrange};
 use crate::build::choose::cost::Tuning;
@@ -12,7 +12,7 @@ use crate::progress::Watch;
 use crate::random::SplitMix64;
 
 fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
-    let mut sketch = Sketch::default();
+    let mut sketch = PackedPieces::default();
     sketch.reset(set);
     sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
     Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
@@ -204,7 +204,7 @@ fn nothing_is_left_of_the_search_before() {
     let (mut peeler, tuning) = (Peeler::default(), &Tuning::DEFAULT);
     for pieces in [fixture.pieces.clone(), others] {
         fixture.pieces = pieces;
-        let (set, mut sketch) = (fixture.set(), Sketch::default());
+        let (set, mut sketch) = (fixture.set(), PackedPieces::default());
         sketch.reset(&set);
         let order = arrange(&set, tuning.groups_per_box);
         sketch.extend(&set, order.iter().copied());

@@ -1,20 +1,20 @@
-//! The sketch against exact decisions.
+//! The packed pieces against exact decisions.
 
 use glam::DVec3;
 
 use super::super::tests::{Fixture, grid, triangles};
-use super::{LANES, Set, Sketch};
+use super::{LANES, PackedPieces, Set};
 use crate::exact::{PlaneId, Side};
 use crate::random::SplitMix64;
 
-fn sketched(set: &Set<'_>) -> Sketch {
-    let mut sketch = Sketch::default();
+fn sketched(set: &Set<'_>) -> PackedPieces {
+    let mut sketch = PackedPieces::default();
     sketch.reset(set);
     sketch.extend(set, 0..set.len());
     sketch
 }
 
-/// Asserts that what the sketch calls certain is so; says how much it calls so.
+/// Asserts that what the packed pieces call certain is so; says how much it calls so.
 fn assert_certain(name: &str, fixture: &Fixture) -> usize {
     let set = fixture.set();
     let sketch = sketched(&set);

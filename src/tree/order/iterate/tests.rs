@@ -3,7 +3,7 @@
 use crate::exact::PlaneId;
 use crate::random::SplitMix64;
 use crate::tree::node::{NodeRecord, finish};
-use crate::tree::order::iterate::{ROOT, Schedule, write_order};
+use crate::tree::order::iterate::{OrderLayout, ROOT, write_order};
 use crate::tree::parts::{RawChild, RawNode};
 
 /// A node: how many fragments are on its plane, and what is in front and behind.
@@ -95,14 +95,14 @@ struct Checker<'a> {
     tree: &'a Tree,
     nodes: usize,
     fragments: u32,
-    schedule: Schedule,
+    schedule: OrderLayout,
     buffer: Vec<u32>,
 }
 
 impl<'a> Checker<'a> {
     fn new(tree: &'a Tree) -> Self {
         let (nodes, fragments) = (tree.nodes(), tree.fragments());
-        let schedule = Schedule::new(&nodes, fragments).unwrap();
+        let schedule = OrderLayout::new(&nodes, fragments).unwrap();
         let parts = schedule.parts() - ROOT as usize;
         assert!(parts < 2 * fragments as usize, "{parts} parts of {tree:?}");
         Self { tree, nodes: nodes.len(), fragments, schedule, buffer: vec![] }
@@ -161,7 +161,7 @@ fn sides(fragments: u32) -> Vec<Side> {
 #[test]
 fn without_a_node_there_is_nothing_to_order() {
     let mut order = vec![u32::MAX; 50];
-    write_order(&Schedule::new(&[], 0).unwrap(), 0, 1, &mut order, |_| ());
+    write_order(&OrderLayout::new(&[], 0).unwrap(), 0, 1, &mut order, |_| ());
     assert!(order.is_empty());
 }
 
@@ -290,7 +290,7 @@ fn the_most_parts_are_nearly_two_to_a_fragment() {
     for _ in 0..98 {
         tree = Tree::new(0, Leaf(1), Below(Box::new(tree)));
     }
-    let parts = Schedule::new(&tree.nodes(), 100).unwrap().parts() - ROOT as usize;
+    let parts = OrderLayout::new(&tree.nodes(), 100).unwrap().parts() - ROOT as usize;
     assert_eq!(parts, 2 * 100 - 7);
     Checker::new(&tree).check_some(&mut SplitMix64::new(4), 20);
 }

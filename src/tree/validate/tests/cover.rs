@@ -4,7 +4,7 @@ use super::{
     Dismantled, Stored, assert_fault, build, crossing, decals, square, tilted, trees, verdict,
 };
 use crate::build::{BuildOptions, Heuristic};
-use crate::exact::{Line, PlaneId, PreparedPlane, Symbol};
+use crate::exact::{EdgeLine, PlaneId, PreparedPlane, VertexId};
 use crate::tree::BspTree;
 use crate::tree::parts::{RawChild, RawNode};
 
@@ -189,16 +189,16 @@ fn lines_that_name_the_wrong_side_or_plane_or_edge_are_found() {
         let restored = |face, vertex: &Stored| vertex.restored(&tree.faces, face);
         let with = |face, vertex: &Stored, line| (restored(face, vertex).with_line(line)).stored();
         let turned = change_vertices(&tree, |face, vertex| match vertex.line().as_cut() {
-            Some(plane) => with(face, vertex, Line::cut(plane, !vertex.line().is_behind())),
+            Some(plane) => with(face, vertex, EdgeLine::cut(plane, !vertex.line().is_behind())),
             None => *vertex,
         });
         let planes = change_vertices(&tree, |face, vertex| match vertex.line().as_cut() {
-            Some(_) => with(face, vertex, Line::cut(PlaneId::face(3), false)),
-            None => with(face, vertex, Line::cut(PlaneId::face(0), true)),
+            Some(_) => with(face, vertex, EdgeLine::cut(PlaneId::face(3), false)),
+            None => with(face, vertex, EdgeLine::cut(PlaneId::face(0), true)),
         });
         let edges = change_vertices(&tree, |face, vertex| match vertex.line().as_edge() {
-            Some(edge) => with(face, vertex, Line::edge((edge + 1) % 4)),
-            None => with(face, vertex, Line::edge(0)),
+            Some(edge) => with(face, vertex, EdgeLine::edge((edge + 1) % 4)),
+            None => with(face, vertex, EdgeLine::edge(0)),
         });
         assert!(turned >= 8 && planes >= 30 && edges >= 30, "{turned} {planes} {edges}");
     }
@@ -215,7 +215,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     let prepared = PreparedPlane::new(&tree.faces, plane);
     let renamed = |vertex: &Stored, edge: u32| {
         let vertex = vertex.restored(&tree.faces, 1);
-        let on_edge = vertex.with_line(Line::edge(edge));
+        let on_edge = vertex.with_line(EdgeLine::edge(edge));
         on_edge.cut(&tree.faces, 1, &prepared).with_line(vertex.line()).stored()
     };
     // Corner 0 as the place where the diagonal crosses the edge that ends or begins there: in one
@@ -225,7 +225,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
             let edit = |parts: &mut Dismantled| {
                 for &piece in &pieces {
                     for vertex in &mut parts.pieces[piece].1 {
-                        if vertex.symbol() == Symbol::corner(0) {
+                        if vertex.vertex_id() == VertexId::corner(0) {
                             *vertex = renamed(vertex, edge);
                         }
                     }
@@ -244,19 +244,19 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     for long in [0, 3] {
         let edit = |parts: &mut Dismantled| {
             for (_, vertices) in &mut parts.pieces[1..] {
-                let at = vertices.iter().position(|v| v.symbol() == Symbol::corner(0));
+                let at = vertices.iter().position(|v| v.vertex_id() == VertexId::corner(0));
                 let at = at.expect("the corner");
                 let corner = vertices[at].restored(&tree.faces, 1);
                 let made = (renamed(&vertices[at], long)).restored(&tree.faces, 1);
-                let begins_edge = corner.line() == Line::edge(0);
+                let begins_edge = corner.line() == EdgeLine::edge(0);
                 match (long, begins_edge) {
                     // The edge goes on to the corner, and from there to the cut.
                     (0, false) => {
-                        vertices[at] = corner.with_line(Line::edge(0)).stored();
+                        vertices[at] = corner.with_line(EdgeLine::edge(0)).stored();
                         vertices.insert(at + 1, made.with_line(corner.line()).stored());
                     }
                     // The cut goes to an edge that ends at the corner.
-                    (3, true) => vertices.insert(at, made.with_line(Line::edge(3)).stored()),
+                    (3, true) => vertices.insert(at, made.with_line(EdgeLine::edge(3)).stored()),
                     _ => vertices[at] = made.stored(),
                 }
             }
@@ -271,17 +271,17 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
 #[test]
 fn a_vertex_that_both_pieces_call_by_the_name_of_the_other_end_of_the_cut_is_found() {
     let tree = crossing(2);
-    let symbols = |piece: usize| Dismantled::of(&tree).pieces[piece].1.clone();
-    let halves: Vec<usize> = (0..3).filter(|&piece| !symbols(piece).is_empty()).collect();
-    let on_cut: Vec<Stored> = symbols(halves[0])
+    let vertex_ids = |piece: usize| Dismantled::of(&tree).pieces[piece].1.clone();
+    let halves: Vec<usize> = (0..3).filter(|&piece| !vertex_ids(piece).is_empty()).collect();
+    let on_cut: Vec<Stored> = vertex_ids(halves[0])
         .into_iter()
-        .filter(|v| symbols(halves[1]).iter().any(|w| w.symbol() == v.symbol()))
+        .filter(|v| vertex_ids(halves[1]).iter().any(|w| w.vertex_id() == v.vertex_id()))
         .collect();
     let [p, q] = on_cut[..] else { panic!("two vertices on the cut") };
     let edit = |parts: &mut Dismantled| {
         for &half in &halves {
             for vertex in &mut parts.pieces[half].1 {
-                if vertex.symbol() == p.symbol() {
+                if vertex.vertex_id() == p.vertex_id() {
                     let other = q.restored(&tree.faces, 1);
                     *vertex = other.with_line(vertex.line()).stored();
                 }

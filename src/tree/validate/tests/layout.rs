@@ -102,7 +102,8 @@ fn rounded_planes_of_other_nodes_are_found() {
 /// Keeps the positions of a tree's vertices, as a tree for one view does.
 fn keep_positions(tree: &mut BspTree) -> Option<()> {
     let of = |fragment: crate::Fragment<'_>| {
-        let place = |stored: &StoredVertex| tree.faces.position(fragment.face(), stored.symbol());
+        let place =
+            |stored: &StoredVertex| tree.faces.position(fragment.face(), stored.vertex_id());
         fragment.stored().iter().map(place).collect::<Vec<_>>()
     };
     let positions: Vec<_> = tree.fragments().flat_map(of).collect();

@@ -2,7 +2,7 @@
 
 use super::{Dismantled, Stored, assert_fault, build, crossing, verdict};
 use crate::build::Heuristic;
-use crate::exact::{Line, PlaneId, PreparedPlane, Vertex};
+use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Vertex};
 use crate::scene;
 use crate::tree::BspTree;
 
@@ -72,20 +72,20 @@ fn faces_and_vertices_that_name_nothing_are_found() {
     let on_edge = on(PlaneId::face(8));
     assert_unknown(&tree, on_edge.stored());
     assert_unknown(&tree, (on(PlaneId::axis(1, 35))).stored());
-    let along_cut = corner.with_line(Line::cut(PlaneId::axis(2, 0), true));
+    let along_cut = corner.with_line(EdgeLine::cut(PlaneId::axis(2, 0), true));
     let prepared = PreparedPlane::new(&large.faces, PlaneId::face(8));
     let inside = along_cut.cut(&large.faces, 1, &prepared);
-    assert_unknown(&tree, inside.with_line(Line::edge(0)).stored());
+    assert_unknown(&tree, inside.with_line(EdgeLine::edge(0)).stored());
     // A vertex of a known plane and an unknown one, whichever of the two comes first.
     for (known, unknown) in [
         (PlaneId::face(0), PlaneId::face(8)),
         (PlaneId::face(0), PlaneId::axis(0, 35)),
         (PlaneId::axis(0, 0), PlaneId::face(8)),
     ] {
-        let along_cut = corner.with_line(Line::cut(known, true));
+        let along_cut = corner.with_line(EdgeLine::cut(known, true));
         let prepared = PreparedPlane::new(&large.faces, unknown);
         let inside = along_cut.cut(&large.faces, 1, &prepared);
-        assert_unknown(&tree, inside.with_line(Line::edge(0)).stored());
+        assert_unknown(&tree, inside.with_line(EdgeLine::edge(0)).stored());
     }
 }
 
@@ -95,12 +95,12 @@ fn corners_and_lines_beyond_a_face_are_found() {
     let piece = cut_piece(&Dismantled::of(&tree));
     let vertex = Dismantled::of(&tree).pieces[piece].1[0].restored(&tree.faces, 1);
     for line in [
-        Line::edge(4),
-        Line::edge(u32::MAX >> 4),
-        Line::cut(PlaneId::face(5), false),
-        Line::cut(PlaneId::face(99), true),
-        Line::cut(PlaneId::axis(0, 20), false),
-        Line::cut(PlaneId::axis(4, 0), false),
+        EdgeLine::edge(4),
+        EdgeLine::edge(u32::MAX >> 4),
+        EdgeLine::cut(PlaneId::face(5), false),
+        EdgeLine::cut(PlaneId::face(99), true),
+        EdgeLine::cut(PlaneId::axis(0, 20), false),
+        EdgeLine::cut(PlaneId::axis(4, 0), false),
     ] {
         assert_unknown(&tree, vertex.with_line(line).stored());
     }
@@ -108,7 +108,7 @@ fn corners_and_lines_beyond_a_face_are_found() {
     let triangles = build(&scene::random_triangles(40, 3), Heuristic::First);
     assert_unknown(
         &triangles,
-        (Vertex::corner(&tree.faces, 0, 3).with_line(Line::edge(0))).stored(),
+        (Vertex::corner(&tree.faces, 0, 3).with_line(EdgeLine::edge(0))).stored(),
     );
 }
 

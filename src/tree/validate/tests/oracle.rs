@@ -2,7 +2,7 @@
 
 use super::{Dismantled, Stored, build, crossing, decals, tilted, verdict};
 use crate::build::Heuristic;
-use crate::exact::{Line, PlaneId, PreparedPlane, Side, Vertex, split};
+use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Side, Vertex, split};
 use crate::random::SplitMix64;
 use crate::scene;
 use crate::tree::BspTree;
@@ -114,7 +114,7 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
         14 if n > 1 => {
             let here = (vertices[k % n]).restored(faces, face);
             if let Some(plane) = here.line().as_cut() {
-                let line = Line::cut(plane, !here.line().is_behind());
+                let line = EdgeLine::cut(plane, !here.line().is_behind());
                 vertices[k % n] = here.with_line(line).stored();
             }
         }

@@ -114,7 +114,7 @@ impl Twins {
         (self.exact, self.rounded) =
             if in_front { (front, rounded_front) } else { (back, rounded_back) };
         self.cuts += 1;
-        assert!(self.exact.iter().map(Vertex::symbol).eq(self.rounded.symbols()));
+        assert!(self.exact.iter().map(Vertex::vertex_id).eq(self.rounded.vertex_ids()));
     }
 }
 

@@ -13,7 +13,7 @@ const AXIS: u32 = 2;
 const BEHIND: u32 = 1 << 31;
 
 /// Labels can name this many faces, and this many corners of all faces together.
-pub(crate) const MAX_LABELS: usize = 1 << TAG_SHIFT;
+pub(crate) const MAX_NAMES: usize = 1 << TAG_SHIFT;
 
 /// A partition plane, defined by input geometry alone.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -61,9 +61,9 @@ impl fmt::Debug for PlaneId {
 /// The line that bounds a piece of a face along one of its edges: an edge of the face, or the cut
 /// by a plane, together with the side of that plane on which the piece lies.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Line(u32);
+pub struct EdgeLine(u32);
 
-impl Line {
+impl EdgeLine {
     /// The face's edge from its corner `k` to the next.
     pub const fn edge(k: u32) -> Self {
         Self(EDGE << TAG_SHIFT | k)
@@ -93,7 +93,7 @@ impl Line {
     }
 }
 
-impl fmt::Debug for Line {
+impl fmt::Debug for EdgeLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.as_cut() {
             Some(plane) if self.is_behind() => write!(f, "Behind({plane:?})"),
@@ -107,14 +107,14 @@ impl fmt::Debug for Line {
 ///
 /// Only input points enter its definition, so it is as exact after a thousand cuts as after one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Symbol {
-    a: Line,
-    b: Line,
+pub struct VertexId {
+    a: EdgeLine,
+    b: EdgeLine,
 }
 
 /// The three kinds of vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SymbolKind {
+pub enum VertexKind {
     /// A corner of the face.
     Corner(u32),
     /// Where a plane cuts an edge of the face.
@@ -123,17 +123,17 @@ pub enum SymbolKind {
     Inside(PlaneId, PlaneId),
 }
 
-impl Symbol {
+impl VertexId {
     /// Corner `k` of the face.
     pub const fn corner(k: u32) -> Self {
-        Self { a: Line::edge(k), b: Line::edge(k) }
+        Self { a: EdgeLine::edge(k), b: EdgeLine::edge(k) }
     }
 
     /// The vertex where `plane` crosses `line`. Two planes give the same value in either order.
     #[inline]
-    pub fn crossing(line: Line, plane: PlaneId) -> Self {
-        let cut = Line::cut(plane, false);
-        let line = Line(line.0 & !BEHIND);
+    pub fn crossing(line: EdgeLine, plane: PlaneId) -> Self {
+        let cut = EdgeLine::cut(plane, false);
+        let line = EdgeLine(line.0 & !BEHIND);
         // Stored in one order, edges before cuts, so that equal vertices are equal values.
         if line.0 <= cut.0 { Self { a: line, b: cut } } else { Self { a: cut, b: line } }
     }
@@ -146,11 +146,11 @@ impl Symbol {
 
     /// Which kind of vertex it is.
     #[inline]
-    pub const fn kind(self) -> SymbolKind {
+    pub const fn kind(self) -> VertexKind {
         match (self.a.as_edge(), self.b.as_cut()) {
-            (Some(edge), Some(plane)) => SymbolKind::OnEdge(edge, plane),
-            (Some(edge), None) => SymbolKind::Corner(edge),
-            (None, _) => SymbolKind::Inside(PlaneId(self.a.0), PlaneId(self.b.0)),
+            (Some(edge), Some(plane)) => VertexKind::OnEdge(edge, plane),
+            (Some(edge), None) => VertexKind::Corner(edge),
+            (None, _) => VertexKind::Inside(PlaneId(self.a.0), PlaneId(self.b.0)),
         }
     }
 }
@@ -161,19 +161,19 @@ mod tests {
 
     #[test]
     fn labels_come_back_as_they_went_in() {
-        let plane = PlaneId::axis(2, MAX_LABELS as u32 - 1);
-        assert_eq!(plane.kind(), PlaneKind::Axis(2, MAX_LABELS as u32 - 1));
+        let plane = PlaneId::axis(2, MAX_NAMES as u32 - 1);
+        assert_eq!(plane.kind(), PlaneKind::Axis(2, MAX_NAMES as u32 - 1));
         assert_eq!(PlaneId::face(7).kind(), PlaneKind::Face(7));
-        assert_eq!(Line::cut(plane, true).as_cut(), Some(plane));
-        assert_eq!(Line::edge(3).as_edge(), Some(3));
-        assert_eq!(Line::edge(3).as_cut(), None);
+        assert_eq!(EdgeLine::cut(plane, true).as_cut(), Some(plane));
+        assert_eq!(EdgeLine::edge(3).as_edge(), Some(3));
+        assert_eq!(EdgeLine::edge(3).as_cut(), None);
         let (g, h) = (PlaneId::face(1), PlaneId::axis(0, 2));
-        assert_eq!(Symbol::corner(4).kind(), SymbolKind::Corner(4));
-        assert_eq!(Symbol::crossing(Line::edge(4), g).kind(), SymbolKind::OnEdge(4, g));
+        assert_eq!(VertexId::corner(4).kind(), VertexKind::Corner(4));
+        assert_eq!(VertexId::crossing(EdgeLine::edge(4), g).kind(), VertexKind::OnEdge(4, g));
         assert_eq!(
-            Symbol::crossing(Line::cut(g, true), h),
-            Symbol::crossing(Line::cut(h, false), g)
+            VertexId::crossing(EdgeLine::cut(g, true), h),
+            VertexId::crossing(EdgeLine::cut(h, false), g)
         );
-        assert_eq!(Symbol::crossing(Line::cut(h, false), g).kind(), SymbolKind::Inside(g, h));
+        assert_eq!(VertexId::crossing(EdgeLine::cut(h, false), g).kind(), VertexKind::Inside(g, h));
     }
 }
