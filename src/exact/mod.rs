@@ -42,6 +42,7 @@ pub(crate) use lattice::integers;
 pub(crate) use names::MAX_NAMES;
 pub use names::{EdgeLine, PlaneId, PlaneKind, VertexId, VertexKind};
 #[cfg(feature = "drawing")]
-pub(crate) use plane::{Plane, RoundedNormal, cross, dot, have_area};
+pub(crate) use plane::dot;
+pub(crate) use plane::{Plane, RoundedNormal, cross, have_area};
 pub(crate) use position::OFF as POSITION_OFF;
 pub use split::{StoredVertex, Vertex, split};

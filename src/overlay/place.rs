@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
+use super::planes;
 use super::planes::{CellTree, Opened, Region, Whose};
 use super::skeleton::{Anchors, InsertionTree, Place, SlotSide};
-use super::{Overlay, planes};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
-use crate::error::{Error, InputFault, Limit};
+use crate::error::{Error, Limit};
 use crate::exact::{EdgeLine, Faces, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
@@ -262,7 +262,8 @@ pub(super) struct Work<'a> {
     pub(super) watch: &'a Watch<'a>,
 }
 
-/// A segment of a line.
+/// A segment of a line, before any plane cut it.
+#[cfg(feature = "drawing")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GivenSegment {
     pub(crate) line: usize,
@@ -272,13 +273,15 @@ pub(crate) struct GivenSegment {
     pub(crate) ends: [[f64; 3]; 2],
 }
 
-impl Overlay {
+/// What a drawing needs of an overlay: its lines and points, whole.
+#[cfg(feature = "drawing")]
+impl super::Overlay {
     /// An error if the overlay is not one for the tree, or has polygons.
     pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
         self.expect(tree)?;
         if self.base.faces < self.first_thin() {
             let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
-            return Err(InputFault::InOverlay.of_polygon(number));
+            return Err(crate::error::InputFault::InOverlay.of_polygon(number));
         }
         Ok(())
     }

@@ -8,7 +8,7 @@
 //! | method | decides by | errs where |
 //! |---|---|---|
 //! | [`Bsp::exact`] | the tree of this library | nowhere |
-//! | [`Bsp`] with [`Float`](crate::Float) | the same tree, rounded distances and an epsilon | distances are near the epsilon or the precision |
+//! | [`Bsp::double`], [`Bsp::single`] | a textbook tree: rounded distances and an epsilon | distances are near the epsilon or the precision |
 //! | [`InputOrder`] | nothing | wherever an earlier face hides a later one |
 //! | [`FrontFaces`] before another | the side that a face turns to the eye | backs can be seen |
 //! | [`Centroid`] | one depth a face | faces overlap in depth |
