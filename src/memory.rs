@@ -1,4 +1,5 @@
-//! Growing lists with little spare room, and with an error where there is no memory.
+//! Lists with little spare room whose growth is an error where it does not fit into memory, for what is as long
+//! as the input or the tree; and tables that are emptied quickly.
 
 use std::collections::HashMap;
 

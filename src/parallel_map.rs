@@ -1,5 +1,5 @@
 //! Work on all threads: a function mapped over items, and two functions at the same time. (Subtrees are
-//! built by `build/threads.rs`.)
+//! built by `build/jobs.rs`.)
 
 /// Maps a function over items; the results are in the order of the items.
 ///

@@ -1,4 +1,5 @@
-//! From polygons to a tree, step by step: preparation, jobs, assembly, the finished tree.
+//! From polygons to a tree, step by step: preparation, division, the finished tree; the same for trees that
+//! are extended, and for cells of a scene.
 
 use std::mem::take;
 use std::ops::ControlFlow;
@@ -6,8 +7,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::choose::Tuning;
-use super::jobs;
-use super::jobs::Job;
+use super::jobs::{self, Job};
 use super::options::BuildOptions;
 use super::piece::Piece;
 use super::subtree::{Memory, Shared};

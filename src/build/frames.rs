@@ -1,4 +1,5 @@
-//! Trees that are built anew every frame.
+//! Trees for one view, built in memory that is kept: those of frames, and those of the pieces that an overlay
+//! has in one cell.
 
 use std::fmt;
 use std::mem::take;

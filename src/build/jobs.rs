@@ -1,4 +1,4 @@
-//! What is passed to another thread, and when.
+//! Large sets as jobs for other threads, and the outputs of all jobs joined depth first.
 
 use std::collections::VecDeque;
 #[cfg(feature = "parallel")]

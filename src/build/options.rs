@@ -1,4 +1,4 @@
-//! The options of a build.
+//! The options of a build, and the names of heuristics.
 
 use std::fmt;
 use std::str::FromStr;

@@ -1,4 +1,4 @@
-//! Where each piece of a small set lies against each plane.
+//! Divides small sets of a frame: a table of where each piece lies against the plane of each.
 
 use super::subtree::{Builder, Pending, Shared, is_leaf_of_table};
 use crate::Error;

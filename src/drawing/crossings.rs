@@ -1,4 +1,4 @@
-//! Lines in which polygons go through one another.
+//! Intersections: which faces go through one another, and where that is visible.
 
 use std::cmp::Ordering;
 

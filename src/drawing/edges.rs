@@ -1,4 +1,4 @@
-//! Edges of polygons as they show: visible runs and hidden ones.
+//! Edges of polygons: visible and hidden runs, by the faces that share an edge.
 //!
 //! The number of polygons in front of an edge is its quantitative invisibility (A. Appel, "The notion of
 //! quantitative invisibility and the machine rendering of solids", 1967).

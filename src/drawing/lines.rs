@@ -1,4 +1,4 @@
-//! The lines of a picture, each known by what made it.
+//! The lines of a picture: what made each, its number, and lines found by where they are.
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;

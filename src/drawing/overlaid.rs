@@ -1,4 +1,4 @@
-//! What shows of an overlay's lines and points.
+//! An overlay's lines and points: which parts are visible, and where they come between painted polygons.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Lines for a pen: segments joined at their ends, and ordered for short ways between them.
+//! Polylines for a pen: segments joined at their ends, and ordered for short ways between them.
 
 use crate::Error;
 

@@ -1,4 +1,4 @@
-//! Regions of the picture in which the same polygons show, one behind the other.
+//! Regions of the picture in which the same polygons are visible, one behind the other.
 
 use smallvec::SmallVec;
 

@@ -1,4 +1,4 @@
-//! Segments of the scene as the picture shows them.
+//! Segments and points of the scene in the picture, and where they pass in front of pieces or behind them.
 
 use std::cmp::Ordering;
 

@@ -1,4 +1,4 @@
-//! What a picture is made of: pieces of faces, front to back.
+//! What a picture is made of: pieces of faces, front to back, and the lines that bound them.
 
 use smallvec::SmallVec;
 

@@ -1,4 +1,4 @@
-//! Tiles of the picture: rectangles that are halved again and again.
+//! Tiles of the picture: rectangles that are halved until their contents are simple, on all threads.
 
 use std::ops::Range;
 

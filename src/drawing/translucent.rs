@@ -1,4 +1,4 @@
-//! Drawings of translucent polygons: nothing hidden, or what opaque ones hide.
+//! Drawings of translucent polygons: which pieces overlap, and which parts are painted at once.
 
 use std::cmp::Reverse;
 use std::ops::ControlFlow;

@@ -1,4 +1,5 @@
-//! The edges of faces, as they are defined: between corners that may be moved onto the face's plane.
+//! Edges of faces as they are defined: between corners that may be moved onto the face's plane; and how corners
+//! are moved.
 
 use glam::DVec3;
 

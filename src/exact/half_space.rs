@@ -1,6 +1,6 @@
 //! On which side of any plane the vertices of a fragment lie, and whether a fragment meets several half-spaces.
 //!
-//! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice/half_space`), so a half-space at a
+//! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so a half-space at a
 //! lattice point takes 182 bits. A vertex is a combination of lattice points with weights of up to 320
 //! bits, where it is one of the fragment's own (see `vertex`), and of up to 364, where the half-spaces
 //! themselves made it: then the sum takes 548 bits.

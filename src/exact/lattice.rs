@@ -1,4 +1,5 @@
-//! The scene lattice: corners are rounded to it once, and everything after that is exact.
+//! The scene lattice: corners are rounded to it once, and everything after that is exact. Points and half-spaces
+//! of queries are rounded more finely.
 
 #[cfg(feature = "save")]
 mod saved;

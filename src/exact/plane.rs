@@ -1,4 +1,4 @@
-//! Planes in integers.
+//! Planes of faces, in integers and rounded.
 
 use std::cmp::Ordering;
 

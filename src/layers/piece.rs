@@ -1,4 +1,4 @@
-//! What a page is painted by.
+//! Layers, the pieces that a page is painted by, and the vertices of pieces.
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 

@@ -1,4 +1,4 @@
-//! One order of a tree's fragments and an overlay's pieces.
+//! One order of a tree's fragments and an overlay's pieces: items one by one, or numbers in a list.
 
 use std::hint::select_unpredictable;
 use std::iter::FusedIterator;

@@ -1,4 +1,4 @@
-//! Cuts what is to be placed by the planes of a tree, down to its leaves.
+//! Places an overlay's polygons, lines and points: cuts them by the planes of a tree, down to its leaves.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Chooses planes between lines and points.
+//! Regions of a tree that an overlay reaches, and planes between lines and points in one of them.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Replaces all that an overlay has.
+//! What an overlay is given, and how it replaces what the overlay had.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,5 @@
-//! The part of the tree that leads to the overlay's pieces, and the small trees in its cells.
+//! The part of the tree that leads to the overlay's pieces, the small trees in its cells, and where both are
+//! found in an order.
 
 use std::cmp::Ordering;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! The hits of a ray, the nearest first.
+//! The hits of a ray, the nearest first; whether there is any; and what is known of one.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

@@ -2,15 +2,11 @@
 //!
 //! | file | decides |
 //! |---|---|
-//! | `probe` | how a ray is prepared, in floats and in integers |
-//! | `walk` | which parts of a tree a ray may meet, and in which order they are looked at |
-//! | `boxes` | the same by bounding boxes, where the caller has them |
+//! | `probe` | how a ray is prepared, in floats and in integers; which of two places comes first |
+//! | `walk` | which parts of a tree a ray may meet, and in which order they are looked at; the same by bounding boxes |
 //! | `chord` | where a ray meets a fragment: exactly |
 //! | `filter` | the same in floats, where they are certain |
-//! | `meeting` | which of two meetings comes first |
-//! | `found` | which of many meetings comes first |
-//! | `hits` | what is one hit |
-//! | `blocked` | whether there is any |
+//! | `hits` | what is one hit, which comes next, and whether there is any |
 //! | `locate` | in which leaf a point is, and whose planes it is on |
 //! | `region` | which fragments have points in a region |
 

@@ -1,4 +1,4 @@
-//! A ray, prepared to be held against a tree.
+//! A ray, prepared to be held against a tree, and which of two places where it meets fragments comes first.
 
 use std::cmp::Ordering;
 

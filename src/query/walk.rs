@@ -4,7 +4,7 @@
 //! But the tolerance lets fragments reach across the plane, and the planes that are read here are rounded
 //! to `f32`. So both sides are met up to a small distance beyond the plane, and what is *on* it within
 //! this distance. That costs some parts that are looked at in vain, and no decision depends on it: which
-//! fragments are met, and which of them first, is decided by `meeting`.
+//! fragments are met, and which of them first, is decided by `probe`.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Compares a painted picture with a depth buffer's, pixel by pixel.
+//! Compares a painted picture with a depth buffer's, pixel by pixel, and says how deep the errors are.
 
 use std::cmp::Ordering;
 

@@ -2,7 +2,7 @@
 //!
 //! Planes are computed here from the lattice points that define them, by other formulas and in
 //! other integers than those that trees are built with. With coordinates below 2⁵¹, a normal has
-//! 106 bits and an offset 158; φ and κ (see [`sheet`](super::sheet)) stay below 2²⁰⁷, and a
+//! 106 bits and an offset 158; φ and κ (see [`line`](super::line)) stay below 2²⁰⁷, and a
 //! determinant of both below 2³⁶⁰.
 
 use std::cmp::Ordering;

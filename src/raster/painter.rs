@@ -1,4 +1,4 @@
-//! The painter: a later piece covers earlier ones.
+//! Pictures by faces, and the painter: a later piece covers earlier ones.
 
 use std::ops::Range;
 

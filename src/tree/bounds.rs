@@ -1,4 +1,4 @@
-//! Bounding boxes of a tree's subtrees and fragments.
+//! Bounding boxes of a tree's subtrees and fragments, their normals, and half-spaces held against boxes.
 
 use std::cmp::Ordering;
 use std::ops::Range;

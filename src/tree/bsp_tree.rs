@@ -1,4 +1,4 @@
-//! The tree.
+//! The tree, and its figures.
 
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,4 +1,4 @@
-//! A fragment: what a tree's orders are made of.
+//! A fragment: what a tree's orders are made of. Planes and points in a tree's grid.
 
 use std::cmp::Ordering;
 use std::fmt;

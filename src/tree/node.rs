@@ -1,4 +1,4 @@
-//! The nodes of a tree, to be looked at.
+//! The nodes of a tree: as users see them, as they are stored, and on a walk.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;

@@ -1,4 +1,5 @@
-//! The best free plane of a set of pieces: perpendicular to an axis, through a corner.
+//! The best plane of a set of pieces that is perpendicular to an axis and goes through a corner, by bins
+//! and by sorting.
 
 use std::cmp::Ordering;
 

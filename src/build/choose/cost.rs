@@ -1,4 +1,4 @@
-//! What a plane promises for a set of pieces, and what that costs.
+//! What a plane does to a set of pieces, what that costs, and the numbers of choosing.
 
 use std::cmp::Ordering;
 use std::ops::AddAssign;

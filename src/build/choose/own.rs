@@ -1,4 +1,5 @@
-//! The best of the pieces' own planes, by successive halving.
+//! The best plane among the pieces' own planes: by counting all pieces, or by successive halving of the
+//! candidates over growing samples.
 
 use super::cost::{Candidate, Cost, CostModel, Counts, Tuning};
 use super::set::{LANES, PackedPieces, PackedPlane, Set};

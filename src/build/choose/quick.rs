@@ -1,4 +1,5 @@
-//! How frames choose planes for small sets: quickly, as each tree is ordered once or twice.
+//! How frames choose planes for small sets: quickly, as each tree is ordered once or twice; and whether two
+//! pieces cross.
 
 use std::cmp::Ordering;
 

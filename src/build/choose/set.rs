@@ -1,4 +1,4 @@
-//! Pieces in single precision, four at a time: enough to choose a plane by.
+//! A set of pieces as it is chosen for: the pieces themselves, and packed in single precision, four at a time.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Lists the edges of all fragments: between which nodes they run, and along which line.
+//! The points and edges of all fragments: which vertices are one point, and which edges lie on one line.
 
 use std::cmp::Ordering;
 use std::collections::{HashMap, TryReserveError};

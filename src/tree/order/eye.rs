@@ -1,4 +1,4 @@
-//! Decides on which side of each partition plane the eye is.
+//! Decides on which side of each partition plane the eye is, several planes at a time.
 
 use std::cmp::Ordering;
 use std::ops::Range;

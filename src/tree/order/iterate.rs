@@ -1,4 +1,4 @@
-//! Orders one fragment at a time.
+//! Orders: as iterators, as walks of nodes, and as numbers in a list.
 
 use std::collections::VecDeque;
 use std::hint::select_unpredictable;
