@@ -26,31 +26,31 @@ pub(crate) struct Piece {
 impl Piece {
     /// A whole face.
     pub(crate) fn whole(faces: &Faces, face: u32) -> Self {
-        let mut live = Self::empty(face, 0, 0);
+        let mut piece = Self::empty(face, 0, 0);
         for &corner in faces.corners(face) {
-            live.include(corner);
+            piece.include(corner);
         }
-        live.on_corner = 0b11_1111;
-        live
+        piece.on_corner = 0b11_1111;
+        piece
     }
 
     /// A part of a piece that was cut, by its vertices, and where these begin in the arena.
     pub(crate) fn part(whole: &Self, vertices: &[Vertex], start: usize) -> Self {
-        let mut live = Self::empty(whole.face, start as u32, vertices.len() as u32);
-        live.cuts = whole.cuts.saturating_add(1);
+        let mut piece = Self::empty(whole.face, start as u32, vertices.len() as u32);
+        piece.cuts = whole.cuts.saturating_add(1);
         for vertex in vertices {
-            live.include(vertex.position());
+            piece.include(vertex.position());
         }
         for vertex in vertices {
             if let VertexKind::Corner(_) = vertex.vertex_id().kind() {
                 let p = vertex.position();
                 for (axis, &c) in p.iter().enumerate() {
-                    live.on_corner |= u8::from(c == live.min[axis]) << axis;
-                    live.on_corner |= u8::from(c == live.max[axis]) << (axis + 3);
+                    piece.on_corner |= u8::from(c == piece.min[axis]) << axis;
+                    piece.on_corner |= u8::from(c == piece.max[axis]) << (axis + 3);
                 }
             }
         }
-        live
+        piece
     }
 
     /// The order in which pieces on one plane are painted: that of their faces. (Pieces of one face do not
@@ -63,9 +63,9 @@ impl Piece {
 
     /// A segment or a point, by its vertices, and where these begin in the arena.
     pub(crate) fn thin(face: u32, vertices: &[Vertex], start: usize) -> Self {
-        let mut live = Self::empty(face, start as u32, vertices.len() as u32);
-        vertices.iter().for_each(|vertex| live.include(vertex.position()));
-        live
+        let mut piece = Self::empty(face, start as u32, vertices.len() as u32);
+        vertices.iter().for_each(|vertex| piece.include(vertex.position()));
+        piece
     }
 
     fn empty(face: u32, start: u32, len: u32) -> Self {

@@ -225,8 +225,8 @@ impl Builder<'_> {
         let mut arena = Vec::new();
         for pending in &mut self.pending {
             // Empty if another job builds the set.
-            for live in &mut self.pieces[pending.range.clone()] {
-                *live = live.copied(&self.arena, &mut arena)?;
+            for piece in &mut self.pieces[pending.range.clone()] {
+                *piece = piece.copied(&self.arena, &mut arena)?;
             }
             pending.arena = arena.len();
         }
@@ -242,8 +242,8 @@ impl Builder<'_> {
         let mut arena = Vec::new();
         let mut pieces =
             if start == 0 { take(&mut self.pieces) } else { collect(self.pieces.drain(start..))? };
-        for live in &mut pieces {
-            *live = live.copied(&self.arena, &mut arena)?;
+        for piece in &mut pieces {
+            *piece = piece.copied(&self.arena, &mut arena)?;
         }
         pieces.shrink_to_fit();
         Ok(Job { pieces, arena, depth })
@@ -262,13 +262,13 @@ pub(super) fn is_leaf_of_table(set: u64) -> bool {
 
 impl Builder<'_> {
     /// Appends a piece to the output as a fragment.
-    pub(super) fn store(&mut self, live: Piece) -> Result<(), Error> {
-        let vertices = live.cut_vertices(&self.arena).unwrap_or_default();
-        self.output.push(live.face, vertices.iter().map(Vertex::stored))?;
+    pub(super) fn store(&mut self, piece: Piece) -> Result<(), Error> {
+        let vertices = piece.cut_vertices(&self.arena).unwrap_or_default();
+        self.output.push(piece.face, vertices.iter().map(Vertex::stored))?;
         if self.shared.keeps_positions {
             self.output.push_positions(vertices.iter().map(Vertex::position))?;
         }
-        self.shared.rules.watch.finish(live.cuts);
+        self.shared.rules.watch.finish(piece.cuts);
         Ok(())
     }
 }
@@ -356,13 +356,13 @@ impl Builder<'_> {
     /// Cuts a piece, and gives the parts in front and behind.
     pub(super) fn cut(
         &mut self,
-        live: &Piece,
+        piece: &Piece,
         prepared: &PreparedPlane,
     ) -> Result<[Piece; 2], Error> {
         self.shared.rules.watch.work(CUT)?;
         let Self { shared, arena, scratch, .. } = self;
         self.output.parts.cuts += 1;
-        scratch.splitter.cut(shared.faces, prepared, live, arena)
+        scratch.splitter.cut(shared.faces, prepared, piece, arena)
     }
 }
 

@@ -327,11 +327,11 @@ impl Work<'_> {
         let Placer { own: list, arena, .. } = &*self.placer;
         // Coplanar polygons are painted in input order, which sets keep when they are divided.
         debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
-        for live in &list[..own] {
-            let cut = live.cut_vertices(arena).unwrap_or_default();
+        for piece in &list[..own] {
+            let cut = piece.cut_vertices(arena).unwrap_or_default();
             let vertex_ids = cut.iter().map(|vertex| vertex.stored());
-            add(self.pieces, live.face, vertex_ids, cut.iter().map(Vertex::position));
-            self.watch.finish(live.cuts);
+            add(self.pieces, piece.face, vertex_ids, cut.iter().map(Vertex::position));
+            self.watch.finish(piece.cuts);
         }
         self.skeleton.group(first..self.pieces.records.len() as u32)
     }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::cost::Tuning;
-use super::set::{LANES, PackedPieces, PackedPlane, Reach, Set, SketchBox};
+use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
 use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
@@ -247,8 +247,8 @@ impl Search<'_, '_> {
 pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
     let mut order = (0..set.len()).collect::<Vec<_>>();
     let middle = |piece: usize, axis: usize| {
-        let live = &set.pieces[piece];
-        live.min[axis] + live.max[axis]
+        let piece = &set.pieces[piece];
+        piece.min[axis] + piece.max[axis]
     };
     let all = 0..set.len().div_ceil(LANES);
     let mut stack = vec![all];
@@ -276,7 +276,7 @@ pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) ->
 /// 2i + 2. If the root is a leaf, there are no boxes.
 #[derive(Debug, Default)]
 struct Boxes {
-    around: Vec<SketchBox>,
+    around: Vec<PackedBox>,
     /// The most groups in a leaf.
     groups_per_box: usize,
 }
@@ -300,7 +300,7 @@ impl Boxes {
             if self.around.len() <= node.index {
                 let missing = node.index + 1 - self.around.len();
                 self.around.reserve(missing);
-                self.around.resize(node.index + 1, SketchBox::default());
+                self.around.resize(node.index + 1, PackedBox::default());
             }
             self.around[node.index] = sketch.bounds(node.groups.clone());
             stack.extend(self.children(&node).into_iter().flatten());

@@ -210,7 +210,7 @@ struct Ends {
 
 impl Ends {
     /// Those of a piece and the plane of a face; `None` if the outline may not pass it.
-    fn of(faces: &Faces, arena: &[Vertex], live: &Piece, plane: u32) -> Option<Self> {
+    fn of(faces: &Faces, arena: &[Vertex], piece: &Piece, plane: u32) -> Option<Self> {
         let triangle = faces.triangle(plane);
         let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
         let (normal, through) = (DVec3::from(normal), DVec3::from(triangle[0]));
@@ -223,7 +223,7 @@ impl Ends {
             _ => {}
         };
         let (mut first, mut last) = (None, None);
-        live.for_each_vertex(faces, arena, |vertex| {
+        piece.for_each_vertex(faces, arena, |vertex| {
             let vertex = DVec3::from(vertex);
             let distance = normal.dot(vertex - through);
             let is_certain = distance.abs() > PLANE_OFF * size;

@@ -49,7 +49,7 @@ pub(super) struct Reach {
 
 /// A box around some pieces: its middle, and half its size.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct SketchBox {
+pub(super) struct PackedBox {
     middle: Vec3,
     half: Vec3,
 }
@@ -176,7 +176,7 @@ impl PackedPieces {
     }
 
     /// The box around the pieces of some groups.
-    pub(super) fn bounds(&self, groups: Range<usize>) -> SketchBox {
+    pub(super) fn bounds(&self, groups: Range<usize>) -> PackedBox {
         let mut min = [Vec4::INFINITY; 3];
         let mut max = [Vec4::NEG_INFINITY; 3];
         for row in &self.rows[self.rows_of(groups)] {
@@ -185,12 +185,12 @@ impl PackedPieces {
         }
         let min = Vec3::from_array(min.map(|column| column.min_element()));
         let max = Vec3::from_array(max.map(|column| column.max_element()));
-        SketchBox { middle: 0.5 * (min + max), half: 0.5 * (max - min) }
+        PackedBox { middle: 0.5 * (min + max), half: 0.5 * (max - min) }
     }
 
     /// On which side of a plane a box certainly lies: 0 in front, 1 behind; none if it may reach it.
     #[inline]
-    pub(super) fn side_of_box(&self, plane: &PackedPlane, around: &SketchBox) -> Option<usize> {
+    pub(super) fn side_of_box(&self, plane: &PackedPlane, around: &PackedBox) -> Option<usize> {
         let normal = Vec3::from_array(plane.normal);
         let distance = normal.dot(around.middle) - plane.offset;
         // The box is rounded once more, and so is its distance.
@@ -329,9 +329,9 @@ impl<'a> Set<'a> {
     /// The plane of a piece's face, rounded: its unit normal, and a point on it.
     #[inline]
     pub(super) fn rounded_plane(&self, piece: usize) -> (Vec3, DVec3) {
-        let live = &self.pieces[piece];
-        let normal = self.faces.normal(live.face).normalize().as_vec3();
-        (normal, live.point(self.faces, self.arena))
+        let piece = &self.pieces[piece];
+        let normal = self.faces.normal(piece.face).normalize().as_vec3();
+        (normal, piece.point(self.faces, self.arena))
     }
 
     /// Whether the plane of a piece cuts another, and the two certainly cross.

@@ -20,15 +20,15 @@ fn tiles(faces: &Faces, planes: &[PlaneId]) -> Vec<Tile> {
     let corners = 0..faces.corners(0).len() as u32;
     let mut pieces: Vec<Vec<Vertex>> = vec![corners.map(|k| Vertex::corner(faces, 0, k)).collect()];
     for &plane in planes {
-        let splitter = PreparedPlane::new(faces, plane);
+        let plane = PreparedPlane::new(faces, plane);
         let mut next = Vec::new();
         for piece in pieces {
-            let sides = piece.iter().map(|vertex| splitter.side(faces, 0, vertex));
+            let sides = piece.iter().map(|vertex| plane.side(faces, 0, vertex));
             let (front, back) =
                 sides.fold((false, false), |(f, b), side| (f | side.is_gt(), b | side.is_lt()));
             if front && back {
                 let (mut ahead, mut behind) = (Vec::new(), Vec::new());
-                split(faces, &splitter, 0, &piece, &mut ahead, &mut behind);
+                split(faces, &plane, 0, &piece, &mut ahead, &mut behind);
                 next.extend([ahead, behind]);
             } else {
                 next.push(piece);

@@ -34,8 +34,8 @@ fn cost(set: &Set<'_>, own: usize) -> Cost {
     let sides: Vec<_> = (0..set.len()).map(|piece| set.classify(&prepared, piece)).collect();
     let count = |side| sides.iter().filter(|&&other| other == side).count();
     let splits = count(Side::Spanning);
-    let live = &set.pieces[own];
-    let mut shares = [0, 1, 2].map(|axis| (live.max[axis] - live.min[axis]) / set.size()[axis]);
+    let piece = &set.pieces[own];
+    let mut shares = [0, 1, 2].map(|axis| (piece.max[axis] - piece.min[axis]) / set.size()[axis]);
     shares.sort_by(f64::total_cmp);
     let reward = Tuning::DEFAULT.reward * set.len() as f64 * shares[1] * shares[2];
     let amount = work(count(Side::Front) + splits) + work(count(Side::Back) + splits) - reward;
