@@ -44,54 +44,6 @@ pub(super) fn build<'a>(
     Ok(builder.end(memory))
 }
 
-impl Builder<'_> {
-    /// Writes the node of the set on top of the stack, and puts its two sides on the stack.
-    fn step(
-        &mut self,
-        pending: &Pending,
-        hand_over: &mut impl FnMut(Job) -> Result<usize, Error>,
-    ) -> Result<(), Error> {
-        let start = pending.range.start;
-        let set = &self.pieces[start..];
-        let depth = pending.depth + 1;
-        if !set.is_empty() {
-            self.shared.budget.check_depth(depth)?;
-        }
-        if !is_leaf(set)
-            && let Some(quick) = self.shared.rules.tabled(set.len())
-        {
-            return self.divide_tabled(start, pending.depth, quick);
-        }
-        let plane = if is_leaf(set) {
-            // Only the root can be a leaf here: other leaves were stored with their parents.
-            let Some(first) = set.first() else { return Ok(()) };
-            let plane = PlaneId::face(first.face);
-            self.partition(start, plane)?;
-            plane
-        } else {
-            let count = set.len();
-            let Shared { faces, rules, .. } = self.shared;
-            let set = Set::new(faces, set, &self.arena);
-            let plane = match self.chooser.choose(rules, &set, pending.is_peeled)? {
-                Choice::Split(plane) => plane,
-                Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),
-            };
-            let plane = self.settle(start, plane)?;
-            if self.makes_progress(count) {
-                self.divide(start, plane)?;
-                plane
-            } else {
-                // Free planes are counted by rounded distances, so exact decisions can show that one
-                // separates nothing. A piece's own plane always does.
-                let plane = self.settle(start, PlaneId::face(self.pieces[start].face))?;
-                self.divide(start, plane)?;
-                plane
-            }
-        };
-        self.emit(plane, start, depth, hand_over)
-    }
-}
-
 /// The smallest arena, in vertices, that is compacted. Smaller: time to copy; larger: memory.
 const COMPACT: usize = 1 << 13;
 
@@ -196,29 +148,53 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The lists of a job, kept to be used again.
-#[derive(Default)]
-pub(in crate::build) struct Memory {
-    chooser: Chooser,
-    pending: Vec<Pending>,
-    pub(in crate::build) pieces: Vec<Piece>,
-    pub(in crate::build) arena: Vec<Vertex>,
-    scratch: Scratch,
-    table: Table,
-    pub(in crate::build) output: Output,
-}
-
-/// Buffers that are reused for every set.
-#[derive(Default)]
-pub(super) struct Scratch {
-    pub(super) own: Vec<Piece>,
-    pub(super) front: Vec<Piece>,
-    pub(super) spanning: Vec<Piece>,
-    pub(super) sides: Vec<Side>,
-    pub(super) splitter: Splitter,
-}
-
 impl Builder<'_> {
+    /// Writes the node of the set on top of the stack, and puts its two sides on the stack.
+    fn step(
+        &mut self,
+        pending: &Pending,
+        hand_over: &mut impl FnMut(Job) -> Result<usize, Error>,
+    ) -> Result<(), Error> {
+        let start = pending.range.start;
+        let set = &self.pieces[start..];
+        let depth = pending.depth + 1;
+        if !set.is_empty() {
+            self.shared.budget.check_depth(depth)?;
+        }
+        if !is_leaf(set)
+            && let Some(quick) = self.shared.rules.tabled(set.len())
+        {
+            return self.divide_tabled(start, pending.depth, quick);
+        }
+        let plane = if is_leaf(set) {
+            // Only the root can be a leaf here: other leaves were stored with their parents.
+            let Some(first) = set.first() else { return Ok(()) };
+            let plane = PlaneId::face(first.face);
+            self.partition(start, plane)?;
+            plane
+        } else {
+            let count = set.len();
+            let Shared { faces, rules, .. } = self.shared;
+            let set = Set::new(faces, set, &self.arena);
+            let plane = match self.chooser.choose(rules, &set, pending.is_peeled)? {
+                Choice::Split(plane) => plane,
+                Choice::Peel(peeled) => return self.emit_peeled(start, pending.depth, &peeled),
+            };
+            let plane = self.settle(start, plane)?;
+            if self.makes_progress(count) {
+                self.divide(start, plane)?;
+                plane
+            } else {
+                // Free planes are counted by rounded distances, so exact decisions can show that one
+                // separates nothing. A piece's own plane always does.
+                let plane = self.settle(start, PlaneId::face(self.pieces[start].face))?;
+                self.divide(start, plane)?;
+                plane
+            }
+        };
+        self.emit(plane, start, depth, hand_over)
+    }
+
     /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
     /// size that the sets still to be split need, however often one piece is cut.
     fn compact(&mut self) -> Result<(), Error> {
@@ -248,19 +224,7 @@ impl Builder<'_> {
         pieces.shrink_to_fit();
         Ok(Job { pieces, arena, depth })
     }
-}
 
-/// Whether a set is small enough to need no plane.
-pub(super) fn is_leaf(pieces: &[Piece]) -> bool {
-    pieces.len() <= 1
-}
-
-/// As above, of a set of slots of a table.
-pub(super) fn is_leaf_of_table(set: u64) -> bool {
-    set.count_ones() <= 1
-}
-
-impl Builder<'_> {
     /// Appends a piece to the output as a fragment.
     pub(super) fn store(&mut self, piece: Piece) -> Result<(), Error> {
         let vertices = piece.cut_vertices(&self.arena).unwrap_or_default();
@@ -271,12 +235,7 @@ impl Builder<'_> {
         self.shared.rules.watch.finish(piece.cuts);
         Ok(())
     }
-}
 
-/// Cutting a piece counts as the work of classifying this many.
-const CUT: usize = 64;
-
-impl Builder<'_> {
     /// Finds the side of each piece of the set on top of the stack, into `scratch.sides`.
     fn classify(&mut self, start: usize, plane: PlaneId) -> Result<(), Error> {
         let faces = self.shared.faces;
@@ -364,9 +323,7 @@ impl Builder<'_> {
         self.output.parts.cuts += 1;
         scratch.splitter.cut(shared.faces, prepared, piece, arena)
     }
-}
 
-impl Builder<'_> {
     /// Writes the node of a set that has been divided, and puts its two sides on the stack.
     fn emit(
         &mut self,
@@ -471,12 +428,7 @@ impl Builder<'_> {
         }
         Ok(())
     }
-}
 
-/// The faces whose planes were given up for a set. None is tried again, so the search ends.
-type Tried = SmallVec<[u32; 4]>;
-
-impl Builder<'_> {
     /// Classifies the set on top of the stack by a plane, or by the one that divides it instead: polygons
     /// that are treated as coplanar do not cut each other.
     ///
@@ -542,6 +494,44 @@ impl Builder<'_> {
         }
     }
 }
+
+/// The lists of a job, kept to be used again.
+#[derive(Default)]
+pub(in crate::build) struct Memory {
+    chooser: Chooser,
+    pending: Vec<Pending>,
+    pub(in crate::build) pieces: Vec<Piece>,
+    pub(in crate::build) arena: Vec<Vertex>,
+    scratch: Scratch,
+    table: Table,
+    pub(in crate::build) output: Output,
+}
+
+/// Buffers that are reused for every set.
+#[derive(Default)]
+pub(super) struct Scratch {
+    pub(super) own: Vec<Piece>,
+    pub(super) front: Vec<Piece>,
+    pub(super) spanning: Vec<Piece>,
+    pub(super) sides: Vec<Side>,
+    pub(super) splitter: Splitter,
+}
+
+/// Whether a set is small enough to need no plane.
+pub(super) fn is_leaf(pieces: &[Piece]) -> bool {
+    pieces.len() <= 1
+}
+
+/// As above, of a set of slots of a table.
+pub(super) fn is_leaf_of_table(set: u64) -> bool {
+    set.count_ones() <= 1
+}
+
+/// Cutting a piece counts as the work of classifying this many.
+const CUT: usize = 64;
+
+/// The faces whose planes were given up for a set. None is tried again, so the search ends.
+type Tried = SmallVec<[u32; 4]>;
 
 /// The square of the diagonal of a piece's box.
 fn size(piece: &Piece) -> f64 {

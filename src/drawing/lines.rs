@@ -390,9 +390,7 @@ impl LineTable<'_> {
         }
         Ok(own.flipped(flip))
     }
-}
 
-impl LineTable<'_> {
     /// A half's line in floats.
     #[inline]
     pub(in crate::drawing) fn rounded(&self, half: HalfPlane) -> Rounded {

@@ -124,9 +124,7 @@ impl PreparedPlane {
     pub fn slack(&self) -> f64 {
         self.bound + self.band
     }
-}
 
-impl PreparedPlane {
     /// Where a piece of a face lies against the plane, by the rules at the head of this file. `cut` has the
     /// vertices of a piece that was cut, in order around it; it is `None` for the whole face.
     #[inline]

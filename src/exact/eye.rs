@@ -138,9 +138,7 @@ impl Plane {
             }
         }
     }
-}
 
-impl Plane {
     /// Which side of the plane an eye sees: `Greater` is the front, and `Equal` is neither. That is
     /// the side on which the eye lies, but an eye at infinity along the plane sees it edge-on.
     pub(crate) fn facing(&self, eye: &Eye) -> Ordering {

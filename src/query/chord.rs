@@ -43,9 +43,7 @@ impl Spot {
             Self::Edge(face, k) => ray.at(&upright(faces, face, k as usize).0).zero(),
         }
     }
-}
 
-impl Spot {
     /// Three lattice points of the plane that it is on; `None` for an end of the ray.
     pub(super) fn grid_points(self, faces: &Faces) -> Option<[[i64; 3]; 3]> {
         match self {
