@@ -64,7 +64,7 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 37] = changes! {
+const CHANGES: [Change; 31] = changes! {
     quick: "table alone" => Some(Quick { crossings: 0, probes: 0, ..Quick::FRAMES }),
         "probes alone" => Some(Quick { table: 0, crossings: 0, ..Quick::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
@@ -76,8 +76,6 @@ const CHANGES: [Change; 37] = changes! {
     first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;
     rate: "½" => 2, "×2" => 8;
     reward: "0" => 0.0, "½" => 0.175, "×2" => 0.7;
-    per_bin: "½" => 1, "×2" => 4;
-    most_bins: "⅛" => 128, "½" => 512, "×2" => 2048, "×8" => 8192;
     groups_per_box: "½" => 32, "×2" => 128, "all" => 1 << 30;
 };
 

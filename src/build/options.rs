@@ -139,8 +139,8 @@ pub enum Heuristic {
         /// How many planes are tried at each node. Default 16.
         candidates: u32,
     },
-    /// Free planes by the cost of [`Auto`](Self::Auto), as long as one separates anything and the
-    /// polygons do not all lie in one plane; then the polygons' own.
+    /// Free planes by the cost of [`Auto`](Self::Auto). A set of which all polygons lie in one plane, or for
+    /// which no free plane is found that separates anything, is split by the plane of a polygon.
     FreePlanes,
     /// The best of both kinds of planes by one cost. The default: the fewest fragments on most
     /// scenes.

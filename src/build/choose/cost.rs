@@ -198,11 +198,6 @@ pub struct Tuning {
     /// is not taken early is cut again by every plane through it.) Larger: depth wasted on polygons
     /// that nothing would cut; smaller: large polygons are cut.
     pub reward: f64,
-    /// Mean number of pieces per bin of the free-plane search. More: more to sort; fewer: more bins to
-    /// bound.
-    pub per_bin: usize,
-    /// The most bins. More: the counters no longer fit the cache; fewer: more to sort in each.
-    pub most_bins: usize,
     /// The most groups of four pieces per box of the peeling search. More: groups are tested one by
     /// one; fewer: more boxes to build, which tell nothing in small sets (of fewer than `small`
     /// pieces): their groups are not near one another.
@@ -223,8 +218,6 @@ impl Tuning {
         first_sample: 16,
         rate: 4,
         reward: 0.35,
-        per_bin: 2,
-        most_bins: 1024,
         groups_per_box: 64,
         quick: None,
     };

@@ -68,7 +68,7 @@ impl Chooser {
                 if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
                     return Ok(Choice::Split(plane));
                 }
-                let free = self.auto.free.best(set, rules.tuning, rules.watch);
+                let free = self.auto.free.best(set, rules.watch);
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),

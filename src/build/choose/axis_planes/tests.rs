@@ -35,14 +35,14 @@ fn at(pieces: &[Piece], axis: usize, c: f64, tolerance: f64) -> Cost {
     if divides { cost } else { Cost::MOST }
 }
 
-/// Asserts that the plane found is the best of the axes that have to be searched.
-fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
+/// Asserts that the plane found is nearly the best, and that its cost is right.
+fn assert_good(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let (faces, _) = Faces::new(polygons, Some(tolerance)).unwrap();
     let pieces: Vec<Piece> =
         (0..faces.len() as u32).map(|face| Piece::whole(&faces, face)).collect();
     let watch = Watch::default();
     let set = Set::new(&faces, &pieces, &[]);
-    let found = FreePlanes::default().best(&set, &Tuning::DEFAULT, &watch);
+    let found = FreePlanes::default().best(&set, &watch);
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
     let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
@@ -53,10 +53,10 @@ fn assert_best(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     };
     assert!(clean.is_none_or(|clean| !cost_of(&clean).cuts), "{name}: {clean:?} cuts");
     assert!(found.is_none_or(|found| cost_of(&found) == found.cost), "{name}: {found:?}");
+    // Bins may miss the best plane, but in sets that `clean` is not for, not by much.
     let found = found.map_or(Cost::MOST, |plane| plane.cost);
-    let good_enough =
-        found.divides_evenly(pieces.len(), Tuning::DEFAULT.uneven) && costs.contains(&found);
-    assert!(found == best || good_enough, "{name}: {found:?}, not one of {costs:?}");
+    let is_good = found == best || found.amount <= 1.02 * best.amount;
+    assert!(is_good || pieces.len() < Tuning::DEFAULT.clean_below, "{name}: {found:?}, {best:?}");
 }
 
 fn triangles(random: &mut SplitMix64, count: usize, size: f64, within: f64) -> Vec<[DVec3; 3]> {
@@ -68,13 +68,13 @@ fn triangles(random: &mut SplitMix64, count: usize, size: f64, within: f64) -> V
 }
 
 #[test]
-fn the_best_plane_is_found_whatever_the_size() {
+fn a_good_plane_is_found_whatever_the_size() {
     let mut random = SplitMix64::new(1);
     for count in [1, 2, 3, 5, 8, 13, 40, 100, 300] {
         for size in [0.003, 0.05, 1.0] {
             let polygons = triangles(&mut random, count, size, 1.0);
-            assert_best(&format!("{count} of {size}"), &polygons, 0.0);
-            assert_best(&format!("{count} of {size}, within 1e-6"), &polygons, 1e-6);
+            assert_good(&format!("{count} of {size}"), &polygons, 0.0);
+            assert_good(&format!("{count} of {size}, within 1e-6"), &polygons, 1e-6);
         }
     }
 }
@@ -85,7 +85,26 @@ fn on_a_lattice_planes_touch_many() {
     for count in [10, 60, 250] {
         let polygons = triangles(&mut random, count, 2.0, 6.0);
         let rounded: Vec<_> = polygons.iter().map(|corners| corners.map(DVec3::round)).collect();
-        assert_best(&format!("{count}"), &rounded, 0.0);
+        assert_good(&format!("{count}"), &rounded, 0.0);
+    }
+}
+
+/// Between rows of vertices, planes cut a row; through the vertices they cut nothing, or less.
+#[test]
+fn planes_go_through_rows_of_vertices() {
+    let rows = 9;
+    for shift in [0.0, 0.37] {
+        let at = |i: usize, k: usize| DVec3::new(i as f64, k as f64 + shift * i as f64, 0.0);
+        let cells = (0..rows * rows).map(|cell| (cell % rows, cell / rows));
+        let polygons: Vec<_> = cells
+            .flat_map(|(i, k)| {
+                let [a, b, c, d] = [at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let fixture = Fixture::new(&polygons, 0.0);
+        let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap();
+        assert!(!found.cost.cuts && found.cost.amount < 1.01 * 2.0 * work(81), "{found:?}");
     }
 }
 
@@ -100,10 +119,10 @@ fn crowds_are_searched_like_others() {
         triangles(&mut random, CROWD, 2e-4, 3e-4).iter().map(|corners| corners.map(|p| p + apart)),
     );
     polygons.extend(triangles(&mut random, 20, 0.5, 1.0));
-    assert_best("crowds", &polygons, 0.0);
+    assert_good("crowds", &polygons, 0.0);
     polygons.truncate(CROWD);
     polygons.push([DVec3::NEG_ONE, DVec3::X, DVec3::ONE]);
-    assert_best("a crowd", &polygons, 0.0);
+    assert_good("a crowd", &polygons, 0.0);
 }
 
 /// A triangle that reaches so far along an axis, and from −1 to 1 along the others.
@@ -137,7 +156,7 @@ fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
         assert_eq!(clean.map(|clean| (axis_of(&clean), clean.cost)), Some((axis, even)));
         // On either side of a plane by less than that.
         let fixture = Fixture::new(&of([7e-4, 0.0], [-7e-4, 0.0]), TOLERANCE);
-        let found = FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
+        let found = FreePlanes::default().best(&fixture.set(), &Watch::default());
         assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((axis, even)));
     }
 }
@@ -152,7 +171,7 @@ fn a_plane_is_found_where_pieces_only_end() {
     polygons.extend([[ending; 4], [beginning; 4]].concat());
     let mut fixture = Fixture::new(&polygons, 0.0);
     fixture.keep(PlaneId::face(0), Side::Front);
-    let found = FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
+    let found = FreePlanes::default().best(&fixture.set(), &Watch::default());
     let even = Cost { cuts: false, amount: 2.0 * work(4) };
     assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((0, even)));
 }
@@ -161,7 +180,7 @@ fn a_plane_is_found_where_pieces_only_end() {
 fn a_tolerance_may_be_wider_than_bins() {
     let mut random = SplitMix64::new(4);
     let fixture = Fixture::new(&triangles(&mut random, 3000, 1e-3, 1.0), 0.01);
-    let found = FreePlanes::default().best(&fixture.set(), &Tuning::DEFAULT, &Watch::default());
+    let found = FreePlanes::default().best(&fixture.set(), &Watch::default());
     assert!(found.is_some());
 }
 
@@ -179,7 +198,7 @@ fn planes_go_through_the_corners_that_name_them() {
         }
         let set = fixture.set();
         let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
-        let best = FreePlanes::default().best(&set, &Tuning::DEFAULT, &Watch::default());
+        let best = FreePlanes::default().best(&set, &Watch::default());
         for found in [clean, best].into_iter().flatten() {
             let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
             let coordinate = fixture.faces.corner(corner)[axis];
