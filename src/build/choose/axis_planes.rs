@@ -34,7 +34,7 @@ impl FreePlanes {
     pub(super) fn best(&mut self, set: &Set<'_>, watch: &Watch<'_>) -> Option<Candidate> {
         let n = set.len();
         watch.work(n * SWEEP).ok()?;
-        let count = (n / PER_BIN).clamp(2, MOST_BINS);
+        let count = (n / PER_BIN).clamp(16, MOST_BINS);
         let (bins, tolerance) = (Bins::new(set, count), set.faces.tolerance());
         self.bins.clear();
         self.bins.resize(count, Bin::EMPTY);

@@ -68,7 +68,11 @@ impl Chooser {
                 if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
                     return Ok(Choice::Split(plane));
                 }
-                let free = self.auto.free.best(set, rules.watch);
+                let free = &mut self.auto.free;
+                let clean = (set.len() < rules.tuning.clean_below)
+                    .then(|| free.clean(set, rules.tuning))
+                    .flatten();
+                let free = clean.or_else(|| free.best(set, rules.watch));
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
