@@ -220,7 +220,7 @@ impl PreparedPlane {
 /// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
 /// - the vertex, three roundings of each coordinate (see [`Faces::position`]), of which that of
 ///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (What cutting off its weights adds,
-///   [`OFF`](super::position::OFF), is less than a thirtieth of a rounding of m.)
+///   [`OFF`](super::vertex::OFF), is less than a thirtieth of a rounding of m.)
 ///
 /// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
 /// the excess of π over |n₀| + |n₁| + |n₂| counts twice, and in units in which |n₀| + |n₁| + |n₂|

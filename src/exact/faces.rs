@@ -2,14 +2,14 @@
 
 #[cfg(feature = "layers")]
 mod one_plane;
-#[cfg(feature = "save")]
-mod saved;
 
 use std::cmp::Ordering;
 use std::fmt;
 
 use super::Lattice;
 use super::names::MAX_NAMES;
+#[cfg(any(feature = "save", feature = "validate"))]
+use super::names::{PlaneId, PlaneKind};
 use crate::error::{Error, Limit};
 use crate::memory::reserve;
 
@@ -77,7 +77,7 @@ pub(crate) struct Face {
 /// The reference triangle of a face (its corners 0, `second` and `third`), and the axis along which
 /// its other corners are moved onto its plane, if any of them is off it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Frame(u32);
+pub(crate) struct Frame(pub(super) u32);
 
 impl Frame {
     /// The largest number of corners of a face.
@@ -138,6 +138,15 @@ impl Faces {
     #[inline]
     pub fn corners(&self, face: u32) -> &[[f64; 3]] {
         &self.corners[self.corner_range(face)]
+    }
+
+    /// Whether a plane is that of one of the faces or goes through one of the corners.
+    #[cfg(any(feature = "save", feature = "validate"))]
+    pub(crate) fn has_plane(&self, plane: PlaneId) -> bool {
+        match plane.kind() {
+            PlaneKind::Face(face) => (face as usize) < self.len(),
+            PlaneKind::Axis(axis, corner) => axis < 3 && (corner as usize) < self.corners.len(),
+        }
     }
 
     /// The range of a face's corners in the list of all corners.

@@ -1,9 +1,6 @@
 //! The scene lattice: corners are rounded to it once, and everything after that is exact. Points and half-spaces
 //! of queries are rounded more finely.
 
-#[cfg(feature = "save")]
-mod saved;
-
 use glam::DVec3;
 
 use super::Int;
@@ -14,7 +11,7 @@ pub const LIMIT: f64 = (1u64 << 51) as f64;
 /// This many steps from the world's origin, two neighbouring `f64` are further apart than the scene
 /// is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Larger: coordinates that no longer fit integers are treated as if
 /// they did; smaller: a scene far out loses coordinates that differ.
-const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
+pub(super) const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
 /// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
 /// it, so that corners moved onto a plane fit the integers of the exact predicates.
@@ -32,12 +29,12 @@ pub(crate) const MAX_CORNER: f64 = 1.014 * LIMIT;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Lattice coordinate = world coordinate · steps − origin.
-    steps: PowerOfTwo,
+    pub(super) steps: PowerOfTwo,
     /// In steps; integers.
-    origin: [f64; 3],
+    pub(super) origin: [f64; 3],
     /// Per axis: if the scene lies so far out along it, for its size, that all corners must have
     /// the same coordinate, that coordinate; otherwise 0.
-    far: [f64; 3],
+    pub(super) far: [f64; 3],
 }
 
 impl Lattice {
@@ -181,7 +178,7 @@ pub(crate) fn scaled(mut value: f64, mut exponent: i32) -> f64 {
 /// A power of two that may be beyond the range of `f64`, as two factors within it, and the inverses
 /// of these.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct PowerOfTwo {
+pub(super) struct PowerOfTwo {
     factors: [f64; 2],
     inverses: [f64; 2],
 }
@@ -194,7 +191,7 @@ impl Default for PowerOfTwo {
 }
 
 impl PowerOfTwo {
-    fn new(exponent: i32) -> Self {
+    pub(super) fn new(exponent: i32) -> Self {
         let halves = [exponent / 2, exponent - exponent / 2];
         Self { factors: halves.map(|e| 2f64.powi(e)), inverses: halves.map(|e| 2f64.powi(-e)) }
     }

@@ -5,7 +5,7 @@ use num_traits::Signed;
 use proptest::prelude::*;
 
 use super::super::{Int, LATTICE_LIMIT};
-use super::{ExactEdge, KEPT, Leading, Moved, Plane, meeting, nearest, on_edge, ratio, whole};
+use super::{ExactEdge, KEPT, Moved, Plane, Weights, integers, leading, meeting, nearest, on_edge};
 use crate::random::SplitMix64;
 
 /// Lattice coordinates of any size, often few bits or near the limit.
@@ -80,10 +80,10 @@ proptest! {
     #[test]
     fn leading_bits_are_those_of_the_number(plane in triangle(), points in triangle()) {
         let plane = Plane::through(plane);
-        let leading = Leading::of(&plane, points.map(whole));
-        for (point, leads) in points.iter().zip(leading.values) {
+        let (leading, dropped) = leading(&plane, points.map(integers));
+        for (point, leads) in points.iter().zip(leading) {
             // The division of big integers rounds towards 0.
-            let expected = value(&plane, point) / (IBig::from(1) << leading.dropped as usize);
+            let expected = value(&plane, point) / (IBig::from(1) << dropped as usize);
             prop_assert_eq!(IBig::from(leads), expected);
             prop_assert!(leads.unsigned_abs() <= 1 << KEPT);
         }
@@ -166,11 +166,9 @@ fn leading_bits_nearly_always_tell() {
         let triangle = some();
         let planes = [some(), some()].map(Plane::through);
         let [g, h] = planes.map(|plane| triangle.map(|point| plane.at(&point)));
-        let weights: [Int<5>; 3] = [(1, 2), (2, 0), (0, 1)]
-            .map(|(j, k)| g[j].times::<3, 5>(&h[k]) - g[k].times::<3, 5>(&h[j]));
         let Some(position) = meeting(&triangle, &planes[0], &planes[1]) else { continue };
         told += 1;
-        let full = ratio(&triangle, &weights);
+        let full = Weights::meeting(triangle, &g, &h).position();
         for axis in 0..3 {
             let off = (position[axis] - full[axis]).abs();
             assert!(off <= 1.01 * f64::EPSILON * full[axis].abs(), "{position:?} {full:?}");
