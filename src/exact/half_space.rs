@@ -72,7 +72,7 @@ pub(crate) fn meets(
         lines.push(line);
     }
     for half_space in half_spaces {
-        let side = |(vertex, _): &(Weights, usize)| vertex.sign(|point| half_space.at(point));
+        let side = |(vertex, _): &(Weights<6>, usize)| vertex.sign(|point| half_space.at(point));
         let sides: SmallVec<[Ordering; 12]> = part.iter().map(side).collect();
         let cut = lines.len();
         lines.push(triangle.map(|point| half_space.at(&point)));
@@ -86,14 +86,14 @@ pub(crate) fn meets(
 }
 
 /// A part of a fragment: its vertices, each with the number of the line to the next.
-type Part = SmallVec<[(Weights, usize); 8]>;
+type Part = SmallVec<[(Weights<6>, usize); 8]>;
 
 /// The part of an outline that is in front of a line or on it, which may be a point or an edge alone.
 fn clip(
     outline: Part,
     sides: &[Ordering],
     cut: usize,
-    crossing: impl Fn(usize) -> Weights,
+    crossing: impl Fn(usize) -> Weights<6>,
 ) -> Part {
     let mut part = Part::new();
     for (i, (vertex, line)) in outline.into_iter().enumerate() {

@@ -1,6 +1,5 @@
 //! Exact arithmetic: the scene lattice, faces on it, planes, vertices, predicates, and the split.
 
-pub(crate) mod cell;
 mod classify;
 pub(crate) mod eye;
 pub(crate) mod faces;
@@ -17,7 +16,6 @@ pub(crate) mod vertex;
 pub use classify::{PreparedPlane, Side};
 pub use eye::Eye;
 pub use faces::Faces;
-pub(crate) use faces::{is_convex, turns_one_way};
 pub(crate) use int::Int;
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
@@ -26,6 +24,9 @@ pub(crate) use names::MAX_NAMES;
 pub use names::{EdgeLine, PlaneId, PlaneKind, VertexId, VertexKind};
 #[cfg(feature = "drawing")]
 pub(crate) use plane::dot;
-pub(crate) use plane::{Flattener, Plane, RoundedNormal, cross, have_area};
+pub(crate) use plane::{
+    Flattener, Off, Plane, RoundedNormal, cross, have_area, is_convex, turns_one_way,
+};
+pub(crate) use split::Clipper;
 pub use split::{StoredVertex, Vertex, split};
 pub(crate) use vertex::OFF as POSITION_OFF;

@@ -24,49 +24,68 @@ use super::Int;
 use super::faces::Faces;
 use super::lattice::{LIMIT, integers};
 use super::names::{PlaneId, PlaneKind, VertexId, VertexKind};
-use super::plane::{LOW, LOW_BITS, Plane, cross, relative_to, rounded};
+use super::plane::{LOW, LOW_BITS, Plane, cross, largest, relative_to, rounded};
 
 /// A vertex as a weighted mean of lattice points: one corner; two, between which it lies; or three, whose
-/// plane it lies in. The sum of the weights is not zero; it and the weights may have either sign. They
-/// take 364 bits at most.
-#[derive(Clone, Debug)]
-pub(crate) struct Weights(SmallVec<[([f64; 3], Int<6>); 3]>);
+/// plane it lies in. The sum of the weights is not zero; it and the weights may have either sign.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights<const W: usize> {
+    points: [[f64; 3]; 3],
+    /// Those beyond the number of points are 0.
+    weights: [Int<W>; 3],
+    len: usize,
+}
 
-impl Weights {
+impl<const W: usize> Weights<W> {
+    /// The point of a segment on a plane that has these values at its ends.
+    fn on_segment([a, b]: [[f64; 3]; 2], [at_a, at_b]: [Int<3>; 2]) -> Self {
+        let weights = [(-at_b).resize(), at_a.resize(), Int::ZERO];
+        Self { points: [a, b, b], weights, len: 2 }
+    }
+
     /// The point where three planes meet: that of a triangle, and two that have these values at its corners.
-    pub(crate) fn meeting(triangle: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
+    pub(crate) fn meeting(points: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
         // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
         // their vector product.
-        let weight = |i: usize| {
+        let weights = std::array::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            g[j].times::<3, 6>(&h[k]) - g[k].times::<3, 6>(&h[j])
-        };
-        Self((0..3).map(|i| (triangle[i], weight(i))).collect())
+            g[j].times::<3, W>(&h[k]) - g[k].times::<3, W>(&h[j])
+        });
+        Self { points, weights, len: 3 }
     }
 
     /// The sign that a linear function has at the vertex, by its values at lattice points: exact.
     pub(crate) fn sign(&self, value: impl Fn(&[f64; 3]) -> Int<3>) -> Ordering {
-        if let [(corner, _)] = &self.0[..] {
-            return value(corner).sign();
-        }
         // The value at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
         // of the quotient is needed, and the numerator and the denominator are exact.
-        let (mut sum, mut total) = (Int::<9>::ZERO, Int::<6>::ZERO);
-        for (point, weight) in &self.0 {
-            sum = sum + weight.times::<3, 9>(&value(point));
-            total = total + *weight;
-        }
-        relative_to(sum.sign(), total.sign())
+        let sum = match self.len {
+            1 => return value(&self.points[0]).sign(),
+            2 => {
+                let weight = |i: usize| self.weights[i].resize::<3>();
+                let term = |i: usize| weight(i).times::<3, 6>(&value(&self.points[i]));
+                (term(0) + term(1)).sign()
+            }
+            _ => {
+                let term = |i: usize| self.weights[i].times::<3, 9>(&value(&self.points[i]));
+                (term(0) + term(1) + term(2)).sign()
+            }
+        };
+        relative_to(sum, self.total().sign())
     }
 
+    fn total(&self) -> Int<W> {
+        self.weights[0] + self.weights[1] + self.weights[2]
+    }
+}
+
+impl Weights<5> {
     /// The coordinate along an axis.
     pub(crate) fn along(&self, axis: usize) -> Fraction {
-        let (mut numerator, mut denominator) = (Int::ZERO, Int::ZERO);
-        for (point, weight) in &self.0 {
-            numerator = numerator + weight.times::<1, 7>(&Int::from(point[axis] as i64));
-            denominator = denominator + *weight;
-        }
-        Fraction { numerator, denominator }
+        let terms = self.points.iter().zip(&self.weights);
+        let numerator = terms.fold(Int::ZERO, |sum, (point, weight)| {
+            sum + weight.times::<1, 6>(&Int::from(point[axis] as i64))
+        });
+        Fraction { numerator, denominator: self.total() }
     }
 
     /// The place in lattice units, each coordinate within three roundings of the exact one.
@@ -79,8 +98,8 @@ impl Weights {
 
     /// Each corner's share of the sum of weights.
     fn shares<const K: usize>(&self, corners: [u32; K]) -> SmallVec<[(u32, f64); 3]> {
-        let total = self.0.iter().fold(Int::ZERO, |sum, &(_, weight)| sum + weight).to_f64();
-        let shares = self.0.iter().map(|(_, weight)| weight.to_f64() / total);
+        let total = self.total().to_f64();
+        let shares = self.weights.map(|weight| weight.to_f64() / total);
         corners.into_iter().zip(shares).collect()
     }
 }
@@ -94,27 +113,10 @@ impl Faces {
         }
     }
 
-    /// How the distance of a vertex from a plane, times the length of the plane's normal, compares
-    /// with `threshold`: exact. `threshold` is an integer of at most 2⁵¹ times that length.
-    pub(crate) fn compare(
-        &self,
-        id: PlaneId,
-        plane: &Plane,
-        face: u32,
-        vertex: VertexId,
-        threshold: f64,
-    ) -> Ordering {
-        if threshold == 0.0 && vertex.is_on(id) {
-            return Ordering::Equal;
-        }
-        let threshold: Int<3> = if threshold == 0.0 { Int::ZERO } else { Int::from_f64(threshold) };
-        self.weights(face, vertex).sign(|x| plane.at(x) - threshold)
-    }
-
     /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
     pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
         let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
-        if self.upright_axis(face).is_some() {
+        if self.dominant_axis(face).is_some() {
             return None;
         }
         let corners = self.corners(face);
@@ -122,24 +124,32 @@ impl Faces {
     }
 
     /// A vertex as a combination of corners of its face.
-    pub(crate) fn weights(&self, face: u32, vertex: VertexId) -> Weights {
-        let [a, b, c] = self.triangle(face);
-        let at = |plane: &Plane| [a, b, c].map(|x| plane.at(&x));
-        let meeting = |g, h| Weights::meeting([a, b, c], &at(g), &at(h));
+    pub(crate) fn weights<const W: usize>(&self, face: u32, vertex: VertexId) -> Weights<W> {
+        let meeting = |g: &Plane, h: &Plane| {
+            let [a, b, c] = self.triangle(face);
+            let at = |plane: &Plane| [plane.at(&a), plane.at(&b), plane.at(&c)];
+            Weights::meeting([a, b, c], &at(g), &at(h))
+        };
         match vertex.kind() {
             VertexKind::Corner(k) => {
                 let corner = self.corners(face)[k as usize];
                 let Some(axis) = self.axis_of_move(face, k) else {
-                    return Weights(smallvec![(corner, Int::from(1_i64))]);
+                    let weights = [Int::from(1_i64), Int::ZERO, Int::ZERO];
+                    return Weights { points: [corner; 3], weights, len: 1 };
                 };
+                let [a, b, c] = self.triangle(face);
                 let area = |p, q| Int::from(cross(corner, p, q)[axis]);
-                Weights(smallvec![(a, area(b, c)), (b, area(c, a)), (c, area(a, b))])
+                let weights = [area(b, c), area(c, a), area(a, b)];
+                Weights { points: [a, b, c], weights, len: 3 }
             }
             VertexKind::OnEdge(k, plane) => {
                 let ExactEdge { ends, moved } = self.edge(face, k);
                 let plane = self.plane(plane);
                 match moved {
-                    None => Self::on_segment(ends, ends.map(|end| plane.at(&end))),
+                    None => {
+                        let [a, b] = ends;
+                        Weights::on_segment(ends, [plane.at(&a), plane.at(&b)])
+                    }
                     Some(Moved { axis, .. }) => {
                         meeting(&Plane::upright(ends[0], ends[1], axis), &plane)
                     }
@@ -149,18 +159,13 @@ impl Faces {
         }
     }
 
-    /// The point of a segment on a plane that has these values at its ends.
-    fn on_segment([a, b]: [[f64; 3]; 2], [at_a, at_b]: [Int<3>; 2]) -> Weights {
-        Weights(smallvec![(a, (-at_b).resize()), (b, at_a.resize())])
-    }
-
     /// Where a plane cuts the segment between two lattice points; `None` unless they are strictly on
     /// its two sides.
-    pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights> {
+    pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights<5>> {
         let plane = self.plane(plane);
         let values = ends.map(|end| plane.at(&end));
         let [a, b] = values.map(|value| value.sign());
-        (a.is_ne() && a == b.reverse()).then(|| Self::on_segment(ends, values))
+        (a.is_ne() && a == b.reverse()).then(|| Weights::on_segment(ends, values))
     }
 
     /// A coordinate of a vertex.
@@ -175,7 +180,7 @@ impl Faces {
         let weights = self.weights(face, vertex);
         match vertex.kind() {
             VertexKind::Corner(k) => smallvec![(k, 1.0)],
-            VertexKind::OnEdge(k, _) if weights.0.len() == 2 => weights.shares([k, (k + 1) % len]),
+            VertexKind::OnEdge(k, _) if weights.len == 2 => weights.shares([k, (k + 1) % len]),
             VertexKind::OnEdge(k, _) => {
                 // The edge of a face that is planar only by definition: the exact weights are over
                 // the reference triangle, so take the rounded position's share of the edge.
@@ -212,8 +217,8 @@ impl Faces {
 /// Both are sums over the weights of [`Weights`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fraction {
-    numerator: Int<7>,
-    denominator: Int<6>,
+    numerator: Int<6>,
+    denominator: Int<5>,
 }
 
 impl Fraction {
@@ -224,8 +229,8 @@ impl Fraction {
 
     /// How two coordinates compare: exact.
     pub(crate) fn compare(&self, other: &Self) -> Ordering {
-        let left = self.numerator.times::<6, 13>(&other.denominator);
-        let right = other.numerator.times::<6, 13>(&self.denominator);
+        let left = self.numerator.times::<5, 12>(&other.denominator);
+        let right = other.numerator.times::<5, 12>(&self.denominator);
         let flipped = self.denominator.is_negative() != other.denominator.is_negative();
         let denominators = if flipped { Ordering::Less } else { Ordering::Greater };
         relative_to((left - right).sign(), denominators)
@@ -233,7 +238,7 @@ impl Fraction {
 
     /// Which share of the way from one lattice coordinate to another has been gone here, rounded.
     pub(crate) fn share(&self, from: f64, to: f64) -> f64 {
-        let before = self.denominator.times::<1, 7>(&Int::from(from as i64));
+        let before = self.denominator.times::<1, 6>(&Int::from(from as i64));
         (self.numerator - before).to_f64() / (self.denominator.to_f64() * (to - from))
     }
 }
@@ -248,7 +253,7 @@ impl Faces {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             (product(j, k) - product(k, j)).to_f64().abs()
         };
-        (1..3).fold(0, |best, axis| if length(axis) > length(best) { axis } else { best })
+        largest([length(0), length(1), length(2)])
     }
 }
 
@@ -277,7 +282,7 @@ impl Faces {
         let corners = self.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k + 1 };
         let ends = [k, next].map(|k| corners[k as usize]);
-        let moved = self.upright_axis(face).and_then(|axis| {
+        let moved = self.dominant_axis(face).and_then(|axis| {
             let is_on = [k, next].map(|k| self.is_on_triangle(face, k));
             if is_on == [true; 2] {
                 return None;
@@ -295,7 +300,7 @@ impl Faces {
 
     /// The axis along which a corner is moved onto its face's plane, if it is off it.
     fn axis_of_move(&self, face: u32, k: u32) -> Option<usize> {
-        let axis = self.upright_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
+        let axis = self.dominant_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
         let own = Plane::through(self.triangle(face));
         (own.last_bits_at(&self.corners(face)[k as usize]) != 0).then_some(axis)
     }
@@ -400,7 +405,7 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
 /// Where two planes meet that of a triangle; `None` if the leading bits do not tell.
 fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     let triangle = triangle.map(integers);
-    let [(g, dropped_of_g), (h, dropped_of_h)] = [g, h].map(|plane| leading(plane, triangle));
+    let ((g, dropped_of_g), (h, dropped_of_h)) = (leading(g, triangle), leading(h, triangle));
     let (g, h) = (g.map(halves), h.map(halves));
     // As in `Weights::meeting`, the weights are the vector product of the two triples of values.
     let mut weights = [Product::default(); 3];

@@ -198,7 +198,7 @@ fn moved_edge(random: &mut SplitMix64) -> (Corners, [[f64; 3]; 2], Corners) {
 
 fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> ExactEdge {
     let offs = ends.map(|end| own.last_bits_at(&end));
-    let moved = Moved { axis: own.main_axis(), offs, slope: own.normal()[own.main_axis()] };
+    let moved = Moved { axis: own.dominant_axis(), offs, slope: own.normal()[own.dominant_axis()] };
     ExactEdge { ends, moved: Some(moved) }
 }
 
@@ -212,7 +212,7 @@ fn positions_on_moved_edges_are_right_or_not_told() {
         let (triangle, ends, other) = moved_edge(&mut random);
         let plane = Plane::through(other);
         let own = Plane::through(triangle);
-        let (axis, [a, b]) = (own.main_axis(), ends);
+        let (axis, [a, b]) = (own.dominant_axis(), ends);
         let offs = ends.map(|end| value(&own, &end));
         let slope = IBig::from(own.normal()[axis]);
         let is_near = offs.iter().all(|off| off.abs() * IBig::from(2) <= slope.abs());

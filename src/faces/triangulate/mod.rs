@@ -87,7 +87,7 @@ fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
     let axis = if size.max_element() > CANCELLED * plane.normal_f64().abs().max_element() {
         size.max_position()
     } else {
-        plane.main_axis()
+        plane.dominant_axis()
     };
     let facing = area[axis].sign();
     (axis, if facing.is_eq() { normal[axis].cmp(&0) } else { facing })
@@ -103,7 +103,7 @@ const CANCELLED: f64 = 1e-6;
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
 fn in_plane(corners: &[Point], watch: &Watch<'_>) -> Result<Triangulation, Error> {
     let outline = Outline::new(corners);
-    if let Some(sweep) = outline.sweep(&outline.edges, Rule::Signed, watch)? {
+    if let Some(sweep) = Sweep::new(&outline, &outline.edges, Rule::Signed).run(watch)? {
         let crosses_itself = !sweep.winds_once();
         return Ok(Triangulation { triangles: sweep.triangles, crosses_itself });
     }
@@ -146,16 +146,6 @@ impl Outline {
         }
         Self { points, corners: names, edges }
     }
-
-    /// Sweeps over some edges between its points.
-    fn sweep(
-        &self,
-        edges: &[Edge],
-        rule: Rule,
-        watch: &Watch<'_>,
-    ) -> Result<Option<Sweep<'_>>, Error> {
-        Sweep::new(&self.points, &self.corners, edges, rule).run(watch)
-    }
 }
 
 /// Triangles that fan out from the first corner: the last resort.
@@ -191,7 +181,7 @@ fn uncross(outline: &Outline, watch: &Watch<'_>) -> Result<Triangles, Error> {
     let mut budget = PATIENCE.max(SWEEPS * edges.len());
     while let Some(left) = budget.checked_sub(edges.len()) {
         budget = left;
-        let Some(sweep) = outline.sweep(&edges, Rule::Parity, watch)? else { break };
+        let Some(sweep) = Sweep::new(outline, &edges, Rule::Parity).run(watch)? else { break };
         if sweep.crossings.is_empty() {
             return Ok(sweep.triangles);
         }

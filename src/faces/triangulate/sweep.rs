@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use super::Outline;
 use super::region::{ChainSide, Region, Triangles, Vertex};
 use crate::Error;
 use crate::progress::Watch;
@@ -85,9 +86,7 @@ pub(super) enum Rule {
 /// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of
 /// 20 000 random corners takes some megabytes, one of the most corners that a polygon may have a gigabyte.
 pub(super) struct Sweep<'a> {
-    points: &'a [Point],
-    /// For each point, a corner of the polygon there.
-    corners: &'a [u32],
+    outline: &'a Outline,
     rule: Rule,
     line: SweepLine,
     /// The edges that are or have been on the line.
@@ -100,6 +99,8 @@ pub(super) struct Sweep<'a> {
     arriving: Vec<u32>,
     /// The edges that begin at the current point.
     starting: Vec<Edge>,
+    /// The same before those that overlap are merged.
+    unmerged: Vec<Edge>,
     /// The edges through the current point.
     ended: Vec<u32>,
     /// Pairs of edges that cross. They have been taken off the line. There are no triangles then.
@@ -127,17 +128,19 @@ struct SweptEdge {
 const MOST_PARTS: usize = 8;
 
 impl<'a> Sweep<'a> {
-    pub(super) fn new(points: &'a [Point], corners: &'a [u32], edges: &[Edge], rule: Rule) -> Self {
+    /// A sweep over some edges between the outline's points.
+    pub(super) fn new(outline: &'a Outline, edges: &[Edge], rule: Rule) -> Self {
+        let points = outline.points.len();
         let mut sweep = Sweep {
-            points,
-            corners,
+            outline,
             rule,
             line: SweepLine { blocks: vec![] },
             edges: vec![],
             waiting: Vec::with_capacity(edges.len()),
-            heads: vec![NONE; points.len()],
-            arriving: vec![0; points.len()],
+            heads: vec![NONE; points],
+            arriving: vec![0; points],
             starting: vec![],
+            unmerged: vec![],
             ended: vec![],
             crossings: vec![],
             triangles: vec![],
@@ -152,7 +155,7 @@ impl<'a> Sweep<'a> {
     /// allow it; if it does, edges that cross are left out from there on.
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
-        for point in 0..self.points.len() as u32 {
+        for point in 0..self.outline.points.len() as u32 {
             self.steps = 1;
             self.visit(point);
             watch.work(self.steps)?;
@@ -230,8 +233,9 @@ impl<'a> Sweep<'a> {
 
     /// On which side of an edge a point lies: `Greater` is above it.
     fn side(&self, edge: u32, point: u32) -> Ordering {
-        let [a, b] = self.edge(edge).ends.map(|end| self.points[end as usize]);
-        turn(a, b, self.points[point as usize])
+        let [a, b] = self.edge(edge).ends;
+        let points = &self.outline.points;
+        turn(points[a as usize], points[b as usize], points[point as usize])
     }
 
     /// Takes the edges through a point off the line, from the lowest to the highest. Their parts behind the
@@ -258,27 +262,20 @@ impl<'a> Sweep<'a> {
     /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping
     /// ones. Where the shortest of them ends, the rest begins again.
     fn merge(&mut self, point: u32) {
-        let (points, at) = (self.points, self.points[point as usize]);
+        let points = &self.outline.points;
+        let at = points[point as usize];
         let end = |edge: &Edge| points[edge.ends[1] as usize];
-        let mut all = std::mem::take(&mut self.starting);
+        let mut all = std::mem::replace(&mut self.starting, std::mem::take(&mut self.unmerged));
         all.sort_unstable_by(|a, b| {
             let side = turn(at, end(b), end(a));
             side.then(a.ends[1].cmp(&b.ends[1])).then(a.corners.cmp(&b.corners))
         });
-        let mut kept = 0;
-        let mut start = 0;
-        while start < all.len() {
-            let first = all[start];
-            let alike = |edge: &Edge| turn(at, end(&first), end(edge)).is_eq();
-            let count = all[start..].iter().take_while(|edge| alike(edge)).count();
-            if let Some(edge) = self.merge_alike(point, &all[start..start + count]) {
-                all[kept] = edge;
-                kept += 1;
-            }
-            start += count;
+        self.starting.clear();
+        for alike in all.chunk_by(|a, b| turn(at, end(a), end(b)).is_eq()) {
+            let merged = self.merge_alike(point, alike);
+            self.starting.extend(merged);
         }
-        all.truncate(kept);
-        self.starting = all;
+        self.unmerged = all;
     }
 
     /// Merges edges that begin at a point in the same direction, given in the order of their ends,
@@ -383,8 +380,8 @@ impl<'a> Sweep<'a> {
             corners.reverse();
         }
         let corner = corners.into_iter().find(|&corner| corner != NONE);
-        let corner = corner.unwrap_or(self.corners[point as usize]);
-        Vertex { point: self.points[point as usize], corner }
+        let corner = corner.unwrap_or(self.outline.corners[point as usize]);
+        Vertex { point: self.outline.points[point as usize], corner }
     }
 
     /// Takes neighbours off the line that cross, next to a point and then next to each other.
