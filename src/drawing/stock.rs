@@ -231,7 +231,7 @@ fn near_vertex(faces: &Faces, face: u32, vertex: VertexId) -> Option<[f64; 3]> {
     match vertex.kind() {
         VertexKind::Corner(k) => Some(faces.corners(face)[k as usize]),
         // Edges of faces of which corners were moved are not straight through these.
-        VertexKind::OnEdge(..) if faces.upright_axis(face).is_some() => None,
+        VertexKind::OnEdge(..) if faces.dominant_axis(face).is_some() => None,
         VertexKind::OnEdge(k, plane) => on_edge(faces, faces.ends(face, k), plane),
         VertexKind::Inside(g, h) => meeting(faces, faces.triangle(face), [g, h]),
     }

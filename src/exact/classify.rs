@@ -33,6 +33,18 @@ pub enum Side {
     Spanning,
 }
 
+impl Side {
+    /// The side of something that has a part in front of a plane, and one behind.
+    fn of(in_front: bool, behind: bool) -> Self {
+        match (in_front, behind) {
+            (true, true) => Self::Spanning,
+            (true, false) => Self::Front,
+            (false, true) => Self::Back,
+            (false, false) => Self::Coplanar,
+        }
+    }
+}
+
 /// A plane prepared for many decisions: its rounded equation, and the error bound of the filter.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedPlane {
@@ -176,29 +188,17 @@ impl PreparedPlane {
         // tested one by one would be coplanar here and spanning there.
         let in_front = (0..count).any(|k| corner(k, band).is_gt());
         let behind = (0..count).any(|k| corner(k, -band).is_lt());
-        match (in_front, behind) {
-            (false, false) => return Side::Coplanar,
-            (true, false) => return Side::Front,
-            (false, true) => return Side::Back,
-            (true, true) => {}
-        }
-        let Some(vertices) = cut else { return Side::Spanning };
-        // The face spans the plane by more than the tolerance, so its pieces are decided exactly.
+        let of_face = Side::of(in_front, behind);
+        let (Some(vertices), Side::Spanning) = (cut, of_face) else { return of_face };
+        // The face spans the plane by more than the tolerance, so its pieces are decided exactly. They
+        // are not coplanar: a convex piece with an area lies in the plane only if its face does.
         let (mut in_front, mut behind) = (false, false);
         for vertex in vertices {
-            match compare(faces, self, face, vertex.vertex_id, vertex.position, 0.0) {
-                Ordering::Greater => in_front = true,
-                Ordering::Less => behind = true,
-                Ordering::Equal => {}
-            }
+            let side = self.side(faces, face, vertex);
+            in_front |= side.is_gt();
+            behind |= side.is_lt();
         }
-        match (in_front, behind) {
-            (true, true) => Side::Spanning,
-            (true, false) => Side::Front,
-            (false, true) => Side::Back,
-            // Not reached: a convex piece with an area lies in the plane only if its face does.
-            (false, false) => Side::Coplanar,
-        }
+        Side::of(in_front, behind)
     }
 
     /// On which side of the plane a vertex of a face's piece lies, exactly.
@@ -220,7 +220,7 @@ impl PreparedPlane {
 /// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
 /// - the vertex, three roundings of each coordinate (see [`Faces::position`]), of which that of
 ///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (What cutting off its weights adds,
-///   [`OFF`](super::position::OFF), is less than a thirtieth of a rounding of m.)
+///   [`OFF`](super::vertex::OFF), is less than a thirtieth of a rounding of m.)
 ///
 /// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
 /// the excess of π over |n₀| + |n₁| + |n₂| counts twice, and in units in which |n₀| + |n₁| + |n₂|
@@ -277,18 +277,23 @@ fn compare_exactly(
     vertex: VertexId,
     threshold: f64,
 ) -> Ordering {
+    if threshold == 0.0 && vertex.is_on(prepared.plane) {
+        return Ordering::Equal;
+    }
     let plane = faces.plane(prepared.plane);
+    let threshold = Int::<3>::from_f64(threshold);
+    let value = |x: &[f64; 3]| plane.at(x) - threshold;
     // A vertex on an edge was made between the edge's ends. Where both are on one side of the
     // plane, so is the vertex, and its weights need not be computed.
     if let Some([a, b]) = faces.edge_ends(face, vertex) {
-        let side = |end: [f64; 3]| (plane.at(&end) - Int::<3>::from_f64(threshold)).sign();
-        match (side(a), side(b)) {
+        // Not `map`, which calls a function for each end.
+        match (value(&a).sign(), value(&b).sign()) {
             (a, b) if a == b || b.is_eq() => return a,
             (Ordering::Equal, b) => return b,
             _ => {}
         }
     }
-    faces.compare(prepared.plane, &plane, face, vertex, threshold)
+    faces.weights::<5>(face, vertex).sign(value)
 }
 
 #[cfg(test)]
@@ -308,7 +313,7 @@ mod tests {
             let (faces, _) = Faces::new([triangle, all], Some(0.0)).unwrap();
             let prepared = PreparedPlane::new(&faces, PlaneId::face(0));
             let plane = faces.plane(PlaneId::face(0));
-            let (normal, main) = (plane.normal_f64(), plane.main_axis());
+            let (normal, main) = (plane.normal_f64(), plane.dominant_axis());
             for step in 0..50 {
                 let mut at = (random.point(-0.9, 0.9) * LIMIT / 2.0).round();
                 let off = normal.dot(at - DVec3::from(faces.corner(0))) / normal[main];

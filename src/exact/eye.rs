@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use super::lattice::{Lattice, exponent_of, scaled, two_sum};
 use super::plane::Plane;
-use super::{Faces, Int, PlaneId, PlaneKind};
+use super::{Faces, Int, PlaneId};
 use crate::viewpoint::{Ray, Viewpoint};
 
 /// A viewpoint in lattice units, rounded once: the point integer · 2^shift, or, without a shift,
@@ -97,27 +97,11 @@ impl Eye {
 impl Faces {
     /// On which side of a plane an eye lies.
     pub fn eye_side(&self, plane: PlaneId, eye: &Eye) -> Ordering {
-        match plane.kind() {
-            PlaneKind::Axis(axis, corner) => Plane::axis_at_eye(axis, self.corner(corner), eye),
-            PlaneKind::Face(_) => self.plane(plane).at_eye(eye),
-        }
+        self.plane(plane).at_eye(eye)
     }
 }
 
 impl Plane {
-    /// On which side an eye lies of the plane that is perpendicular to an axis and goes through a
-    /// lattice point: the same as [`at_eye`](Self::at_eye), without products.
-    pub(crate) fn axis_at_eye(axis: usize, point: [f64; 3], eye: &Eye) -> Ordering {
-        let (e, p) = (i128::from(eye.integer()[axis]), i128::from(point[axis] as i64));
-        match eye.shift() {
-            // With a larger shift, every integer except 0 is further out than any lattice point:
-            // the last arm decides by its sign.
-            Some(shift) if e == 0 || shift <= 52 => (e << shift.min(52)).cmp(&p),
-            None if e == 0 => 0.cmp(&p),
-            _ => e.cmp(&0),
-        }
-    }
-
     /// On which side of the plane an eye lies: `Greater` is in front.
     pub(crate) fn at_eye(&self, eye: &Eye) -> Ordering {
         let p = self.point();

@@ -1,17 +1,21 @@
 //! The faces of a scene: convex, planar, on the lattice.
 
-#[cfg(feature = "layers")]
-mod one_plane;
-#[cfg(feature = "save")]
-mod saved;
-
-use std::cmp::Ordering;
 use std::fmt;
+use std::ops::Range;
 
-use super::Lattice;
+#[cfg(feature = "layers")]
+use glam::DVec3;
+
+use super::classify::Side;
+use super::lattice::{LIMIT, MAX_TOLERANCE};
 use super::names::MAX_NAMES;
+#[cfg(any(feature = "save", feature = "validate"))]
+use super::names::PlaneKind;
+#[cfg(feature = "layers")]
+use super::{Flattener, cross, have_area, is_convex};
+use super::{Lattice, PlaneId};
 use crate::error::{Error, Limit};
-use crate::memory::reserve;
+use crate::memory::{collect, reserve};
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
 /// polygon.
@@ -77,7 +81,7 @@ pub(crate) struct Face {
 /// The reference triangle of a face (its corners 0, `second` and `third`), and the axis along which
 /// its other corners are moved onto its plane, if any of them is off it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Frame(u32);
+pub(crate) struct Frame(pub(super) u32);
 
 impl Frame {
     /// The largest number of corners of a face.
@@ -99,7 +103,7 @@ impl Frame {
         [0, self.0 >> 15 & 0x7fff, self.0 & 0x7fff]
     }
 
-    pub(crate) const fn drop_axis(self) -> Option<usize> {
+    pub(crate) const fn dominant_axis(self) -> Option<usize> {
         if self.0 >> 30 == 3 { None } else { Some((self.0 >> 30) as usize) }
     }
 }
@@ -140,10 +144,19 @@ impl Faces {
         &self.corners[self.corner_range(face)]
     }
 
+    /// Whether a plane is that of one of the faces or goes through one of the corners.
+    #[cfg(any(feature = "save", feature = "validate"))]
+    pub(crate) fn has_plane(&self, plane: PlaneId) -> bool {
+        match plane.kind() {
+            PlaneKind::Face(face) => (face as usize) < self.len(),
+            PlaneKind::Axis(axis, corner) => axis < 3 && (corner as usize) < self.corners.len(),
+        }
+    }
+
     /// The range of a face's corners in the list of all corners.
     #[doc(hidden)]
     #[inline]
-    pub fn corner_range(&self, face: u32) -> std::ops::Range<usize> {
+    pub fn corner_range(&self, face: u32) -> Range<usize> {
         let face = face as usize;
         let end = self.faces.get(face + 1).map_or(self.corners.len(), |next| next.start as usize);
         self.faces[face].start as usize..end
@@ -246,8 +259,8 @@ impl Faces {
     /// them lie exactly on it. An edge of a face with moved corners lies in the plane through its
     /// two lattice points and along that axis.
     #[inline]
-    pub(crate) fn upright_axis(&self, face: u32) -> Option<usize> {
-        self.faces[face as usize].frame.drop_axis()
+    pub(crate) fn dominant_axis(&self, face: u32) -> Option<usize> {
+        self.faces[face as usize].frame.dominant_axis()
     }
 
     /// The number within its polygon of a face's corner `k`.
@@ -270,6 +283,69 @@ impl Faces {
             Ok(at) => self.numbers[self.numbered[at].1 as usize + k as usize],
             Err(_) => k,
         }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.corners.clear();
+        self.numbers.clear();
+        self.numbered.clear();
+        self.faces.clear();
+        self.moved.clear();
+        self.planes.clear();
+        self.thin = Thin::default();
+    }
+
+    /// No faces, with the same lattice and tolerance.
+    pub(crate) fn without_faces(&self) -> Self {
+        let Self { lattice, tolerance, .. } = *self;
+        Self { lattice, tolerance, ..Self::default() }
+    }
+
+    /// A copy, or an error where there is no memory for it.
+    pub(crate) fn try_clone(&self) -> Result<Self, Error> {
+        let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;
+        let Self { ref faces, ref moved, ref planes, thin, .. } = *self;
+        Ok(Self {
+            lattice,
+            tolerance,
+            corners: collect(corners.iter().copied())?,
+            numbers: collect(numbers.iter().copied())?,
+            numbered: collect(numbered.iter().copied())?,
+            faces: collect(faces.iter().copied())?,
+            moved: collect(moved.iter().copied())?,
+            planes: collect(planes.iter().copied())?,
+            thin,
+        })
+    }
+
+    /// Gives memory back that is not needed.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.corners.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.numbered.shrink_to_fit();
+        self.faces.shrink_to_fit();
+        self.moved.shrink_to_fit();
+        self.planes.shrink_to_fit();
+    }
+
+    /// Adds the faces of later polygons.
+    pub(crate) fn append(&mut self, next: Self) -> Result<(), Error> {
+        let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
+        if corners + next.corners.len() >= MAX_NAMES {
+            return Err(Limit::Corners(MAX_NAMES).error());
+        }
+        let first = self.faces.len() as u32;
+        let numbered = next.numbered.iter();
+        self.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
+        self.numbers.extend(next.numbers);
+        reserve(&mut self.corners, next.corners.len())?;
+        self.corners.extend(next.corners);
+        reserve(&mut self.faces, next.faces.len())?;
+        let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
+        self.faces.extend(next.faces.into_iter().map(moved));
+        let moved = next.moved.into_iter();
+        self.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
+        Ok(())
     }
 
     /// Removes the faces from number `faces` on, and with them all that have no area.
@@ -299,154 +375,176 @@ impl Faces {
     }
 }
 
-/// Whether an outline of `n` lattice points is convex and winds once, seen along an axis. Exact.
-pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -> bool {
-    if n < 3 {
-        return false;
+// A cell of a larger scene: a box between lattice planes, to which faces are cut. The box's two corners come
+// before the corners of all faces, and belong to none. So planes through them have names as those through
+// corners of faces.
+
+/// A box by its lower and its upper corner, in lattice units.
+pub(crate) type CellBox = [[f64; 3]; 2];
+
+/// The coordinate, with either sign, of a side without a plane. Beyond all lattice points, and within
+/// what the predicates hold.
+const OPEN: f64 = LIMIT + MAX_TOLERANCE;
+/// A cell without planes: all of the lattice.
+pub(crate) const EVERYWHERE: CellBox = [[-OPEN; 3], [OPEN; 3]];
+
+impl Faces {
+    /// No faces so far: those to come are to be cut to a cell.
+    pub(crate) fn of_cell(lattice: Lattice, tolerance: f64, cell: CellBox) -> Self {
+        Self { lattice, tolerance, corners: cell.to_vec(), ..Self::default() }
     }
-    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-    let point = |k: usize| {
-        let point = at(if k < n { k } else { k - n });
-        [point[x], point[y]]
-    };
-    if n == 4 && turns_one_way(std::array::from_fn(point)) {
-        return true;
+
+    /// The number of corners that belong to no face: they come first.
+    pub(crate) fn corners_of_cell(&self) -> usize {
+        self.faces.first().map_or(self.corners.len(), |face| face.start as usize)
     }
-    let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
-    let (mut here, mut next) = (point(0), point(1));
-    let (mut rises, mut turn) = (0, Ordering::Equal);
-    for then in (2..n + 2).map(point) {
-        let (a, b) = (step(here, next), step(next, then));
-        (here, next) = (next, then);
-        // The projection puts two corners in a row on one point: no direction to turn from.
-        if a == [0.0; 2] || b == [0.0; 2] {
-            return false;
-        }
-        let Some(sign) = turn_of(a, b) else { return false };
-        if sign.is_ne() {
-            if sign == turn.reverse() {
-                return false;
+
+    /// The two corners of the cell; none if these faces are not of one.
+    pub(crate) fn cell(&self) -> &[[f64; 3]] {
+        &self.corners[..self.corners_of_cell()]
+    }
+
+    /// The planes that bound the cell, and on which side of each it lies.
+    pub(crate) fn planes_of_cell(&self) -> impl Iterator<Item = (PlaneId, Side)> {
+        self.cell().iter().zip([(0, Side::Front), (1, Side::Back)]).flat_map(
+            |(corner, (k, side))| {
+                let axes = (0..3).filter(|&axis| corner[axis].abs() < OPEN);
+                axes.map(move |axis| (PlaneId::axis(axis, k), side))
+            },
+        )
+    }
+
+    /// Whether some corners can be those of a cell.
+    #[cfg(feature = "save")]
+    pub(crate) fn is_cell(corners: &[[f64; 3]]) -> bool {
+        let is_side = |c: f64, open: f64| c.abs() <= LIMIT || c == open;
+        match corners {
+            [low, high] => {
+                low.iter().all(|&c| is_side(c, -OPEN)) && high.iter().all(|&c| is_side(c, OPEN))
             }
-            turn = sign;
-        }
-        rises += u32::from(!ascending(a) && ascending(b));
-    }
-    // It turns one way only. Each time round it changes once from descending to ascending.
-    rises == 1
-}
-
-#[inline]
-fn step(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
-    [to[0] - from[0], to[1] - from[1]]
-}
-
-/// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half
-/// a turn, and all four together are a whole number of turns.
-#[inline]
-pub(crate) fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
-    let steps: [_; 4] = std::array::from_fn(|k| step(points[k], points[(k + 1) % 4]));
-    // No branches: for most faces they could not be foretold.
-    let (mut left, mut right) = (true, true);
-    for k in 0..4 {
-        let (a, b) = (steps[k], steps[(k + 1) % 4]);
-        let (one, other) = (a[0] * b[1], a[1] * b[0]);
-        let (turn, bound) = (one - other, f64::EPSILON * (one.abs() + other.abs()));
-        left &= turn > bound;
-        right &= -turn > bound;
-    }
-    left | right
-}
-
-/// Which way an outline turns from one step to the next; `None` if it turns back.
-#[inline]
-fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
-    let (left, right) = (a[0] * b[1], a[1] * b[0]);
-    // Two products and their difference are rounded.
-    if (left - right).abs() > f64::EPSILON * (left.abs() + right.abs()) {
-        return Some(if left > right { Ordering::Greater } else { Ordering::Less });
-    }
-    let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
-    let turn = (product(a[0], b[1]) - product(a[1], b[0])).cmp(&0);
-    let is_back = turn.is_eq() && product(a[0], b[0]) + product(a[1], b[1]) < 0;
-    (!is_back).then_some(turn)
-}
-
-#[cfg(test)]
-mod convex_outline_tests {
-    use std::cmp::Ordering;
-
-    use super::{is_convex, turn_of, turns_one_way};
-    use crate::random::SplitMix64;
-
-    #[test]
-    fn a_triangle_is_convex_if_it_has_an_area() {
-        let convex = |triangle: [[f64; 3]; 3]| is_convex(3, |k| triangle[k], 2);
-        for [x, y] in [[1.0, 2.0], [1.0, -2.0], [4.0, 1.0]] {
-            assert!(convex([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [x, y, 5.0]]), "{x}, {y}");
-            assert!(!convex([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [x, 0.0, 5.0]]), "{x}");
+            _ => corners.is_empty(),
         }
     }
 
-    #[test]
-    fn an_outline_with_two_corners_on_one_point_of_the_view_is_not_convex() {
-        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        for start in 0..4 {
-            let mut corners = square.to_vec();
-            corners.rotate_left(start);
-            let convex = |corners: &[[f64; 3]]| is_convex(corners.len(), |k| corners[k], 2);
-            assert!(convex(&corners));
-            let [x, y, _] = corners[3];
-            corners.push([x, y, 1.0]);
-            assert!(!convex(&corners), "{corners:?}");
+    /// Removes all faces but those listed, in ascending order.
+    pub(crate) fn keep(&mut self, kept: &[u32]) {
+        let (mut numbered, mut numbers, mut moved) = (vec![], vec![], vec![]);
+        let mut start = self.corners_of_cell();
+        // Faces and corners are moved down in place, so none is overwritten before it is read.
+        for (new, &face) in kept.iter().enumerate() {
+            let range = self.corner_range(face);
+            if let Ok(at) = self.numbered.binary_search_by_key(&face, |&(face, _)| face) {
+                let first = self.numbered[at].1 as usize;
+                numbered.push((new as u32, numbers.len() as u32));
+                numbers.extend_from_slice(&self.numbers[first..first + range.len()]);
+            }
+            let [first, end] = [range.start, range.end]
+                .map(|end| self.moved.partition_point(|&(corner, _)| (corner as usize) < end));
+            let down = (range.start - start) as u32;
+            moved.extend(self.moved[first..end].iter().map(|&(corner, p)| (corner - down, p)));
+            self.faces[new] = Face { start: start as u32, ..self.faces[face as usize] };
+            self.corners.copy_within(range.clone(), start);
+            start += range.len();
         }
+        self.faces.truncate(kept.len());
+        self.corners.truncate(start);
+        (self.numbered, self.numbers, self.moved) = (numbered, numbers, moved);
+    }
+}
+
+#[cfg(feature = "layers")]
+impl Faces {
+    /// Puts the faces of some polygons into one plane: that of three of their corners, far apart. The
+    /// other corners are moved onto it, as those of one polygon are onto its own plane.
+    ///
+    /// Corners are rounded, so polygons of one plane have planes of their own. Extended to another
+    /// polygon, the plane of a small one is off by the rounding times the ratio of their sizes. Corners
+    /// that are far apart bound that ratio for all of the polygons.
+    ///
+    /// A face that is not convex as seen along the plane's main axis keeps its own plane: it is so thin
+    /// that rounding decides its shape. A tree of such faces has no mesh, no drawing and no file, which
+    /// know frames of a face's own corners alone.
+    pub(crate) fn put_into_one_plane(&mut self, polygons: &[u32]) -> Result<(), Error> {
+        let Some(triangle) = self.far_apart(polygons) else { return Ok(()) };
+        if self.planes.is_empty() {
+            let mut planes = std::mem::take(&mut self.planes);
+            reserve(&mut planes, self.len())?;
+            planes.extend((0..self.len() as u32).map(|face| self.reference_triangle(face)));
+            self.planes = planes;
+        }
+        let known = self.moved.len();
+        for &polygon in polygons {
+            for face in self.faces_of(polygon) {
+                self.move_onto(triangle, face, known);
+            }
+        }
+        self.moved.sort_unstable_by_key(|&(corner, _)| corner);
+        Ok(())
     }
 
-    /// By integers: an outline of four corners is convex if all turns have the same sign.
-    #[test]
-    fn four_corners_that_certainly_turn_one_way_are_convex() {
-        let mut random = SplitMix64::new(5);
-        let mut told = [0; 2];
-        for _ in 0..20_000 {
-            let size = 2f64.powf(random.range(1.0, 50.0));
-            let points = [(); 4].map(|()| [0, 1].map(|_| random.range(-size, size).round()));
-            // The signs of the four areas by integers: all the same, or not.
-            let area = |[p, q, r]: [[f64; 2]; 3]| {
-                let of = |a: f64, b: f64| (b - a) as i128;
-                (of(p[0], q[0]) * of(p[1], r[1]) - of(p[1], q[1]) * of(p[0], r[0])).signum()
+    /// Moves a face onto the plane of three corners. Of the corners that were moved, the first `known`
+    /// are in ascending order.
+    fn move_onto(&mut self, triangle: [u32; 3], face: u32, known: usize) {
+        let points = triangle.map(|corner| self.corner(corner));
+        let flattener = Flattener::new(points);
+        let Flattener { plane, axis, .. } = flattener;
+        let (range, own) = (self.corner_range(face), self.triangle(face));
+        let corners = &self.corners[range.clone()];
+        let is_near = |corner| flattener.off(corner).distance <= MAX_TOLERANCE;
+        if !is_convex(corners.len(), |k| corners[k], axis) || !corners.iter().all(is_near) {
+            return;
+        }
+        for corner in range {
+            let given = self.corners[corner];
+            let steps = flattener.off(&given).steps;
+            if steps == 0.0 || triangle.contains(&(corner as u32)) {
+                continue;
+            }
+            self.corners[corner][axis] -= steps;
+            let corner = corner as u32;
+            if self.moved[..known].binary_search_by_key(&corner, |&(moved, _)| moved).is_err() {
+                self.moved.push((corner, given));
+            }
+        }
+        let [_, second, third] = self.faces[face as usize].frame.triangle().map(|k| k as usize);
+        self.faces[face as usize].frame = Frame::new(second, third, Some(axis));
+        // Both have their fronts on one side.
+        let [a, b, c] = triangle;
+        let [p, q, r] = own;
+        let is_reversed = (cross(p, q, r)[axis] > 0) != (plane.normal()[axis] > 0);
+        self.planes[face as usize] = if is_reversed { [a, c, b] } else { [a, b, c] };
+    }
+
+    /// The faces of a polygon.
+    fn faces_of(&self, polygon: u32) -> Range<u32> {
+        let first = self.faces.partition_point(|face| face.polygon < polygon);
+        let faces = self.faces[first..].iter().take_while(|face| face.polygon == polygon);
+        first as u32..(first + faces.count()) as u32
+    }
+
+    /// Three corners of some polygons that span a large triangle; `None` if the polygons have one face
+    /// at most, or all corners are on one line.
+    fn far_apart(&self, polygons: &[u32]) -> Option<[u32; 3]> {
+        let faces = || polygons.iter().flat_map(|&polygon| self.faces_of(polygon));
+        let corners = || faces().flat_map(|face| self.corner_range(face));
+        faces().nth(1)?;
+        let point = |corner: usize| DVec3::from(self.corners[corner]);
+        let furthest = |of: &dyn Fn(usize) -> f64| {
+            let larger = |best: (f64, usize), corner| {
+                let size = of(corner);
+                if size > best.0 { (size, corner) } else { best }
             };
-            let turns = [0, 1, 2, 3].map(|k| area([0, 1, 2].map(|i| points[(k + i) % 4])));
-            let one_way = turns == [1; 4] || turns == [-1; 4];
-            let found = turns_one_way(points);
-            assert!(one_way || !found, "{points:?}");
-            told[usize::from(found)] += 1;
-            let corners = points.map(|[x, y]| [x, y, 0.0]);
-            // Without area, a turn that is not one way can still be convex.
-            if !turns.contains(&0) {
-                assert_eq!(is_convex(4, |k| corners[k], 2), one_way, "{points:?}");
-            }
-        }
-        assert!(told[0] > 2000 && told[1] > 2000, "{told:?}");
-    }
-
-    /// Steps that all but run on in one line, or back, by integers of 128 bits.
-    #[test]
-    fn turns_are_exact() {
-        let mut random = SplitMix64::new(4);
-        let (mut straight, mut back) = (0, 0);
-        for _ in 0..20_000 {
-            let mut number = |most: f64| random.range(-most, most).round();
-            let (size, nudge) = (number(9e6), number(1.4));
-            let (unit, nudge) = ([size, size + number(1.4)], [nudge; 2]);
-            let [s, t] = [number(9e7), number(9e7)];
-            let a = unit.map(|c| c * s);
-            let b = [unit[0] * t + nudge[0], unit[1] * t + nudge[1]];
-            let [p, q] = [a, b].map(|step| step.map(|c| c as i128));
-            let turn = (p[0] * q[1] - p[1] * q[0]).cmp(&0);
-            let is_back = turn == Ordering::Equal && p[0] * q[0] + p[1] * q[1] < 0;
-            assert_eq!(turn_of(a, b), (!is_back).then_some(turn), "{a:?} {b:?}");
-            straight += usize::from(turn.is_eq() && !is_back);
-            back += usize::from(is_back);
-        }
-        assert!(straight > 500 && back > 500, "{straight} {back}");
+            corners().fold((f64::NEG_INFINITY, 0), larger).1
+        };
+        let first = point(corners().next()?);
+        let a = furthest(&|corner| point(corner).distance_squared(first));
+        let b = furthest(&|corner| point(corner).distance_squared(point(a)));
+        let arm = point(b) - point(a);
+        let c = furthest(&|corner| (point(corner) - point(a)).cross(arm).length_squared());
+        have_area([a, b, c].map(|corner| self.corners[corner]))
+            .then_some([a, b, c].map(|c| c as u32))
     }
 }
+
+#[cfg(all(test, feature = "layers"))]
+mod tests;

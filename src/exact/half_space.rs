@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 use super::lattice::{HalfSpaceNumbers, Lattice};
 use super::names::VertexId;
-use super::plane::{dot, relative_to};
+use super::plane::dot;
 use super::vertex::Weights;
 use super::{Faces, Int};
 
@@ -27,15 +27,6 @@ pub(crate) struct ExactHalfSpace {
 /// A line in the plane of a face: the plane that cuts the face there, at the corners of its reference
 /// triangle.
 pub(crate) type LineValues = [Int<3>; 3];
-
-/// A vertex of a fragment, or of a part of it.
-#[derive(Clone, Copy, Debug)]
-enum PartVertex {
-    /// One of the fragment's own.
-    Own(VertexId),
-    /// Where two lines meet, by their numbers.
-    Crossing(usize, usize),
-}
 
 impl ExactHalfSpace {
     /// The points p of the world with `normal.dot(p) >= offset`. `None` if a number is infinite or NaN.
@@ -75,22 +66,18 @@ pub(crate) fn meets(
 ) -> bool {
     let triangle = faces.triangle(face);
     let mut lines = SmallVec::<[LineValues; 12]>::new();
-    let mut part = SmallVec::<[(PartVertex, usize); 12]>::new();
+    let mut part = Part::new();
     for (vertex_id, line) in outline {
-        part.push((PartVertex::Own(vertex_id), lines.len()));
+        part.push((faces.weights(face, vertex_id), lines.len()));
         lines.push(line);
     }
     for half_space in half_spaces {
-        let values = triangle.map(|point| half_space.at(&point));
-        let side = |corner: PartVertex| match corner {
-            PartVertex::Own(vertex_id) => side(half_space, faces.weights(face, vertex_id)),
-            PartVertex::Crossing(a, b) => side_of_crossing([&lines[a], &lines[b]], &values),
-        };
-        let sides: SmallVec<[Ordering; 12]> =
-            part.iter().map(|&(corner, _)| side(corner)).collect();
+        let side = |(vertex, _): &(Weights<6>, usize)| vertex.sign(|point| half_space.at(point));
+        let sides: SmallVec<[Ordering; 12]> = part.iter().map(side).collect();
         let cut = lines.len();
-        lines.push(values);
-        part = clip(&part, &sides, cut);
+        lines.push(triangle.map(|point| half_space.at(&point)));
+        part =
+            clip(part, &sides, cut, |line| Weights::meeting(triangle, &lines[line], &lines[cut]));
         if part.is_empty() {
             return false;
         }
@@ -98,56 +85,29 @@ pub(crate) fn meets(
     true
 }
 
+/// A part of a fragment: its vertices, each with the number of the line to the next.
+type Part = SmallVec<[(Weights<6>, usize); 8]>;
+
 /// The part of an outline that is in front of a line or on it, which may be a point or an edge alone.
 fn clip(
-    outline: &[(PartVertex, usize)],
+    outline: Part,
     sides: &[Ordering],
     cut: usize,
-) -> SmallVec<[(PartVertex, usize); 12]> {
-    let mut part = SmallVec::new();
-    for (i, &(corner, line)) in outline.iter().enumerate() {
+    crossing: impl Fn(usize) -> Weights<6>,
+) -> Part {
+    let mut part = Part::new();
+    for (i, (vertex, line)) in outline.into_iter().enumerate() {
         let next = sides[if i + 1 == sides.len() { 0 } else { i + 1 }];
         match (sides[i], next) {
             (Ordering::Greater, Ordering::Less) => {
-                part.push((corner, line));
-                part.push((PartVertex::Crossing(line, cut), cut));
+                part.push((vertex, line));
+                part.push((crossing(line), cut));
             }
-            (Ordering::Equal, Ordering::Less) => part.push((corner, cut)),
-            (Ordering::Less, Ordering::Greater) => {
-                part.push((PartVertex::Crossing(line, cut), line));
-            }
+            (Ordering::Equal, Ordering::Less) => part.push((vertex, cut)),
+            (Ordering::Less, Ordering::Greater) => part.push((crossing(line), line)),
             (Ordering::Less, _) => {}
-            _ => part.push((corner, line)),
+            _ => part.push((vertex, line)),
         }
     }
     part
-}
-
-/// The side of a half-space's plane on which a combination of lattice points is.
-fn side(half_space: &ExactHalfSpace, weights: Weights) -> Ordering {
-    match weights {
-        Weights::Corner(point) => half_space.at(&point).sign(),
-        Weights::Edge([a, b], [wa, wb]) => {
-            let [at_a, at_b] = [a, b].map(|point| half_space.at(&point));
-            let sum = wa.times::<3, 6>(&at_a) + wb.times::<3, 6>(&at_b);
-            relative_to(sum.sign(), (wa + wb).sign())
-        }
-        Weights::Inside(points, [a, b, c]) => {
-            let term = |weight: Int<5>, point| weight.times::<3, 9>(&half_space.at(point));
-            let sum = term(a, &points[0]) + term(b, &points[1]) + term(c, &points[2]);
-            relative_to(sum.sign(), (a + b + c).sign())
-        }
-    }
-}
-
-/// The side of a third line on which two lines meet; all by their values at the same three points. As
-/// in `vertex`, the weights of the point over these are a vector product.
-fn side_of_crossing([g, h]: [&LineValues; 2], line: &LineValues) -> Ordering {
-    let weights: [Int<6>; 3] = std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        g[j].times::<3, 6>(&h[k]) - g[k].times::<3, 6>(&h[j])
-    });
-    let term = |i: usize| weights[i].times::<3, 9>(&line[i]);
-    let total = weights[0] + weights[1] + weights[2];
-    relative_to((term(0) + term(1) + term(2)).sign(), total.sign())
 }

@@ -1,8 +1,5 @@
 //! Signed integers of fixed width, on the stack.
 
-#[cfg(test)]
-mod tests;
-
 use std::cmp::Ordering;
 
 /// A signed integer of `64 * N` bits, in two's complement, least significant limb first.
@@ -182,17 +179,14 @@ impl<const N: usize> std::ops::Sub for Int<N> {
     }
 }
 
-impl<const N: usize> From<i64> for Int<N> {
-    #[inline]
-    fn from(value: i64) -> Self {
-        Int::<1>([value as u64]).resize()
-    }
-}
-
-impl<const N: usize> From<i128> for Int<N> {
+impl<const N: usize, I: Into<i128>> From<I> for Int<N> {
     /// `N` must be at least 2, unless the value fits one limb.
     #[inline]
-    fn from(value: i128) -> Self {
+    fn from(value: I) -> Self {
+        let value = value.into();
         Int::<2>([value as u64, (value >> 64) as u64]).resize()
     }
 }
+
+#[cfg(test)]
+mod tests;

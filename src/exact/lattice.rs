@@ -1,10 +1,8 @@
 //! The scene lattice: corners are rounded to it once, and everything after that is exact. Points and half-spaces
 //! of queries are rounded more finely.
 
-#[cfg(feature = "save")]
-mod saved;
-
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::Int;
 
@@ -14,7 +12,7 @@ pub const LIMIT: f64 = (1u64 << 51) as f64;
 /// This many steps from the world's origin, two neighbouring `f64` are further apart than the scene
 /// is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Larger: coordinates that no longer fit integers are treated as if
 /// they did; smaller: a scene far out loses coordinates that differ.
-const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
+pub(super) const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
 /// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
 /// it, so that corners moved onto a plane fit the integers of the exact predicates.
@@ -32,12 +30,12 @@ pub(crate) const MAX_CORNER: f64 = 1.014 * LIMIT;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Lattice coordinate = world coordinate · steps − origin.
-    steps: PowerOfTwo,
+    pub(super) steps: PowerOfTwo,
     /// In steps; integers.
-    origin: [f64; 3],
+    pub(super) origin: [f64; 3],
     /// Per axis: if the scene lies so far out along it, for its size, that all corners must have
     /// the same coordinate, that coordinate; otherwise 0.
-    far: [f64; 3],
+    pub(super) far: [f64; 3],
 }
 
 impl Lattice {
@@ -158,6 +156,7 @@ pub(super) fn nearest(value: f64) -> f64 {
 }
 
 /// A lattice point as integers.
+#[inline]
 pub(crate) fn integers(point: [f64; 3]) -> [i64; 3] {
     point.map(|c| c as i64)
 }
@@ -181,7 +180,7 @@ pub(crate) fn scaled(mut value: f64, mut exponent: i32) -> f64 {
 /// A power of two that may be beyond the range of `f64`, as two factors within it, and the inverses
 /// of these.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct PowerOfTwo {
+pub(super) struct PowerOfTwo {
     factors: [f64; 2],
     inverses: [f64; 2],
 }
@@ -194,7 +193,7 @@ impl Default for PowerOfTwo {
 }
 
 impl PowerOfTwo {
-    fn new(exponent: i32) -> Self {
+    pub(super) fn new(exponent: i32) -> Self {
         let halves = [exponent / 2, exponent - exponent / 2];
         Self { factors: halves.map(|e| 2f64.powi(e)), inverses: halves.map(|e| 2f64.powi(-e)) }
     }
@@ -301,23 +300,24 @@ impl Lattice {
         let exponent = |value: f64, up| (value != 0.0).then(|| exponent_of(value.abs()) + up);
         let far = self.far.into_iter().map(|far| exponent(far, 0));
         let most = far.chain([exponent(offset, up)]).flatten().max().unwrap_or(0) + 1;
-        let mut sum = Sum::default();
-        sum.add(scaled(offset, up - most));
+        let mut sum = SmallVec::new();
+        add(&mut sum, scaled(offset, up - most));
         for (unit, far) in unit.into_iter().zip(self.far) {
             let far = scaled(far, -most);
             let part = unit * far;
-            sum.add(-part);
-            sum.add(-unit.mul_add(far, -part));
+            add(&mut sum, -part);
+            add(&mut sum, -unit.mul_add(far, -part));
         }
-        let parts = sum.parts.map(|part| scaled(part, NORMAL_BITS + self.exponent() + most));
+        let unit = NORMAL_BITS + self.exponent() + most;
+        let parts = sum.into_iter().map(|part| scaled(part, unit));
         // The last that is not 0 is the largest, and nearly the sum.
-        let largest = parts.into_iter().rev().find(|&part| part != 0.0).unwrap_or(0.0);
+        let largest = parts.clone().rev().find(|&part| part != 0.0).unwrap_or(0.0);
         let steps = if largest.abs() < BEYOND {
             let part = |axis: usize| {
                 Int::<2>::from(normal[axis]).times::<2, 5>(&Int::from(self.origin[axis] as i128))
             };
             let origin = part(0) + part(1) + part(2);
-            parts.into_iter().fold(-origin, |sum, c| sum + Int::from_f64(c.round()))
+            parts.fold(-origin, |sum, c| sum + Int::from_f64(c.round()))
         } else if largest > 0.0 {
             Int::<2>::from(1_i128).shifted(FAR_BITS + 1)
         } else {
@@ -327,30 +327,14 @@ impl Lattice {
     }
 }
 
-/// An exact sum of up to seven numbers: parts that do not overlap, from the smallest to the largest, but
-/// for zeros (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+/// Adds a number to an exact sum: parts that do not overlap, from the smallest to the largest, except for
+/// zeros (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 /// predicates", 1997, grow-expansion).
-struct Sum {
-    parts: [f64; 7],
-    /// How many have been added.
-    len: usize,
-}
-
-impl Default for Sum {
-    fn default() -> Self {
-        Self { parts: [0.0; 7], len: 0 }
+fn add(sum: &mut SmallVec<[f64; 7]>, mut value: f64) {
+    for part in sum.iter_mut() {
+        (value, *part) = two_sum(value, *part);
     }
-}
-
-impl Sum {
-    fn add(&mut self, value: f64) {
-        let mut value = value;
-        for part in &mut self.parts[..self.len] {
-            (value, *part) = two_sum(value, *part);
-        }
-        self.parts[self.len] = value;
-        self.len += 1;
-    }
+    sum.push(value);
 }
 
 /// An offset, cut to what all points of a scene are this side of.

@@ -1,8 +1,5 @@
 //! Names for planes, edges and vertices that stay exact however often a polygon is cut.
 
-#[cfg(feature = "save")]
-pub(crate) mod bits;
-
 use std::fmt;
 
 const TAG_SHIFT: u32 = 28;
@@ -16,8 +13,11 @@ const BEHIND: u32 = 1 << 31;
 pub(crate) const MAX_NAMES: usize = 1 << TAG_SHIFT;
 
 /// A partition plane, defined by input geometry alone.
+///
+/// In memory and in files: 1 in bits 28 to 30 for the plane of a face, 2, 3, 4 for one perpendicular to
+/// x, y, z through a corner; the number of the face or corner below.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PlaneId(u32);
+pub struct PlaneId(pub(crate) u32);
 
 /// The plane that a [`PlaneId`] names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ impl PlaneId {
         let payload = self.0 & PAYLOAD;
         match self.0 >> TAG_SHIFT {
             FACE => PlaneKind::Face(payload),
-            tag => PlaneKind::Axis((tag - AXIS) as usize, payload),
+            tag => PlaneKind::Axis(tag.wrapping_sub(AXIS) as usize, payload),
         }
     }
 }
@@ -175,5 +175,22 @@ mod tests {
             VertexId::crossing(EdgeLine::cut(h, false), g)
         );
         assert_eq!(VertexId::crossing(EdgeLine::cut(h, false), g).kind(), VertexKind::Inside(g, h));
+    }
+    #[cfg(feature = "save")]
+    #[test]
+    fn names_are_known_up_to_the_last() {
+        let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let faces = crate::exact::Faces::new([triangle; 3], None).unwrap().0;
+        for plane in [PlaneId::face(2), PlaneId::axis(0, 8), PlaneId::axis(2, 8)] {
+            assert!(faces.has_plane(plane));
+        }
+        for plane in [PlaneId::face(3), PlaneId::axis(1, 9)] {
+            assert!(!faces.has_plane(plane));
+        }
+        for bits in
+            [0, 5 << TAG_SHIFT, 6 << TAG_SHIFT, 7 << TAG_SHIFT, BEHIND, BEHIND | 1 << TAG_SHIFT]
+        {
+            assert!(!faces.has_plane(PlaneId(bits)), "{bits:x}");
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Planes of faces, in integers and rounded.
+//! Planes of faces, in integers and rounded; and how corners are moved onto them.
 
 use std::cmp::Ordering;
 
@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::Int;
 use super::faces::Faces;
+use super::lattice::nearest;
 use super::names::PlaneId;
 
 /// The integer vector product (q − p) × (r − p) of three lattice points.
@@ -46,7 +47,8 @@ impl Plane {
         Self { normal, point: p.map(|c| c as i64) }
     }
 
-    pub(super) fn axis(axis: usize, point: [f64; 3]) -> Self {
+    /// The plane through a lattice point that is perpendicular to an axis.
+    pub(crate) fn axis(axis: usize, point: [f64; 3]) -> Self {
         let mut normal = [0; 3];
         normal[axis] = 1;
         Self { normal, point: point.map(|c| c as i64) }
@@ -74,11 +76,9 @@ impl Plane {
         self.normal
     }
 
-    /// The axis along which the normal is longest, the first of several: the one in which the
-    /// plane is least steep.
-    pub(crate) fn main_axis(&self) -> usize {
-        let size = |axis: usize| self.normal[axis].unsigned_abs();
-        (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
+    /// The axis along which the normal is longest: the one in which the plane is least steep.
+    pub(crate) fn dominant_axis(&self) -> usize {
+        largest(self.normal.map(i128::unsigned_abs))
     }
 
     /// The signed distance of a lattice point times the length of the normal.
@@ -181,21 +181,18 @@ impl RoundedNormal {
         Self { normal, size }
     }
 
-    /// The axis along which it is longest; the first of several.
+    /// The axis along which it is longest.
     #[inline]
-    pub(crate) fn longest(&self) -> usize {
-        let sizes = self.normal.map(f64::abs);
-        (1..3).fold(0, |best, axis| if sizes[axis] > sizes[best] { axis } else { best })
+    pub(crate) fn dominant_axis(&self) -> usize {
+        largest(self.normal.map(f64::abs))
     }
+}
 
-    /// The axis along which the exact normal is longest, if it is certain which that is.
-    #[inline]
-    pub(crate) fn certain_axis(&self) -> Option<usize> {
-        let (sizes, axis) = (self.normal.map(f64::abs), self.longest());
-        // Two components are off by no more than `size` together.
-        let least = sizes[axis] - f64::EPSILON * self.size;
-        (0..3).all(|other| other == axis || sizes[other] < least).then_some(axis)
-    }
+/// The axis of the largest size; the first of several.
+#[inline]
+pub(super) fn largest<T: PartialOrd>([x, y, z]: [T; 3]) -> usize {
+    let (axis, size) = if y > x { (1, y) } else { (0, x) };
+    if z > size { 2 } else { axis }
 }
 
 /// Whether three lattice points are not on one line: exact.
@@ -204,6 +201,78 @@ pub(crate) fn have_area(corners: [[f64; 3]; 3]) -> bool {
     let RoundedNormal { normal, size } = RoundedNormal::through(corners);
     let [p, q, r] = corners;
     normal.iter().any(|c| c.abs() > f64::EPSILON * size) || cross(p, q, r) != [0; 3]
+}
+
+/// Whether an outline of `n` lattice points is convex and winds once, seen along an axis. Exact.
+pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -> bool {
+    if n < 3 {
+        return false;
+    }
+    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+    let point = |k: usize| {
+        let point = at(if k < n { k } else { k - n });
+        [point[x], point[y]]
+    };
+    if n == 4 && turns_one_way(std::array::from_fn(point)) {
+        return true;
+    }
+    let ascending = |s: [f64; 2]| s[0] > 0.0 || (s[0] == 0.0 && s[1] > 0.0);
+    let (mut here, mut next) = (point(0), point(1));
+    let (mut rises, mut turn) = (0, Ordering::Equal);
+    for then in (2..n + 2).map(point) {
+        let (a, b) = (step(here, next), step(next, then));
+        (here, next) = (next, then);
+        // The projection puts two corners in a row on one point: no direction to turn from.
+        if a == [0.0; 2] || b == [0.0; 2] {
+            return false;
+        }
+        let Some(sign) = turn_of(a, b) else { return false };
+        if sign.is_ne() {
+            if sign == turn.reverse() {
+                return false;
+            }
+            turn = sign;
+        }
+        rises += u32::from(!ascending(a) && ascending(b));
+    }
+    // It turns one way only. Each time round it changes once from descending to ascending.
+    rises == 1
+}
+
+#[inline]
+fn step(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    [to[0] - from[0], to[1] - from[1]]
+}
+
+/// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half
+/// a turn, and all four together are a whole number of turns.
+#[inline]
+pub(crate) fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
+    let steps: [_; 4] = std::array::from_fn(|k| step(points[k], points[(k + 1) % 4]));
+    // No branches: for most faces they could not be foretold.
+    let (mut left, mut right) = (true, true);
+    for k in 0..4 {
+        let (a, b) = (steps[k], steps[(k + 1) % 4]);
+        let (one, other) = (a[0] * b[1], a[1] * b[0]);
+        let (turn, bound) = (one - other, f64::EPSILON * (one.abs() + other.abs()));
+        left &= turn > bound;
+        right &= -turn > bound;
+    }
+    left | right
+}
+
+/// Which way an outline turns from one step to the next; `None` if it turns back.
+#[inline]
+fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
+    let (left, right) = (a[0] * b[1], a[1] * b[0]);
+    // Two products and their difference are rounded.
+    if (left - right).abs() > f64::EPSILON * (left.abs() + right.abs()) {
+        return Some(if left > right { Ordering::Greater } else { Ordering::Less });
+    }
+    let product = |p: f64, q: f64| i128::from(p as i64) * i128::from(q as i64);
+    let turn = (product(a[0], b[1]) - product(a[1], b[0])).cmp(&0);
+    let is_back = turn.is_eq() && product(a[0], b[0]) + product(a[1], b[1]) < 0;
+    (!is_back).then_some(turn)
 }
 
 impl Faces {
@@ -231,6 +300,61 @@ impl Faces {
     #[cold]
     fn exact_normal(&self, face: u32) -> DVec3 {
         self.plane(PlaneId::face(face)).normal_f64()
+    }
+}
+
+/// A plane at a lattice point certainly fits 128 bits if it is below this, rounded. Larger, up to half
+/// the range: values that do not fit are taken; smaller: more are computed in full.
+const FITS: f64 = (1u128 << 124) as f64;
+
+/// Moves lattice points onto a plane, along the plane's dominant axis.
+#[derive(Debug)]
+pub(crate) struct Flattener {
+    pub(crate) plane: Plane,
+    pub(crate) axis: usize,
+    through: DVec3,
+    normal: DVec3,
+}
+
+/// How far a point is off a plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Off {
+    /// The distance in lattice units, rounded; 0 only if the point is exactly on the plane.
+    pub(crate) distance: f64,
+    /// How many whole steps along the axis it is moved towards the plane.
+    pub(crate) steps: f64,
+}
+
+impl Flattener {
+    /// Moves onto the plane of three lattice points.
+    #[inline]
+    pub(crate) fn new(corners: [[f64; 3]; 3]) -> Self {
+        let plane = Plane::through(corners);
+        let (through, normal) = (DVec3::from(corners[0]), plane.normal_f64());
+        Self { plane, axis: plane.dominant_axis(), through, normal }
+    }
+
+    /// How far a point is off.
+    #[inline]
+    pub(crate) fn off(&self, point: &[f64; 3]) -> Off {
+        let Self { plane, axis, normal, .. } = self;
+        let slope = plane.normal()[*axis];
+        let last_bits = plane.last_bits_at(point);
+        // Most are so near the plane that 128 bits hold its value there. This is off by less than 2¹¹⁰.
+        let near = normal.dot(DVec3::from(*point) - self.through).abs();
+        let value = if near < FITS { rounded(last_bits) } else { plane.at(point).to_f64() };
+        if value == 0.0 {
+            return Off { distance: 0.0, steps: 0.0 };
+        }
+        // The plane is value / slope steps away. Both are rounded here, and the quotient, but within
+        // the largest tolerance it is below 2⁴⁵, so the nearest integer is this or the next.
+        let mut steps = nearest(value / normal[*axis]);
+        // Less than the slope, so no more bits are needed.
+        let rest = last_bits.wrapping_sub(slope.wrapping_mul(i128::from(steps as i64)));
+        if rest.unsigned_abs() > slope.unsigned_abs() / 2 {
+            steps += if (rest < 0) == (slope < 0) { 1.0 } else { -1.0 };
+        }
+        Off { distance: value.abs() / normal.length(), steps }
     }
 }
 
@@ -270,7 +394,7 @@ mod tests {
             let mut point = || [(); 3].map(|()| random.range(-size, size).round());
             let (triangle, mut x) = ([point(), point(), point()], point());
             let plane = Plane::through(triangle);
-            let axis = plane.main_axis();
+            let axis = plane.dominant_axis();
             let most = plane.normal()[axis].unsigned_abs() / 2;
             if round % 4 > 0 {
                 // Near the plane, or a multiple of 2^k steps off it.
@@ -294,8 +418,8 @@ mod tests {
     }
 
     #[test]
-    fn of_equally_long_components_the_first_is_the_main_axis() {
-        let main_axis = |normal| Plane { normal, point: [0; 3] }.main_axis();
+    fn of_equally_long_components_the_first_is_the_dominant_axis() {
+        let dominant_axis = |normal| Plane { normal, point: [0; 3] }.dominant_axis();
         for (normal, axis) in [
             ([5, 5, 5], 0),
             ([5, -5, 5], 0),
@@ -304,7 +428,7 @@ mod tests {
             ([1, -2, 3], 2),
             ([0, 0, -1], 2),
         ] {
-            assert_eq!(main_axis(normal), axis, "{normal:?}");
+            assert_eq!(dominant_axis(normal), axis, "{normal:?}");
         }
     }
 }
@@ -364,5 +488,107 @@ mod normal_tests {
             cancelled += usize::from(off > most * 2f64.powi(-34));
         }
         assert!(cancelled > 100, "{cancelled} that floats alone would have got wrong");
+    }
+}
+
+#[cfg(test)]
+mod flatten_tests {
+    use super::Flattener;
+
+    /// The plane 3z = x, moved along z.
+    #[test]
+    fn only_what_is_on_the_plane_is_off_by_nothing() {
+        let flattener = Flattener::new([[0.0; 3], [3.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
+        for (point, value, steps) in [
+            ([3.0, 5.0, 1.0], 0.0, 0.0),
+            ([2.0, 5.0, 1.0], 1.0, 0.0),
+            ([4.0, 5.0, 1.0], 1.0, 0.0),
+            ([1.0, 5.0, 1.0], 2.0, 1.0),
+            ([3.0, 5.0, -6.0], 21.0, -7.0),
+        ] {
+            let off = flattener.off(&point);
+            assert!((off.distance - value / 10f64.sqrt()).abs() < 1e-14, "{point:?} {off:?}");
+            assert_eq!((off.distance == 0.0, off.steps), (value == 0.0, steps), "{point:?}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod convex_outline_tests {
+    use std::cmp::Ordering;
+
+    use super::{is_convex, turn_of, turns_one_way};
+    use crate::random::SplitMix64;
+
+    #[test]
+    fn a_triangle_is_convex_if_it_has_an_area() {
+        let convex = |triangle: [[f64; 3]; 3]| is_convex(3, |k| triangle[k], 2);
+        for [x, y] in [[1.0, 2.0], [1.0, -2.0], [4.0, 1.0]] {
+            assert!(convex([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [x, y, 5.0]]), "{x}, {y}");
+            assert!(!convex([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [x, 0.0, 5.0]]), "{x}");
+        }
+    }
+
+    #[test]
+    fn an_outline_with_two_corners_on_one_point_of_the_view_is_not_convex() {
+        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        for start in 0..4 {
+            let mut corners = square.to_vec();
+            corners.rotate_left(start);
+            let convex = |corners: &[[f64; 3]]| is_convex(corners.len(), |k| corners[k], 2);
+            assert!(convex(&corners));
+            let [x, y, _] = corners[3];
+            corners.push([x, y, 1.0]);
+            assert!(!convex(&corners), "{corners:?}");
+        }
+    }
+
+    /// By integers: an outline of four corners is convex if all turns have the same sign.
+    #[test]
+    fn four_corners_that_certainly_turn_one_way_are_convex() {
+        let mut random = SplitMix64::new(5);
+        let mut told = [0; 2];
+        for _ in 0..20_000 {
+            let size = 2f64.powf(random.range(1.0, 50.0));
+            let points = [(); 4].map(|()| [0, 1].map(|_| random.range(-size, size).round()));
+            // The signs of the four areas by integers: all the same, or not.
+            let area = |[p, q, r]: [[f64; 2]; 3]| {
+                let of = |a: f64, b: f64| (b - a) as i128;
+                (of(p[0], q[0]) * of(p[1], r[1]) - of(p[1], q[1]) * of(p[0], r[0])).signum()
+            };
+            let turns = [0, 1, 2, 3].map(|k| area([0, 1, 2].map(|i| points[(k + i) % 4])));
+            let one_way = turns == [1; 4] || turns == [-1; 4];
+            let found = turns_one_way(points);
+            assert!(one_way || !found, "{points:?}");
+            told[usize::from(found)] += 1;
+            let corners = points.map(|[x, y]| [x, y, 0.0]);
+            // Without area, a turn that is not one way can still be convex.
+            if !turns.contains(&0) {
+                assert_eq!(is_convex(4, |k| corners[k], 2), one_way, "{points:?}");
+            }
+        }
+        assert!(told[0] > 2000 && told[1] > 2000, "{told:?}");
+    }
+
+    /// Steps that all but run on in one line, or back, by integers of 128 bits.
+    #[test]
+    fn turns_are_exact() {
+        let mut random = SplitMix64::new(4);
+        let (mut straight, mut back) = (0, 0);
+        for _ in 0..20_000 {
+            let mut number = |most: f64| random.range(-most, most).round();
+            let (size, nudge) = (number(9e6), number(1.4));
+            let (unit, nudge) = ([size, size + number(1.4)], [nudge; 2]);
+            let [s, t] = [number(9e7), number(9e7)];
+            let a = unit.map(|c| c * s);
+            let b = [unit[0] * t + nudge[0], unit[1] * t + nudge[1]];
+            let [p, q] = [a, b].map(|step| step.map(|c| c as i128));
+            let turn = (p[0] * q[1] - p[1] * q[0]).cmp(&0);
+            let is_back = turn == Ordering::Equal && p[0] * q[0] + p[1] * q[1] < 0;
+            assert_eq!(turn_of(a, b), (!is_back).then_some(turn), "{a:?} {b:?}");
+            straight += usize::from(turn.is_eq() && !is_back);
+            back += usize::from(is_back);
+        }
+        assert!(straight > 500 && back > 500, "{straight} {back}");
     }
 }

@@ -1,11 +1,11 @@
-//! The vertices of a piece, and how a plane cuts a piece in two.
+//! The vertices of a piece, how a plane cuts a piece in two, and how faces are cut to a cell.
 
 use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
 use super::Faces;
-use super::classify::PreparedPlane;
+use super::classify::{PreparedPlane, Side};
 use super::names::{EdgeLine, VertexId};
 
 /// A vertex of a piece of a face.
@@ -137,5 +137,52 @@ pub fn split(
             front.push(if forward { leaving } else { entering });
             back.push(if forward { entering } else { leaving });
         }
+    }
+}
+
+/// Cuts faces to their cell.
+///
+/// Each plane of the cell decides as a partition plane of a tree does, by the rules of [`classify`](super::classify). What
+/// is coplanar with it belongs to the cell in front. So do the planes of all cells of a scene, which
+/// therefore have each point of each face in one cell; and both cells beside a plane name the vertices
+/// that it makes by the same points.
+pub(crate) struct Clipper<'f> {
+    faces: &'f Faces,
+    planes: SmallVec<[(PreparedPlane, Side); 6]>,
+    outline: Vec<Vertex>,
+    front: Vec<Vertex>,
+    back: Vec<Vertex>,
+}
+
+impl<'f> Clipper<'f> {
+    pub(crate) fn new(faces: &'f Faces) -> Self {
+        let planes = faces.planes_of_cell();
+        let planes = planes.map(|(plane, side)| (PreparedPlane::new(faces, plane), side)).collect();
+        Self { faces, planes, outline: vec![], front: vec![], back: vec![] }
+    }
+
+    /// The part of a face in the cell, by its vertices: an empty list is the whole face, `None` no part.
+    pub(crate) fn clip(&mut self, face: u32) -> Option<&[Vertex]> {
+        let Self { faces, planes, outline, front, back } = self;
+        outline.clear();
+        for (prepared, own) in planes {
+            let cut = (!outline.is_empty()).then_some(&outline[..]);
+            match prepared.classify(faces, face, cut) {
+                Side::Spanning => {
+                    if outline.is_empty() {
+                        let corners = 0..faces.corners(face).len() as u32;
+                        outline.extend(corners.map(|k| Vertex::corner(faces, face, k)));
+                    }
+                    front.clear();
+                    back.clear();
+                    split(faces, prepared, face, outline, front, back);
+                    std::mem::swap(outline, if *own == Side::Front { front } else { back });
+                }
+                Side::Coplanar if *own == Side::Front => {}
+                side if side == *own => {}
+                _ => return None,
+            }
+        }
+        Some(&self.outline)
     }
 }

@@ -1,4 +1,4 @@
-//! Vertices of pieces: on which side of a plane each lies, decided in integers.
+//! Vertices of pieces: on which side of a plane each lies, decided in integers, and where it is, rounded.
 //!
 //! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
 //! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
@@ -18,49 +18,93 @@
 use std::cmp::Ordering;
 
 use glam::DVec3;
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 use super::Int;
-use super::edge::{ExactEdge, Flattener, Moved, Off};
 use super::faces::Faces;
+use super::lattice::{LIMIT, integers};
 use super::names::{PlaneId, PlaneKind, VertexId, VertexKind};
-use super::plane::{Plane, cross, relative_to};
+use super::plane::{LOW, LOW_BITS, Plane, cross, largest, relative_to, rounded};
 
-/// A vertex as a combination of lattice points. The sum of the weights is not zero; it and the
-/// weights may have either sign.
-pub(crate) enum Weights {
-    /// A corner.
-    Corner([f64; 3]),
-    /// A point between two corners.
-    Edge([[f64; 3]; 2], [Int<3>; 2]),
-    /// A point of the plane of three corners.
-    Inside([[f64; 3]; 3], [Int<5>; 3]),
+/// A vertex as a weighted mean of lattice points: one corner; two, between which it lies; or three, whose
+/// plane it lies in. The sum of the weights is not zero; it and the weights may have either sign.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights<const W: usize> {
+    points: [[f64; 3]; 3],
+    /// Those beyond the number of points are 0.
+    weights: [Int<W>; 3],
+    len: usize,
+}
+
+impl<const W: usize> Weights<W> {
+    /// The point of a segment on a plane that has these values at its ends.
+    fn on_segment([a, b]: [[f64; 3]; 2], [at_a, at_b]: [Int<3>; 2]) -> Self {
+        let weights = [(-at_b).resize(), at_a.resize(), Int::ZERO];
+        Self { points: [a, b, b], weights, len: 2 }
+    }
+
+    /// The point where three planes meet: that of a triangle, and two that have these values at its corners.
+    pub(crate) fn meeting(points: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
+        // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
+        // their vector product.
+        let weights = std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            g[j].times::<3, W>(&h[k]) - g[k].times::<3, W>(&h[j])
+        });
+        Self { points, weights, len: 3 }
+    }
+
+    /// The sign that a linear function has at the vertex, by its values at lattice points: exact.
+    pub(crate) fn sign(&self, value: impl Fn(&[f64; 3]) -> Int<3>) -> Ordering {
+        // The value at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
+        // of the quotient is needed, and the numerator and the denominator are exact.
+        let sum = match self.len {
+            1 => return value(&self.points[0]).sign(),
+            2 => {
+                let weight = |i: usize| self.weights[i].resize::<3>();
+                let term = |i: usize| weight(i).times::<3, 6>(&value(&self.points[i]));
+                (term(0) + term(1)).sign()
+            }
+            _ => {
+                let term = |i: usize| self.weights[i].times::<3, 9>(&value(&self.points[i]));
+                (term(0) + term(1) + term(2)).sign()
+            }
+        };
+        relative_to(sum, self.total().sign())
+    }
+
+    fn total(&self) -> Int<W> {
+        self.weights[0] + self.weights[1] + self.weights[2]
+    }
+}
+
+impl Weights<5> {
+    /// The coordinate along an axis.
+    pub(crate) fn along(&self, axis: usize) -> Fraction {
+        let terms = self.points.iter().zip(&self.weights);
+        let numerator = terms.fold(Int::ZERO, |sum, (point, weight)| {
+            sum + weight.times::<1, 6>(&Int::from(point[axis] as i64))
+        });
+        Fraction { numerator, denominator: self.total() }
+    }
+
+    /// The place in lattice units, each coordinate within three roundings of the exact one.
+    pub(crate) fn position(&self) -> [f64; 3] {
+        std::array::from_fn(|axis| {
+            let Fraction { numerator, denominator } = self.along(axis);
+            numerator.to_f64() / denominator.to_f64()
+        })
+    }
+
+    /// Each corner's share of the sum of weights.
+    fn shares<const K: usize>(&self, corners: [u32; K]) -> SmallVec<[(u32, f64); 3]> {
+        let total = self.total().to_f64();
+        let shares = self.weights.map(|weight| weight.to_f64() / total);
+        corners.into_iter().zip(shares).collect()
+    }
 }
 
 impl Faces {
-    /// Moves the corners of the last face along `axis` to the lattice points nearest to its plane.
-    /// Gives how far the furthest was off it, in lattice units, rounded; 0 only if all were exactly on
-    /// it.
-    pub(crate) fn flatten_last(&mut self, axis: usize) -> f64 {
-        let face = self.faces.len() as u32 - 1;
-        let triangle = self.reference_triangle(face);
-        let flattener = Flattener::new(triangle.map(|corner| self.corner(corner)), axis);
-        let mut furthest = 0.0f64;
-        for corner in self.corner_range(face) {
-            if triangle.contains(&(corner as u32)) {
-                continue;
-            }
-            let point = self.corners[corner];
-            let Off { distance, steps } = flattener.off(&point);
-            furthest = furthest.max(distance);
-            if steps != 0.0 {
-                self.moved.push((corner as u32, point));
-                self.corners[corner][axis] -= steps;
-            }
-        }
-        furthest
-    }
-
     /// A partition plane in integers.
     pub(crate) fn plane(&self, plane: PlaneId) -> Plane {
         match plane.kind() {
@@ -69,41 +113,10 @@ impl Faces {
         }
     }
 
-    /// How the distance of a vertex from a plane, times the length of the plane's normal, compares
-    /// with `threshold`: exact. `threshold` is an integer of at most 2⁵¹ times that length.
-    pub(crate) fn compare(
-        &self,
-        id: PlaneId,
-        plane: &Plane,
-        face: u32,
-        vertex: VertexId,
-        threshold: f64,
-    ) -> Ordering {
-        if threshold == 0.0 && vertex.is_on(id) {
-            return Ordering::Equal;
-        }
-        let threshold: Int<3> = if threshold == 0.0 { Int::ZERO } else { Int::from_f64(threshold) };
-        let value = |x: &[f64; 3]| plane.at(x) - threshold;
-        // The plane at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
-        // of the quotient is needed, and the numerator and the denominator are exact.
-        match self.weights(face, vertex) {
-            Weights::Corner(point) => value(&point).sign(),
-            Weights::Edge([a, b], [wa, wb]) => {
-                let sum = wa.times::<3, 6>(&value(&a)) + wb.times::<3, 6>(&value(&b));
-                relative_to(sum.sign(), (wa + wb).sign())
-            }
-            Weights::Inside(points, weights) => {
-                let term = |i: usize| weights[i].times::<3, 8>(&value(&points[i]));
-                let total = weights[0] + weights[1] + weights[2];
-                relative_to((term(0) + term(1) + term(2)).sign(), total.sign())
-            }
-        }
-    }
-
     /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
     pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
         let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
-        if self.upright_axis(face).is_some() {
+        if self.dominant_axis(face).is_some() {
             return None;
         }
         let corners = self.corners(face);
@@ -111,72 +124,78 @@ impl Faces {
     }
 
     /// A vertex as a combination of corners of its face.
-    pub(crate) fn weights(&self, face: u32, vertex: VertexId) -> Weights {
+    pub(crate) fn weights<const W: usize>(&self, face: u32, vertex: VertexId) -> Weights<W> {
+        let meeting = |g: &Plane, h: &Plane| {
+            let [a, b, c] = self.triangle(face);
+            let at = |plane: &Plane| [plane.at(&a), plane.at(&b), plane.at(&c)];
+            Weights::meeting([a, b, c], &at(g), &at(h))
+        };
         match vertex.kind() {
             VertexKind::Corner(k) => {
                 let corner = self.corners(face)[k as usize];
                 let Some(axis) = self.axis_of_move(face, k) else {
-                    return Weights::Corner(corner);
+                    let weights = [Int::from(1_i64), Int::ZERO, Int::ZERO];
+                    return Weights { points: [corner; 3], weights, len: 1 };
                 };
-                let area = |p, q| Int::from(cross(corner, p, q)[axis]);
                 let [a, b, c] = self.triangle(face);
-                Weights::Inside([a, b, c], [area(b, c), area(c, a), area(a, b)])
+                let area = |p, q| Int::from(cross(corner, p, q)[axis]);
+                let weights = [area(b, c), area(c, a), area(a, b)];
+                Weights { points: [a, b, c], weights, len: 3 }
             }
             VertexKind::OnEdge(k, plane) => {
-                let ExactEdge { ends: [a, b], moved } = self.edge(face, k);
+                let ExactEdge { ends, moved } = self.edge(face, k);
                 let plane = self.plane(plane);
                 match moved {
-                    None => Weights::Edge([a, b], [-plane.at(&b), plane.at(&a)]),
+                    None => {
+                        let [a, b] = ends;
+                        Weights::on_segment(ends, [plane.at(&a), plane.at(&b)])
+                    }
                     Some(Moved { axis, .. }) => {
-                        meeting(self.triangle(face), &Plane::upright(a, b, axis), &plane)
+                        meeting(&Plane::upright(ends[0], ends[1], axis), &plane)
                     }
                 }
             }
-            VertexKind::Inside(g, h) => {
-                meeting(self.triangle(face), &self.plane(g), &self.plane(h))
-            }
+            VertexKind::Inside(g, h) => meeting(&self.plane(g), &self.plane(h)),
         }
     }
-}
 
-/// The point where the plane of a triangle and two other planes meet.
-fn meeting(triangle: [[f64; 3]; 3], g: &Plane, h: &Plane) -> Weights {
-    let (g, h) = (triangle.map(|x| g.at(&x)), triangle.map(|x| h.at(&x)));
-    // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
-    // their vector product.
-    let weights = std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        g[j].times::<3, 5>(&h[k]) - g[k].times::<3, 5>(&h[j])
-    });
-    Weights::Inside(triangle, weights)
-}
+    /// Where a plane cuts the segment between two lattice points; `None` unless they are strictly on
+    /// its two sides.
+    pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights<5>> {
+        let plane = self.plane(plane);
+        let values = ends.map(|end| plane.at(&end));
+        let [a, b] = values.map(|value| value.sign());
+        (a.is_ne() && a == b.reverse()).then(|| Weights::on_segment(ends, values))
+    }
 
-impl Faces {
+    /// A coordinate of a vertex.
+    pub(crate) fn along(&self, face: u32, vertex: VertexId, axis: usize) -> Fraction {
+        self.weights(face, vertex).along(axis)
+    }
+
     /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
     /// and its weight. The weights sum to 1.
     pub(crate) fn barycentric(&self, face: u32, vertex: VertexId) -> SmallVec<[(u32, f64); 3]> {
         let len = self.corners(face).len() as u32;
-        let edge = |k: u32| [k, (k + 1) % len];
-        if let VertexKind::Corner(k) = vertex.kind() {
-            return SmallVec::from_slice(&[(k, 1.0)]);
-        }
-        match (vertex.kind(), self.weights(face, vertex)) {
-            (VertexKind::OnEdge(k, _), Weights::Edge(_, weights)) => shares(edge(k), weights),
-            (VertexKind::OnEdge(k, _), _) => {
+        let weights = self.weights(face, vertex);
+        match vertex.kind() {
+            VertexKind::Corner(k) => smallvec![(k, 1.0)],
+            VertexKind::OnEdge(k, _) if weights.len == 2 => weights.shares([k, (k + 1) % len]),
+            VertexKind::OnEdge(k, _) => {
                 // The edge of a face that is planar only by definition: the exact weights are over
                 // the reference triangle, so take the rounded position's share of the edge.
-                let [a, b] = edge(k).map(|k| DVec3::from(self.corners(face)[k as usize]));
+                let edge = [k, (k + 1) % len];
+                let [a, b] = edge.map(|k| DVec3::from(self.corners(face)[k as usize]));
                 let arm = b - a;
                 let point = DVec3::from(self.position(face, vertex));
                 let t = ((point - a).dot(arm) / arm.length_squared()).clamp(0.0, 1.0);
-                let [a, b] = edge(k);
-                SmallVec::from_slice(&[(a, 1.0 - t), (b, t)])
+                smallvec![(edge[0], 1.0 - t), (edge[1], t)]
             }
-            (_, Weights::Inside(_, weights)) if self.has_own_plane(face) => {
-                shares(self.faces[face as usize].frame.triangle(), weights)
+            VertexKind::Inside(..) if self.has_own_plane(face) => {
+                weights.shares(self.faces[face as usize].frame.triangle())
             }
             // The exact weights are over corners of other faces.
-            _ => self.rounded_shares(face, self.position(face, vertex)),
+            VertexKind::Inside(..) => self.rounded_shares(face, self.position(face, vertex)),
         }
     }
 
@@ -193,18 +212,9 @@ impl Faces {
     }
 }
 
-/// Each corner's share of the sum of weights.
-fn shares<const K: usize, const N: usize>(
-    corners: [u32; K],
-    weights: [Int<N>; K],
-) -> SmallVec<[(u32, f64); 3]> {
-    let total = weights.iter().fold(Int::<N>::ZERO, |sum, &w| sum + w).to_f64();
-    corners.into_iter().zip(weights).map(|(k, weight)| (k, weight.to_f64() / total)).collect()
-}
-
 /// A coordinate of a point, in lattice units. The denominator is not zero, and of either sign.
 ///
-/// Both are sums over the weights of [`Weights`]: 374 and 320 bits at most.
+/// Both are sums over the weights of [`Weights`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fraction {
     numerator: Int<6>,
@@ -215,15 +225,6 @@ impl Fraction {
     /// The coordinate of a lattice point.
     pub(crate) fn whole(value: f64) -> Self {
         Self { numerator: Int::from(value as i64), denominator: Int::from(1_i64) }
-    }
-
-    fn mean<const K: usize>(coordinates: [f64; K], weights: [Int<5>; K]) -> Self {
-        let denominator = weights.iter().fold(Int::ZERO, |sum, &weight| sum + weight);
-        let terms = coordinates.iter().zip(weights);
-        let numerator = terms.fold(Int::ZERO, |sum, (&coordinate, weight)| {
-            sum + weight.times::<1, 6>(&Int::from(coordinate as i64))
-        });
-        Self { numerator, denominator }
     }
 
     /// How two coordinates compare: exact.
@@ -242,51 +243,7 @@ impl Fraction {
     }
 }
 
-/// Where a plane cuts the segment between two lattice points.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cut {
-    ends: [[f64; 3]; 2],
-    weights: [Int<5>; 2],
-}
-
-impl Cut {
-    /// The coordinate along an axis.
-    pub(crate) fn along(&self, axis: usize) -> Fraction {
-        Fraction::mean(self.ends.map(|end| end[axis]), self.weights)
-    }
-
-    /// The place in lattice units, each coordinate within three roundings of the exact one.
-    pub(crate) fn position(&self) -> [f64; 3] {
-        std::array::from_fn(|axis| {
-            let Fraction { numerator, denominator } = self.along(axis);
-            numerator.to_f64() / denominator.to_f64()
-        })
-    }
-}
-
 impl Faces {
-    /// Where a plane cuts the segment between two lattice points; `None` unless they are strictly on
-    /// its two sides.
-    pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Cut> {
-        let plane = self.plane(plane);
-        let [a, b] = ends.map(|end| plane.at(&end));
-        let crosses = a.sign() == b.sign().reverse() && a.sign().is_ne();
-        crosses.then(|| Cut { ends, weights: [(-b).resize(), a.resize()] })
-    }
-
-    /// A coordinate of a vertex.
-    pub(crate) fn along(&self, face: u32, vertex: VertexId, axis: usize) -> Fraction {
-        match self.weights(face, vertex) {
-            Weights::Corner(point) => Fraction::whole(point[axis]),
-            Weights::Edge(ends, weights) => {
-                Fraction::mean(ends.map(|end| end[axis]), weights.map(|weight| weight.resize()))
-            }
-            Weights::Inside(points, weights) => {
-                Fraction::mean(points.map(|point| point[axis]), weights)
-            }
-        }
-    }
-
     /// The axis in which the line where a plane cuts a face is longest.
     pub(crate) fn axis_of_cut(&self, face: u32, plane: PlaneId) -> usize {
         let own = Plane::through(self.triangle(face)).normal();
@@ -296,9 +253,284 @@ impl Faces {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             (product(j, k) - product(k, j)).to_f64().abs()
         };
-        (1..3).fold(0, |best, axis| if length(axis) > length(best) { axis } else { best })
+        largest([length(0), length(1), length(2)])
     }
 }
+
+/// An edge of a face.
+#[derive(Clone, Copy, Debug)]
+struct ExactEdge {
+    /// The lattice points of its two corners.
+    ends: [[f64; 3]; 2],
+    /// How they are moved onto the face's plane; `None` if both are on it.
+    moved: Option<Moved>,
+}
+
+/// How the ends of an edge are moved: along an axis, by half a step at most.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    axis: usize,
+    /// The face's plane at the ends, and what it gains with a step along the axis.
+    offs: [i128; 2],
+    slope: i128,
+}
+
+impl Faces {
+    /// The edge of a face that begins at its corner `k`.
+    #[inline]
+    fn edge(&self, face: u32, k: u32) -> ExactEdge {
+        let corners = self.corners(face);
+        let next = if k as usize + 1 == corners.len() { 0 } else { k + 1 };
+        let ends = [k, next].map(|k| corners[k as usize]);
+        let moved = self.dominant_axis(face).and_then(|axis| {
+            let is_on = [k, next].map(|k| self.is_on_triangle(face, k));
+            if is_on == [true; 2] {
+                return None;
+            }
+            let own = Plane::through(self.triangle(face));
+            let off = |i: usize| if is_on[i] { 0 } else { own.last_bits_at(&ends[i]) };
+            let (offs, slope) = ([off(0), off(1)], own.normal()[axis]);
+            // An edge between two corners that are not moved must be treated as an edge, not as a cut
+            // by an upright plane: the neighbour across it may have moved no corner, and both must
+            // get the same bits.
+            (offs != [0; 2]).then_some(Moved { axis, offs, slope })
+        });
+        ExactEdge { ends, moved }
+    }
+
+    /// The axis along which a corner is moved onto its face's plane, if it is off it.
+    fn axis_of_move(&self, face: u32, k: u32) -> Option<usize> {
+        let axis = self.dominant_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
+        let own = Plane::through(self.triangle(face));
+        (own.last_bits_at(&self.corners(face)[k as usize]) != 0).then_some(axis)
+    }
+
+    /// Whether corner `k` is one of the three that define its face's plane. Others are within half a
+    /// step of it along the axis, which 128 bits hold.
+    fn is_on_triangle(&self, face: u32, k: u32) -> bool {
+        let first = self.faces[face as usize].start;
+        self.reference_triangle(face).contains(&(first + k))
+    }
+}
+
+// Positions. The exact one is a quotient of integers of up to 380 bits, whose leading bits nearly always
+// suffice. So numbers are cut off to 124 bits as they arise, with a bound on what that loses. Where
+// the quotient could be off by more than `OFF`, because terms cancel, it is computed in full.
+
+/// Bits that are kept of a number, the sign aside.
+const KEPT: u32 = 124;
+/// Numbers are multiplied by halves of so many bits, whose products fit 128.
+const HALF: u32 = KEPT / 2;
+const LOW_HALF: i128 = (1 << HALF) - 1;
+/// 1 in numbers of which a half is below it.
+const UNIT: f64 = (1u64 << HALF) as f64;
+/// The sum of the weights must be 2⁷⁰ times the error of one. Smaller: positions are off by more;
+/// larger: more of them are computed in full.
+const MARGIN: u32 = 70;
+/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with
+/// a larger margin than that, no position could be computed from them.
+const EDGE_MARGIN: u32 = 60;
+/// What cutting off adds to the error of a position, at most, in lattice units: on an edge as long as
+/// the lattice is wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is
+/// less: 6 · 2⁻⁷⁰ of its size, as three weights are in the numerator and three in the denominator.)
+pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
+
+impl Faces {
+    /// The rounded position of a vertex in lattice units. Each coordinate is within three of its own
+    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to
+    /// that axis defines the vertex. All pieces, of any face, that define the vertex by the same
+    /// points and planes get the same bits, whichever way their faces run.
+    pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
+        let (leading, planes) = match vertex.kind() {
+            VertexKind::Corner(k) => return self.corners(face)[k as usize],
+            VertexKind::OnEdge(k, g) => (on_edge(&self.edge(face, k), &self.plane(g)), [g; 2]),
+            VertexKind::Inside(g, h) => {
+                (meeting(&self.triangle(face), &self.plane(g), &self.plane(h)), [g, h])
+            }
+        };
+        let mut position = leading.unwrap_or_else(|| self.position_in_full(face, vertex));
+        for plane in planes {
+            if let PlaneKind::Axis(axis, corner) = plane.kind() {
+                position[axis] = self.corner(corner)[axis];
+            }
+        }
+        position
+    }
+
+    #[cold]
+    fn position_in_full(&self, face: u32, vertex: VertexId) -> [f64; 3] {
+        self.weights(face, vertex).position()
+    }
+}
+
+/// Where a plane meets an edge; `None` if the leading bits do not tell.
+fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
+    let ExactEdge { ends, moved } = edge;
+    let ends = ends.map(integers);
+    let values = ends.map(|end| at(plane, end));
+    let dropped = (bits_of(values.map(|value| value.high)) + LOW_BITS).saturating_sub(HALF);
+    let [mut a, mut b] = values.map(|value| value.without(dropped) as i64);
+    // What is cut off is less than 1.
+    let mut error = u64::from(dropped > 0);
+    let mut moves = [0.0; 2];
+    if let Some(Moved { axis, offs, slope }) = moved {
+        let [own_slope, slope] = [*slope, plane.normal()[*axis]].map(rounded);
+        // Off by five roundings, and the plane's gain by eight.
+        moves = offs.map(|off| -rounded(off) / own_slope);
+        let scale = f64::from_bits(u64::from(1023 - dropped) << 52);
+        let gains = moves.map(|by| by * slope * scale);
+        let most = gains[0].abs().max(gains[1].abs());
+        (a, b) = (a.saturating_add(gains[0] as i64), b.saturating_add(gains[1] as i64));
+        error += 1 + (most * (4.0 * f64::EPSILON)) as u64;
+    }
+    let weights = [b.checked_neg()?, a];
+    let total = a.checked_sub(b)?;
+    if total == 0 || total.unsigned_abs() >> EDGE_MARGIN < error {
+        return None;
+    }
+    Some(std::array::from_fn(|axis| {
+        let terms = |factors: [i64; 2]| {
+            let [x, y] = [0, 1].map(|i| i128::from(weights[i]) * i128::from(factors[i]));
+            x + y
+        };
+        let mut sum = terms(ends.map(|end| end[axis]));
+        if moved.is_some_and(|moved| moved.axis == axis) {
+            // Rounded towards 0, so that it has the same magnitude for weights of the other sign.
+            sum += terms(moves.map(|by| (by * UNIT) as i64)) / (1 << HALF);
+        }
+        sum as f64 / total as f64
+    }))
+}
+
+/// Where two planes meet that of a triangle; `None` if the leading bits do not tell.
+fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
+    let triangle = triangle.map(integers);
+    let ((g, dropped_of_g), (h, dropped_of_h)) = (leading(g, triangle), leading(h, triangle));
+    let (g, h) = (g.map(halves), h.map(halves));
+    // As in `Weights::meeting`, the weights are the vector product of the two triples of values.
+    let mut weights = [Product::default(); 3];
+    for (i, weight) in weights.iter_mut().enumerate() {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        *weight = Product::of(g[j], h[k], g[k], h[j]);
+    }
+    // All bits above the first 124 are dropped at the other end.
+    let dropped = bits_of(weights.map(|weight| weight.magnitude().high));
+    // A value is off by less than 1, its products with others by 2¹²⁴, and a weight by four of these.
+    let is_exact = dropped_of_g == 0 && dropped_of_h == 0;
+    let inexact = if is_exact { 0 } else { 1 << (KEPT + 2).saturating_sub(dropped) };
+    let error = inexact + u128::from(dropped > 0);
+    let weights = weights.map(|weight| weight.without(dropped));
+    let total = weights.iter().sum::<i128>();
+    if total == 0 || total.unsigned_abs() >> MARGIN < error {
+        return None;
+    }
+    let total = nearest(total, 0);
+    let weights = weights.map(halves);
+    let mut position = [0.0; 3];
+    for (axis, coordinate) in position.iter_mut().enumerate() {
+        let (mut high, mut low) = (0, 0);
+        for (point, weight) in triangle.iter().zip(&weights) {
+            let c = i128::from(point[axis]);
+            high += i128::from(weight[1]) * c;
+            low += i128::from(weight[0]) * c;
+        }
+        let sum = nearest(high + (low >> HALF), (low & LOW_HALF) as u64);
+        *coordinate = sum * UNIT / total;
+    }
+    Some(position)
+}
+
+/// A plane at some lattice points, without the last bits, and how many were dropped. Each is rounded
+/// towards 0: so those of a plane and its reverse differ in sign alone. Below 2¹²⁴ in magnitude.
+#[inline]
+fn leading(plane: &Plane, points: [[i64; 3]; 3]) -> ([i128; 3], u32) {
+    let parts = points.map(|point| at(plane, point));
+    let dropped = (bits_of(parts.map(|parts| parts.high)) + LOW_BITS).saturating_sub(KEPT);
+    (parts.map(|parts| parts.without(dropped)), dropped)
+}
+
+/// A number in two parts: `high` · 2^BITS + `low`, which is not negative.
+#[derive(Clone, Copy, Debug, Default)]
+struct HighLow<const BITS: u32> {
+    high: i128,
+    low: i128,
+}
+
+impl<const BITS: u32> HighLow<BITS> {
+    /// The number times 2^−`dropped`, rounded towards 0.
+    #[inline]
+    fn without(self, dropped: u32) -> i128 {
+        let Self { high, low } = self.magnitude();
+        let size = match BITS.checked_sub(dropped) {
+            Some(up) => (high << up) + (low >> dropped),
+            None => high >> (dropped - BITS),
+        };
+        if self.high < 0 { -size } else { size }
+    }
+
+    /// The absolute value.
+    #[inline]
+    fn magnitude(self) -> Self {
+        match (self.high < 0, self.low == 0) {
+            (false, _) => self,
+            (true, true) => Self { high: -self.high, low: 0 },
+            (true, false) => Self { high: -self.high - 1, low: (1 << BITS) - self.low },
+        }
+    }
+}
+
+/// A plane at a lattice point.
+#[inline]
+fn at(plane: &Plane, point: [i64; 3]) -> HighLow<LOW_BITS> {
+    let (mut high, mut low) = (0, 0);
+    for ((component, x), through) in plane.normal().into_iter().zip(point).zip(plane.point()) {
+        let arm = i128::from(x - through);
+        low += i128::from((component & LOW) as i64) * arm;
+        high += i128::from((component >> LOW_BITS) as i64) * arm;
+    }
+    HighLow { high: high + (low >> LOW_BITS), low: low & LOW }
+}
+
+/// How many bits the largest magnitude of some numbers has.
+#[inline]
+fn bits_of<const K: usize>(numbers: [i128; K]) -> u32 {
+    let all = numbers.iter().fold(0, |all, number| all | number.unsigned_abs());
+    128 - all.leading_zeros()
+}
+
+/// The two halves of a number, the lower one first and not negative.
+#[inline]
+fn halves(number: i128) -> [i64; 2] {
+    [(number & LOW_HALF) as i64, (number >> HALF) as i64]
+}
+
+/// A number of up to 250 bits.
+type Product = HighLow<KEPT>;
+
+impl Product {
+    /// a · b − c · d, of the halves of each.
+    #[inline]
+    fn of(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2]) -> Self {
+        let times = |x: i64, y: i64| i128::from(x) * i128::from(y);
+        let low = times(a[0], b[0]) - times(c[0], d[0]);
+        let middle = times(a[1], b[0]) + times(a[0], b[1]) - times(c[1], d[0]) - times(c[0], d[1])
+            + (low >> HALF);
+        let high = times(a[1], b[1]) - times(c[1], d[1]) + (middle >> HALF);
+        Self { high, low: (middle & LOW_HALF) << HALF | (low & LOW_HALF) }
+    }
+}
+
+/// The nearest `f64` to `high` + `low` · 2⁻⁶², ties to even; `low` is below 2⁶².
+#[inline]
+fn nearest(high: i128, low: u64) -> f64 {
+    if high.unsigned_abs() >> HALF > 0 {
+        // The last bit set if any bit below is: then the conversion rounds once, as if it saw all.
+        return (high | i128::from(low > 0)) as f64;
+    }
+    ((high << HALF | i128::from(low)) as f64) / (1u64 << HALF) as f64
+}
+#[cfg(test)]
+mod tests;
 
 #[cfg(test)]
 mod along_tests {

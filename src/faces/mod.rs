@@ -1,13 +1,477 @@
-//! Preparation: from input polygons to convex planar faces on the lattice.
+//! Preparation: from input polygons to convex planar faces on the lattice. It reads the polygons, chooses the
+//! lattice and the tolerance, and makes faces of them.
 
-mod lists;
 mod polygon;
-mod prepare;
-mod read;
 mod tolerance;
 mod triangulate;
 
-pub use prepare::Preparation;
-pub(crate) use prepare::Preparer;
+use glam::DVec3;
+
+use crate::error::{Error, InputFault, InputKind, Kind, Limit};
+use crate::exact::faces::Frame;
+use crate::exact::lattice::MAX_TOLERANCE;
+use crate::exact::{Faces, LATTICE_LIMIT, Lattice, MAX_NAMES, cross};
+use crate::input::{MAX_CORNERS, Point, Polygon};
+use crate::memory::{push, reserve};
+use crate::parallel_map;
+use crate::progress::{PIECES_AT_ONCE, Watch};
+use polygon::{Corner, Corners, FaceBuilder, keep_distinct};
+use tolerance::SnapParams;
 pub use tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub(crate) use tolerance::{Precision, empty_faces};
+
+/// Polygons that one thread prepares as one job. Too small: overhead per job; too large: threads wait
+/// for each other.
+const POLYGONS_A_THREAD: usize = 1024;
+/// Polygons that are prepared before the jobs' faces are put together and a cancel is noticed.
+/// Too small: threads wait for each other; too large: a cancel takes longer, and more memory is used.
+const POLYGONS_AT_ONCE: usize = 16 * POLYGONS_A_THREAD;
+
+/// How far the third corner of a segment is, if the segment's neighbours give none: a quarter of the
+/// lattice. Any distance gives the same plane.
+const ARM: f64 = LATTICE_LIMIT / 2.0;
+
+/// What became of the polygons of an input.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Preparation {
+    /// The number of input polygons.
+    pub polygons: usize,
+    /// Polygons without area, which become no face: those with fewer than three different corners,
+    /// or with all corners on one line. This is decided exactly, after the corners are rounded to
+    /// the lattice. Corners that are on one line as decimal numbers need not be on one as `f64`. In a
+    /// tree of a cell, polygons of which nothing is in the cell are counted too.
+    pub dropped: usize,
+    /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
+    pub triangulated: usize,
+    /// Of the triangulated polygons, those that cross themselves, or whose winding number is not
+    /// the same in all of what they enclose, seen along the main axis of their vector area; decided
+    /// exactly. If the polygon's edges meet at corners only, the triangles cover everything that it
+    /// winds around. Otherwise each two edges that cross are first replaced by two edges between
+    /// the same four ends that do not cross: of the two ways to do so, the one that changes less
+    /// area. Then the triangles cover what is inside by the even-odd rule. If that takes too long,
+    /// or nothing is left, the triangles fan out from the first corner.
+    pub crossing: usize,
+    /// Polygons with a corner off the plane of the others, but within the tolerance: they are kept
+    /// whole, and those corners count as on the plane.
+    pub flattened: usize,
+    /// How far such a corner is off at most, a length.
+    pub flattened_by: f64,
+    /// Of the triangulated polygons, those that are convex, with a corner off the plane of the
+    /// others by more than the tolerance, but by no more than 10⁻⁵ of the width of the grid (which is
+    /// one to two extents) or the polygon's own [`precision`](crate::Polygon::precision) (or 1/256 of the
+    /// width, if that is less): bent by a rounding, as it seems. With a tolerance of `bent_by` they would
+    /// be whole.
+    pub bent: usize,
+    /// How far such a corner is off at most, a length.
+    pub bent_by: f64,
+}
+
+impl Preparation {
+    /// Adds the report of other polygons of the same input.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.polygons += other.polygons;
+        self.dropped += other.dropped;
+        self.triangulated += other.triangulated;
+        self.crossing += other.crossing;
+        self.flattened += other.flattened;
+        self.flattened_by = self.flattened_by.max(other.flattened_by);
+        self.bent += other.bent;
+        self.bent_by = self.bent_by.max(other.bent_by);
+    }
+
+    /// The same report with lengths converted from lattice units to the polygons' unit.
+    fn in_world(mut self, lattice: &Lattice) -> Self {
+        for length in [&mut self.flattened_by, &mut self.bent_by] {
+            *length = lattice.length_to_world(*length);
+        }
+        self
+    }
+}
+
+impl Faces {
+    /// Prepares polygons: turns them into convex planar faces.
+    ///
+    /// Instead of a [`Tolerance`], a length may be given, or `None` for the default.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate is not finite, the tolerance is negative or NaN, a polygon has more than
+    /// 2²² corners, there are more than 2²⁸ polygons or corners in total, or memory
+    /// runs out.
+    pub fn new<P: Polygon>(
+        polygons: impl IntoIterator<Item = P>,
+        tolerance: impl Into<Tolerance>,
+    ) -> Result<(Self, Preparation), Error> {
+        let mut faces = Self::default();
+        let report = Preparer::default().prepare(
+            &mut faces,
+            polygons,
+            tolerance.into(),
+            usize::MAX,
+            &Watch::default(),
+        )?;
+        faces.shrink_to_fit();
+        Ok((faces, report))
+    }
+}
+
+/// Prepares polygons, and keeps its lists for the next time.
+#[derive(Debug, Default)]
+pub(crate) struct Preparer {
+    input: InputPolygons,
+    corners: Corners,
+    /// A box that the lattice holds besides the polygons.
+    room: Option<[DVec3; 2]>,
+    /// Whether all polygons are flat by definition.
+    pub(crate) are_flat: bool,
+}
+
+impl Preparer {
+    /// Replaces faces by those of some polygons, as [`Faces::new`] does, with a limit on the number of
+    /// polygons. Progress is reported to `watch`, which can cancel. After an error, some of the faces may
+    /// be there.
+    pub(crate) fn prepare<P: Polygon>(
+        &mut self,
+        faces: &mut Faces,
+        polygons: impl IntoIterator<Item = P>,
+        tolerance: Tolerance,
+        limit: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Preparation, Error> {
+        faces.clear();
+        tolerance.check()?;
+        self.input.read(polygons, limit, watch)?;
+        let [min, max] = self.input.bounds(self.room);
+        // The room does not say how precise the polygons are.
+        let own = if self.room.is_some() { self.input.bounds(None) } else { [min, max] };
+        let precision = Precision::new(self.input.precision, own);
+        let lattice = Lattice::new(min, max);
+        let mut params = SnapParams::new(lattice, [min, max], tolerance, precision);
+        if self.are_flat {
+            // Any distance from the plane is rounding.
+            params.bend = MAX_TOLERANCE;
+        }
+        (faces.lattice, faces.tolerance) = (params.lattice, params.tolerance);
+        self.add_all(faces, &params, watch)
+    }
+
+    /// Adds the faces of all polygons: few on this thread, more in parts, which are put together in input
+    /// order.
+    fn add_all(
+        &mut self,
+        faces: &mut Faces,
+        params: &SnapParams,
+        watch: &Watch<'_>,
+    ) -> Result<Preparation, Error> {
+        let Self { input, corners, .. } = self;
+        reserve(&mut faces.corners, input.corner_count())?;
+        reserve(&mut faces.faces, input.len())?;
+        let mut report = Preparation::default();
+        if input.len() <= POLYGONS_A_THREAD {
+            watch.expect(input.len())?;
+            let builder = FaceBuilder { faces, corners, params, watch, report };
+            return Ok(builder.add_all(input, 0..input.len())?.in_world(&params.lattice));
+        }
+        let empty = faces.without_faces();
+        for start in (0..input.len()).step_by(POLYGONS_AT_ONCE) {
+            watch.expect(input.len())?;
+            let end = input.len().min(start + POLYGONS_AT_ONCE);
+            let ranges = (start..end)
+                .step_by(POLYGONS_A_THREAD)
+                .map(|start| start..end.min(start + POLYGONS_A_THREAD));
+            let parts = parallel_map::map(ranges.collect(), |range| {
+                let (mut faces, mut corners) = (empty.clone(), Corners::default());
+                let (faces_of_part, corners) = (&mut faces, &mut corners);
+                let report = Preparation::default();
+                let builder = FaceBuilder { faces: faces_of_part, corners, params, watch, report };
+                let report = builder.add_all(input, range)?;
+                Ok::<_, Error>((faces, report))
+            })?;
+            for (part, part_report) in parts {
+                faces.append(part)?;
+                report.add(&part_report);
+            }
+        }
+        Ok(report.in_world(&params.lattice))
+    }
+
+    /// Makes later lattices hold a box, given by its lower and upper corner, besides the polygons.
+    ///
+    /// # Errors
+    ///
+    /// If a coordinate is not finite.
+    pub(crate) fn hold(&mut self, room: Option<[DVec3; 2]>) -> Result<(), Error> {
+        if room.iter().flatten().any(|corner| !corner.is_finite()) {
+            return Err(Kind::Bounds.error());
+        }
+        self.room = room;
+        Ok(())
+    }
+
+    /// Appends the faces of more polygons to those of a finished scene, on its lattice and with its
+    /// tolerance. More than `limit` are an error. The polygons are numbered from `first` on.
+    /// After an error, some of their faces may have been appended.
+    pub(crate) fn append<P: Polygon>(
+        &mut self,
+        faces: &mut Faces,
+        polygons: impl IntoIterator<Item = P>,
+        first: usize,
+        limit: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Preparation, Error> {
+        self.input.read(polygons, limit, watch)?;
+        if let Some(polygon) = self.input.first_off(faces.lattice()) {
+            return Err(InputFault::OffGrid.of_polygon(polygon));
+        }
+        let before = faces.len();
+        let report = self.add_all(faces, &SnapParams::of(faces), watch);
+        faces.faces[before..].iter_mut().for_each(|face| face.polygon += first as u32);
+        report
+    }
+
+    /// Appends the segments of lines, on the lattice of the faces, and lists their numbers in their
+    /// lines. Segments whose ends are rounded to one lattice point are left out. There may be no points
+    /// yet. After an error, some segments may have been appended.
+    pub(crate) fn append_lines<P: Polygon>(
+        &mut self,
+        faces: &mut Faces,
+        lines: impl IntoIterator<Item = P>,
+        numbers: &mut Vec<u32>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        numbers.clear();
+        self.read_thin(faces, lines, InputKind::Line, watch)?;
+        let mut corners = Vec::new();
+        for line in 0..self.input.len() {
+            let given = self.input.polygon(line);
+            watch.work(given.len())?;
+            keep_distinct(given, &faces.lattice, &mut corners);
+            reserve(numbers, corners.len())?;
+            for (k, ends) in corners.windows(2).enumerate() {
+                let [(from, number), (to, _)] = *ends else { continue };
+                let third = third_corner([from, to], neighbours(&corners, k).into_iter().flatten());
+                faces.push(line, [from, to, third].into_iter(), Frame::TRIANGLE)?;
+                numbers.push(number);
+            }
+        }
+        faces.thin.segments = numbers.len();
+        Ok(())
+    }
+
+    /// Appends points, on the lattice of the faces. After an error, some may have been appended.
+    pub(crate) fn append_points<P: Point>(
+        &mut self,
+        faces: &mut Faces,
+        points: impl IntoIterator<Item = P>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let points = points.into_iter().map(|point| [point]);
+        self.read_thin(faces, points, InputKind::Point, watch)?;
+        for number in 0..self.input.len() {
+            let lattice = faces.lattice;
+            let at = self.input.polygon(number).iter().map(|&point| lattice.snap(point));
+            faces.push(number, at, Frame::POINT)?;
+        }
+        faces.thin.points = self.input.len();
+        Ok(())
+    }
+
+    fn read_thin<P: Polygon>(
+        &mut self,
+        faces: &Faces,
+        shapes: impl IntoIterator<Item = P>,
+        kind: InputKind,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        self.input.read(shapes, usize::MAX, watch).map_err(|error| error.of(kind))?;
+        match self.input.first_off(&faces.lattice) {
+            Some(number) => Err(InputFault::OffGrid.of_polygon(number).of(kind)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The corner behind a segment's end, and the one ahead of its beginning. Where a line is closed, they
+/// are those on the other side of the closing corner.
+fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
+    let segments = corners.len() - 1;
+    let is_closed = corners[0].0 == corners[segments].0;
+    let after = match segment + 2 {
+        next if next <= segments => Some(next),
+        _ => is_closed.then_some(1),
+    };
+    let before = match segment.checked_sub(1) {
+        None => is_closed.then_some(segments - 1),
+        before => before,
+    };
+    [after, before].map(|corner| corner.map(|corner| corners[corner].0))
+}
+
+/// A lattice point that is not on the line through two others.
+///
+/// If a neighbour is such a point, it is taken: all segments of a planar polyline then have its plane, and
+/// none of them cuts another.
+fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
+    // Without a neighbour, the plane is upright. Upright planes cut each other as lines do, which makes
+    // fewer pieces than planes in all directions.
+    let along = |axis: usize| {
+        let mut third = p;
+        third[axis] -= if p[axis] < 0.0 { -ARM } else { ARM };
+        third
+    };
+    let is_off = |third: &[f64; 3]| cross(p, q, *third) != [0; 3];
+    neighbours.chain([along(2)]).find(is_off).unwrap_or_else(|| along(0))
+}
+
+const _: () = assert!(MAX_CORNERS.is_multiple_of(PIECES_AT_ONCE), "so that it is noticed");
+
+/// The most polygons for which memory is reserved on the word of an iterator's size hint. Too large:
+/// a wrong hint wastes memory; too small: polygons are copied more often as lists grow.
+const TRUSTED: usize = 1 << 16;
+
+/// An iterator's hint that it has too many polygons is believed after this many polygons. Too small: a
+/// hint that is wrong is an error more often; too large: an iterator without end is noticed later.
+const DOUBTED: usize = 1 << 20;
+
+/// A polygon with at most this many corners by its size hint is read at once. Too large: memory is reserved
+/// on the word of a wrong hint.
+const AT_HAND: usize = 64;
+
+/// All corners, and where those of each polygon end.
+#[derive(Debug, Default)]
+struct InputPolygons {
+    points: Vec<DVec3>,
+    ends: Vec<u32>,
+    /// The largest of the polygons' [`precision`](Polygon::precision): how far corners may be off.
+    precision: f64,
+    /// That of each polygon.
+    precisions: Vec<f64>,
+}
+
+impl InputPolygons {
+    /// The number of polygons.
+    fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    fn corner_count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The corners of a polygon.
+    fn polygon(&self, polygon: usize) -> &[DVec3] {
+        let start = polygon.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.points[start as usize..self.ends[polygon] as usize]
+    }
+
+    /// The [`precision`](Polygon::precision) of a polygon.
+    fn precision_of(&self, polygon: usize) -> f64 {
+        self.precisions[polygon]
+    }
+
+    /// The corners of the bounding box of the polygons and the corners of a box, if one is given;
+    /// zero if there is nothing.
+    fn bounds(&self, room: Option<[DVec3; 2]>) -> [DVec3; 2] {
+        let first = self.points.first().copied().or(room.map(|[corner, _]| corner));
+        let start = [first.unwrap_or_default(); 2];
+        let points = self.points.iter().chain(room.iter().flatten());
+        points.fold(start, |[min, max], &p| [min.min(p), max.max(p)])
+    }
+
+    /// The first polygon with a corner beyond the ends of a lattice.
+    fn first_off(&self, lattice: &Lattice) -> Option<usize> {
+        let is_off = |point: &DVec3| lattice.snap(*point).iter().any(|c| c.abs() > LATTICE_LIMIT);
+        (0..self.len()).find(|&polygon| self.polygon(polygon).iter().any(is_off))
+    }
+
+    /// Replaces the polygons by those of an iterator; more than `limit` is an error.
+    fn read<P: Polygon>(
+        &mut self,
+        polygons: impl IntoIterator<Item = P>,
+        limit: usize,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let mut polygons = polygons.into_iter();
+        let too_many = match limit <= MAX_NAMES {
+            true => Limit::PolygonsOfBudget(limit),
+            false => Limit::Polygons(MAX_NAMES),
+        };
+        let limit = limit.min(MAX_NAMES);
+        let expected = polygons.size_hint().0;
+        self.points.clear();
+        self.ends.clear();
+        self.precision = 0.0;
+        self.precisions.clear();
+        reserve(&mut self.points, 3 * expected.min(TRUSTED))?;
+        reserve(&mut self.ends, expected.min(TRUSTED))?;
+        reserve(&mut self.precisions, expected.min(TRUSTED))?;
+        let mut index = 0;
+        while let Some(polygon) = polygons.next() {
+            if index == limit {
+                return Err(too_many.error());
+            }
+            if index == DOUBTED && polygons.size_hint().0 >= limit - index {
+                return Err(too_many.error());
+            }
+            if index % PIECES_AT_ONCE == 0 {
+                watch.expect(index)?;
+            }
+            self.add(index, &polygon, watch)?;
+            index += 1;
+        }
+        Ok(())
+    }
+
+    fn add<P: Polygon>(
+        &mut self,
+        index: usize,
+        polygon: &P,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let mut corners = polygon.corners();
+        let mut read = 0;
+        if let (least, Some(most)) = corners.size_hint()
+            && least == most
+            && most <= AT_HAND
+        {
+            reserve(&mut self.points, most)?;
+            let before = self.points.len();
+            self.points.extend(corners.by_ref().take(most));
+            // Infinity and NaN times 0 are NaN.
+            let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
+            if zero != DVec3::ZERO {
+                return Err(InputFault::NonFinite.of_polygon(index));
+            }
+            read = self.points.len() - before;
+        }
+        // All corners, or those beyond the size hint.
+        for (corner, point) in (read..).zip(corners) {
+            if corner % PIECES_AT_ONCE == 0 && corner > 0 {
+                if corner == MAX_CORNERS {
+                    return Err(InputFault::Corners { limit: MAX_CORNERS }.of_polygon(index));
+                }
+                self.check_count()?;
+                watch.expect(index)?;
+            }
+            if !point.is_finite() {
+                return Err(InputFault::NonFinite.of_polygon(index));
+            }
+            push(&mut self.points, point)?;
+        }
+        self.check_count()?;
+        // Of NaN and the other, `max` returns the other.
+        let precision = polygon.precision().max(0.0);
+        push(&mut self.precisions, precision)?;
+        self.precision = self.precision.max(precision);
+        push(&mut self.ends, self.points.len() as u32)
+    }
+
+    /// An error if there are more corners than can be named.
+    fn check_count(&self) -> Result<(), Error> {
+        if self.points.len() > MAX_NAMES {
+            return Err(Limit::Corners(MAX_NAMES).error());
+        }
+        Ok(())
+    }
+}

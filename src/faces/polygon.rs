@@ -1,153 +1,150 @@
 //! Decides whether a polygon becomes one face, triangles or nothing. Every decision is exact, on the lattice,
-//! except the comparison of distances with the tolerance.
+//! except the comparison of distances with the tolerance. And which polygons are the same.
 
+use std::cmp::Ordering;
+use std::collections::HashSet;
 use std::ops::Range;
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::Preparation;
-use super::read::InputPolygons;
 use super::tolerance::SnapParams;
 use super::triangulate;
+use super::{InputPolygons, Preparation};
 use crate::Error;
 use crate::exact::faces::{Frame, INNER};
 use crate::exact::{
-    Faces, Flattener, Lattice, Plane, RoundedNormal, cross, have_area, is_convex, turns_one_way,
+    Faces, Flattener, Lattice, Off, Plane, cross, have_area, integers, is_convex, turns_one_way,
 };
-use crate::memory::{push, reserve};
 use crate::progress::{PIECES_AT_ONCE, Watch};
 
-/// What became of a polygon.
-enum Outcome {
-    /// One face. `off` is the largest distance of a corner from the plane, in lattice units.
-    Whole { off: f64 },
-    /// Triangles. `off` is the same distance if the polygon is convex, and 0 otherwise.
-    Triangulated { crosses_itself: bool, off: f64 },
-    /// No face, as the polygon has no area.
-    Dropped,
-}
-
 /// Adds the faces of polygons, one after the other.
-#[derive(Debug)]
 pub(super) struct FaceBuilder<'a> {
     pub(super) faces: &'a mut Faces,
     /// The corners of the current polygon.
     pub(super) corners: &'a mut Corners,
+    pub(super) params: &'a SnapParams,
+    pub(super) watch: &'a Watch<'a>,
+    /// Lengths in it are in lattice units.
+    pub(super) report: Preparation,
 }
 
 impl FaceBuilder<'_> {
-    /// Adds a range of the input's polygons. Lengths in the report are in lattice units.
+    /// Adds a range of the input's polygons.
     pub(super) fn add_all(
-        &mut self,
-        params: &SnapParams,
+        mut self,
         input: &InputPolygons,
         polygons: Range<usize>,
-        watch: &Watch<'_>,
     ) -> Result<Preparation, Error> {
-        let mut report = Preparation { polygons: polygons.len(), ..Preparation::default() };
+        self.report.polygons = polygons.len();
         for polygon in polygons {
-            match self.add(polygon, input.polygon(polygon), params.bend, watch)? {
-                Outcome::Whole { off } => {
-                    report.flattened += usize::from(off > 0.0);
-                    report.flattened_by = report.flattened_by.max(off);
-                }
-                Outcome::Triangulated { crosses_itself, off } => {
-                    report.triangulated += 1;
-                    report.crossing += usize::from(crosses_itself);
-                    if params.may_be_rounding(off, input.precision_of(polygon)) {
-                        report.bent += 1;
-                        report.bent_by = report.bent_by.max(off);
-                    }
-                }
-                Outcome::Dropped => report.dropped += 1,
-            }
+            self.add(polygon, input.polygon(polygon), input.precision_of(polygon))?;
         }
-        Ok(report)
+        Ok(self.report)
     }
 
-    /// Adds the faces of one polygon. Corners up to `bend` off its plane are moved onto it.
-    fn add(
-        &mut self,
-        polygon: usize,
-        points: &[DVec3],
-        bend: f64,
-        watch: &Watch<'_>,
-    ) -> Result<Outcome, Error> {
+    /// Adds the faces of one polygon.
+    fn add(&mut self, polygon: usize, points: &[DVec3], precision: f64) -> Result<(), Error> {
         let snap = |point| self.faces.lattice.snap(point);
         if let &[a, b, c, d] = points
-            && let Some(quad) = Quad::of([snap(a), snap(b), snap(c), snap(d)])
-            && let Some(off) = quad.push(polygon, self.faces, bend)?
+            && self.add_quad(polygon, [snap(a), snap(b), snap(c), snap(d)])?
         {
-            return Ok(Outcome::Whole { off });
+            return Ok(());
         }
-        watch.work(points.len())?;
+        self.watch.work(points.len())?;
         self.corners.keep_distinct(points, &self.faces.lattice);
-        let Some(widest) = self.corners.widest_triangle() else {
-            return Ok(Outcome::Dropped);
+        let Some([second, third]) = self.corners.widest_triangle() else {
+            self.report.dropped += 1;
+            return Ok(());
         };
-        if self.corners.kept.len() == 3 {
-            self.push(polygon, 0..3, Frame::TRIANGLE)?;
-            return Ok(Outcome::Whole { off: 0.0 });
+        let count = self.corners.kept.len();
+        if count == 3 {
+            return self.push(polygon, 0..3, Frame::TRIANGLE);
         }
-        let plane = Plane::through([0, widest[0], widest[1]].map(|k| self.corners.kept[k].0));
-        let axis = plane.main_axis();
-        let convex = self.corners.is_convex(axis);
-        let mut off = 0.0;
-        if convex && self.corners.kept.len() <= Frame::MAX_CORNERS {
-            off = self.push_flat(polygon, widest, axis)?;
-            if off <= bend {
-                return Ok(Outcome::Whole { off });
+        let flattener = Flattener::new([0, second, third].map(|k| self.corners.kept[k].0));
+        let convex = is_convex(count, |k| self.corners.kept[k].0, flattener.axis);
+        let mut off = 0.0f64;
+        if convex {
+            let mut moves = SmallVec::<[(usize, f64); 8]>::new();
+            for k in (1..count).filter(|&k| k != second && k != third) {
+                let Off { distance, steps } = flattener.off(&self.corners.kept[k].0);
+                off = off.max(distance);
+                if steps != 0.0 {
+                    moves.push((k, steps));
+                }
             }
-            self.faces.truncate(self.faces.len() - 1);
-        } else if convex {
-            off = self.corners.off_plane(&plane, [0, widest[0], widest[1]]);
+            if off <= self.params.bend && count <= Frame::MAX_CORNERS {
+                let (start, axis) = (self.faces.corners.len(), flattener.axis);
+                let frame = Frame::new(second, third, (off > 0.0).then_some(axis));
+                self.push(polygon, 0..count, frame)?;
+                for (k, steps) in moves {
+                    let corner = &mut self.faces.corners[start + k];
+                    self.faces.moved.push(((start + k) as u32, *corner));
+                    corner[axis] -= steps;
+                }
+                self.report_flat(off);
+                return Ok(());
+            }
         }
-        let crosses_itself = self.triangulate(polygon, convex, &plane, watch)?;
-        Ok(crosses_itself.map_or(Outcome::Dropped, |crosses_itself| Outcome::Triangulated {
-            crosses_itself,
-            off,
-        }))
+        let before = self.faces.len();
+        let crosses_itself = self.triangulate(polygon, convex, &flattener.plane)?;
+        let report = &mut self.report;
+        if self.faces.len() == before {
+            report.dropped += 1;
+            return Ok(());
+        }
+        report.triangulated += 1;
+        report.crossing += usize::from(crosses_itself);
+        if self.params.may_be_rounding(off, precision) {
+            report.bent += 1;
+            report.bent_by = report.bent_by.max(off);
+        }
+        Ok(())
     }
 
-    /// Adds the polygon as one face, with its corners moved along an axis onto its plane. Returns the
-    /// largest distance from the plane.
-    fn push_flat(
-        &mut self,
-        polygon: usize,
-        [second, third]: [usize; 2],
-        axis: usize,
-    ) -> Result<f64, Error> {
-        reserve(&mut self.faces.moved, self.corners.kept.len())?;
-        self.push(polygon, 0..self.corners.kept.len(), Frame::new(second, third, None))?;
-        let off = self.faces.flatten_last(axis);
-        if off > 0.0
-            && let Some(face) = self.faces.faces.last_mut()
+    /// Reports a polygon that became one face, with a corner so far off its plane.
+    fn report_flat(&mut self, off: f64) {
+        self.report.flattened += usize::from(off > 0.0);
+        self.report.flattened_by = self.report.flattened_by.max(off);
+    }
+
+    /// Adds four corners as one face, the one that [`add`](Self::add) would make, in less time. Returns
+    /// whether it has: only if floats are certain that the corners are convex, and one face is allowed.
+    fn add_quad(&mut self, polygon: usize, mut corners: [[f64; 3]; 4]) -> Result<bool, Error> {
+        let Some([far, best]) = widest(4, |k| corners[k].into()) else { return Ok(false) };
+        let (second, third) = (far.min(best), far.max(best));
+        let flattener = Flattener::new([0, second, third].map(|k| corners[k]));
+        let (axis, spare) = (flattener.axis, 6 - second - third);
+        let given = corners[spare];
+        let Off { distance, steps } = flattener.off(&given);
+        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+        if !turns_one_way(corners.map(|corner| [corner[x], corner[y]]))
+            || distance > self.params.bend
         {
-            face.frame = Frame::new(second, third, Some(axis));
+            return Ok(false);
         }
-        Ok(off)
+        corners[spare][axis] -= steps;
+        let corner = self.faces.corners.len() + spare;
+        let frame = Frame::new(second, third, (distance > 0.0).then_some(axis));
+        self.faces.push(polygon, corners.into_iter(), frame)?;
+        if steps != 0.0 {
+            self.faces.moved.push((corner as u32, given));
+        }
+        self.report_flat(distance);
+        Ok(true)
     }
 
-    /// Adds triangles in place of a polygon. Returns whether it crosses itself, or `None` if no triangle
-    /// has area.
-    fn triangulate(
-        &mut self,
-        polygon: usize,
-        convex: bool,
-        plane: &Plane,
-        watch: &Watch<'_>,
-    ) -> Result<Option<bool>, Error> {
+    /// Adds triangles in place of a polygon: none if no triangle has area. Returns whether it crosses itself.
+    fn triangulate(&mut self, polygon: usize, convex: bool, plane: &Plane) -> Result<bool, Error> {
         let corners: Vec<_> = self.corners.kept.iter().map(|&(point, _)| point).collect();
         let found = if convex {
             triangulate::convex(&corners)
         } else {
-            triangulate::any(&corners, plane, watch)?
+            triangulate::any(&corners, plane, self.watch)?
         };
         self.corners.find_runs();
-        let before = self.faces.len();
         for some in found.triangles.chunks(PIECES_AT_ONCE) {
-            watch.work(some.len())?;
+            self.watch.work(some.len())?;
             for triple in some {
                 let triple = triple.map(|k| k as usize);
                 let [p, q, r] = triple.map(|k| corners[k]);
@@ -156,7 +153,7 @@ impl FaceBuilder<'_> {
                 }
             }
         }
-        Ok((self.faces.len() > before).then_some(found.crosses_itself))
+        Ok(found.crosses_itself)
     }
 
     /// Adds a face made of some of the polygon's kept corners, in order around it.
@@ -170,33 +167,24 @@ impl FaceBuilder<'_> {
         self.faces.push(polygon, corners, frame)?;
         // Most polygons become one face with the same corners, which needs no numbers.
         if kept.len() < self.corners.given {
-            self.number_last(kept)?;
+            self.number_last(kept);
         }
         Ok(())
     }
 
     /// Numbers the corners of the last face, unless they are the polygon's first corners in order and all
     /// edges of the face are edges of the polygon.
-    fn number_last(
-        &mut self,
-        kept: impl ExactSizeIterator<Item = usize> + Clone,
-    ) -> Result<(), Error> {
-        let Some(first) = kept.clone().next() else { return Ok(()) };
+    fn number_last(&mut self, kept: impl Iterator<Item = usize> + Clone) {
         let number = |(from, to): (usize, usize)| {
             self.corners.kept[from].1 | if self.corners.is_outline(from, to) { 0 } else { INNER }
         };
-        let ends = kept.clone().skip(1).chain([first]);
-        let numbers = kept.clone().zip(ends).map(number);
-        if (0..).zip(numbers.clone()).all(|(k, number)| number == k) {
-            return Ok(());
+        let ends = kept.clone().cycle().skip(1);
+        let numbers: SmallVec<[u32; 8]> = kept.zip(ends).map(number).collect();
+        if (0..).zip(&numbers).any(|(k, &number)| number != k) {
+            let faces = &mut *self.faces;
+            faces.numbered.push((faces.faces.len() as u32 - 1, faces.numbers.len() as u32));
+            faces.numbers.extend(numbers);
         }
-        let numbers: SmallVec<[u32; 8]> = numbers.collect();
-        let faces = &mut *self.faces;
-        reserve(&mut faces.numbered, 1)?;
-        reserve(&mut faces.numbers, kept.len())?;
-        faces.numbered.push((faces.faces.len() as u32 - 1, faces.numbers.len() as u32));
-        faces.numbers.extend(numbers);
-        Ok(())
     }
 }
 
@@ -241,33 +229,13 @@ impl Corners {
 
     /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
     fn widest_triangle(&self) -> Option<[usize; 2]> {
-        let point = |k: usize| DVec3::from(self.kept[k].0);
-        let (origin, n) = (self.kept.first().map(|_| point(0))?, self.kept.len());
-        let mut others = 1..n;
-        let far = largest(others.clone(), |k| point(k).distance_squared(origin))?;
-        let arm = point(far) - origin;
-        let rest = others.clone().filter(|&k| k != far);
-        let best = largest(rest, |k| arm.cross(point(k) - origin).length_squared())?;
+        let [far, best] = widest(self.kept.len(), |k| self.kept[k].0.into())?;
         let exact = |third: usize| {
-            let (low, high) = (far.min(third), far.max(third));
-            have_area([0, low, high].map(|k| self.kept[k].0)).then_some([low, high])
+            let pair = [far.min(third), far.max(third)];
+            have_area([0, pair[0], pair[1]].map(|k| self.kept[k].0)).then_some(pair)
         };
         // In a nearly straight polygon the rounded areas may choose a corner exactly on the line.
-        exact(best).or_else(|| others.find_map(exact))
-    }
-
-    /// How far the corner furthest from the plane of three corners is off it, in lattice units,
-    /// rounded; 0 only if every corner is exactly on it.
-    fn off_plane(&self, plane: &Plane, three: [usize; 3]) -> f64 {
-        let others = (0..self.kept.len()).filter(|k| !three.contains(k));
-        let off = others.map(|k| plane.at(&self.kept[k].0)).filter(|off| off.sign().is_ne());
-        let furthest = off.map(|off| off.to_f64().abs()).fold(0.0, f64::max);
-        if furthest > 0.0 { furthest / plane.normal_f64().length() } else { 0.0 }
-    }
-
-    /// Whether the polygon is convex and winds once, seen along an axis. Exact.
-    fn is_convex(&self, axis: usize) -> bool {
-        is_convex(self.kept.len(), |k| self.kept[k].0, axis)
+        exact(best).or_else(|| (1..self.kept.len()).find_map(exact))
     }
 
     /// Whether the straight line from one kept corner to another is part of the outline: the second
@@ -295,132 +263,122 @@ impl Corners {
     }
 }
 
-/// The number of the largest size, the last of equals.
-fn largest(numbers: impl Iterator<Item = usize>, size: impl Fn(usize) -> f64) -> Option<usize> {
-    let (mut best, mut most) = (None, f64::NEG_INFINITY);
-    for k in numbers {
-        let size = size(k);
-        if size >= most {
-            (best, most) = (Some(k), size);
-        }
+/// The corner that is furthest from corner 0, and the one that spans the largest triangle with both, by
+/// rounded numbers.
+#[inline]
+fn widest(n: usize, point: impl Fn(usize) -> DVec3) -> Option<[usize; 2]> {
+    /// The number of the largest size, the last of equals.
+    fn largest(numbers: impl Iterator<Item = usize>, size: impl Fn(usize) -> f64) -> Option<usize> {
+        let larger =
+            |best: (f64, usize), next: (f64, usize)| if next.0 >= best.0 { next } else { best };
+        numbers.map(|k| (size(k), k)).reduce(larger).map(|(_, k)| k)
     }
-    best
+    let origin = (n > 0).then(|| point(0))?;
+    let far = largest(1..n, |k| point(k).distance_squared(origin))?;
+    let arm = point(far) - origin;
+    let area = |k: usize| arm.cross(point(k) - origin).length_squared();
+    Some([far, largest((1..n).filter(|&k| k != far), area)?])
 }
 
-/// A convex quadrilateral with its frame. Most polygons are one; rounded numbers with error bounds decide,
-/// and the face is the one that the general rules make.
-#[derive(Debug)]
-struct Quad {
-    corners: [[f64; 3]; 4],
-    /// The corners that span the plane together with corner 0.
-    second: usize,
-    third: usize,
-    /// The axis in which the plane is least steep.
-    axis: usize,
-}
-
-impl Quad {
-    /// The quadrilateral of four lattice points, if it is certain that they are one.
-    fn of(corners: [[f64; 3]; 4]) -> Option<Self> {
-        let [second, third] = widest(&corners);
-        let plane = RoundedNormal::through([0, second, third].map(|k| corners[k]));
-        let quad = Self { corners, second, third, axis: plane.certain_axis()? };
-        // Seen along the axis.
-        let (x, y) = ((quad.axis + 1) % 3, (quad.axis + 2) % 3);
-        turns_one_way(corners.map(|corner| [corner[x], corner[y]])).then_some(quad)
+impl Faces {
+    /// How many polygons have the corners of an earlier one, in the same cyclic order or its reverse.
+    /// Exact; takes O(n log n) time and O(n) memory for n corners.
+    ///
+    /// A polygon's corners are those of its faces, before any was moved. Corners that no face has are
+    /// unknown.
+    #[doc(hidden)]
+    pub fn duplicates(&self) -> usize {
+        let (mut outlines, mut first) = (HashSet::new(), 0);
+        let polygons = self.faces.chunk_by(|a, b| a.polygon == b.polygon);
+        let is_known = polygons.map(|own| {
+            let faces = first..first + own.len() as u32;
+            first = faces.end;
+            !outlines.insert(canonical(self.outline(faces)))
+        });
+        is_known.filter(|&is_known| is_known).count()
     }
 
-    /// Adds the quadrilateral as one face and returns how far a corner is off the plane of the others, unless
-    /// this is more than `bend`.
-    fn push(&self, polygon: usize, faces: &mut Faces, bend: f64) -> Result<Option<f64>, Error> {
-        let Self { mut corners, second, third, axis } = *self;
-        let spare = 6 - second - third;
-        let given = corners[spare];
-        let flattener = Flattener::new([0, second, third].map(|k| corners[k]), axis);
-        let off = flattener.off(&given);
-        if off.distance > bend {
-            return Ok(None);
+    /// The corners of a polygon as they were given, by its faces.
+    fn outline(&self, faces: Range<u32>) -> Outline {
+        let mut corners = Vec::new();
+        for face in faces {
+            corners.extend((0..).zip(self.corner_range(face)).map(|(k, corner)| {
+                (self.corner_number(face, k), integers(self.given_corner(corner as u32)))
+            }));
         }
-        let start = faces.corners.len();
-        corners[spare][axis] -= off.steps;
-        let frame = Frame::new(second, third, (off.distance > 0.0).then_some(axis));
-        faces.push(polygon, corners.into_iter(), frame)?;
-        if off.steps != 0.0 {
-            push(&mut faces.moved, ((start + spare) as u32, given))?;
-        }
-        Ok(Some(off.distance))
+        corners.sort_unstable();
+        corners.dedup();
+        corners.into_iter().map(|(_, corner)| corner).collect()
     }
 }
 
-/// Two corners that span a large triangle with corner 0, as `widest_triangle` chooses them.
-fn widest(corners: &[[f64; 3]; 4]) -> [usize; 2] {
-    let [origin, arms @ ..] = corners.map(DVec3::from);
-    let [a, b, c] = arms.map(|corner| corner - origin);
-    let [aa, bb, cc] = [a, b, c].map(DVec3::length_squared);
-    let areas = |arm: DVec3, one: DVec3, other: DVec3| {
-        arm.cross(one).length_squared() > arm.cross(other).length_squared()
+/// The lattice points of a polygon's corners.
+type Outline = Vec<[i64; 3]>;
+
+/// The canonical form of an outline: the same list wherever the outline starts and in whichever
+/// direction it runs.
+fn canonical(corners: Outline) -> Outline {
+    let reverse: Outline = corners.iter().rev().copied().collect();
+    let least = |mut corners: Outline| {
+        let start = least_rotation(&corners);
+        corners.rotate_left(start);
+        corners
     };
-    if cc >= aa && cc >= bb {
-        if areas(c, a, b) { [1, 3] } else { [2, 3] }
-    } else if bb >= aa {
-        if areas(b, a, c) { [1, 2] } else { [2, 3] }
-    } else if areas(a, b, c) {
-        [1, 2]
-    } else {
-        [1, 3]
+    least(corners).min(least(reverse))
+}
+
+/// The start of the lexicographically least rotation, in linear time (Shiloach, “Fast canonization
+/// of circular strings”, 1981).
+fn least_rotation(corners: &[[i64; 3]]) -> usize {
+    let n = corners.len();
+    let (mut i, mut j, mut same) = (0, 1, 0);
+    while i < n && j < n && same < n {
+        let [a, b] = [i, j].map(|start| corners[(start + same) % n]);
+        match a.cmp(&b) {
+            Ordering::Equal => {
+                same += 1;
+                continue;
+            }
+            Ordering::Less => j += same + 1,
+            Ordering::Greater => i += same + 1,
+        }
+        j += usize::from(i == j);
+        same = 0;
     }
+    i.min(j)
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
+    use super::{Outline, canonical, least_rotation};
 
-    use super::{Faces, Quad};
-    use crate::random::SplitMix64;
-
-    /// Four corners around a point: flat but for noise of any size, bent, not convex, on small integers
-    /// where sizes are equal, or all but on one line.
-    fn corners(random: &mut SplitMix64) -> [DVec3; 4] {
-        let [at, u, v] = [(); 3].map(|()| random.point(-1.0, 1.0));
-        let noise = 2f64.powf(random.range(-60.0, -10.0));
-        let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        let kind = random.next() % 6;
-        let v = if kind == 1 { u + v * noise } else { v };
-        let mut quad = signs.map(|[x, y]| at + x * u + y * v + random.point(-noise, noise));
-        match kind {
-            2 => quad[2] = quad[0].lerp(quad[2], random.range(-0.5, 0.9)),
-            3 => quad.swap(1, 2),
-            4 => quad = quad.map(|corner| (2.0 * corner).round()),
-            5 => quad = signs.map(|[x, y]| DVec3::new(x, y, x * y * noise)),
-            _ => {}
-        }
-        quad
+    /// All sequences of a length over three corners.
+    fn sequences(len: u32) -> impl Iterator<Item = Outline> {
+        (0..3i64.pow(len)).map(move |code| (0..len).map(|k| [code / 3i64.pow(k) % 3; 3]).collect())
     }
 
-    /// A fifth corner, the same as the first, is dropped, but not by the rules for four.
     #[test]
-    fn quads_become_the_faces_that_the_general_rules_make() {
-        let mut random = SplitMix64::new(9);
-        let (mut taken, mut moved, mut bent) = (0, 0, 0);
-        for _ in 0..20_000 {
-            let quad = corners(&mut random);
-            let [a, b, c, d] = quad;
-            let tolerance = Some(2f64.powf(random.range(-55.0, -8.0)));
-            let (faces, report) = Faces::new([quad], tolerance).unwrap();
-            let (others, general) = Faces::new([[a, b, c, d, a]], tolerance).unwrap();
-            assert_eq!(report, general, "{quad:?}");
-            assert_eq!(
-                (&faces.corners, &faces.moved),
-                (&others.corners, &others.moved),
-                "{quad:?}"
-            );
-            let frame =
-                |faces: &Faces| faces.faces.iter().map(|face| face.frame).collect::<Vec<_>>();
-            assert_eq!(frame(&faces), frame(&others), "{quad:?}");
-            taken += usize::from(Quad::of(quad.map(|p| faces.lattice().snap(p))).is_some());
-            moved += faces.moved.len();
-            bent += report.triangulated;
+    fn the_least_rotation_is_the_least_of_all() {
+        for corners in (1..7).flat_map(sequences) {
+            let rotated = |start: usize| {
+                let mut corners = corners.clone();
+                corners.rotate_left(start);
+                corners
+            };
+            let least = (0..corners.len()).map(rotated).min();
+            assert_eq!(Some(rotated(least_rotation(&corners))), least);
         }
-        assert!(taken > 8000 && moved > 3000 && bent > 2000, "{taken} {moved} {bent}");
+    }
+
+    #[test]
+    fn every_start_and_direction_has_one_form() {
+        for corners in (1..7).flat_map(sequences) {
+            let form = canonical(corners.clone());
+            let mut other: Outline = corners.iter().rev().copied().collect();
+            for _ in 0..corners.len() {
+                other.rotate_left(1);
+                assert_eq!(canonical(other.clone()), form);
+            }
+        }
     }
 }

@@ -132,11 +132,6 @@ impl SnapParams {
         Self { lattice, tolerance, bend: tolerance }
     }
 
-    /// The same for polygons that are flat by definition: any distance from the plane is rounding.
-    pub(super) fn of_flat_polygons(self) -> Self {
-        Self { bend: MAX_TOLERANCE, ..self }
-    }
-
     /// Whether rounding can be the reason that a corner is `off` the plane of the others, in lattice units.
     /// The answer depends on neither the other polygons nor the extent, so it is the same in every part of
     /// a scene.

@@ -3,7 +3,7 @@
 
 use super::{CellRange, Extent, Partition, SplitPlane};
 use crate::Error;
-use crate::exact::cell::CellBox;
+use crate::exact::faces::CellBox;
 use crate::exact::{Faces, LATTICE_LIMIT};
 use crate::faces::{Precision, Tolerance, empty_faces};
 use crate::input::Point;

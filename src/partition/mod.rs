@@ -9,7 +9,7 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use crate::exact::cell::{CellBox, EVERYWHERE};
+use crate::exact::faces::{CellBox, EVERYWHERE};
 use crate::exact::{Eye, Faces, LATTICE_LIMIT, Lattice, Plane};
 use crate::input::Polygon;
 use crate::viewpoint::Viewpoint;
@@ -187,7 +187,7 @@ impl Partition {
             }
             let SplitPlane { axis, at } = self.planes[subtree.plane];
             let [back, front] = subtree.sides();
-            let is_in_front = Plane::axis_at_eye(axis, [at; 3], &eye).is_gt();
+            let is_in_front = Plane::axis(axis, [at; 3]).at_eye(&eye).is_gt();
             // The nearer side is put below the further one, so that it comes later.
             rest.extend(if is_in_front { [front, back] } else { [back, front] });
         }

@@ -3,7 +3,7 @@
 use std::io::{self, Read, Write};
 
 use super::{Partition, SplitPlane};
-use crate::exact::cell::EVERYWHERE;
+use crate::exact::faces::EVERYWHERE;
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at, u64_at};

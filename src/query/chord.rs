@@ -53,7 +53,7 @@ impl Spot {
                 let corners = faces.corners(face);
                 let (k, n) = (k as usize, corners.len());
                 let [a, b] = [k, (k + 1) % n].map(|k| integers(corners[k]));
-                Some([a, b, along(a, upright_axis(faces, face))])
+                Some([a, b, along(a, dominant_axis(faces, face))])
             }
         }
     }
@@ -63,7 +63,7 @@ impl Spot {
 /// side of it on which the face is.
 pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
     let own = faces.plane(PlaneId::face(face));
-    let axis = upright_axis(faces, face);
+    let axis = dominant_axis(faces, face);
     let corners = faces.corners(face);
     let next = if k + 1 == corners.len() { 0 } else { k + 1 };
     let inside = if own.normal()[axis] < 0 { Ordering::Greater } else { Ordering::Less };
@@ -71,8 +71,8 @@ pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
 }
 
 /// The axis in which a face is least steep: the one along which its corners were moved, if they were.
-fn upright_axis(faces: &Faces, face: u32) -> usize {
-    faces.upright_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).main_axis())
+fn dominant_axis(faces: &Faces, face: u32) -> usize {
+    faces.dominant_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
 
 /// A plane that bounds a fragment.

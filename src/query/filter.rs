@@ -114,7 +114,7 @@ pub(super) fn guess(probe: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) ->
     }
     let mut is_sure = is_after && is_before;
     let error = MEETING_ERROR * own.size * probe.reach * probe.speed;
-    let axis = faces.upright_axis(face).unwrap_or_else(|| rounded.longest());
+    let axis = faces.dominant_axis(face).unwrap_or_else(|| rounded.dominant_axis());
     let inwards = -rounded.normal[axis].signum();
     let corners = faces.corners(face);
     for line in fragment.lines() {

@@ -121,7 +121,7 @@ impl BspTree {
 impl Fragment<'_> {
     fn bounds(&self) -> Flat {
         let faces = self.faces;
-        let moved = faces.upright_axis(self.face);
+        let moved = faces.dominant_axis(self.face);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut stored = self.stored().iter();
         for vertex in self.lattice_vertices() {

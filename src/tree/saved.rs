@@ -11,7 +11,6 @@ use super::node::{MOST_FRAGMENTS, NodeRecord, Visit, Walk, finish, make_room};
 use super::order::eye::Planes;
 use super::order::layout::OrderLayout;
 use super::parts::{Parts, RawChild, RawNode};
-use crate::exact::names::bits::Known;
 use crate::exact::{Faces, MAX_NAMES, PlaneId};
 use crate::faces::Preparation;
 use crate::parallel_map;
@@ -82,7 +81,7 @@ impl BspTree {
         let mut walk = Walk::new(self);
         while let Some(visit) = walk.next(self) {
             let node = &self.nodes[visit.node];
-            file.u32(node.plane.to_bits())?;
+            file.u32(node.plane.0)?;
             file.u32(shape(node, &visit))?;
         }
         file.list(self.records.iter(), |file, record| file.u32(record.face))?;
@@ -126,10 +125,10 @@ impl BspTree {
         }
         // Faces and nodes need nothing of each other. Of two faults, the same is found first on any
         // number of threads.
-        let (for_one_view, known) = (flags & FOR_ONE_VIEW > 0, faces.known());
+        let for_one_view = flags & FOR_ONE_VIEW > 0;
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
-            let nodes = read_nodes(&nodes, listed.len(), known)?;
+            let nodes = read_nodes(&nodes, listed.len(), &faces)?;
             let schedule = || OrderLayout::new(&nodes, listed.len() as u32);
             let schedule = (!for_one_view).then(schedule).transpose();
             Ok((schedule.map_err(|_| LoadError::out_of_memory())?, nodes))
@@ -196,7 +195,7 @@ fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
         NODE => RawChild::Node,
         _ => RawChild::Leaf(0),
     };
-    let plane = PlaneId::from_bits(plane);
+    let plane = PlaneId(plane);
     RawNode { plane, own: shape >> 4, front: side(shape >> 2 & 3), back: side(shape & 3) }
 }
 
@@ -204,14 +203,14 @@ fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
 fn read_nodes(
     bits: &[[u32; 2]],
     fragments: usize,
-    known: Known,
+    faces: &Faces,
 ) -> Result<Vec<NodeRecord>, LoadError> {
     // How many nodes and fragments are still to come. Where there are faces, there is a root.
-    let (mut to_come, mut left) = (usize::from(known.faces > 0), fragments);
+    let (mut to_come, mut left) = (usize::from(!faces.is_empty()), fragments);
     for (index, bits) in bits.iter().enumerate() {
         let fault = |fault| invalid("node", index, fault);
         let RawNode { plane, own, front, back } = raw(bits);
-        if !plane.is_known(known) {
+        if !faces.has_plane(plane) {
             return Err(fault("names a face or corner that does not exist"));
         }
         if bits[1] >> 2 & 3 > NODE || bits[1] & 3 > NODE {

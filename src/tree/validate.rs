@@ -11,9 +11,7 @@ use super::node::{Visit, Walk};
 use super::order::eye::Planes;
 use super::order::layout::OrderLayout;
 use super::{BspTree, Fragment};
-use crate::exact::{
-    EdgeLine, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex, VertexKind,
-};
+use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Side, StoredVertex, Vertex, VertexKind};
 
 const COUNTS: &str = "the sizes of its subtrees contradict each other";
 
@@ -124,12 +122,7 @@ impl BspTree {
     }
 
     fn names_input(&self, plane: PlaneId) -> bool {
-        match plane.kind() {
-            PlaneKind::Face(face) => (face as usize) < self.faces.len(),
-            PlaneKind::Axis(axis, corner) => {
-                axis < 3 && (corner as usize) < self.faces.corner_count()
-            }
-        }
+        self.faces.has_plane(plane)
     }
 
     /// Whether a fragment has a face, a place among the vertices, and three known vertices or

@@ -1,8 +1,8 @@
 //! Triangulates polygons that are not convex or not planar: projected along an axis, unchanged if they do
 //! not cross themselves, uncrossed otherwise.
 
-mod arrange;
-mod monotone;
+mod region;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -13,7 +13,8 @@ use glam::DVec3;
 use crate::Error;
 use crate::exact::{Int, Plane, cross};
 use crate::progress::Watch;
-use arrange::{Arrangement, ArrangementSweep, Edge, NONE, Point, Rule, area};
+use region::Triangles;
+use sweep::{Edge, NONE, Point, Rule, Sweep, area};
 
 /// Triangles, as corner numbers, in place of a polygon.
 #[derive(Debug)]
@@ -86,7 +87,7 @@ fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
     let axis = if size.max_element() > CANCELLED * plane.normal_f64().abs().max_element() {
         size.max_position()
     } else {
-        plane.main_axis()
+        plane.dominant_axis()
     };
     let facing = area[axis].sign();
     (axis, if facing.is_eq() { normal[axis].cmp(&0) } else { facing })
@@ -102,20 +103,11 @@ const CANCELLED: f64 = 1e-6;
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
 fn in_plane(corners: &[Point], watch: &Watch<'_>) -> Result<Triangulation, Error> {
     let outline = Outline::new(corners);
-    let (points, names) = (&outline.points, &outline.corners);
-    let simple = ArrangementSweep::new(points, &outline.edges, Rule::Signed).run(true, watch)?;
-    if let Some(sweep) = simple {
-        let arrangement = sweep.finish();
-        let covered = monotone::triangulate(points, names, &arrangement, Rule::Signed, watch)?;
-        let crosses_itself = !covered.winds_once;
-        return Ok(Triangulation { triangles: covered.triangles, crosses_itself });
+    if let Some(sweep) = Sweep::new(&outline, &outline.edges, Rule::Signed).run(watch)? {
+        let crosses_itself = !sweep.winds_once();
+        return Ok(Triangulation { triangles: sweep.triangles, crosses_itself });
     }
-    let mut triangles = match uncross(points, outline.edges, watch)? {
-        Some(arrangement) => {
-            monotone::triangulate(points, names, &arrangement, Rule::Parity, watch)?.triangles
-        }
-        None => vec![],
-    };
+    let mut triangles = uncross(&outline, watch)?;
     if triangles.is_empty() {
         triangles = fan(corners);
     }
@@ -176,36 +168,28 @@ const PATIENCE: usize = 1 << 17;
 /// become fans; too large: tangles take longer.
 const SWEEPS: usize = 16;
 
-/// Replaces edges that cross until none do; the inside is defined by [`Rule::Parity`]. `None` if the budget
-/// runs out.
+/// Replaces edges that cross until none do, and triangulates the inside by [`Rule::Parity`]. There are no
+/// triangles if the budget runs out.
 ///
 /// Two edges that cross are replaced by two edges between the same four ends that do not cross. Of the two
 /// ways to do that, this takes the one that changes less of the inside by the even-odd rule. So the result
 /// covers somewhat more or less than the outline near a crossing, and exactly the inside everywhere else.
 /// The new edges are shorter than the old ones, so the process ends, but it may take long (van Leeuwen and
 /// Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
-fn uncross(
-    points: &[Point],
-    mut edges: Vec<Edge>,
-    watch: &Watch<'_>,
-) -> Result<Option<Arrangement>, Error> {
+fn uncross(outline: &Outline, watch: &Watch<'_>) -> Result<Triangles, Error> {
+    let mut edges = outline.edges.clone();
     let mut budget = PATIENCE.max(SWEEPS * edges.len());
     while let Some(left) = budget.checked_sub(edges.len()) {
         budget = left;
-        let Some(sweep) = ArrangementSweep::new(points, &edges, Rule::Parity).run(false, watch)?
-        else {
-            return Ok(None);
-        };
+        let Some(sweep) = Sweep::new(outline, &edges, Rule::Parity).run(watch)? else { break };
         if sweep.crossings.is_empty() {
-            return Ok(Some(sweep.finish()));
+            return Ok(sweep.triangles);
         }
         edges.clear();
         edges.extend(sweep.uncrossed());
-        for pair in &sweep.crossings {
-            edges.extend(rejoined(points, pair.map(|edge| *sweep.edge(edge))));
-        }
+        edges.extend(sweep.crossings.iter().flat_map(|&pair| rejoined(&outline.points, pair)));
     }
-    Ok(None)
+    Ok(vec![])
 }
 
 /// Two edges that do not cross, between the ends of two that do.

@@ -5,7 +5,7 @@ mod shapes;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use super::arrange::{Point, area, turn};
+use super::sweep::{Point, area, turn};
 use super::{PATIENCE, Triangulation, in_plane};
 use crate::progress::{PIECES_AT_ONCE, PULSE, Watch};
 use crate::random::SplitMix64;

@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::fault;
-use crate::exact::cell::Clipper;
+use crate::exact::Clipper;
 use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Vertex, VertexId};
 use crate::tree::BspTree;
 use crate::tree::node::Visit;

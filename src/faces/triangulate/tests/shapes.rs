@@ -1,6 +1,6 @@
 //! Outlines to triangulate.
 
-use super::super::arrange::{Point, turn};
+use super::super::sweep::{Point, turn};
 use crate::random::SplitMix64;
 
 /// Corners anywhere in a square.

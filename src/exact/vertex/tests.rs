@@ -5,7 +5,7 @@ use num_traits::Signed;
 use proptest::prelude::*;
 
 use super::super::{Int, LATTICE_LIMIT};
-use super::{ExactEdge, KEPT, Leading, Moved, Plane, meeting, nearest, on_edge, ratio, whole};
+use super::{ExactEdge, KEPT, Moved, Plane, Weights, integers, leading, meeting, nearest, on_edge};
 use crate::random::SplitMix64;
 
 /// Lattice coordinates of any size, often few bits or near the limit.
@@ -80,10 +80,10 @@ proptest! {
     #[test]
     fn leading_bits_are_those_of_the_number(plane in triangle(), points in triangle()) {
         let plane = Plane::through(plane);
-        let leading = Leading::of(&plane, points.map(whole));
-        for (point, leads) in points.iter().zip(leading.values) {
+        let (leading, dropped) = leading(&plane, points.map(integers));
+        for (point, leads) in points.iter().zip(leading) {
             // The division of big integers rounds towards 0.
-            let expected = value(&plane, point) / (IBig::from(1) << leading.dropped as usize);
+            let expected = value(&plane, point) / (IBig::from(1) << dropped as usize);
             prop_assert_eq!(IBig::from(leads), expected);
             prop_assert!(leads.unsigned_abs() <= 1 << KEPT);
         }
@@ -166,11 +166,9 @@ fn leading_bits_nearly_always_tell() {
         let triangle = some();
         let planes = [some(), some()].map(Plane::through);
         let [g, h] = planes.map(|plane| triangle.map(|point| plane.at(&point)));
-        let weights: [Int<5>; 3] = [(1, 2), (2, 0), (0, 1)]
-            .map(|(j, k)| g[j].times::<3, 5>(&h[k]) - g[k].times::<3, 5>(&h[j]));
         let Some(position) = meeting(&triangle, &planes[0], &planes[1]) else { continue };
         told += 1;
-        let full = ratio(&triangle, &weights);
+        let full = Weights::meeting(triangle, &g, &h).position();
         for axis in 0..3 {
             let off = (position[axis] - full[axis]).abs();
             assert!(off <= 1.01 * f64::EPSILON * full[axis].abs(), "{position:?} {full:?}");
@@ -200,7 +198,7 @@ fn moved_edge(random: &mut SplitMix64) -> (Corners, [[f64; 3]; 2], Corners) {
 
 fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> ExactEdge {
     let offs = ends.map(|end| own.last_bits_at(&end));
-    let moved = Moved { axis: own.main_axis(), offs, slope: own.normal()[own.main_axis()] };
+    let moved = Moved { axis: own.dominant_axis(), offs, slope: own.normal()[own.dominant_axis()] };
     ExactEdge { ends, moved: Some(moved) }
 }
 
@@ -214,7 +212,7 @@ fn positions_on_moved_edges_are_right_or_not_told() {
         let (triangle, ends, other) = moved_edge(&mut random);
         let plane = Plane::through(other);
         let own = Plane::through(triangle);
-        let (axis, [a, b]) = (own.main_axis(), ends);
+        let (axis, [a, b]) = (own.dominant_axis(), ends);
         let offs = ends.map(|end| value(&own, &end));
         let slope = IBig::from(own.normal()[axis]);
         let is_near = offs.iter().all(|off| off.abs() * IBig::from(2) <= slope.abs());

@@ -1,15 +1,53 @@
-//! Faces in files, and what a file must not say of them.
+//! Lattices, names of planes and faces in files, and what a file must not say of them.
 
 use std::io::{self, Read, Write};
 use std::ops::Range;
 
-use super::{Face, Faces, Frame, INNER};
-use crate::exact::lattice::{LIMIT, MAX_CORNER, MAX_TOLERANCE};
-use crate::exact::names::MAX_NAMES;
-use crate::exact::names::bits::Known;
-use crate::exact::{Lattice, Plane, RoundedNormal, have_area, is_convex};
+use super::faces::{Face, Frame, INNER};
+use super::lattice::{FAR_ORIGIN, LIMIT, MAX_CORNER, MAX_TOLERANCE, PowerOfTwo};
+use super::names::MAX_NAMES;
+use super::{Faces, Lattice, Plane, RoundedNormal, have_area, is_convex};
 use crate::parallel_map;
 use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
+
+/// Exponents of all lattices are between these: those of the smallest and of the largest numbers.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -1000..=1150;
+
+impl Lattice {
+    /// The exponent of the steps in a unit of length as `u32` in two's complement, the origin and the far
+    /// coordinates as three `f64` each.
+    pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
+        file.u32(self.exponent() as u32)?;
+        file.items(self.origin.into_iter().chain(self.far), |file, number| file.f64(number))
+    }
+
+    /// Reads a lattice, which has to be checked.
+    pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, LoadError> {
+        let exponent = file.u32("grid")? as i32;
+        // So that every step is a number; `check` refuses what lies beyond.
+        let steps = PowerOfTwo::new(exponent.clamp(EXPONENTS.start() - 1, EXPONENTS.end() + 1));
+        let (mut origin, mut far) = ([0.0; 3], [0.0; 3]);
+        for number in origin.iter_mut().chain(&mut far) {
+            *number = file.f64("grid")?;
+        }
+        Ok(Self { steps, origin, far })
+    }
+
+    /// An error unless the lattice is one that some scene could have.
+    pub(crate) fn check(&self) -> Result<(), LoadError> {
+        let exponent = self.exponent();
+        let is_possible = |axis: usize| {
+            let (origin, far) = (self.origin[axis], self.far[axis]);
+            let is_whole = origin.abs() <= FAR_ORIGIN && origin.fract() == 0.0;
+            is_whole && far.is_finite() && (origin == 0.0 || far == 0.0)
+        };
+        if EXPONENTS.contains(&exponent) && (0..3).all(is_possible) {
+            Ok(())
+        } else {
+            Err(LoadError::of("grid", "is impossible"))
+        }
+    }
+}
 
 /// How many faces one thread checks at a time.
 const FACES_A_THREAD: usize = 4096;
@@ -75,11 +113,6 @@ impl Faces {
         let moved = |bytes: &[u8; 28]| (u32_at(bytes, 0), point(bytes, 4));
         read.moved = file.list("moved corners", read.corners.len(), moved)?;
         Ok(read)
-    }
-
-    /// How many things the names of planes and lines may name.
-    pub(crate) fn known(&self) -> Known {
-        Known { faces: self.len(), corners: self.corner_count() }
     }
 
     /// An error unless all faces are what the exact predicates take them for: convex, with area, on
@@ -148,7 +181,7 @@ impl Faces {
                 face += 1;
             }
             let stays = |axis: usize| given[axis] == self.corner(corner)[axis];
-            let axis = self.upright_axis(face);
+            let axis = self.dominant_axis(face);
             if axis.is_none() || !(0..3).all(|k| Some(k) == axis || stays(k)) {
                 return fault("was not moved along its face's axis");
             }
@@ -181,12 +214,12 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
     if plane.normal() == [0; 3] {
         return Err("has no area");
     }
-    let axis = plane.main_axis();
+    let axis = plane.dominant_axis();
     if !is_convex(corners.len(), |k| corners[k], axis) {
         return Err("is not convex");
     }
     // The nearest lattice points are off the plane by half a step along the axis at most.
-    let most = match frame.drop_axis() {
+    let most = match frame.dominant_axis() {
         Some(moved) if moved != axis => {
             return Err("is moved along another axis than its plane's");
         }
@@ -199,4 +232,52 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
     let rounded = RoundedNormal::through(triangle);
     let is_off = |corner| !plane.is_within(most, &rounded.normal, corner);
     if others.any(is_off) { Err("is not planar") } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::save::Kind;
+    use glam::DVec3;
+
+    const KIND: Kind = Kind { name: *b"grid", version: 7 };
+
+    fn again(lattice: &Lattice) -> Lattice {
+        let mut bytes = Vec::new();
+        let mut file = Writer::new(&mut bytes, KIND).unwrap();
+        lattice.write(&mut file).unwrap();
+        file.finish().unwrap();
+        let mut file = Reader::new(&bytes[..], KIND).unwrap();
+        let read = Lattice::read(&mut file).unwrap();
+        file.finish().unwrap();
+        read
+    }
+
+    #[test]
+    fn lattices_of_every_size_come_back() {
+        for size in [5e-324, 1e-300, 1e-30, 1.0, 3.7, 1e30, 1e300, f64::MAX] {
+            for centre in [0.0, size, -size * 0.75, 1.0, -1e308] {
+                let middle = DVec3::new(centre, 0.0, -centre * 0.5);
+                let clamp = |p: DVec3| p.clamp(DVec3::MIN, DVec3::MAX);
+                let lattice = Lattice::new(clamp(middle - size), clamp(middle + size));
+                assert!(lattice.check().is_ok(), "{size} {centre}");
+                assert_eq!(again(&lattice), lattice, "{size} {centre}");
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_lattices_are_errors() {
+        let right = Lattice::default();
+        let is_wrong = |lattice: Lattice| again(&lattice).check().is_err();
+        assert!(!is_wrong(right));
+        for number in [f64::NAN, f64::INFINITY, 0.5, 2.0 * FAR_ORIGIN] {
+            assert!(is_wrong(Lattice { origin: [0.0, number, 0.0], ..right }), "{number}");
+        }
+        assert!(is_wrong(Lattice { far: [f64::NAN, 0.0, 0.0], ..right }));
+        assert!(is_wrong(Lattice { far: [1e300, 0.0, 0.0], origin: [1.0, 0.0, 0.0], ..right }));
+        for exponent in [-1001, 1151] {
+            assert!(is_wrong(Lattice { steps: PowerOfTwo::new(exponent), ..right }));
+        }
+    }
 }
