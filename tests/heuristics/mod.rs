@@ -190,7 +190,7 @@ fn free_planes_are_taken_wherever_one_cuts_nothing_and_cost_little() {
                 let enough = chosen.1 <= work(n / 4) + work(n - n / 4) + 1e-9;
                 // The border of two bins is near the best plane, but not always next to it.
                 let fits = chosen.1 <= least.1 * 1.5 || !chosen.0 && enough;
-                assert!(chosen.0 == least.0 && fits, "{chosen:?}, not {least:?}, of {n}");
+                assert!(chosen.0 <= least.0 && fits, "{chosen:?}, not {least:?}, of {n}");
                 free += 1;
                 clean += usize::from(!chosen.0);
             }
