@@ -10,7 +10,7 @@ use std::fmt;
 
 use super::Lattice;
 use super::names::MAX_NAMES;
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::memory::reserve;
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
@@ -209,7 +209,7 @@ impl Faces {
     ) -> Result<(), Error> {
         let start = self.corners.len();
         if start + corners.len() >= MAX_NAMES {
-            return Err(Limit::Corners(MAX_NAMES).error());
+            return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
         // Both at first: corners without a face would be those of the face before.
         reserve(&mut self.corners, corners.len())?;

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::exact::faces::{Face, Thin};
 use crate::exact::{Faces, MAX_NAMES, integers};
 use crate::memory::{collect, reserve};
@@ -57,7 +57,7 @@ impl Faces {
     pub(super) fn append(&mut self, next: Self) -> Result<(), Error> {
         let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
         if corners + next.corners.len() >= MAX_NAMES {
-            return Err(Limit::Corners(MAX_NAMES).error());
+            return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
         let first = self.faces.len() as u32;
         reserve(&mut self.numbered, next.numbered.len())?;

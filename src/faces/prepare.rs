@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::polygon::{Corner, Corners, FaceBuilder, keep_distinct};
 use super::read::InputPolygons;
 use super::tolerance::{Precision, SnapParams, Tolerance};
-use crate::error::{Error, InputFault, InputKind, Kind};
+use crate::error::{Error, Kind, Shape};
 use crate::exact::faces::Frame;
 use crate::exact::{Faces, LATTICE_LIMIT, Lattice, cross};
 use crate::input::{Point, Polygon};
@@ -210,7 +210,7 @@ impl Preparer {
     ) -> Result<Preparation, Error> {
         self.input.read(polygons, limit, watch)?;
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
-            return Err(InputFault::OffGrid.of_polygon(polygon));
+            return Err(Kind::OffGrid.of_polygon(polygon));
         }
         let before = faces.len();
         let report = self.add_all(faces, &SnapParams::of(faces), watch);
@@ -229,7 +229,7 @@ impl Preparer {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         numbers.clear();
-        self.read_thin(faces, lines, InputKind::Line, watch)?;
+        self.read_thin(faces, lines, Shape::Line, watch)?;
         let mut corners = Vec::new();
         for line in 0..self.input.len() {
             let given = self.input.polygon(line);
@@ -255,7 +255,7 @@ impl Preparer {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let points = points.into_iter().map(|point| [point]);
-        self.read_thin(faces, points, InputKind::Point, watch)?;
+        self.read_thin(faces, points, Shape::Point, watch)?;
         for number in 0..self.input.len() {
             let lattice = faces.lattice;
             let at = self.input.polygon(number).iter().map(|&point| lattice.snap(point));
@@ -269,12 +269,12 @@ impl Preparer {
         &mut self,
         faces: &Faces,
         shapes: impl IntoIterator<Item = P>,
-        kind: InputKind,
+        kind: Shape,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         self.input.read(shapes, usize::MAX, watch).map_err(|error| error.of(kind))?;
         match self.input.first_off(&faces.lattice) {
-            Some(number) => Err(InputFault::OffGrid.of_polygon(number).of(kind)),
+            Some(number) => Err(Kind::OffGrid.of_polygon(number).of(kind)),
             None => Ok(()),
         }
     }

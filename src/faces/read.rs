@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::error::{Error, InputFault, Limit};
+use crate::error::{Error, Kind};
 use crate::exact::{LATTICE_LIMIT, Lattice, MAX_NAMES};
 use crate::input::{MAX_CORNERS, Polygon};
 use crate::memory::{push, reserve};
@@ -78,8 +78,8 @@ impl InputPolygons {
     ) -> Result<(), Error> {
         let mut polygons = polygons.into_iter();
         let too_many = match limit <= MAX_NAMES {
-            true => Limit::PolygonsOfBudget(limit),
-            false => Limit::Polygons(MAX_NAMES),
+            true => Kind::PolygonsOfBudget(limit),
+            false => Kind::Polygons(MAX_NAMES),
         };
         let limit = limit.min(MAX_NAMES);
         let expected = polygons.size_hint().0;
@@ -125,7 +125,7 @@ impl InputPolygons {
             // Infinity and NaN times 0 are NaN.
             let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
             if zero != DVec3::ZERO {
-                return Err(InputFault::NonFinite.of_polygon(index));
+                return Err(Kind::NonFinite.of_polygon(index));
             }
             read = self.points.len() - before;
         }
@@ -133,13 +133,13 @@ impl InputPolygons {
         for (corner, point) in (read..).zip(corners) {
             if corner % PIECES_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
-                    return Err(InputFault::Corners { limit: MAX_CORNERS }.of_polygon(index));
+                    return Err(Kind::Corners(MAX_CORNERS).of_polygon(index));
                 }
                 self.check_count()?;
                 watch.expect(index)?;
             }
             if !point.is_finite() {
-                return Err(InputFault::NonFinite.of_polygon(index));
+                return Err(Kind::NonFinite.of_polygon(index));
             }
             push(&mut self.points, point)?;
         }
@@ -159,7 +159,7 @@ impl InputPolygons {
     /// An error if there are more corners than can be named.
     fn check_count(&self) -> Result<(), Error> {
         if self.points.len() > MAX_NAMES {
-            return Err(Limit::Corners(MAX_NAMES).error());
+            return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
         Ok(())
     }
