@@ -38,14 +38,14 @@ impl<R: Read> Reader<R> {
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, LoadError> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.get::<8>("first bytes")? != MAGIC {
-            return Err(LoadError::foreign());
+            return Err(LoadError(Fault::Foreign));
         }
         let (name, version) = (reader.get("first bytes")?, reader.u32("first bytes")?);
         if name != kind.name {
-            return Err(LoadError::other_kind(name, kind.name));
+            return Err(LoadError(Fault::Content { found: name, expected: kind.name }));
         }
         if version != kind.version {
-            return Err(LoadError::version(version, kind.version));
+            return Err(LoadError(Fault::Version { found: version, expected: kind.version }));
         }
         Ok(reader)
     }
@@ -122,7 +122,7 @@ impl<R: Read> Reader<R> {
     pub(crate) fn finish(mut self) -> Result<(), LoadError> {
         let found = self.sum.clone().finalize();
         let expected = self.u32("checksum")?;
-        if found == expected { Ok(()) } else { Err(LoadError::checksum(found, expected)) }
+        if found == expected { Ok(()) } else { Err(LoadError(Fault::Checksum { found, expected })) }
     }
 }
 
@@ -219,9 +219,7 @@ impl<W: Write> Writer<W> {
 /// Its message says what is wrong with the file, and what to do. After an error, nothing is known of
 /// how much was read.
 #[derive(Debug)]
-pub struct LoadError {
-    fault: Fault,
-}
+pub struct LoadError(Fault);
 
 #[derive(Debug)]
 enum Fault {
@@ -238,62 +236,46 @@ enum Fault {
 
 /// The error of a thing of which there are several, given its number, that is not as it must be.
 pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> LoadError {
-    LoadError { fault: Fault::Invalid { what, number: Some(number), fault } }
+    LoadError(Fault::Invalid { what, number: Some(number), fault })
 }
 
 impl LoadError {
     /// Ends of data and lack of memory are told from other failures to read.
     pub(super) fn of_reading(error: io::Error, what: &'static str) -> Self {
         match error.kind() {
-            io::ErrorKind::UnexpectedEof => Self { fault: Fault::Short { what } },
+            io::ErrorKind::UnexpectedEof => Self(Fault::Short { what }),
             io::ErrorKind::OutOfMemory => Self::out_of_memory(),
-            _ => Self { fault: Fault::Io(error) },
+            _ => Self(Fault::Io(error)),
         }
     }
 
-    pub(super) fn foreign() -> Self {
-        Self { fault: Fault::Foreign }
-    }
-
-    pub(super) fn other_kind(found: [u8; 4], expected: [u8; 4]) -> Self {
-        Self { fault: Fault::Content { found, expected } }
-    }
-
-    pub(super) fn version(found: u32, expected: u32) -> Self {
-        Self { fault: Fault::Version { found, expected } }
-    }
-
     pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Self {
-        Self { fault: Fault::TooMany { what, found, limit } }
-    }
-
-    pub(super) fn checksum(found: u32, expected: u32) -> Self {
-        Self { fault: Fault::Checksum { found, expected } }
+        Self(Fault::TooMany { what, found, limit })
     }
 
     pub(crate) fn out_of_memory() -> Self {
-        Self { fault: Fault::OutOfMemory }
+        Self(Fault::OutOfMemory)
     }
 
     /// The error of a thing of which there is one.
     pub(crate) fn of(what: &'static str, fault: &'static str) -> Self {
-        Self { fault: Fault::Invalid { what, number: None, fault } }
+        Self(Fault::Invalid { what, number: None, fault })
     }
 
     /// Whether memory ran out. (The file itself may be right.)
     pub const fn is_out_of_memory(&self) -> bool {
-        matches!(self.fault, Fault::OutOfMemory)
+        matches!(self.0, Fault::OutOfMemory)
     }
 
     /// Whether reading itself failed; then [`source`](std::error::Error::source) is the reason.
     pub const fn is_io(&self) -> bool {
-        matches!(self.fault, Fault::Io(_))
+        matches!(self.0, Fault::Io(_))
     }
 }
 
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.fault {
+        match &self.0 {
             Fault::Io(error) => write!(f, "cannot be read: {error}"),
             Fault::Short { what } => {
                 write!(f, "it ends within its {what}: it is cut short, or damaged before that")
@@ -331,7 +313,7 @@ impl fmt::Display for LoadError {
 
 impl std::error::Error for LoadError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match &self.fault {
+        match &self.0 {
             Fault::Io(error) => Some(error),
             _ => None,
         }

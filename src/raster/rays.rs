@@ -104,7 +104,7 @@ impl Rays {
     pub fn sampled(camera: &Camera, faces: &Faces, samples: u32) -> Result<Self, CameraError> {
         let sides = camera.size().map(|side| side.checked_mul(samples).filter(|&side| side > 0));
         let [Some(width), Some(height)] = sides else {
-            return Err(CameraProblem::Samples { samples }.into());
+            return Err(CameraProblem::Samples(samples).into());
         };
         let size = [width, height];
         let lattice = *faces.lattice();

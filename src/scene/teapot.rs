@@ -145,13 +145,7 @@ fn push_patch(scene: &mut Scene, patch: &Patch, weights: &[[f64; 4]], material: 
         for column in 1..weights.len() {
             let (a, b) = (upper[column - 1], lower[column - 1]);
             let (c, d) = (lower[column], upper[column]);
-            if a == d {
-                scene.push([a, c, b], material);
-            } else if b == c {
-                scene.push([a, d, b], material);
-            } else {
-                scene.push([a, d, c, b], material);
-            }
+            scene.push_quad([a, d, c, b], material);
         }
         upper = lower;
     }

@@ -64,62 +64,54 @@ pub(super) struct Contents {
 pub(super) fn read<B>(
     name: &str,
     input: io::Result<impl Read>,
-    visit: impl FnMut(Statement<'_>, &mut dyn Iterator<Item = &str>) -> ControlFlow<B>,
+    mut visit: impl FnMut(Statement<'_>, &mut dyn Iterator<Item = &str>) -> ControlFlow<B>,
 ) -> Result<(Contents, ControlFlow<B>), ObjError> {
     let (mut contents, mut place) = (Contents::default(), Place::default());
-    match contents.read(input, visit, &mut place) {
+    let read = || -> Result<ControlFlow<B>, Problem> {
+        let mut lines = Lines::new(input?);
+        let mut corners = Vec::new();
+        while lines.next()? {
+            place.line = Some(lines.number);
+            let text = decode(&lines.line)?;
+            let mut words = words(&text);
+            let statement = match words.next() {
+                Some("v") => Some(Statement::Vertex(contents.vertex(words.clone())?)),
+                Some("vt") => Some(Statement::TextureCoordinates),
+                Some("vn") => Some(Statement::Normal),
+                Some("f") => {
+                    place.face = Some(contents.report.faces);
+                    let material = contents.face(words.clone(), place, &mut corners)?;
+                    Some(Statement::Face { corners: &corners, material, line: lines.number })
+                }
+                keyword => {
+                    contents.aside(keyword, &lines.line);
+                    None
+                }
+            };
+            if let Some(statement) = statement
+                && let ControlFlow::Break(value) = visit(statement, &mut words)
+            {
+                return Ok(ControlFlow::Break(value));
+            }
+            place = Place::default();
+        }
+        if contents.report.faces == 0 {
+            return Err("no faces: there must be at least one `f` line".into());
+        }
+        let (highest, vertices) = (contents.highest.0, contents.vertices);
+        if highest > vertices {
+            place = contents.highest.1;
+            return Err(no_vertex(&highest.to_string(), vertices));
+        }
+        Ok(ControlFlow::Continue(()))
+    };
+    match read() {
         Ok(flow) => Ok((contents, flow)),
         Err(problem) => Err(ObjError { file: name.to_owned(), place, problem }),
     }
 }
 
 impl Contents {
-    /// Where there is a problem, `place` says where.
-    fn read<B>(
-        &mut self,
-        input: io::Result<impl Read>,
-        mut visit: impl FnMut(Statement<'_>, &mut dyn Iterator<Item = &str>) -> ControlFlow<B>,
-        place: &mut Place,
-    ) -> Result<ControlFlow<B>, Problem> {
-        let mut lines = Lines::new(input?);
-        let mut corners = Vec::new();
-        loop {
-            *place = Place::default();
-            if !lines.next()? {
-                break;
-            }
-            place.line = Some(lines.number);
-            let text = decode(&lines.line)?;
-            let mut words = words(&text);
-            let statement = match words.next() {
-                Some("v") => Statement::Vertex(self.vertex(words.clone())?),
-                Some("vt") => Statement::TextureCoordinates,
-                Some("vn") => Statement::Normal,
-                Some("f") => {
-                    place.face = Some(self.report.faces);
-                    let material = self.face(words.clone(), *place, &mut corners)?;
-                    Statement::Face { corners: &corners, material, line: lines.number }
-                }
-                keyword => {
-                    self.aside(keyword, &lines.line);
-                    continue;
-                }
-            };
-            if let ControlFlow::Break(value) = visit(statement, &mut words) {
-                return Ok(ControlFlow::Break(value));
-            }
-        }
-        if self.report.faces == 0 {
-            return Err("no faces: there must be at least one `f` line".into());
-        }
-        let (highest, vertices) = (self.highest.0, self.vertices);
-        if highest > vertices {
-            *place = self.highest.1;
-            return Err(no_vertex(&highest.to_string(), vertices));
-        }
-        Ok(ControlFlow::Continue(()))
-    }
-
     /// Reads a line that changes no polygon and no corner.
     fn aside(&mut self, keyword: Option<&str>, line: &[u8]) {
         match keyword {
@@ -136,15 +128,11 @@ impl Contents {
     fn vertex<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<DVec3, Problem> {
         let (mut vertex, mut found) = ([0.0_f64; 3], 0);
         for (coordinate, word) in vertex.iter_mut().zip(words) {
-            let Ok(number) = word.parse() else {
-                return Err(format!("the coordinate {word:?} is not a number").into());
-            };
-            *coordinate = number;
+            *coordinate =
+                word.parse().map_err(|_| format!("the coordinate {word:?} is not a number"))?;
             if !coordinate.is_finite() {
-                return Err(format!(
-                    "the coordinate {word:?} is not finite; remove the vertex or correct it"
-                )
-                .into());
+                let problem = "is not finite; remove the vertex or correct it";
+                return Err(format!("the coordinate {word:?} {problem}").into());
             }
             self.decimals.see(word, *coordinate);
             found += 1;
