@@ -37,10 +37,10 @@ impl<R: Read> Reader<R> {
     /// Begins with a file, which must be of this kind and version.
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, LoadError> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
-        if reader.get::<8>("first bytes")? != MAGIC {
+        if reader.bytes::<8>("first bytes")? != MAGIC {
             return Err(LoadError(Fault::Foreign));
         }
-        let (name, version) = (reader.get("first bytes")?, reader.u32("first bytes")?);
+        let (name, version) = (reader.bytes("first bytes")?, reader.u32("first bytes")?);
         if name != kind.name {
             return Err(LoadError(Fault::Content { found: name, expected: kind.name }));
         }
@@ -51,7 +51,10 @@ impl<R: Read> Reader<R> {
     }
 
     /// Reads some bytes of what is called `what`.
-    fn get<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], LoadError> {
+    pub(crate) fn bytes<const N: usize>(
+        &mut self,
+        what: &'static str,
+    ) -> Result<[u8; N], LoadError> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes).map_err(|error| LoadError::of_reading(error, what))?;
         self.sum.update(&bytes);
@@ -59,15 +62,15 @@ impl<R: Read> Reader<R> {
     }
 
     pub(crate) fn u32(&mut self, what: &'static str) -> Result<u32, LoadError> {
-        self.get(what).map(u32::from_le_bytes)
+        self.bytes(what).map(u32::from_le_bytes)
     }
 
     pub(crate) fn u64(&mut self, what: &'static str) -> Result<u64, LoadError> {
-        self.get(what).map(u64::from_le_bytes)
+        self.bytes(what).map(u64::from_le_bytes)
     }
 
     pub(crate) fn f64(&mut self, what: &'static str) -> Result<f64, LoadError> {
-        self.get(what).map(f64::from_le_bytes)
+        self.bytes(what).map(f64::from_le_bytes)
     }
 
     /// A number of things, which must not be above a limit.

@@ -411,8 +411,13 @@ pub fn views(
                 let from = side * angle.cos() + ahead * angle.sin() + up * height;
                 around(bounds, up, from, random.range(0.7, 1.6), size)
             } else {
+                // At a point in the middle four fifths of the box, looking at another one there.
+                let [eye, target] = [(); 2].map(|()| {
+                    let share = random.point(0.1, 0.9);
+                    bounds[0] * (1.0 - share) + bounds[1] * share
+                });
                 // In a box without extent the two points coincide, or one is straight above the other.
-                inside(bounds, up, &mut random, size)
+                Camera::perspective(eye, target, up, INSIDE, size)
                     .or_else(|_| around(bounds, up, ahead + side, 0.1, size))
             }
         })
@@ -448,21 +453,6 @@ fn around(
     };
     let step = (0..8).map(needs).fold(1e-3, f64::max) * distance;
     Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
-}
-
-/// A camera at a point in the middle four fifths of a box that looks at another point there.
-fn inside(
-    [min, max]: [DVec3; 2],
-    up: DVec3,
-    random: &mut SplitMix64,
-    size: [u32; 2],
-) -> Result<Camera, CameraError> {
-    let mut point = || {
-        let share = DVec3::from_array(std::array::from_fn(|_| random.range(0.1, 0.9)));
-        min * (1.0 - share) + max * share
-    };
-    let (eye, target) = (point(), point());
-    Camera::perspective(eye, target, up, INSIDE, size)
 }
 
 /// The unit vector along `up`, and two perpendicular to it and to each other: for up = z, x and −y; for

@@ -249,10 +249,8 @@ fn fits(&[a, b, c]: &[DVec3; 3]) -> bool {
 pub fn chain(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("chain:{count}"));
     for index in 0..count {
-        let y = f64::from(index);
-        let corner = |x: f64, z: f64| DVec3::new(x, y, z);
-        let square = [corner(-5.0, -5.0), corner(5.0, -5.0), corner(5.0, 5.0), corner(-5.0, 5.0)];
-        scene.push(square, index % 8);
+        let square = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)];
+        scene.push(square.map(|(x, z)| DVec3::new(x, index.into(), z)), index % 8);
     }
     scene
 }

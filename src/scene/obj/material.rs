@@ -62,7 +62,7 @@ fn parse(library: &str, bytes: &[u8], report: &mut ObjReport) -> Result<Material
     let mut materials = Materials::new();
     let mut has_dissolve = false;
     let mut lines = Lines::new(bytes);
-    while lines.next()? {
+    while let Some(at) = lines.next()? {
         let line = decode(&lines.line)?;
         let mut words = words(&line);
         let mut is_clamped = false;
@@ -103,7 +103,7 @@ fn parse(library: &str, bytes: &[u8], report: &mut ObjReport) -> Result<Material
         };
         report.skipped_material_lines += usize::from(!understood);
         if understood && is_clamped {
-            report.clamped_material_lines.push(format!("{library}:{}", lines.number));
+            report.clamped_material_lines.push(format!("{library}:{at}"));
         }
     }
     materials.retain(|(name, _)| !name.is_empty());

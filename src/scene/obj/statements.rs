@@ -70,8 +70,8 @@ pub(super) fn read<B>(
     let read = || -> Result<ControlFlow<B>, Problem> {
         let mut lines = Lines::new(input?);
         let mut corners = Vec::new();
-        while lines.next()? {
-            place.line = Some(lines.number);
+        while let Some(line) = lines.next()? {
+            place.line = Some(line);
             let text = decode(&lines.line)?;
             let mut words = words(&text);
             let statement = match words.next() {
@@ -81,7 +81,7 @@ pub(super) fn read<B>(
                 Some("f") => {
                     place.face = Some(contents.report.faces);
                     let material = contents.face(words.clone(), place, &mut corners)?;
-                    Some(Statement::Face { corners: &corners, material, line: lines.number })
+                    Some(Statement::Face { corners: &corners, material, line })
                 }
                 keyword => {
                     contents.aside(keyword, &lines.line);
@@ -272,8 +272,6 @@ const MARKS: [(&[u8], &str); 4] = [
 pub(super) struct Lines<R> {
     input: Bytes<BufReader<R>>,
     pub(super) line: Vec<u8>,
-    /// The number of the line from 1; of joined lines, that of the first.
-    pub(super) number: usize,
     /// How many line ends have been read.
     ends: usize,
     /// Whether the last byte was CR: a LF that follows belongs to it.
@@ -283,15 +281,15 @@ pub(super) struct Lines<R> {
 impl<R: Read> Lines<R> {
     pub(super) fn new(input: R) -> Self {
         let input = BufReader::with_capacity(CHUNK, input).bytes();
-        Self { input, line: Vec::new(), number: 0, ends: 0, is_after_cr: false }
+        Self { input, line: Vec::new(), ends: 0, is_after_cr: false }
     }
 
-    /// Reads the next line; `false` at the end.
-    pub(super) fn next(&mut self) -> Result<bool, Problem> {
+    /// Reads the next line; its number from 1, or, of joined lines, that of the first. `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<usize>, Problem> {
         self.line.clear();
         let is_there = self.append()?;
-        self.number = self.ends;
-        if self.number == 1 {
+        let number = self.ends;
+        if number == 1 {
             if let Some((_, name)) = MARKS.iter().find(|(mark, _)| self.line.starts_with(mark)) {
                 return Err(format!("wrong encoding: this is {name}; save it as UTF-8").into());
             }
@@ -306,7 +304,7 @@ impl<R: Read> Lines<R> {
             self.line.push(b' ');
             self.append()?;
         }
-        Ok(is_there)
+        Ok(is_there.then_some(number))
     }
 
     /// Appends the next line of the file; `false` at the end.
@@ -341,9 +339,9 @@ mod tests {
     /// All lines with their numbers, or the problem.
     fn all(bytes: impl AsRef<[u8]>) -> Result<Vec<(usize, String)>, String> {
         let (mut lines, mut all) = (Lines::new(bytes.as_ref()), Vec::new());
-        while lines.next().map_err(|problem| problem.to_string())? {
+        while let Some(number) = lines.next().map_err(|problem| problem.to_string())? {
             let text = decode(&lines.line).map_err(|problem| problem.to_string())?;
-            all.push((lines.number, text.into_owned()));
+            all.push((number, text.into_owned()));
         }
         Ok(all)
     }
