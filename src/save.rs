@@ -38,14 +38,23 @@ impl<R: Read> Reader<R> {
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, LoadError> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.bytes::<8>("first bytes")? != MAGIC {
-            return Err(LoadError(Fault::Foreign));
+            return Err(refused(
+                "it is no file of binspace: it begins with other bytes".to_owned(),
+            ));
         }
         let (name, version) = (reader.bytes("first bytes")?, reader.u32("first bytes")?);
         if name != kind.name {
-            return Err(LoadError(Fault::Content { found: name, expected: kind.name }));
+            let [found, expected] = [&name, &kind.name].map(|name| name.escape_ascii());
+            return Err(refused(format!(
+                "it holds a \"{found}\" where a \"{expected}\" is expected"
+            )));
         }
         if version != kind.version {
-            return Err(LoadError(Fault::Version { found: version, expected: kind.version }));
+            return Err(refused(format!(
+                "its layout is version {version}, but this version of binspace reads version {} \
+                 alone: write it again, from the polygons",
+                kind.version
+            )));
         }
         Ok(reader)
     }
@@ -125,7 +134,12 @@ impl<R: Read> Reader<R> {
     pub(crate) fn finish(mut self) -> Result<(), LoadError> {
         let found = self.sum.clone().finalize();
         let expected = self.u32("checksum")?;
-        if found == expected { Ok(()) } else { Err(LoadError(Fault::Checksum { found, expected })) }
+        if found == expected {
+            return Ok(());
+        }
+        Err(refused(format!(
+            "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
+        )))
     }
 }
 
@@ -227,33 +241,34 @@ pub struct LoadError(Fault);
 #[derive(Debug)]
 enum Fault {
     Io(io::Error),
-    Short { what: &'static str },
-    Foreign,
-    Content { found: [u8; 4], expected: [u8; 4] },
-    Version { found: u32, expected: u32 },
-    TooMany { what: &'static str, found: u64, limit: u64 },
-    Checksum { found: u32, expected: u32 },
     OutOfMemory,
-    Invalid { what: &'static str, number: Option<usize>, fault: &'static str },
+    /// The file itself, and why.
+    File(String),
 }
 
 /// The error of a thing of which there are several, given its number, that is not as it must be.
 pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> LoadError {
-    LoadError(Fault::Invalid { what, number: Some(number), fault })
+    refused(format!("it was not written by binspace: {what} {number} {fault}"))
+}
+
+fn refused(problem: String) -> LoadError {
+    LoadError(Fault::File(problem))
 }
 
 impl LoadError {
     /// Ends of data and lack of memory are told from other failures to read.
-    pub(super) fn of_reading(error: io::Error, what: &'static str) -> Self {
+    fn of_reading(error: io::Error, what: &'static str) -> Self {
         match error.kind() {
-            io::ErrorKind::UnexpectedEof => Self(Fault::Short { what }),
+            io::ErrorKind::UnexpectedEof => refused(format!(
+                "it ends within its {what}: it is cut short, or damaged before that"
+            )),
             io::ErrorKind::OutOfMemory => Self::out_of_memory(),
             _ => Self(Fault::Io(error)),
         }
     }
 
     pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Self {
-        Self(Fault::TooMany { what, found, limit })
+        refused(format!("it claims to have {found} {what}, but {limit} is the most: it is damaged"))
     }
 
     pub(crate) fn out_of_memory() -> Self {
@@ -262,7 +277,7 @@ impl LoadError {
 
     /// The error of a thing of which there is one.
     pub(crate) fn of(what: &'static str, fault: &'static str) -> Self {
-        Self(Fault::Invalid { what, number: None, fault })
+        refused(format!("it was not written by binspace: its {what} {fault}"))
     }
 
     /// Whether memory ran out. (The file itself may be right.)
@@ -280,36 +295,8 @@ impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Fault::Io(error) => write!(f, "cannot be read: {error}"),
-            Fault::Short { what } => {
-                write!(f, "it ends within its {what}: it is cut short, or damaged before that")
-            }
-            Fault::Foreign => f.write_str("it is no file of binspace: it begins with other bytes"),
-            Fault::Content { found, expected } => {
-                let [found, expected] = [found, expected].map(|name| name.escape_ascii());
-                write!(f, "it holds a \"{found}\" where a \"{expected}\" is expected")
-            }
-            Fault::Version { found, expected } => write!(
-                f,
-                "its layout is version {found}, but this version of binspace reads version \
-                 {expected} alone: write it again, from the polygons"
-            ),
-            Fault::TooMany { what, found, limit } => {
-                write!(
-                    f,
-                    "it claims to have {found} {what}, but {limit} is the most: it is damaged"
-                )
-            }
-            Fault::Checksum { found, expected } => write!(
-                f,
-                "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
-            ),
             Fault::OutOfMemory => f.write_str("out of memory"),
-            Fault::Invalid { what, number: Some(number), fault } => {
-                write!(f, "it was not written by binspace: {what} {number} {fault}")
-            }
-            Fault::Invalid { what, number: None, fault } => {
-                write!(f, "it was not written by binspace: its {what} {fault}")
-            }
+            Fault::File(problem) => f.write_str(problem),
         }
     }
 }

@@ -14,6 +14,9 @@ use crate::viewpoint::{Frustum, Viewpoint};
 /// furthest vertex. Larger: parts near the eye are missing. Smaller: coordinates lose digits.
 const NEAR: f64 = 1e-9;
 
+const NON_FINITE: &str = "a camera parameter is NaN or infinite";
+const FIELD_OF_VIEW: &str = "the field of view must be more than 0 and less than π radians";
+
 /// A camera: a viewpoint, an orientation, and a picture's size in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -67,10 +70,10 @@ impl Camera {
         size: [u32; 2],
     ) -> Result<Self, CameraError> {
         if !field_of_view.is_finite() {
-            return Err(CameraProblem::NonFinite.into());
+            return refused(NON_FINITE);
         }
         if !(field_of_view > 0.0 && field_of_view < std::f64::consts::PI) {
-            return Err(CameraProblem::FieldOfView.into());
+            return refused(FIELD_OF_VIEW);
         }
         let half_height = (field_of_view * 0.5).tan();
         Self::perspective_by_slope(eye, target, up, half_height, size)
@@ -118,27 +121,35 @@ impl Camera {
         [width, height]: [u32; 2],
     ) -> Result<Self, CameraError> {
         let (origin, span, too_small) = match projection {
-            Projection::Perspective { eye, half_height } => {
-                (eye, half_height, CameraProblem::FieldOfView)
+            Projection::Perspective { eye, half_height } => (eye, half_height, FIELD_OF_VIEW),
+            Projection::Parallel { centre, height, .. } => {
+                (centre, height, "the height that a parallel camera shows must be positive")
             }
-            Projection::Parallel { centre, height, .. } => (centre, height, CameraProblem::Height),
         };
         if !(origin.is_finite() && view.is_finite() && up.is_finite() && span.is_finite()) {
-            return Err(CameraProblem::NonFinite.into());
+            return refused(NON_FINITE);
         }
         if span <= 0.0 {
-            return Err(too_small.into());
+            return refused(too_small);
         }
         let sides = 1..=Self::MAX_SIDE;
         let pixels = u64::from(width) * u64::from(height);
         if !sides.contains(&width) || !sides.contains(&height) || pixels > Self::MAX_PIXELS {
-            return Err(CameraProblem::Size([width, height]).into());
+            return refused(format!(
+                "a picture must have 1 to {} pixels each way and at most {} in all, not {width}x{height}",
+                Self::MAX_SIDE,
+                Self::MAX_PIXELS
+            ));
         }
-        let forward = unit(view).ok_or(CameraProblem::NoDirection)?;
-        let side = forward.cross(unit(up).ok_or(CameraProblem::UpAlongView)?);
+        let Some(forward) = unit(view) else {
+            return refused(
+                "the camera looks nowhere: its eye and target are the same, or its direction is zero",
+            );
+        };
+        let side = forward.cross(unit(up).unwrap_or(forward));
         // Smaller: rounding would decide the picture's orientation.
         if side.length() < 1e-9 {
-            return Err(CameraProblem::UpAlongView.into());
+            return refused("the camera's up vector is zero or along its direction of view");
         }
         let right = side.normalize();
         let up = right.cross(forward).normalize();
@@ -300,66 +311,16 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
 
 /// Why a camera, or its rays through a scene, cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CameraError(CameraProblem);
+pub struct CameraError(String);
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum CameraProblem {
-    NonFinite,
-    NoDirection,
-    UpAlongView,
-    FieldOfView,
-    Height,
-    Size([u32; 2]),
-    Samples(u32),
-    TooFar,
-    TooNarrow,
-    TooWide,
-}
-
-impl From<CameraProblem> for CameraError {
-    fn from(problem: CameraProblem) -> Self {
-        Self(problem)
-    }
+/// The error of a problem.
+pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, CameraError> {
+    Err(CameraError(problem.into()))
 }
 
 impl fmt::Display for CameraError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self.0 {
-            CameraProblem::NonFinite => "a camera parameter is NaN or infinite",
-            CameraProblem::NoDirection => {
-                "the camera looks nowhere: its eye and target are the same, or its direction is zero"
-            }
-            CameraProblem::UpAlongView => {
-                "the camera's up vector is zero or along its direction of view"
-            }
-            CameraProblem::FieldOfView => {
-                "the field of view must be more than 0 and less than π radians"
-            }
-            CameraProblem::Height => "the height that a parallel camera shows must be positive",
-            CameraProblem::Size([width, height]) => {
-                let (side, pixels) = (Camera::MAX_SIDE, Camera::MAX_PIXELS);
-                return write!(
-                    f,
-                    "a picture must have 1 to {side} pixels each way and at most {pixels} in all, not \
-                     {width}x{height}"
-                );
-            }
-            CameraProblem::Samples(samples) => {
-                return write!(
-                    f,
-                    "{samples} samples each way in a pixel: there must be 1 or more, and fewer than \
-                     2³² across the picture"
-                );
-            }
-            CameraProblem::TooFar => "the eye is too far from the scene: use a parallel camera",
-            CameraProblem::TooNarrow => {
-                "the camera's view is so narrow that rays would be off by a thousandth of a pixel: \
-                 widen it"
-            }
-            CameraProblem::TooWide => {
-                "the parallel camera shows, or is centred on, a region too far from the scene"
-            }
-        })
+        f.write_str(&self.0)
     }
 }
 
