@@ -84,19 +84,20 @@ impl Scene {
 ///
 /// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth one, reorders
 /// faces by material, fails on indices of normals that are not read, and names no line in its errors. So it
-/// gets only checked `v` lines of three numbers and `f` lines of vertex numbers.
+/// gets only checked `v` lines of three numbers and `f` lines of vertex numbers. It holds all faces of a file
+/// at once, so [`ObjStream`] does without it.
 fn load(
     name: &str,
     input: io::Result<impl Read>,
     library: impl FnMut(&Path) -> Option<Vec<u8>>,
 ) -> Result<(Scene, ObjReport), ObjError> {
-    let (mut text, mut materials, mut lines) = (String::new(), Vec::new(), Vec::new());
+    let (mut cleaned, mut materials, mut lines) = (String::new(), Vec::new(), Vec::new());
     let mut given = Given::default();
     let (mut contents, _) = read(name, input, |statement, words| {
         match statement {
             Statement::Vertex(_) => {
-                text.push_str("\nv");
-                (&mut *words).take(3).for_each(|word| text.extend([" ", word]));
+                cleaned.push_str("\nv");
+                (&mut *words).take(3).for_each(|word| cleaned.extend([" ", word]));
                 // One number behind the coordinates is a weight.
                 given.colors.push(match numbers(words)[..] {
                     [Some(r), Some(g), Some(b)] => Some([r, g, b].map(|c| c as f32)),
@@ -114,10 +115,10 @@ fn load(
                 _ => None,
             }),
             Statement::Face { corners, material, line } => {
-                text.push_str("\nf");
+                cleaned.push_str("\nf");
                 for (&corner, word) in corners.iter().zip(words) {
                     let (vertex, others) = word.split_once('/').unwrap_or((word, ""));
-                    text.extend([" ", vertex]);
+                    cleaned.extend([" ", vertex]);
                     given.corner(corner, others);
                 }
                 materials.push(material);
@@ -126,15 +127,10 @@ fn load(
         }
         ControlFlow::<()>::Continue(())
     })?;
-    let refused = |problem: &dyn fmt::Display| ObjError {
-        file: name.to_owned(),
-        place: Place::default(),
-        problem: format!("tobj cannot read it: {problem}").into(),
-    };
     let options = tobj::LoadOptions::default();
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let (mut models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_library)
-        .map_err(|error| refused(&error))?;
+    let (mut models, _) = tobj::load_obj_buf(&mut cleaned.as_bytes(), &options, no_library)
+        .map_err(|error| ObjError::of_file(name, format!("tobj cannot read it: {error}")))?;
     let mesh = models.pop().map(|model| model.mesh).unwrap_or_default();
     let (points, _) = mesh.positions.as_chunks::<3>();
     let mut corners = mesh.indices.iter().filter_map(|&index| points.get(index as usize));
@@ -147,7 +143,7 @@ fn load(
         contents.report.degenerate_faces += usize::from(is_degenerate(polygon));
     }
     if corners.next().is_some() || scene.corners.len() != given.corners.len() {
-        return Err(refused(&"corners are missing"));
+        return Err(ObjError::of_file(name, "tobj has not read all corners"));
     }
     scene.lines = lines;
     (scene.attributes, contents.report.skipped_attributes) = given.finish();
@@ -339,10 +335,7 @@ impl ObjStream {
             ControlFlow::Continue(()) if contents.report.faces == self.polygons() => {
                 Ok(ControlFlow::Continue(()))
             }
-            _ => {
-                let problem = "it has changed since it was opened".into();
-                Err(ObjError { file: name, place: Place::default(), problem })
-            }
+            _ => Err(ObjError::of_file(&name, "it has changed since it was opened")),
         }
     }
 }
@@ -396,6 +389,10 @@ pub struct ObjError {
 }
 
 impl ObjError {
+    fn of_file(file: &str, problem: impl Into<Problem>) -> Self {
+        Self { file: file.to_owned(), place: Place::default(), problem: problem.into() }
+    }
+
     /// The line at fault, counted from 1.
     pub fn line(&self) -> Option<usize> {
         self.place.line
