@@ -7,63 +7,49 @@
 ///
 /// That of the first item that has one, whichever fails first. Items behind one that failed are not
 /// begun any more.
-#[cfg(feature = "parallel")]
 pub(crate) fn map<T: Send, U: Send, E: Send>(
     items: Vec<T>,
     function: impl Fn(T) -> Result<U, E> + Sync,
 ) -> Result<Vec<U>, E> {
-    use rayon::prelude::*;
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
     // A single item needs no other thread, and waking one takes time.
-    if items.len() < 2 || !are_running() {
-        return items.into_iter().map(function).collect();
-    }
-    // All items before this one are done, whatever they give: so the first error is among the results.
-    let failed = AtomicUsize::new(usize::MAX);
-    let result = |(number, item)| {
-        if failed.load(Ordering::Relaxed) < number {
-            return None;
-        }
-        let result = function(item);
-        if result.is_err() {
-            failed.fetch_min(number, Ordering::Relaxed);
-        }
-        Some(result)
-    };
-    let results: Vec<_> = items.into_par_iter().enumerate().map(result).collect();
-    results.into_iter().flatten().collect()
-}
+    #[cfg(feature = "parallel")]
+    if items.len() >= 2 && are_running() {
+        use rayon::prelude::*;
+        use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// As above, one after the other.
-#[cfg(not(feature = "parallel"))]
-pub(crate) fn map<T, U, E>(
-    items: Vec<T>,
-    function: impl Fn(T) -> Result<U, E>,
-) -> Result<Vec<U>, E> {
+        // All items before this one are done, whatever they give: so the first error is among the results.
+        let failed = AtomicUsize::new(usize::MAX);
+        let result = |(number, item)| {
+            if failed.load(Ordering::Relaxed) < number {
+                return None;
+            }
+            let result = function(item);
+            if result.is_err() {
+                failed.fetch_min(number, Ordering::Relaxed);
+            }
+            Some(result)
+        };
+        let results: Vec<_> = items.into_par_iter().enumerate().map(result).collect();
+        return results.into_iter().flatten().collect();
+    }
     items.into_iter().map(function).collect()
 }
 
 /// Calls a function here and another one beside it, if that is worth waking a thread; else before it.
-#[cfg(all(feature = "parallel", feature = "save"))]
+#[cfg(feature = "save")]
+#[cfg_attr(not(feature = "parallel"), expect(unused_variables, reason = "there is one thread"))]
 pub(crate) fn beside<T>(
     is_worth_it: bool,
     other: impl FnOnce() + Send,
     here: impl FnOnce() -> T,
 ) -> T {
+    #[cfg(feature = "parallel")]
     if is_worth_it && are_running() {
         return rayon::in_place_scope(|scope| {
             scope.spawn(|_| other());
             here()
         });
     }
-    other();
-    here()
-}
-
-/// As above, one after the other.
-#[cfg(all(not(feature = "parallel"), feature = "save"))]
-pub(crate) fn beside<T>(_: bool, other: impl FnOnce(), here: impl FnOnce() -> T) -> T {
     other();
     here()
 }
@@ -78,15 +64,12 @@ pub(crate) fn are_running() -> bool {
     // For targets without threads rayon uses the calling one.
     cfg!(target_family = "wasm")
         || rayon::current_thread_index().is_some()
-        || *ARE_RUNNING.get_or_init(start)
-}
-
-/// If the program itself tried to start rayon's threads before, and failed, this cannot tell.
-#[cfg(feature = "parallel")]
-fn start() -> bool {
-    // An error without a cause means that they run already.
-    let started = rayon::ThreadPoolBuilder::new().build_global();
-    started.map_or_else(|error| std::error::Error::source(&error).is_none(), |()| true)
+        || *ARE_RUNNING.get_or_init(|| {
+            // An error without a cause means that they run already. (If the program itself tried to start
+            // them before, and failed, this cannot tell.)
+            let started = rayon::ThreadPoolBuilder::new().build_global();
+            started.map_or_else(|error| std::error::Error::source(&error).is_none(), |()| true)
+        })
 }
 
 #[cfg(all(test, feature = "parallel"))]

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, TryLockError};
 
@@ -51,27 +52,20 @@ pub(crate) fn one_at_a_time(
         if watch.is_cancelled() {
             return ControlFlow::Break(());
         }
-        let _stop = StopOnPanic(watch);
-        let flow = progress(watch.progress());
+        // A panic cancels all work before another thread can call the callback.
+        let flow = catch_unwind(AssertUnwindSafe(|| progress(watch.progress())));
+        let flow = flow.unwrap_or_else(|panic| {
+            watch.stop();
+            resume_unwind(panic)
+        });
         if flow.is_break() {
-            watch.cancelled.store(true, Ordering::Relaxed);
+            watch.stop();
         }
         flow
     }
 }
 
 type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
-
-/// Cancels all if the callback panics, before another thread can call it.
-struct StopOnPanic<'w>(&'w Watch<'w>);
-
-impl Drop for StopOnPanic<'_> {
-    fn drop(&mut self) {
-        if std::thread::panicking() {
-            self.0.cancelled.store(true, Ordering::Relaxed);
-        }
-    }
-}
 
 /// Shared by the jobs of a build: counts their work, calls the callback, and tells them to stop.
 #[derive(Default)]
@@ -135,7 +129,6 @@ impl<'a> Watch<'a> {
     }
 
     /// Lets all further work fail, as after a cancellation.
-    #[cfg(feature = "parallel")]
     pub(crate) fn stop(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
@@ -164,9 +157,9 @@ impl fmt::Debug for Watch<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::panic::{AssertUnwindSafe, catch_unwind};
-
-    use super::{ControlFlow, Mutex, Progress, Watch, one_at_a_time};
+    use super::{
+        AssertUnwindSafe, ControlFlow, Mutex, Progress, Watch, catch_unwind, one_at_a_time,
+    };
     use crate::{BuildOptions, Heuristic};
 
     #[test]

@@ -37,21 +37,33 @@ impl<R: Read> Reader<R> {
     /// Begins with a file, which must be of this kind and version.
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, LoadError> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
-        if reader.get::<8>("first bytes")? != MAGIC {
-            return Err(LoadError::foreign());
+        if reader.bytes::<8>("first bytes")? != MAGIC {
+            return Err(refused(
+                "it is no file of binspace: it begins with other bytes".to_owned(),
+            ));
         }
-        let (name, version) = (reader.get("first bytes")?, reader.u32("first bytes")?);
+        let (name, version) = (reader.bytes("first bytes")?, reader.u32("first bytes")?);
         if name != kind.name {
-            return Err(LoadError::other_kind(name, kind.name));
+            let [found, expected] = [&name, &kind.name].map(|name| name.escape_ascii());
+            return Err(refused(format!(
+                "it holds a \"{found}\" where a \"{expected}\" is expected"
+            )));
         }
         if version != kind.version {
-            return Err(LoadError::version(version, kind.version));
+            return Err(refused(format!(
+                "its layout is version {version}, but this version of binspace reads version {} \
+                 alone: write it again, from the polygons",
+                kind.version
+            )));
         }
         Ok(reader)
     }
 
     /// Reads some bytes of what is called `what`.
-    fn get<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], LoadError> {
+    pub(crate) fn bytes<const N: usize>(
+        &mut self,
+        what: &'static str,
+    ) -> Result<[u8; N], LoadError> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes).map_err(|error| LoadError::of_reading(error, what))?;
         self.sum.update(&bytes);
@@ -59,15 +71,15 @@ impl<R: Read> Reader<R> {
     }
 
     pub(crate) fn u32(&mut self, what: &'static str) -> Result<u32, LoadError> {
-        self.get(what).map(u32::from_le_bytes)
+        self.bytes(what).map(u32::from_le_bytes)
     }
 
     pub(crate) fn u64(&mut self, what: &'static str) -> Result<u64, LoadError> {
-        self.get(what).map(u64::from_le_bytes)
+        self.bytes(what).map(u64::from_le_bytes)
     }
 
     pub(crate) fn f64(&mut self, what: &'static str) -> Result<f64, LoadError> {
-        self.get(what).map(f64::from_le_bytes)
+        self.bytes(what).map(f64::from_le_bytes)
     }
 
     /// A number of things, which must not be above a limit.
@@ -122,7 +134,12 @@ impl<R: Read> Reader<R> {
     pub(crate) fn finish(mut self) -> Result<(), LoadError> {
         let found = self.sum.clone().finalize();
         let expected = self.u32("checksum")?;
-        if found == expected { Ok(()) } else { Err(LoadError::checksum(found, expected)) }
+        if found == expected {
+            return Ok(());
+        }
+        Err(refused(format!(
+            "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
+        )))
     }
 }
 
@@ -219,119 +236,74 @@ impl<W: Write> Writer<W> {
 /// Its message says what is wrong with the file, and what to do. After an error, nothing is known of
 /// how much was read.
 #[derive(Debug)]
-pub struct LoadError {
-    fault: Fault,
-}
+pub struct LoadError(Fault);
 
 #[derive(Debug)]
 enum Fault {
     Io(io::Error),
-    Short { what: &'static str },
-    Foreign,
-    Content { found: [u8; 4], expected: [u8; 4] },
-    Version { found: u32, expected: u32 },
-    TooMany { what: &'static str, found: u64, limit: u64 },
-    Checksum { found: u32, expected: u32 },
     OutOfMemory,
-    Invalid { what: &'static str, number: Option<usize>, fault: &'static str },
+    /// The file itself, and why.
+    File(String),
 }
 
 /// The error of a thing of which there are several, given its number, that is not as it must be.
 pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> LoadError {
-    LoadError { fault: Fault::Invalid { what, number: Some(number), fault } }
+    refused(format!("it was not written by binspace: {what} {number} {fault}"))
+}
+
+fn refused(problem: String) -> LoadError {
+    LoadError(Fault::File(problem))
 }
 
 impl LoadError {
     /// Ends of data and lack of memory are told from other failures to read.
-    pub(super) fn of_reading(error: io::Error, what: &'static str) -> Self {
+    fn of_reading(error: io::Error, what: &'static str) -> Self {
         match error.kind() {
-            io::ErrorKind::UnexpectedEof => Self { fault: Fault::Short { what } },
+            io::ErrorKind::UnexpectedEof => refused(format!(
+                "it ends within its {what}: it is cut short, or damaged before that"
+            )),
             io::ErrorKind::OutOfMemory => Self::out_of_memory(),
-            _ => Self { fault: Fault::Io(error) },
+            _ => Self(Fault::Io(error)),
         }
     }
 
-    pub(super) fn foreign() -> Self {
-        Self { fault: Fault::Foreign }
-    }
-
-    pub(super) fn other_kind(found: [u8; 4], expected: [u8; 4]) -> Self {
-        Self { fault: Fault::Content { found, expected } }
-    }
-
-    pub(super) fn version(found: u32, expected: u32) -> Self {
-        Self { fault: Fault::Version { found, expected } }
-    }
-
     pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Self {
-        Self { fault: Fault::TooMany { what, found, limit } }
-    }
-
-    pub(super) fn checksum(found: u32, expected: u32) -> Self {
-        Self { fault: Fault::Checksum { found, expected } }
+        refused(format!("it claims to have {found} {what}, but {limit} is the most: it is damaged"))
     }
 
     pub(crate) fn out_of_memory() -> Self {
-        Self { fault: Fault::OutOfMemory }
+        Self(Fault::OutOfMemory)
     }
 
     /// The error of a thing of which there is one.
     pub(crate) fn of(what: &'static str, fault: &'static str) -> Self {
-        Self { fault: Fault::Invalid { what, number: None, fault } }
+        refused(format!("it was not written by binspace: its {what} {fault}"))
     }
 
     /// Whether memory ran out. (The file itself may be right.)
     pub const fn is_out_of_memory(&self) -> bool {
-        matches!(self.fault, Fault::OutOfMemory)
+        matches!(self.0, Fault::OutOfMemory)
     }
 
     /// Whether reading itself failed; then [`source`](std::error::Error::source) is the reason.
     pub const fn is_io(&self) -> bool {
-        matches!(self.fault, Fault::Io(_))
+        matches!(self.0, Fault::Io(_))
     }
 }
 
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.fault {
+        match &self.0 {
             Fault::Io(error) => write!(f, "cannot be read: {error}"),
-            Fault::Short { what } => {
-                write!(f, "it ends within its {what}: it is cut short, or damaged before that")
-            }
-            Fault::Foreign => f.write_str("it is no file of binspace: it begins with other bytes"),
-            Fault::Content { found, expected } => {
-                let [found, expected] = [found, expected].map(|name| name.escape_ascii());
-                write!(f, "it holds a \"{found}\" where a \"{expected}\" is expected")
-            }
-            Fault::Version { found, expected } => write!(
-                f,
-                "its layout is version {found}, but this version of binspace reads version \
-                 {expected} alone: write it again, from the polygons"
-            ),
-            Fault::TooMany { what, found, limit } => {
-                write!(
-                    f,
-                    "it claims to have {found} {what}, but {limit} is the most: it is damaged"
-                )
-            }
-            Fault::Checksum { found, expected } => write!(
-                f,
-                "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
-            ),
             Fault::OutOfMemory => f.write_str("out of memory"),
-            Fault::Invalid { what, number: Some(number), fault } => {
-                write!(f, "it was not written by binspace: {what} {number} {fault}")
-            }
-            Fault::Invalid { what, number: None, fault } => {
-                write!(f, "it was not written by binspace: its {what} {fault}")
-            }
+            Fault::File(problem) => f.write_str(problem),
         }
     }
 }
 
 impl std::error::Error for LoadError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match &self.fault {
+        match &self.0 {
             Fault::Io(error) => Some(error),
             _ => None,
         }

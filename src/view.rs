@@ -14,6 +14,9 @@ use crate::viewpoint::{Frustum, Viewpoint};
 /// furthest vertex. Larger: parts near the eye are missing. Smaller: coordinates lose digits.
 const NEAR: f64 = 1e-9;
 
+const NON_FINITE: &str = "a camera parameter is NaN or infinite";
+const FIELD_OF_VIEW: &str = "the field of view must be more than 0 and less than π radians";
+
 /// A camera: a viewpoint, an orientation, and a picture's size in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -67,10 +70,10 @@ impl Camera {
         size: [u32; 2],
     ) -> Result<Self, CameraError> {
         if !field_of_view.is_finite() {
-            return Err(CameraProblem::NonFinite.into());
+            return refused(NON_FINITE);
         }
         if !(field_of_view > 0.0 && field_of_view < std::f64::consts::PI) {
-            return Err(CameraProblem::FieldOfView.into());
+            return refused(FIELD_OF_VIEW);
         }
         let half_height = (field_of_view * 0.5).tan();
         Self::perspective_by_slope(eye, target, up, half_height, size)
@@ -89,12 +92,6 @@ impl Camera {
         half_height: f64,
         size: [u32; 2],
     ) -> Result<Self, CameraError> {
-        if !(eye.is_finite() && target.is_finite() && half_height.is_finite()) {
-            return Err(CameraProblem::NonFinite.into());
-        }
-        if half_height <= 0.0 {
-            return Err(CameraProblem::FieldOfView.into());
-        }
         // Halved first, so that the difference of two finite points is finite.
         let view = target * 0.5 - eye * 0.5;
         Self::oriented(Projection::Perspective { eye, half_height }, view, up, size)
@@ -114,12 +111,6 @@ impl Camera {
         height: f64,
         size: [u32; 2],
     ) -> Result<Self, CameraError> {
-        if !(direction.is_finite() && centre.is_finite() && height.is_finite()) {
-            return Err(CameraProblem::NonFinite.into());
-        }
-        if height <= 0.0 {
-            return Err(CameraProblem::Height.into());
-        }
         Self::oriented(Projection::Parallel { direction, centre, height }, direction, up, size)
     }
 
@@ -129,20 +120,36 @@ impl Camera {
         up: DVec3,
         [width, height]: [u32; 2],
     ) -> Result<Self, CameraError> {
-        if !up.is_finite() {
-            return Err(CameraProblem::NonFinite.into());
+        let (origin, span, too_small) = match projection {
+            Projection::Perspective { eye, half_height } => (eye, half_height, FIELD_OF_VIEW),
+            Projection::Parallel { centre, height, .. } => {
+                (centre, height, "the height that a parallel camera shows must be positive")
+            }
+        };
+        if !(origin.is_finite() && view.is_finite() && up.is_finite() && span.is_finite()) {
+            return refused(NON_FINITE);
+        }
+        if span <= 0.0 {
+            return refused(too_small);
         }
         let sides = 1..=Self::MAX_SIDE;
         let pixels = u64::from(width) * u64::from(height);
         if !sides.contains(&width) || !sides.contains(&height) || pixels > Self::MAX_PIXELS {
-            let (max_side, max_pixels) = (Self::MAX_SIDE, Self::MAX_PIXELS);
-            return Err(CameraProblem::Size { size: [width, height], max_side, max_pixels }.into());
+            return refused(format!(
+                "a picture must have 1 to {} pixels each way and at most {} in all, not {width}x{height}",
+                Self::MAX_SIDE,
+                Self::MAX_PIXELS
+            ));
         }
-        let forward = unit(view).ok_or(CameraProblem::NoDirection)?;
-        let side = forward.cross(unit(up).ok_or(CameraProblem::UpAlongView)?);
+        let Some(forward) = unit(view) else {
+            return refused(
+                "the camera looks nowhere: its eye and target are the same, or its direction is zero",
+            );
+        };
+        let side = forward.cross(unit(up).unwrap_or(forward));
         // Smaller: rounding would decide the picture's orientation.
         if side.length() < 1e-9 {
-            return Err(CameraProblem::UpAlongView.into());
+            return refused("the camera's up vector is zero or along its direction of view");
         }
         let right = side.normalize();
         let up = right.cross(forward).normalize();
@@ -280,7 +287,7 @@ impl Camera {
 /// The unit vector along a vector of any length that `f64` can express; `None` for zero.
 fn unit(v: DVec3) -> Option<DVec3> {
     let size = v.abs().max_element();
-    if size > 0.0 && size.is_finite() { Some((v / size).normalize()) } else { None }
+    (size > 0.0 && size.is_finite()).then(|| (v / size).normalize())
 }
 
 /// The part of a convex polygon where `plane` is not negative (Sutherland & Hodgman 1974).
@@ -304,62 +311,16 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
 
 /// Why a camera, or its rays through a scene, cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CameraError {
-    kind: CameraProblem,
-}
+pub struct CameraError(String);
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum CameraProblem {
-    NonFinite,
-    NoDirection,
-    UpAlongView,
-    FieldOfView,
-    Height,
-    Size { size: [u32; 2], max_side: u32, max_pixels: u64 },
-    Samples { samples: u32 },
-    TooFar,
-    TooNarrow,
-    TooWide,
-}
-
-impl From<CameraProblem> for CameraError {
-    fn from(kind: CameraProblem) -> Self {
-        Self { kind }
-    }
+/// The error of a problem.
+pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, CameraError> {
+    Err(CameraError(problem.into()))
 }
 
 impl fmt::Display for CameraError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.kind {
-            CameraProblem::NonFinite => f.write_str("a camera parameter is NaN or infinite"),
-            CameraProblem::NoDirection => f.write_str(
-                "the camera looks nowhere: its eye and target are the same, or its direction is \
-                 zero",
-            ),
-            CameraProblem::UpAlongView => {
-                f.write_str("the camera's up vector is zero or along its direction of view")
-            }
-            CameraProblem::FieldOfView => {
-                f.write_str("the field of view must be more than 0 and less than π radians")
-            }
-            CameraProblem::Height => f.write_str("the height that a parallel camera shows must be positive"),
-            CameraProblem::Size { size: [width, height], max_side, max_pixels } => write!(
-                f,
-                "a picture must have 1 to {max_side} pixels each way and at most {max_pixels} in all, not \
-                 {width}x{height}"
-            ),
-            CameraProblem::Samples { samples } => write!(
-                f,
-                "{samples} samples each way in a pixel: there must be 1 or more, and fewer than 2³² across the picture"
-            ),
-            CameraProblem::TooFar => f.write_str("the eye is too far from the scene: use a parallel camera"),
-            CameraProblem::TooNarrow => f.write_str(
-                "the camera's view is so narrow that rays would be off by a thousandth of a pixel: widen it",
-            ),
-            CameraProblem::TooWide => f.write_str(
-                "the parallel camera shows, or is centred on, a region too far from the scene",
-            ),
-        }
+        f.write_str(&self.0)
     }
 }
 
@@ -383,8 +344,7 @@ impl Camera {
         up: DVec3,
         size: [u32; 2],
     ) -> Result<Self, CameraError> {
-        let up = unit(up).unwrap_or(DVec3::ZERO);
-        let (side, ahead) = across(up);
+        let [up, side, ahead] = axes(up);
         let from = ahead * 0.8 + side * 0.45 + up * 0.4;
         around(bounds, up, from, 1.0, size)
     }
@@ -403,8 +363,7 @@ pub fn views(
     seed: u64,
 ) -> Result<Vec<Camera>, CameraError> {
     let mut random = SplitMix64::new(seed);
-    let up = unit(up).unwrap_or(DVec3::ZERO);
-    let (side, ahead) = across(up);
+    let [up, side, ahead] = axes(up);
     (0..count)
         .map(|i| {
             if i % 2 == 0 {
@@ -413,7 +372,14 @@ pub fn views(
                 let from = side * angle.cos() + ahead * angle.sin() + up * height;
                 around(bounds, up, from, random.range(0.7, 1.6), size)
             } else {
-                inside(bounds, up, &mut random, size)
+                // At a point in the middle four fifths of the box, looking at another one there.
+                let [eye, target] = [(); 2].map(|()| {
+                    let share = random.point(0.1, 0.9);
+                    bounds[0] * (1.0 - share) + bounds[1] * share
+                });
+                // In a box without extent the two points coincide, or one is straight above the other.
+                Camera::perspective(eye, target, up, INSIDE, size)
+                    .or_else(|_| around(bounds, up, ahead + side, 0.1, size))
             }
         })
         .collect()
@@ -450,30 +416,13 @@ fn around(
     Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
 }
 
-/// A camera at a point in the middle four fifths of a box that looks at another point there.
-fn inside(
-    [min, max]: [DVec3; 2],
-    up: DVec3,
-    random: &mut SplitMix64,
-    size: [u32; 2],
-) -> Result<Camera, CameraError> {
-    let mut point = || {
-        let share = DVec3::from_array(std::array::from_fn(|_| random.range(0.1, 0.9)));
-        min * (1.0 - share) + max * share
-    };
-    let (eye, target) = (point(), point());
-    let (side, ahead) = across(up);
-    let camera = Camera::perspective(eye, target, up, INSIDE, size);
-    // In a box without extent the two points coincide, or one is straight above the other.
-    camera.or_else(|_| around([min, max], up, ahead + side, 0.1, size))
-}
-
-/// Two unit vectors perpendicular to `up` and to each other: for up = z, −y (the second) is the
-/// front, and x to its right; for up = y the front is z.
-fn across(up: DVec3) -> (DVec3, DVec3) {
+/// The unit vector along `up`, and two perpendicular to it and to each other: for up = z, x and −y; for
+/// up = y, x and z. The last is the front, and the second to its right.
+fn axes(up: DVec3) -> [DVec3; 3] {
+    let up = unit(up).unwrap_or(DVec3::ZERO);
     let reference = if up.z.abs() > 0.9 { DVec3::NEG_Y } else { DVec3::Z };
     let side = unit(up.cross(reference)).unwrap_or(DVec3::X);
-    (side, side.cross(up))
+    [up, side, side.cross(up)]
 }
 
 #[cfg(test)]

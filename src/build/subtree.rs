@@ -12,7 +12,7 @@ use super::options::BuildOptions;
 use super::piece::{Piece, Splitter};
 use super::small_sets::{Row, Slot, Table};
 use crate::bits::bits;
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 use crate::memory::{collect, push, reserve};
 use crate::progress::{PIECES_AT_ONCE, Watch};
@@ -210,7 +210,7 @@ impl Builder<'_> {
         self.compact_at = COMPACT.max(2 * self.arena.len());
         // Pieces index their vertices with 32 bits.
         let limit = self.shared.options.max_fragments;
-        if self.arena.len() > 1 << 31 { Err(Limit::Fragments(limit).error()) } else { Ok(()) }
+        if self.arena.len() > 1 << 31 { Err(Kind::Fragments(limit).error()) } else { Ok(()) }
     }
 
     /// Removes the set on top of the stack and gives it an arena of its own.
@@ -582,7 +582,7 @@ impl Budget {
     pub(super) fn count(&self, new: usize) -> Result<(), Error> {
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
         if total > self.max_fragments {
-            Err(Limit::Fragments(self.max_fragments).error())
+            Err(Kind::Fragments(self.max_fragments).error())
         } else {
             Ok(())
         }
@@ -590,6 +590,6 @@ impl Budget {
 
     /// Checks the depth of a node; an error if it is too deep.
     pub(super) fn check_depth(&self, depth: usize) -> Result<(), Error> {
-        if depth > self.max_depth { Err(Limit::Depth(self.max_depth).error()) } else { Ok(()) }
+        if depth > self.max_depth { Err(Kind::Depth(self.max_depth).error()) } else { Ok(()) }
     }
 }

@@ -14,7 +14,7 @@ use super::cell::{Cell, Rect, Side, are_apart};
 use super::lines::Adopted;
 use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
 use super::tile::{CUT, IN_VAIN, LINES, List, Tile, found_in, in_vain};
-use crate::error::{Error, InputFault};
+use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
 use crate::raster::Rays;
@@ -214,7 +214,7 @@ fn checked(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> Result<Vec<f64>, E
     let opacities: Vec<_> = (0..tree.preparation().polygons).map(opacity).collect();
     let is_wrong = |opacity: &f64| !(0.0..=1.0).contains(opacity);
     match opacities.iter().position(is_wrong) {
-        Some(polygon) => Err(InputFault::Opacity { value: opacities[polygon] }.of_polygon(polygon)),
+        Some(polygon) => Err(Kind::Opacity(opacities[polygon]).of_polygon(polygon)),
         None if opacities.iter().all(|&opacity| opacity == 1.0) => Ok(vec![]),
         None => Ok(opacities),
     }

@@ -14,7 +14,7 @@ use super::names::PlaneKind;
 #[cfg(feature = "layers")]
 use super::{Flattener, cross, have_area, is_convex};
 use super::{Lattice, PlaneId};
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::memory::{collect, reserve};
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
@@ -222,7 +222,7 @@ impl Faces {
     ) -> Result<(), Error> {
         let start = self.corners.len();
         if start + corners.len() >= MAX_NAMES {
-            return Err(Limit::Corners(MAX_NAMES).error());
+            return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
         // Both at first: corners without a face would be those of the face before.
         reserve(&mut self.corners, corners.len())?;
@@ -332,7 +332,7 @@ impl Faces {
     pub(crate) fn append(&mut self, next: Self) -> Result<(), Error> {
         let (corners, numbers) = (self.corners.len(), self.numbers.len() as u32);
         if corners + next.corners.len() >= MAX_NAMES {
-            return Err(Limit::Corners(MAX_NAMES).error());
+            return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
         let first = self.faces.len() as u32;
         let numbered = next.numbered.iter();

@@ -7,7 +7,7 @@ mod triangulate;
 
 use glam::DVec3;
 
-use crate::error::{Error, InputFault, InputKind, Kind, Limit};
+use crate::error::{Error, Kind, Shape};
 use crate::exact::faces::Frame;
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{Faces, LATTICE_LIMIT, Lattice, MAX_NAMES, cross};
@@ -222,7 +222,7 @@ impl Preparer {
     ) -> Result<Preparation, Error> {
         self.input.read(polygons, limit, watch)?;
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
-            return Err(InputFault::OffGrid.of_polygon(polygon));
+            return Err(Kind::OffGrid.of_polygon(polygon));
         }
         let before = faces.len();
         let report = self.add_all(faces, &SnapParams::of(faces), watch);
@@ -241,7 +241,7 @@ impl Preparer {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         numbers.clear();
-        self.read_thin(faces, lines, InputKind::Line, watch)?;
+        self.read_thin(faces, lines, Shape::Line, watch)?;
         let mut corners = Vec::new();
         for line in 0..self.input.len() {
             let given = self.input.polygon(line);
@@ -267,7 +267,7 @@ impl Preparer {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let points = points.into_iter().map(|point| [point]);
-        self.read_thin(faces, points, InputKind::Point, watch)?;
+        self.read_thin(faces, points, Shape::Point, watch)?;
         for number in 0..self.input.len() {
             let lattice = faces.lattice;
             let at = self.input.polygon(number).iter().map(|&point| lattice.snap(point));
@@ -281,12 +281,12 @@ impl Preparer {
         &mut self,
         faces: &Faces,
         shapes: impl IntoIterator<Item = P>,
-        kind: InputKind,
+        kind: Shape,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         self.input.read(shapes, usize::MAX, watch).map_err(|error| error.of(kind))?;
         match self.input.first_off(&faces.lattice) {
-            Some(number) => Err(InputFault::OffGrid.of_polygon(number).of(kind)),
+            Some(number) => Err(Kind::OffGrid.of_polygon(number).of(kind)),
             None => Ok(()),
         }
     }
@@ -394,8 +394,8 @@ impl InputPolygons {
     ) -> Result<(), Error> {
         let mut polygons = polygons.into_iter();
         let too_many = match limit <= MAX_NAMES {
-            true => Limit::PolygonsOfBudget(limit),
-            false => Limit::Polygons(MAX_NAMES),
+            true => Kind::PolygonsOfBudget(limit),
+            false => Kind::Polygons(MAX_NAMES),
         };
         let limit = limit.min(MAX_NAMES);
         let expected = polygons.size_hint().0;
@@ -441,7 +441,7 @@ impl InputPolygons {
             // Infinity and NaN times 0 are NaN.
             let zero = self.points[before..].iter().fold(DVec3::ZERO, |sum, &p| sum + p * 0.0);
             if zero != DVec3::ZERO {
-                return Err(InputFault::NonFinite.of_polygon(index));
+                return Err(Kind::NonFinite.of_polygon(index));
             }
             read = self.points.len() - before;
         }
@@ -449,13 +449,13 @@ impl InputPolygons {
         for (corner, point) in (read..).zip(corners) {
             if corner % PIECES_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
-                    return Err(InputFault::Corners { limit: MAX_CORNERS }.of_polygon(index));
+                    return Err(Kind::Corners(MAX_CORNERS).of_polygon(index));
                 }
                 self.check_count()?;
                 watch.expect(index)?;
             }
             if !point.is_finite() {
-                return Err(InputFault::NonFinite.of_polygon(index));
+                return Err(Kind::NonFinite.of_polygon(index));
             }
             push(&mut self.points, point)?;
         }
@@ -470,7 +470,7 @@ impl InputPolygons {
     /// An error if there are more corners than can be named.
     fn check_count(&self) -> Result<(), Error> {
         if self.points.len() > MAX_NAMES {
-            return Err(Limit::Corners(MAX_NAMES).error());
+            return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
         Ok(())
     }

@@ -64,7 +64,7 @@ impl Tolerance {
     pub(super) fn check(self) -> Result<(), Error> {
         match self {
             Self::Length(value) | Self::Relative(value) if value.is_nan() || value < 0.0 => {
-                Err(Kind::Tolerance { value }.error())
+                Err(Kind::Tolerance(value).error())
             }
             _ => Ok(()),
         }

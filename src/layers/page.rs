@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::clip::{MOST_CORNERS, clip};
 use super::piece::{ClippedCorner, Layer, LayerPiece};
 use crate::build::{BuildOptions, FrameBuilder};
-use crate::error::{Error, InputFault, InputKind, Kind};
+use crate::error::{Error, Kind, Shape};
 use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
 use crate::viewpoint::Viewpoint;
@@ -158,12 +158,7 @@ impl Layers {
         let mut coarsest = 0.0f64;
         for (layer, from) in self.layers.iter().enumerate() {
             if !from.is_finite() {
-                return Err(Kind::Input {
-                    shape: InputKind::Layer,
-                    number: layer,
-                    fault: InputFault::Layer,
-                }
-                .error());
+                return Err(Kind::Layer.of_polygon(layer).of(Shape::Layer));
             }
             self.corners.reserve(MOST_CORNERS);
             let corners = self.corners.len();

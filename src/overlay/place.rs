@@ -7,7 +7,7 @@ use super::planes::{CellTree, Opened, Region, Whose};
 use super::skeleton::{Anchors, InsertionTree, Place, SlotSide};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::exact::{EdgeLine, Faces, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
@@ -89,7 +89,7 @@ impl Work<'_> {
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
         if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
-            return Err(Limit::Fragments(MOST_FRAGMENTS).error());
+            return Err(Kind::Fragments(MOST_FRAGMENTS).error());
         }
         if pieces.is_empty() && region.node.is_none() {
             // Polygons of a cell that no line or point comes to.
@@ -281,7 +281,7 @@ impl super::Overlay {
         self.expect(tree)?;
         if self.base.faces < self.first_thin() {
             let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
-            return Err(crate::error::InputFault::InOverlay.of_polygon(number));
+            return Err(crate::error::Kind::InOverlay.of_polygon(number));
         }
         Ok(())
     }

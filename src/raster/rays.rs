@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::exact::{Eye, Faces, Lattice};
-use crate::view::{Camera, CameraError, CameraProblem, Projection};
+use crate::view::{Camera, CameraError, Projection, refused};
 use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
@@ -104,7 +104,10 @@ impl Rays {
     pub fn sampled(camera: &Camera, faces: &Faces, samples: u32) -> Result<Self, CameraError> {
         let sides = camera.size().map(|side| side.checked_mul(samples).filter(|&side| side > 0));
         let [Some(width), Some(height)] = sides else {
-            return Err(CameraProblem::Samples { samples }.into());
+            return refused(format!(
+                "{samples} samples each way in a pixel: there must be 1 or more, and fewer than 2³² \
+                 across the picture"
+            ));
         };
         let size = [width, height];
         let lattice = *faces.lattice();
@@ -133,7 +136,7 @@ impl Rays {
                 let finest = finest(size, samples);
                 Self::build(camera, lattice, size, pencil, middle, [step, finest], depth_unit)
             }
-            _ => Err(CameraProblem::TooFar.into()),
+            _ => refused("the eye is too far from the scene: use a parallel camera"),
         }
     }
 
@@ -153,10 +156,14 @@ impl Rays {
         let reach = middle.abs() + right.abs() * width + down.abs() * height;
         let fits = reach.max_element() < REGION;
         if !fits {
-            return Err(CameraProblem::TooWide.into());
+            let problem =
+                "the parallel camera shows, or is centred on, a region too far from the scene";
+            return refused(problem);
         }
         if step < finest {
-            return Err(CameraProblem::TooNarrow.into());
+            let problem = "the camera's view is so narrow that rays would be off by a thousandth of a pixel: \
+                           widen it";
+            return refused(problem);
         }
         let integer = |v: DVec3| v.to_array().map(|c| c.round() as i64);
         // Even steps, so that half a step is an integer and the middle of the picture is exact,

@@ -11,143 +11,119 @@ use std::str::FromStr;
 /// The largest number of polygons of a generated scene: about 2 GB of corners.
 const MOST: u32 = 20_000_000;
 
-/// The distance between neighbouring layers in the built-in scene `layers`, whose side is 2.
-const LAYER_GAP: f64 = 1e-4;
+/// How a scene is generated. If it has a size: the default size, and the meaning of a size.
+#[derive(Clone, Copy)]
+enum Recipe {
+    OfOneSize(fn() -> Scene),
+    Sized(u32, &'static str, fn(u32) -> Scene),
+    Seeded(u32, &'static str, fn(u32, u64) -> Scene),
+}
 
-/// The generated scenes, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Builtin {
+/// Makes the list of generated scenes from a table: the variant, its name, a line on what it shows, and
+/// how it is generated.
+macro_rules! builtin {
+    ($($(#[$doc:meta])* $scene:ident $name:literal $description:literal $recipe:expr;)*) => {
+        /// The generated scenes, by name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
+        pub enum Builtin {
+            $($(#[$doc])* $scene,)*
+        }
+
+        impl Builtin {
+            /// Every scene, in the order in which to list them.
+            pub const ALL: &'static [Self] = &[$(Self::$scene),*];
+
+            fn row(self) -> (&'static str, &'static str, Recipe) {
+                use Recipe::*;
+                match self {
+                    $(Self::$scene => ($name, $description, $recipe),)*
+                }
+            }
+        }
+    };
+}
+
+builtin! {
     /// [`newell_bars`].
-    Newell,
+    Newell "newell" "three bars that cover one another in a cycle" OfOneSize(newell_bars);
     /// [`cornell_box`].
-    Cornell,
+    Cornell "cornell" "the Cornell box as measured, open towards the viewer" OfOneSize(cornell_box);
     /// [`teapot`].
-    Teapot,
+    Teapot "teapot" "the Utah teapot from its 32 Bézier patches"
+        Sized(8, "quads along a patch side (32·size² polygons)", teapot);
     /// [`crossing`].
-    Crossing,
+    Crossing "crossing" "upright squares that all cross in one line" Sized(2, "squares", crossing);
     /// [`terrain`].
-    Terrain,
+    Terrain "terrain" "a hilly height field of triangles, seeded"
+        Seeded(5_000, "triangles, about", terrain);
     /// [`sphere`].
-    Sphere,
+    Sphere "sphere" "a convex sphere of quads, triangles at its poles"
+        Sized(2_000, "faces, about", sphere);
     /// [`city`].
-    City,
+    City "city" "houses of random heights on a grid, seeded" Seeded(2_000, "polygons, about", city);
     /// [`random_triangles`].
-    Random,
+    Random "random" "triangles anywhere in a cube, crossing each other, seeded"
+        Seeded(500, "triangles", random_triangles);
     /// [`chain`].
-    Chain,
+    Chain "chain" "parallel squares, one behind the other" Sized(1_000, "squares", chain);
     /// [`layers`], 1e-4 apart.
-    Layers,
+    Layers "layers" "nested squares in layers 1e-4 apart"
+        Sized(20, "squares", |size| layers(size, 1e-4));
 }
 
 impl Builtin {
-    /// Every scene, in the order in which to list them.
-    pub const ALL: &'static [Self] = &[
-        Self::Newell,
-        Self::Cornell,
-        Self::Teapot,
-        Self::Crossing,
-        Self::Terrain,
-        Self::Sphere,
-        Self::City,
-        Self::Random,
-        Self::Chain,
-        Self::Layers,
-    ];
-
     /// The name by which a user asks for the scene.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Newell => "newell",
-            Self::Cornell => "cornell",
-            Self::Teapot => "teapot",
-            Self::Crossing => "crossing",
-            Self::Terrain => "terrain",
-            Self::Sphere => "sphere",
-            Self::City => "city",
-            Self::Random => "random",
-            Self::Chain => "chain",
-            Self::Layers => "layers",
-        }
+        self.row().0
     }
 
     /// One line on what the scene shows.
     pub fn description(self) -> &'static str {
-        match self {
-            Self::Newell => "three bars that cover one another in a cycle",
-            Self::Cornell => "the Cornell box as measured, open towards the viewer",
-            Self::Teapot => "the Utah teapot from its 32 Bézier patches",
-            Self::Crossing => "upright squares that all cross in one line",
-            Self::Terrain => "a hilly height field of triangles, seeded",
-            Self::Sphere => "a convex sphere of quads, triangles at its poles",
-            Self::City => "houses of random heights on a grid, seeded",
-            Self::Random => "triangles anywhere in a cube, crossing each other, seeded",
-            Self::Chain => "parallel squares, one behind the other",
-            Self::Layers => "nested squares in layers 1e-4 apart",
+        self.row().1
+    }
+
+    /// The default size and the meaning of a size.
+    fn size(self) -> Option<(u32, &'static str)> {
+        match self.row().2 {
+            Recipe::OfOneSize(_) => None,
+            Recipe::Sized(size, meaning, _) | Recipe::Seeded(size, meaning, _) => {
+                Some((size, meaning))
+            }
         }
     }
 
     /// What the size counts; `None` for scenes of one size.
     pub fn size_meaning(self) -> Option<&'static str> {
-        match self {
-            Self::Newell | Self::Cornell => None,
-            Self::Teapot => Some("quads along a patch side (32·size² polygons)"),
-            Self::Crossing | Self::Chain | Self::Layers => Some("squares"),
-            Self::Terrain => Some("triangles, about"),
-            Self::Sphere => Some("faces, about"),
-            Self::City => Some("polygons, about"),
-            Self::Random => Some("triangles"),
-        }
+        self.size().map(|(_, meaning)| meaning)
     }
 
     /// The default size; `None` for scenes of one size.
     pub fn default_size(self) -> Option<u32> {
-        match self {
-            Self::Newell | Self::Cornell => None,
-            Self::Teapot => Some(8),
-            Self::Crossing => Some(2),
-            Self::Terrain => Some(5_000),
-            Self::Sphere => Some(2_000),
-            Self::City => Some(2_000),
-            Self::Random => Some(500),
-            Self::Chain => Some(1_000),
-            Self::Layers => Some(20),
-        }
+        self.size().map(|(size, _)| size)
     }
 
     /// The range of valid sizes; `None` for scenes of one size. At most about 20 million polygons.
     pub fn sizes(self) -> Option<RangeInclusive<u32>> {
-        match self {
-            Self::Newell | Self::Cornell => None,
-            // 32 · 790² = 19 971 200 polygons.
-            Self::Teapot => Some(2..=790),
-            _ => Some(1..=MOST),
-        }
+        // 32 · 790² = 19 971 200 polygons.
+        let sizes = if self == Self::Teapot { 2..=790 } else { 1..=MOST };
+        self.size().map(|_| sizes)
     }
 
     /// Whether the seed matters.
     pub fn is_seeded(self) -> bool {
-        matches!(self, Self::Terrain | Self::City | Self::Random)
+        matches!(self.row().2, Recipe::Seeded(..))
     }
 
     /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of one
     /// size ignore the size, and unseeded scenes the seed.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
-        let size = match (self.sizes(), size.or(self.default_size())) {
-            (Some(sizes), Some(size)) => size.clamp(*sizes.start(), *sizes.end()),
-            _ => 1,
-        };
-        match self {
-            Self::Newell => newell_bars(),
-            Self::Cornell => cornell_box(),
-            Self::Teapot => teapot(size),
-            Self::Crossing => crossing(size),
-            Self::Terrain => terrain(size, seed),
-            Self::Sphere => sphere(size),
-            Self::City => city(size, seed),
-            Self::Random => random_triangles(size, seed),
-            Self::Chain => chain(size),
-            Self::Layers => layers(size, LAYER_GAP),
+        let (low, high) = self.sizes().unwrap_or(1..=1).into_inner();
+        let clamp = |default| size.unwrap_or(default).clamp(low, high);
+        match self.row().2 {
+            Recipe::OfOneSize(make) => make(),
+            Recipe::Sized(default, _, make) => make(clamp(default)),
+            Recipe::Seeded(default, _, make) => make(clamp(default), seed),
         }
     }
 }
@@ -163,11 +139,11 @@ impl FromStr for Builtin {
 
     /// Reads a bare name; [`BuiltinSpec`] reads a name with a size.
     fn from_str(text: &str) -> Result<Self, BuiltinError> {
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|scene| scene.name() == text)
-            .ok_or_else(|| BuiltinError(Kind::Name(text.to_owned())))
+        Self::ALL.iter().copied().find(|scene| scene.name() == text).ok_or_else(|| {
+            let names: Vec<_> = Self::ALL.iter().map(|scene| scene.name()).collect();
+            let names = names.join(", ");
+            BuiltinError(format!("no built-in scene is called {text:?}; there are {names}"))
+        })
     }
 }
 
@@ -237,48 +213,28 @@ impl FromStr for BuiltinSpec {
             return text.parse().map(|scene: Builtin| scene.into());
         };
         let scene: Builtin = name.parse()?;
-        let Some(sizes) = scene.sizes() else {
-            return Err(BuiltinError(Kind::OneSize(scene)));
+        let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
+            let problem = format!("the scene {scene} has one size; ask for it as `{scene}`");
+            return Err(BuiltinError(problem));
         };
-        match digits.parse() {
-            Ok(size) if sizes.contains(&size) => Ok(Self { scene, size: Some(size) }),
-            _ => Err(BuiltinError(Kind::Size(scene, digits.to_owned()))),
-        }
+        let size = digits.parse().ok().filter(|size| sizes.contains(size));
+        size.map(|size| Self { scene, size: Some(size) }).ok_or_else(|| {
+            let (low, high) = sizes.into_inner();
+            BuiltinError(format!(
+                "{digits:?} is not a size of the scene {scene}; give a whole number from {low} to \
+                 {high}, such as {scene}:{default}"
+            ))
+        })
     }
 }
 
 /// Why a text names no generated scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BuiltinError(Kind);
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-enum Kind {
-    Name(String),
-    OneSize(Builtin),
-    Size(Builtin, String),
-}
+pub struct BuiltinError(String);
 
 impl fmt::Display for BuiltinError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
-            Kind::Name(name) => {
-                let names =
-                    Builtin::ALL.iter().map(|scene| scene.name()).collect::<Vec<_>>().join(", ");
-                write!(f, "no built-in scene is called {name:?}; there are {names}")
-            }
-            Kind::OneSize(scene) => {
-                write!(f, "the scene {scene} has one size; ask for it as `{scene}`")
-            }
-            Kind::Size(scene, digits) => {
-                let (low, high) = scene.sizes().unwrap_or(1..=1).into_inner();
-                write!(
-                    f,
-                    "{digits:?} is not a size of the scene {scene}; give a whole number from {low} \
-                     to {high}, such as {scene}:{}",
-                    scene.default_size().unwrap_or(low)
-                )
-            }
-        }
+        f.write_str(&self.0)
     }
 }
 

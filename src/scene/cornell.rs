@@ -3,21 +3,17 @@
 use super::{Material, Scene};
 use glam::{DVec3, dvec3};
 
-/// The corners of the short block's top, counter-clockwise from above.
-const SHORT_BLOCK: [DVec3; 4] = [
-    dvec3(130.0, 165.0, 65.0),
-    dvec3(82.0, 165.0, 225.0),
-    dvec3(240.0, 165.0, 272.0),
-    dvec3(290.0, 165.0, 114.0),
+/// The corners of the short and of the tall block's top, counter-clockwise from above.
+const BLOCKS: [[[f64; 3]; 4]; 2] = [
+    [[130.0, 165.0, 65.0], [82.0, 165.0, 225.0], [240.0, 165.0, 272.0], [290.0, 165.0, 114.0]],
+    [[423.0, 330.0, 247.0], [265.0, 330.0, 296.0], [314.0, 330.0, 456.0], [472.0, 330.0, 406.0]],
 ];
-
-/// The corners of the tall block's top, counter-clockwise from above.
-const TALL_BLOCK: [DVec3; 4] = [
-    dvec3(423.0, 330.0, 247.0),
-    dvec3(265.0, 330.0, 296.0),
-    dvec3(314.0, 330.0, 456.0),
-    dvec3(472.0, 330.0, 406.0),
-];
+const FLOOR: [[f64; 3]; 4] =
+    [[552.8, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 559.2], [549.6, 0.0, 559.2]];
+const CEILING: [[f64; 3]; 4] =
+    [[556.0, 548.8, 0.0], [556.0, 548.8, 559.2], [0.0, 548.8, 559.2], [0.0, 548.8, 0.0]];
+const LAMP: [[f64; 3]; 4] =
+    [[343.0, 548.8, 227.0], [343.0, 548.8, 332.0], [213.0, 548.8, 332.0], [213.0, 548.8, 227.0]];
 
 /// The Cornell box: 16 quads in millimetres, up is y, open towards −z.
 ///
@@ -44,43 +40,22 @@ pub fn cornell_box() -> Scene {
         scene.add_material(Material::new("block", color))
     });
 
-    let floor = [
-        dvec3(552.8, 0.0, 0.0),
-        dvec3(0.0, 0.0, 0.0),
-        dvec3(0.0, 0.0, 559.2),
-        dvec3(549.6, 0.0, 559.2),
-    ];
-    let top = [
-        dvec3(556.0, 548.8, 0.0),
-        dvec3(556.0, 548.8, 559.2),
-        dvec3(0.0, 548.8, 559.2),
-        dvec3(0.0, 548.8, 0.0),
-    ];
+    let (floor, top) = (FLOOR.map(DVec3::from), CEILING.map(DVec3::from));
     scene.push(floor, white);
     // Before the lamp: of coplanar polygons the later one shows.
     scene.push(top, ceiling);
-    scene.push(
-        [
-            dvec3(343.0, 548.8, 227.0),
-            dvec3(343.0, 548.8, 332.0),
-            dvec3(213.0, 548.8, 332.0),
-            dvec3(213.0, 548.8, 227.0),
-        ],
-        lamp,
-    );
+    scene.push(LAMP.map(DVec3::from), lamp);
     scene.push([floor[3], floor[2], top[2], top[1]], back);
     scene.push([floor[2], floor[1], top[3], top[2]], green);
     scene.push([floor[0], floor[3], top[1], top[0]], red);
-    push_block(&mut scene, SHORT_BLOCK, shades);
-    push_block(&mut scene, TALL_BLOCK, shades);
-    scene
-}
-
-fn push_block(scene: &mut Scene, top: [DVec3; 4], shades: [u32; 5]) {
-    scene.push(top, shades[0]);
-    for side in 0..4 {
-        let (a, b) = (top[side], top[(side + 1) % 4]);
-        let (under_a, under_b) = (dvec3(a.x, 0.0, a.z), dvec3(b.x, 0.0, b.z));
-        scene.push([under_a, under_b, b, a], shades[side + 1]);
+    for block in BLOCKS {
+        let top = block.map(DVec3::from);
+        scene.push(top, shades[0]);
+        for side in 0..4 {
+            let (a, b) = (top[side], top[(side + 1) % 4]);
+            let (under_a, under_b) = (dvec3(a.x, 0.0, a.z), dvec3(b.x, 0.0, b.z));
+            scene.push([under_a, under_b, b, a], shades[side + 1]);
+        }
     }
+    scene
 }

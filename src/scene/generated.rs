@@ -161,13 +161,7 @@ pub fn sphere(faces: u32) -> Scene {
             let material = shades[(row + column) % 2];
             let (a, b) = (corner(row, column), corner(row, column + 1));
             let (c, d) = (corner(row + 1, column + 1), corner(row + 1, column));
-            if row == 0 {
-                scene.push([a, c, d], material);
-            } else if row + 1 == rows as usize {
-                scene.push([a, b, c], material);
-            } else {
-                scene.push([a, b, c, d], material);
-            }
+            scene.push_quad([a, b, c, d], material);
         }
     }
     scene
@@ -233,18 +227,15 @@ pub fn random_triangles(count: u32, seed: u64) -> Scene {
 /// Draws until the triangle fits. One draw in about 16 does; a thousand misses in a row are as good
 /// as impossible, and then a fixed triangle ends the loop.
 fn random_triangle(random: &mut SplitMix64) -> [DVec3; 3] {
-    for _ in 0..1000 {
+    let draw = |_| {
         let a = random.point(0.0, 1.0);
-        let b = a + random.point(-EDGES.1, EDGES.1);
-        let c = a + random.point(-EDGES.1, EDGES.1);
-        if fits([a, b, c]) {
-            return [a, b, c];
-        }
-    }
-    [DVec3::ZERO, DVec3::X * EDGES.1, DVec3::Y * EDGES.1 * 0.5]
+        [a, a + random.point(-EDGES.1, EDGES.1), a + random.point(-EDGES.1, EDGES.1)]
+    };
+    let fixed = [DVec3::ZERO, DVec3::X * EDGES.1, DVec3::Y * EDGES.1 * 0.5];
+    (0..1000).map(draw).find(fits).unwrap_or(fixed)
 }
 
-fn fits([a, b, c]: [DVec3; 3]) -> bool {
+fn fits(&[a, b, c]: &[DVec3; 3]) -> bool {
     let edges = [b - a, c - b, a - c].map(DVec3::length_squared);
     let inside = |p: DVec3| p.min_element() >= 0.0 && p.max_element() <= 1.0;
     let fair = |square| (EDGES.0 * EDGES.0..=EDGES.1 * EDGES.1).contains(&square);
@@ -258,10 +249,8 @@ fn fits([a, b, c]: [DVec3; 3]) -> bool {
 pub fn chain(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("chain:{count}"));
     for index in 0..count {
-        let y = f64::from(index);
-        let corner = |x: f64, z: f64| DVec3::new(x, y, z);
-        let square = [corner(-5.0, -5.0), corner(5.0, -5.0), corner(5.0, 5.0), corner(-5.0, 5.0)];
-        scene.push(square, index % 8);
+        let square = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)];
+        scene.push(square.map(|(x, z)| DVec3::new(x, index.into(), z)), index % 8);
     }
     scene
 }
@@ -287,22 +276,17 @@ pub fn layers(count: u32, gap: f64) -> Scene {
 /// The six rectangles of an axis-aligned box, counter-clockwise from outside, in the order −x +x −y
 /// +y −z +z.
 pub fn cuboid(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
-    let corner = |x: bool, y: bool, z: bool| {
-        DVec3::new(
-            if x { high.x } else { low.x },
-            if y { high.y } else { low.y },
-            if z { high.z } else { low.z },
-        )
-    };
-    let (o, i) = (false, true);
+    let ends = [low, high];
+    let corner = |[x, y, z]: [usize; 3]| DVec3::new(ends[x].x, ends[y].y, ends[z].z);
     [
-        [corner(o, o, o), corner(o, o, i), corner(o, i, i), corner(o, i, o)],
-        [corner(i, o, o), corner(i, i, o), corner(i, i, i), corner(i, o, i)],
-        [corner(o, o, o), corner(i, o, o), corner(i, o, i), corner(o, o, i)],
-        [corner(o, i, o), corner(o, i, i), corner(i, i, i), corner(i, i, o)],
-        [corner(o, o, o), corner(o, i, o), corner(i, i, o), corner(i, o, o)],
-        [corner(o, o, i), corner(i, o, i), corner(i, i, i), corner(o, i, i)],
+        [[0, 0, 0], [0, 0, 1], [0, 1, 1], [0, 1, 0]],
+        [[1, 0, 0], [1, 1, 0], [1, 1, 1], [1, 0, 1]],
+        [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]],
+        [[0, 1, 0], [0, 1, 1], [1, 1, 1], [1, 1, 0]],
+        [[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0]],
+        [[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
     ]
+    .map(|face| face.map(corner))
 }
 
 /// The point of the unit circle at `step`/`steps` of a full turn, counter-clockwise from (1, 0),

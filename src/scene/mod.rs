@@ -156,6 +156,13 @@ impl Scene {
         self.material_of.push(material);
     }
 
+    /// Adds a quad, or the triangle that it is where neighbouring corners coincide.
+    fn push_quad(&mut self, corners: [DVec3; 4], material: u32) {
+        let mut corners = corners.to_vec();
+        corners.dedup();
+        self.push(corners, material);
+    }
+
     /// Sets the view that [`suggested_view`](Self::suggested_view) returns.
     #[must_use]
     pub fn with_view(mut self, eye: DVec3, target: DVec3) -> Self {

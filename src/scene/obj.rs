@@ -1,26 +1,19 @@
 //! Wavefront OBJ files as scenes.
 
-mod attributes;
 mod decimals;
-mod error;
-pub(crate) mod file;
-mod lines;
 mod material;
-mod report;
-mod stream;
-mod text;
+mod statements;
 
-pub use error::ObjError;
-pub use report::ObjReport;
-pub use stream::ObjStream;
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 
-use super::{Material, Scene};
-use error::Kind;
-use glam::DVec3;
-use lines::Scan;
-use material::Look;
-use std::collections::HashMap;
-use std::path::Path;
+use glam::{DVec2, DVec3};
+
+use super::{Attributes, Scene};
+use statements::{Place, Problem, Statement, index, read};
 
 impl Scene {
     /// Reads a Wavefront OBJ file and the material libraries it names.
@@ -48,7 +41,7 @@ impl Scene {
     ///
     /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d` or `Tr` as opacity.
     /// A library that is missing or unreadable is no error; its materials show as
-    /// [`Material::DEFAULT`], and the report says so.
+    /// [`Material::DEFAULT`](super::Material::DEFAULT), and the report says so.
     ///
     /// Libraries are read from the file's folder and the folders in it. A name that leads out of
     /// it, because it is absolute or contains `..`, is not followed, and the report lists it.
@@ -56,7 +49,8 @@ impl Scene {
     /// file.) Only regular files are read.
     ///
     /// The file itself may be a device, or a pipe without a name as behind `/dev/stdin`. A named pipe is
-    /// refused, since reading one that nobody writes to would wait without an end.
+    /// refused, since reading one that nobody writes to would wait without an end. A line that is not
+    /// UTF-8 is taken for Latin-1.
     ///
     /// # Errors
     ///
@@ -65,14 +59,7 @@ impl Scene {
     /// there, or that has more than 2²² corners. The error names the line and face.
     pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), ObjError> {
         let path = path.as_ref();
-        let name = path.display().to_string();
-        let bytes =
-            file::read(path).map_err(|error| Kind::Read(error).at(None, None).in_file(&name))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::from_obj(&name, &bytes, |library| {
-            let library = folder.join(library);
-            library.is_file().then(|| std::fs::read(library).ok())?
-        })
+        load(&path.display().to_string(), open(path), beside(path))
     }
 
     /// Reads the text of an OBJ file as [`read_obj`](Self::read_obj) does.
@@ -89,103 +76,442 @@ impl Scene {
         bytes: &[u8],
         library: impl FnMut(&Path) -> Option<Vec<u8>>,
     ) -> Result<(Self, ObjReport), ObjError> {
-        let read = || {
-            let scan = Scan::new(&text::decode(bytes)?)?;
-            let polygons = load(&scan)?;
-            Ok((scan, polygons))
-        };
-        let (mut scan, polygons) = read().map_err(|error: ObjError| error.in_file(name))?;
-        let looks = material::load(&scan.libraries, library, &mut scan.report);
-        let mut scene = Self::new(name, DVec3::Y);
-        add_materials(&mut scene, &scan.materials, &looks, &mut scan.report);
-        for (polygon, material) in polygons.iter().zip(&scan.material_of) {
-            if is_degenerate(polygon) {
-                scan.report.degenerate_faces += 1;
+        load(name, Ok(bytes), library)
+    }
+}
+
+/// Reads a whole file.
+///
+/// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth one, reorders
+/// faces by material, fails on indices of normals that are not read, and names no line in its errors. So it
+/// gets only checked `v` lines of three numbers and `f` lines of vertex numbers. It holds all faces of a file
+/// at once, so [`ObjStream`] does without it.
+fn load(
+    name: &str,
+    input: io::Result<impl Read>,
+    library: impl FnMut(&Path) -> Option<Vec<u8>>,
+) -> Result<(Scene, ObjReport), ObjError> {
+    let (mut cleaned, mut materials, mut lines) = (String::new(), Vec::new(), Vec::new());
+    let mut given = Given::default();
+    let (mut contents, _) = read(name, input, |statement, words| {
+        match statement {
+            Statement::Vertex(_) => {
+                cleaned.push_str("\nv");
+                (&mut *words).take(3).for_each(|word| cleaned.extend([" ", word]));
+                // One number behind the coordinates is a weight.
+                given.colors.push(match numbers(words)[..] {
+                    [Some(r), Some(g), Some(b)] => Some([r, g, b].map(|c| c as f32)),
+                    _ => None,
+                });
             }
-            scene.push(polygon.iter().copied(), *material);
+            // The second coordinate may be missing, and a third one is of no use here.
+            Statement::TextureCoordinates => given.uvs.push(match numbers(words)[..] {
+                [Some(u)] => Some(DVec2::new(u, 0.0)),
+                [Some(u), Some(v), ..] => Some(DVec2::new(u, v)),
+                _ => None,
+            }),
+            Statement::Normal => given.normals.push(match numbers(words)[..] {
+                [Some(x), Some(y), Some(z), ..] => Some(DVec3::new(x, y, z)),
+                _ => None,
+            }),
+            Statement::Face { corners, material, line } => {
+                cleaned.push_str("\nf");
+                for (&corner, word) in corners.iter().zip(words) {
+                    let (vertex, others) = word.split_once('/').unwrap_or((word, ""));
+                    cleaned.extend([" ", vertex]);
+                    given.corner(corner, others);
+                }
+                materials.push(material);
+                lines.push(line);
+            }
         }
-        scene.lines = scan.face_lines;
-        scene.precision = 4.0 * scan.decimals.unit();
-        (scene.attributes, scan.report.skipped_attributes) = scan.attributes.finish();
-        Ok((scene, scan.report))
-    }
-}
-
-/// Faces as lists of corners, back to back.
-struct Polygons {
-    corners: Vec<DVec3>,
-    sides: Vec<u32>,
-}
-
-impl Polygons {
-    fn iter(&self) -> impl Iterator<Item = &[DVec3]> {
-        let mut rest = &self.corners[..];
-        self.sides.iter().map(move |&sides| {
-            let (polygon, behind) = rest.split_at(sides as usize);
-            rest = behind;
-            polygon
-        })
-    }
-}
-
-/// Lets `tobj` read the cleaned text, and checks that it found every face with every corner.
-fn load(scan: &Scan) -> Result<Polygons, ObjError> {
+        ControlFlow::<()>::Continue(())
+    })?;
     let options = tobj::LoadOptions::default();
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let (models, _) = tobj::load_obj_buf(&mut scan.cleaned.as_bytes(), &options, no_library)
-        .map_err(|error| Kind::Reader(error.to_string()).at(None, None))?;
-    let mut polygons = Polygons {
-        corners: Vec::with_capacity(scan.corners),
-        sides: Vec::with_capacity(scan.report.faces),
-    };
-    for mesh in models.iter().map(|model| &model.mesh) {
-        let points: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
-        let corners = mesh.indices.iter().filter_map(|&i| points.get(i as usize));
-        polygons.corners.extend(corners);
-        if mesh.face_arities.is_empty() {
-            // How tobj says "triangles only".
-            let triangles = std::iter::repeat_n(3, mesh.indices.len() / 3);
-            polygons.sides.extend(triangles);
-        } else {
-            polygons.sides.extend(&mesh.face_arities);
-        }
+    let (mut models, _) = tobj::load_obj_buf(&mut cleaned.as_bytes(), &options, no_library)
+        .map_err(|error| ObjError::of_file(name, format!("tobj cannot read it: {error}")))?;
+    let mesh = models.pop().map(|model| model.mesh).unwrap_or_default();
+    let (points, _) = mesh.positions.as_chunks::<3>();
+    let mut corners = mesh.indices.iter().filter_map(|&index| points.get(index as usize));
+    let mut scene = contents.scene(name, library);
+    for &material in &materials {
+        // Where all faces are triangles, `tobj` gives no numbers of corners.
+        let sides = mesh.face_arities.get(scene.len()).map_or(3, |&sides| sides as usize);
+        scene.push(corners.by_ref().take(sides).map(|&point| point.into()), material);
+        let polygon = scene.polygon(scene.len() - 1);
+        contents.report.degenerate_faces += usize::from(is_degenerate(polygon));
     }
-    let sides: usize = polygons.sides.iter().map(|&sides| sides as usize).sum();
-    let faces = polygons.sides.len();
-    if faces != scan.report.faces || sides != polygons.corners.len() || sides != scan.corners {
-        let expected = scan.report.faces;
-        let problem = format!("found {faces} faces where the file has {expected}");
-        return Err(Kind::Reader(problem).at(None, None));
+    if corners.next().is_some() || scene.corners.len() != given.corners.len() {
+        return Err(ObjError::of_file(name, "tobj has not read all corners"));
     }
-    Ok(polygons)
+    scene.lines = lines;
+    (scene.attributes, contents.report.skipped_attributes) = given.finish();
+    Ok((scene, contents.report))
 }
 
+/// Whether a polygon has fewer than three different corners.
 fn is_degenerate(polygon: &[DVec3]) -> bool {
-    let Some(&first) = polygon.first() else {
-        return true;
-    };
-    match polygon.iter().find(|&&corner| corner != first) {
-        None => true,
-        Some(second) => polygon.iter().all(|corner| corner == second || *corner == first),
+    let mut others = polygon.iter().filter(|&corner| corner != &polygon[0]);
+    others.next().is_none_or(|second| others.all(|corner| corner == second))
+}
+
+/// What a file gives corners besides their positions.
+#[derive(Default)]
+struct Given {
+    /// Of each vertex, each `vt` line and each `vn` line; `None` where it is missing or malformed.
+    colors: Vec<Option<[f32; 3]>>,
+    uvs: Vec<Option<DVec2>>,
+    normals: Vec<Option<DVec3>>,
+    /// For each corner the numbers from 0 of its vertex, its `vt` line and its `vn` line.
+    corners: Vec<[Option<u32>; 3]>,
+    /// Malformed references.
+    faults: usize,
+}
+
+impl Given {
+    /// A corner: its vertex, and the numbers of its `vt` and its `vn` line, such as `7/8`.
+    fn corner(&mut self, vertex: usize, others: &str) {
+        let mut others = others.split('/');
+        let mut next = |count: usize| {
+            let word = others.next().filter(|word| !word.is_empty())?;
+            let number = index(word, count).and_then(|index| u32::try_from(index).ok());
+            self.faults += usize::from(number.is_none());
+            number
+        };
+        let (uv, normal) = (next(self.uvs.len()), next(self.normals.len()));
+        // A number that is too large names no vertex, which is an error of its own.
+        self.corners.push([u32::try_from(vertex).ok(), uv, normal]);
+    }
+
+    /// The attributes of each corner, and how many lines and references are malformed or name no line.
+    fn finish(self) -> (Attributes, usize) {
+        let mut faults = self.faults
+            + self.uvs.iter().filter(|uv| uv.is_none()).count()
+            + self.normals.iter().filter(|normal| normal.is_none()).count();
+        let numbers = |kind: usize| self.corners.iter().map(move |corner| corner[kind]);
+        let attributes = Attributes {
+            uvs: of_corners(numbers(1), &self.uvs, &mut faults),
+            normals: of_corners(numbers(2), &self.normals, &mut faults),
+            colors: of_corners(numbers(0), &self.colors, &mut faults),
+        };
+        (attributes, faults)
     }
 }
 
-/// Adds the materials that faces use, in the order of their numbers.
-fn add_materials(
-    scene: &mut Scene,
-    names: &[Option<String>],
-    looks: &HashMap<String, Look>,
-    report: &mut ObjReport,
-) {
-    for name in names {
-        let mut material = Material::DEFAULT;
-        if let Some(name) = name {
-            material.name.clone_from(name);
-            match looks.get(name) {
-                Some(look) => (material.color, material.opacity) = (look.color, look.opacity),
-                None => report.missing_materials.push(name.clone()),
+/// The values of corners, given their numbers; none if no corner has one. Counts numbers beyond the last.
+fn of_corners<T: Copy>(
+    numbers: impl Iterator<Item = Option<u32>>,
+    values: &[Option<T>],
+    faults: &mut usize,
+) -> Vec<Option<T>> {
+    let value = |number: Option<u32>| {
+        let value = values.get(number? as usize).copied();
+        *faults += usize::from(value.is_none());
+        value?
+    };
+    let values: Vec<_> = numbers.map(value).collect();
+    if values.iter().any(Option::is_some) { values } else { Vec::new() }
+}
+
+/// Words as finite numbers.
+fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
+    words.map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
+}
+
+/// A Wavefront OBJ file that is read polygon by polygon, with nothing but its vertices in memory: for
+/// scenes too large for one tree.
+///
+/// Polygons, materials, precision and errors are those of [`Scene::read_obj`]. Texture coordinates,
+/// normals and colours of corners are passed over. As it is read twice, it must be a regular file.
+///
+/// ```no_run
+/// use std::ops::ControlFlow;
+/// use binspace::scene::ObjStream;
+///
+/// let file = ObjStream::open("city.obj")?;
+/// let (mut corners, mut number) = (0, 0);
+/// let _ = file.read(|polygon, _material| {
+///     corners += polygon.len();
+///     number += 1;
+///     ControlFlow::<()>::Continue(())
+/// })?;
+/// assert_eq!(number, file.polygons());
+/// # Ok::<(), binspace::scene::ObjError>(())
+/// ```
+#[derive(Debug)]
+pub struct ObjStream {
+    path: PathBuf,
+    vertices: Vec<DVec3>,
+    /// Whether a polygon has a vertex.
+    is_used: Vec<bool>,
+    scene: Scene,
+    report: ObjReport,
+}
+
+impl ObjStream {
+    /// Reads a file once, for its vertices, materials and precision, and to find what is wrong with it.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Scene::read_obj`].
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, ObjError> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        let (mut vertices, mut is_used) = (Vec::new(), Vec::new());
+        // Vertices that were named before they came: whether they come at all is known only at the end.
+        let mut ahead = Vec::new();
+        let (mut contents, _) = read(&name, open_regular(path), |statement, _| {
+            match statement {
+                Statement::Vertex(vertex) => {
+                    vertices.push(vertex);
+                    is_used.push(false);
+                }
+                Statement::Face { corners, .. } => {
+                    for &index in corners {
+                        match is_used.get_mut(index) {
+                            Some(is_used) => *is_used = true,
+                            None => ahead.push(index),
+                        }
+                    }
+                }
+                _ => {}
             }
+            ControlFlow::<()>::Continue(())
+        })?;
+        // All vertices that are named are there now.
+        ahead.into_iter().for_each(|index| is_used[index] = true);
+        vertices.shrink_to_fit();
+        let scene = contents.scene(&name, beside(path));
+        Ok(Self { path: path.to_owned(), vertices, is_used, scene, report: contents.report })
+    }
+
+    /// The scene without its polygons: its name, materials and precision.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// How many polygons there are.
+    pub fn polygons(&self) -> usize {
+        self.report.faces
+    }
+
+    /// What was left out. Degenerate faces are not counted.
+    pub fn report(&self) -> &ObjReport {
+        &self.report
+    }
+
+    /// The vertices that polygons have, each once.
+    pub fn corners(&self) -> impl Iterator<Item = DVec3> + Clone {
+        let used = self.vertices.iter().zip(&self.is_used).filter(|&(_, &is_used)| is_used);
+        used.map(|(&vertex, _)| vertex)
+    }
+
+    /// Reads the file again, and calls `visit` with the corners and the number of the material of each
+    /// polygon, in order, until that breaks.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read any more, or is another one by now.
+    pub fn read<B>(
+        &self,
+        mut visit: impl FnMut(&[DVec3], u32) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, ObjError> {
+        let name = self.path.display().to_string();
+        let mut polygon = Vec::new();
+        let (contents, flow) = read(&name, open_regular(&self.path), |statement, _| {
+            let Statement::Face { corners, material, .. } = statement else {
+                return ControlFlow::Continue(());
+            };
+            polygon.clear();
+            polygon.extend(corners.iter().filter_map(|&index| self.vertices.get(index)));
+            if polygon.len() < corners.len() {
+                return ControlFlow::Break(None);
+            }
+            visit(&polygon, material).map_break(Some)
+        })?;
+        match flow {
+            ControlFlow::Break(Some(value)) => Ok(ControlFlow::Break(value)),
+            ControlFlow::Continue(()) if contents.report.faces == self.polygons() => {
+                Ok(ControlFlow::Continue(()))
+            }
+            _ => Err(ObjError::of_file(&name, "it has changed since it was opened")),
         }
-        scene.add_material(material);
+    }
+}
+
+/// Opens a file to read all of it.
+fn open(path: &Path) -> io::Result<File> {
+    // Pipes without a name, as behind `/dev/stdin`, have a writer. Where `/dev/fd` has links, those to such
+    // pipes lead nowhere; elsewhere it has files.
+    #[cfg(unix)]
+    if let Ok(target) = path.canonicalize()
+        && !target.starts_with("/dev")
+        && std::os::unix::fs::FileTypeExt::is_fifo(&target.metadata()?.file_type())
+    {
+        let problem = "it is a named pipe: redirect it to standard input";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+    }
+    File::open(path)
+}
+
+/// Opens a regular file; anything else is an error.
+///
+/// # Errors
+///
+/// Those of opening, and that it is none.
+pub fn open_regular(path: &Path) -> io::Result<File> {
+    // Before it is opened: that alone may wait for somebody to write to a pipe.
+    let found = fs::metadata(path)?;
+    // Opening a folder fails, or reading from it does, by an error that says so.
+    if !found.is_file() && !found.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
+    }
+    File::open(path)
+}
+
+/// Reads material libraries from the folder of a file.
+fn beside(path: &Path) -> impl FnMut(&Path) -> Option<Vec<u8>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    move |library| {
+        let library = folder.join(library);
+        library.is_file().then(|| fs::read(library).ok())?
+    }
+}
+
+/// Why an OBJ file cannot be read. The message names the file, the line and the face where they are
+/// known, and says what to do.
+#[derive(Debug)]
+pub struct ObjError {
+    file: String,
+    place: Place,
+    problem: Problem,
+}
+
+impl ObjError {
+    fn of_file(file: &str, problem: impl Into<Problem>) -> Self {
+        Self { file: file.to_owned(), place: Place::default(), problem: problem.into() }
+    }
+
+    /// The line at fault, counted from 1.
+    pub fn line(&self) -> Option<usize> {
+        self.place.line
+    }
+
+    /// The face at fault: the number of its `f` line among the `f` lines, counted from 0.
+    pub fn face(&self) -> Option<usize> {
+        self.place.face
+    }
+}
+
+impl fmt::Display for ObjError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        if let Some(line) = self.place.line {
+            write!(f, ", line {line}")?;
+        }
+        if let Some(face) = self.place.face {
+            write!(f, ", face {face} (from 0)")?;
+        }
+        let cannot = if self.problem.is::<io::Error>() { "cannot be read: " } else { "" };
+        write!(f, ": {cannot}{}", self.problem)
+    }
+}
+
+impl std::error::Error for ObjError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.problem.downcast_ref::<io::Error>().map(|error| error as _)
+    }
+}
+
+/// What was read from an OBJ file, and what was left out.
+///
+/// As text it is a short sentence about everything left out, or empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ObjReport {
+    /// The `f` lines, degenerate ones included: the polygons of the scene.
+    pub faces: usize,
+    /// Faces with fewer than three different corner positions. They stay in the scene, so that
+    /// polygon numbers are those of the file.
+    pub degenerate_faces: usize,
+    /// `p` lines.
+    pub skipped_points: usize,
+    /// `l` lines.
+    pub skipped_lines: usize,
+    /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are
+    /// malformed or name none. Those corners are without that attribute.
+    pub skipped_attributes: usize,
+    /// Lines that begin with any other word that is not understood, such as the statements for
+    /// free-form curves and surfaces.
+    pub skipped_statements: usize,
+    /// Material libraries that could not be read, by the name in the file.
+    pub missing_libraries: Vec<String>,
+    /// Material libraries that were not read, because their names lead out of the file's folder:
+    /// they are absolute or contain `..`.
+    pub outside_libraries: Vec<String>,
+    /// Materials that are used but not defined.
+    pub missing_materials: Vec<String>,
+    /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
+    /// unsupported kind, such as spectral curves.
+    pub skipped_material_lines: usize,
+    /// `Kd`, `d` and `Tr` lines in material libraries with a number below 0 or above 1, which was taken as 0
+    /// or 1: the library and the line, as in `parts.mtl:7`.
+    pub clamped_material_lines: Vec<String>,
+}
+
+impl ObjReport {
+    /// Whether nothing was left out or changed.
+    pub fn is_clean(&self) -> bool {
+        *self == Self { faces: self.faces, ..Self::default() }
+    }
+}
+
+impl fmt::Display for ObjReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = |count: usize| (count > 0).then(|| count.to_string());
+        // The first three names and how many more there are.
+        let list = |names: &[String]| {
+            let shown = names.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
+            match names.len() {
+                0 => None,
+                1..=3 => Some(shown),
+                len => Some(format!("{shown} and {} more", len - 3)),
+            }
+        };
+        let parts = [
+            ("faces with fewer than three different corners", count(self.degenerate_faces)),
+            ("`p` lines skipped", count(self.skipped_points)),
+            ("`l` lines skipped", count(self.skipped_lines)),
+            ("texture coordinates and normals skipped", count(self.skipped_attributes)),
+            ("unknown statements skipped", count(self.skipped_statements)),
+            ("material properties skipped", count(self.skipped_material_lines)),
+            ("material libraries not found", list(&self.missing_libraries)),
+            (
+                "material libraries outside the file's folder, not read",
+                list(&self.outside_libraries),
+            ),
+            ("materials not defined", list(&self.missing_materials)),
+            ("colours and opacities taken as 0 or 1", list(&self.clamped_material_lines)),
+        ];
+        let said = parts.into_iter().filter_map(|(what, said)| Some(format!("{what}: {}", said?)));
+        f.write_str(&said.collect::<Vec<_>>().join("; "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_was_left_out_is_said() {
+        let mut report = ObjReport { faces: 7, ..ObjReport::default() };
+        assert!(report.is_clean());
+        assert_eq!(report.to_string(), "");
+        report.skipped_points = 2;
+        report.missing_materials = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
+        assert!(!report.is_clean());
+        let expected = "`p` lines skipped: 2; materials not defined: a, b, c and 1 more";
+        assert_eq!(report.to_string(), expected);
     }
 }

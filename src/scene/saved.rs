@@ -92,12 +92,18 @@ impl Scene {
     pub fn read(input: impl Read) -> Result<Self, LoadError> {
         let mut file = Reader::new(input, KIND)?;
         let name = read_name(&mut file)?;
-        let [x, y, z, precision] = numbers(&mut file, "up and precision")?;
+        let [x, y, z, precision] = f64s(&file.bytes::<32>("up and precision")?);
         let mut scene = Self { precision, ..Self::new("", DVec3::new(x, y, z)) };
         let has_view = file.u32("view")? != 0;
-        let [a, b, c, d, e, f] = numbers(&mut file, "view")?;
+        let [a, b, c, d, e, f] = f64s(&file.bytes::<48>("view")?);
         scene.view = has_view.then_some((DVec3::new(a, b, c), DVec3::new(d, e, f)));
-        let materials = read_materials(&mut file)?;
+        let material = |file: &mut Reader<_>| -> Result<(Vec<u8>, [f32; 4]), LoadError> {
+            Ok((read_name(file)?, f32s(&file.bytes::<16>("materials")?)))
+        };
+        let count = file.count("materials", MOST)?;
+        // It grows with what is read.
+        let materials: Vec<_> =
+            (0..count).map(|_| material(&mut file)).collect::<Result<_, _>>()?;
         let mut corners = 0_u64;
         let polygons = file.list("polygons", MOST, |bytes: &[u8; 8]| {
             corners = corners.saturating_add(u32_at(bytes, 0).into());
@@ -129,47 +135,22 @@ impl Scene {
         let name_of =
             |bytes| String::from_utf8(bytes).map_err(|_| LoadError::of("name", "is no text"));
         scene.name = name_of(name)?;
-        for (name, color, opacity) in materials {
+        for (name, [red, green, blue, opacity]) in materials {
+            let color = [red, green, blue];
             scene.materials.push(Material { name: name_of(name)?, color, opacity });
         }
-        scene.check()?;
-        Ok(scene)
-    }
-
-    fn check(&self) -> Result<(), LoadError> {
-        let Attributes { uvs, normals, colors } = &self.attributes;
+        let Attributes { uvs, normals, colors } = &scene.attributes;
         let is_wrong = |len: usize, of: usize| len != 0 && len != of;
-        if is_wrong(self.lines.len(), self.len()) {
+        if is_wrong(scene.lines.len(), scene.len()) {
             return Err(LoadError::of("lines", "are more or fewer than its polygons"));
         }
-        if [uvs.len(), normals.len(), colors.len()]
-            .iter()
-            .any(|&len| is_wrong(len, self.corners.len()))
-        {
-            return Err(LoadError::of(
-                "texture coordinates, normals or colours",
-                "are more or fewer than its corners",
-            ));
+        let of_corners = [uvs.len(), normals.len(), colors.len()];
+        if of_corners.into_iter().any(|len| is_wrong(len, scene.corners.len())) {
+            let what = "texture coordinates, normals or colours";
+            return Err(LoadError::of(what, "are more or fewer than its corners"));
         }
-        Ok(())
+        Ok(scene)
     }
-}
-
-/// A material as it is read: the name may be no text.
-type RawMaterial = (Vec<u8>, [f32; 3], f32);
-
-fn read_materials(file: &mut Reader<impl Read>) -> Result<Vec<RawMaterial>, LoadError> {
-    let mut materials = Vec::new();
-    for _ in 0..file.count("materials", MOST)? {
-        let name = read_name(file)?;
-        let [[r, g, b, opacity]] = file
-            .items("materials", 1, |bytes: &[u8; 16]| f32s::<4>(bytes))?
-            .try_into()
-            .unwrap_or([[0.0; 4]]);
-        materials.try_reserve(1).map_err(|_| LoadError::out_of_memory())?;
-        materials.push((name, [r, g, b], opacity));
-    }
-    Ok(materials)
 }
 
 fn write_name(file: &mut Writer<impl Write>, name: &str) -> io::Result<()> {
@@ -181,17 +162,6 @@ fn write_name(file: &mut Writer<impl Write>, name: &str) -> io::Result<()> {
 
 fn read_name(file: &mut Reader<impl Read>) -> Result<Vec<u8>, LoadError> {
     file.list("bytes of a name", LONGEST, |&[byte]: &[u8; 1]| byte)
-}
-
-fn numbers<const N: usize>(
-    file: &mut Reader<impl Read>,
-    what: &'static str,
-) -> Result<[f64; N], LoadError> {
-    let mut numbers = [0.0; N];
-    for number in &mut numbers {
-        *number = file.f64(what)?;
-    }
-    Ok(numbers)
 }
 
 fn f64s<const N: usize>(bytes: &[u8]) -> [f64; N] {

@@ -86,12 +86,8 @@ pub fn teapot(segments: u32) -> Scene {
 /// Four quarters, clockwise as seen from above.
 fn revolve(profile: Profile) -> [Patch; 4] {
     let quarter = profile.map(|[radius, reach, z]| {
-        [
-            DVec3::new(radius, 0.0, z),
-            DVec3::new(radius, -reach, z),
-            DVec3::new(reach, -radius, z),
-            DVec3::new(0.0, -radius, z),
-        ]
+        let row = [[radius, 0.0], [radius, -reach], [reach, -radius], [0.0, -radius]];
+        row.map(|[x, y]| DVec3::new(x, y, z))
     });
     let turn = |patch: Patch| patch.map(|row| row.map(|p| DVec3::new(p.y, 0.0 - p.x, p.z)));
     let half = turn(quarter);
@@ -102,12 +98,7 @@ fn revolve(profile: Profile) -> [Patch; 4] {
 /// The half at y ≤ 0 and its mirror image, which runs back.
 fn mirror(tube: Tube) -> [Patch; 2] {
     let half = tube.map(|[x0, z0, x1, z1, width]| {
-        [
-            DVec3::new(x0, 0.0, z0),
-            DVec3::new(x0, -width, z0),
-            DVec3::new(x1, -width, z1),
-            DVec3::new(x1, 0.0, z1),
-        ]
+        [[x0, 0.0, z0], [x0, -width, z0], [x1, -width, z1], [x1, 0.0, z1]].map(DVec3::from)
     });
     let image = half.map(|[a, b, c, d]| [d, c, b, a].map(|p| DVec3::new(p.x, 0.0 - p.y, p.z)));
     [half, image]
@@ -145,13 +136,7 @@ fn push_patch(scene: &mut Scene, patch: &Patch, weights: &[[f64; 4]], material: 
         for column in 1..weights.len() {
             let (a, b) = (upper[column - 1], lower[column - 1]);
             let (c, d) = (lower[column], upper[column]);
-            if a == d {
-                scene.push([a, c, b], material);
-            } else if b == c {
-                scene.push([a, d, b], material);
-            } else {
-                scene.push([a, d, c, b], material);
-            }
+            scene.push_quad([a, d, c, b], material);
         }
         upper = lower;
     }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::BspTree;
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::exact::{VertexId, VertexKind};
 use crate::memory::{empty, reserve};
 use survey::{FragmentEdge, Node, OutlineVertex, Points, Survey, coordinate, ends, triangulate};
@@ -229,7 +229,7 @@ fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangles), Error>
             steps => steps.min(1),
         });
         let triangles = steps.sum::<u32>().saturating_sub(2);
-        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Limit::Indices.error())?;
+        lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Kind::Indices.error())?;
     }
     let mut triangles = Triangles::with_lengths(tree.generation, lengths.into_iter())?;
     let mut assembler = Assembler::new(&survey, &points)?;

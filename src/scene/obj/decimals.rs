@@ -23,7 +23,7 @@ const TELLING: usize = 12;
 /// that a program computed are merged; more: a stray decides for all.
 const DIGITS_OF_STRAYS: i32 = 3;
 
-/// What was seen of the digits of numbers.
+/// The digits of the numbers seen so far.
 ///
 /// Programs write either a fixed number of decimals, or a fixed number of significant digits. In
 /// the latter case numbers of different size have as many digits, which otherwise only the largest
@@ -32,8 +32,8 @@ const DIGITS_OF_STRAYS: i32 = 3;
 /// others do not: see [`Digits::without_noise`] and [`Decimals::counted`].
 #[derive(Debug, Default)]
 pub(super) struct Decimals {
-    zeros: usize,
-    /// How many numbers have such digits.
+    numbers: usize,
+    /// How many numbers have such digits; zeros have none.
     seen: BTreeMap<Digits, usize>,
     /// How many long numbers there are, and how many of them are `f32` as far as they are written.
     long: usize,
@@ -75,11 +75,10 @@ impl Digits {
     }
 
     /// The digits of a number that an `f64` holds for certain.
-    fn without_noise(self, number: &str) -> Option<Self> {
+    fn without_noise(self, value: f64) -> Option<Self> {
         if self.count() <= DIGITS_OF_F64 {
             return Some(self);
         }
-        let value: f64 = number.parse().ok()?;
         Self::of(&format!("{value:.*e}", DIGITS_OF_F64 as usize - 1))
     }
 
@@ -95,41 +94,21 @@ impl Digits {
 }
 
 impl Decimals {
-    /// Takes notice of a number, which is finite and not malformed.
-    pub(super) fn see(&mut self, number: &str) {
-        let value: f64 = number.parse().unwrap_or(0.0);
+    /// Notes a number, which is finite, as it is written and as it is read.
+    pub(super) fn see(&mut self, number: &str, value: f64) {
+        self.numbers += 1;
         self.largest = self.largest.max(value.abs());
-        let digits = Digits::of(number);
-        if let Some(digits) = digits.filter(|digits| digits.count() >= LONG) {
+        let Some(digits) = Digits::of(number) else { return };
+        if digits.count() >= LONG {
             let off = (value - f64::from(value as f32)).abs();
             self.long += 1;
             // What was rounded away, and what reading has rounded.
             let rounding = 0.51 * 10f64.powi(digits.last) + f64::EPSILON * value.abs();
             self.long_of_f32 += usize::from(off <= rounding);
         }
-        match digits.and_then(|digits| digits.without_noise(number)) {
-            Some(digits) => *self.seen.entry(digits).or_default() += 1,
-            None => self.zeros += 1,
+        if let Some(digits) = digits.without_noise(value) {
+            *self.seen.entry(digits).or_default() += 1;
         }
-    }
-
-    /// The digits that count: not those of zeros but for noise, and only the first of the few long
-    /// numbers that have more decimals than any short one.
-    fn counted(&self) -> Vec<Digits> {
-        let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
-        let is_zero = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);
-        let count_if = |is_meant: &dyn Fn(&Digits) -> bool| -> usize {
-            self.seen.iter().filter(|(digits, _)| is_meant(digits)).map(|(_, count)| count).sum()
-        };
-        let is_long = |digits: &Digits| digits.count() >= LONG;
-        let short = self.seen.keys().filter(|digits| !is_zero(digits) && !is_long(digits));
-        let finest = short.map(|digits| digits.last).min().unwrap_or(i32::MIN);
-        let is_odd = |digits: &Digits| is_long(digits) && digits.last < finest;
-        let odd = count_if(&|digits| !is_zero(digits) && is_odd(digits));
-        let are_strays = odd <= (self.zeros + count_if(&|_| true)) / STRAYS;
-        let cut =
-            |digits: Digits| if are_strays && is_odd(&digits) { digits.cut() } else { digits };
-        self.seen.keys().copied().filter(|digits| !is_zero(digits)).map(cut).collect()
     }
 
     /// One unit in the last decimal of the largest numbers; 0 if no number was seen. Of numbers that were
@@ -140,22 +119,37 @@ impl Decimals {
         step.max(self.decimal())
     }
 
+    /// The digits that count: not those of zeros but for noise, and only the first of the few long
+    /// numbers that have more decimals than any short one.
+    fn counted(&self) -> Vec<Digits> {
+        let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
+        let is_noise = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);
+        let is_long = |digits: &Digits| digits.count() >= LONG;
+        let mut counted = self.seen.clone();
+        counted.retain(|digits, _| !is_noise(digits));
+        let short = counted.keys().filter(|digits| !is_long(digits));
+        let finest = short.map(|digits| digits.last).min().unwrap_or(i32::MIN);
+        let is_odd = |digits: &Digits| is_long(digits) && digits.last < finest;
+        let odd = counted.iter().filter(|(digits, _)| is_odd(digits));
+        let are_strays = odd.map(|(_, count)| count).sum::<usize>() <= self.numbers / STRAYS;
+        let cut =
+            |digits: Digits| if are_strays && is_odd(&digits) { digits.cut() } else { digits };
+        counted.into_keys().map(cut).collect()
+    }
+
     fn decimal(&self) -> f64 {
         let counted = self.counted();
         let Some(last) = counted.iter().map(|digits| digits.last).min() else {
-            return if self.zeros > 0 { 1.0 } else { 0.0 };
+            return if self.numbers > 0 { 1.0 } else { 0.0 };
         };
-        let most = |of: fn(&Digits) -> i32| counted.iter().map(of).max().unwrap_or(0);
-        let (written, needed) = (most(|digits| digits.written), most(|digits| digits.count()));
-        let longest = counted.iter().filter(|digits| digits.written == written);
-        let places = longest.clone().map(|digits| digits.first);
-        let (lowest, highest) = (places.clone().min(), places.max());
-        let exponent = match highest {
-            Some(highest) if lowest < Some(highest) && needed >= FEWEST_DIGITS => {
-                highest.saturating_add(1).saturating_sub(needed)
-            }
-            _ => last,
-        };
+        let written = counted.iter().map(|digits| digits.written).max();
+        let needed = counted.iter().map(|digits| digits.count()).max().unwrap_or(0);
+        let longest = counted.iter().filter(|digits| Some(digits.written) == written);
+        let (lowest, highest) = longest
+            .fold((i32::MAX, i32::MIN), |(low, high), d| (low.min(d.first), high.max(d.first)));
+        let is_significant = lowest < highest && needed >= FEWEST_DIGITS;
+        let exponent =
+            if is_significant { highest.saturating_add(1).saturating_sub(needed) } else { last };
         // Read as a number, it is rounded as the coordinates are.
         format!("1e{exponent}").parse().unwrap_or(0.0)
     }
@@ -167,7 +161,7 @@ mod tests {
 
     fn unit<'n>(numbers: impl IntoIterator<Item = &'n str>) -> f64 {
         let mut decimals = Decimals::default();
-        numbers.into_iter().for_each(|number| decimals.see(number));
+        numbers.into_iter().for_each(|number| decimals.see(number, number.parse().unwrap()));
         decimals.unit()
     }
 
@@ -211,8 +205,12 @@ mod tests {
             let (mut fixed, mut significant) = (Decimals::default(), Decimals::default());
             for _ in 0..300 {
                 let value = (random() - 0.5) * 40.0 * random() * random();
-                fixed.see(&format!("{value:.places$}"));
-                significant.see(&format!("{value:.places$e}"));
+                for (decimals, number) in [
+                    (&mut fixed, format!("{value:.places$}")),
+                    (&mut significant, format!("{value:.places$e}")),
+                ] {
+                    decimals.see(&number, number.parse().unwrap());
+                }
             }
             let unit = |exponent: usize| format!("1e-{exponent}").parse::<f64>().unwrap();
             assert_eq!(fixed.unit(), unit(places), "{places} decimals");

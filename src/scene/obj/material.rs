@@ -1,153 +1,111 @@
 //! Material libraries of OBJ files.
 
-use super::report::ObjReport;
-use super::text::{decode, lines};
-use crate::scene::Material;
 use std::collections::HashMap;
 use std::path::{Component, Path};
 
-/// What a material library says about a material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Look {
-    pub(super) color: [f32; 3],
-    pub(super) opacity: f32,
-}
+use super::ObjReport;
+use super::statements::{Lines, Problem, behind_keyword, decode, text, words};
+use crate::scene::Material;
 
-/// The result of looking for a material library.
-enum Library {
-    Content(Vec<u8>),
+/// Materials by the bytes of their names, in the order of a library.
+type Materials = Vec<(Vec<u8>, Material)>;
+
+/// Why a library is not read. The worse fault is the greater one.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Fault {
     Missing,
-    /// The name leads out of the folder of the file that names it.
+    /// Its name leads out of the folder of the file that names it.
     Outside,
 }
 
 /// Reads all libraries. Where several define a material, the last one counts.
 pub(super) fn load(
-    libraries: &[String],
+    libraries: &[&[u8]],
     mut read: impl FnMut(&Path) -> Option<Vec<u8>>,
     report: &mut ObjReport,
-) -> HashMap<String, Look> {
-    let mut looks = HashMap::new();
-    let mut find = |name: &str| {
-        let name = Path::new(name);
-        if !is_inside(name) {
-            return Library::Outside;
-        }
-        read(name).map_or(Library::Missing, Library::Content)
-    };
-    for library in libraries {
-        let (mut missing, mut outside) = (false, false);
-        for found in find_all(library, &mut find) {
-            match found {
-                Library::Content(bytes) => match parse(library, &bytes, report) {
-                    Some(found) => looks.extend(found),
-                    None => missing = true,
-                },
-                Library::Missing => missing = true,
-                Library::Outside => outside = true,
+) -> HashMap<Vec<u8>, Material> {
+    let mut known = HashMap::new();
+    for library in libraries.iter().filter(|library| !library.is_empty()) {
+        let library = &text(library);
+        let mut find = |name: &str| {
+            let path = Path::new(name);
+            let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+            if !path.components().all(is_inside) {
+                return Err(Fault::Outside);
             }
+            let bytes = read(path).ok_or(Fault::Missing)?;
+            parse(library, &bytes, report).map_err(|_| Fault::Missing)
+        };
+        let mut found = find(library);
+        // It may have been written on Windows, or be several names.
+        if matches!(found, Err(Fault::Missing)) && library.contains('\\') {
+            found = find(&library.replace('\\', "/"));
         }
-        if outside {
-            report.outside_libraries.push(library.clone());
-        } else if missing {
-            report.missing_libraries.push(library.clone());
+        let found = match found {
+            Err(_) if library.contains(char::is_whitespace) => {
+                library.split_whitespace().map(find).collect()
+            }
+            whole => vec![whole],
+        };
+        match found.iter().filter_map(|found| found.as_ref().err()).max() {
+            Some(Fault::Outside) => report.outside_libraries.push(library.to_string()),
+            Some(Fault::Missing) => report.missing_libraries.push(library.to_string()),
+            None => {}
         }
+        known.extend(found.into_iter().flatten().flatten());
     }
-    looks
+    known
 }
 
-/// The libraries that one `mtllib` line names: the name may hold spaces, or be several names; or
-/// have been written on Windows.
-fn find_all(name: &str, find: &mut impl FnMut(&str) -> Library) -> Vec<Library> {
-    let whole = match find(name) {
-        Library::Missing if name.contains('\\') => find(&name.replace('\\', "/")),
-        found => found,
-    };
-    match whole {
-        Library::Content(_) => vec![whole],
-        _ if name.contains(char::is_whitespace) => name.split_whitespace().map(find).collect(),
-        _ => vec![whole],
-    }
-}
-
-/// Whether a path stays within its folder and those below it, judged by its text alone.
-fn is_inside(path: &Path) -> bool {
-    path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
-}
-
-/// The materials of one library; `None` if it is not text.
-fn parse(name: &str, bytes: &[u8], report: &mut ObjReport) -> Option<HashMap<String, Look>> {
-    let text = decode(bytes).ok()?;
-    let (cleaned, names) = clean(name, &text, report);
-    let (materials, _) = tobj::load_mtl_buf(&mut cleaned.as_bytes()).ok()?;
-    let look = |material: &tobj::Material| Look {
-        color: material.diffuse.map_or(Material::DEFAULT.color, |rgb| rgb.map(|c| c as f32)),
-        opacity: material.dissolve.map_or(1.0, |opacity| opacity as f32),
-    };
-    Some(names.into_iter().zip(materials.iter().map(look)).collect())
-}
-
-/// Keeps the well-formed `newmtl`, `Kd` and opacity lines. The others must go, because `tobj`
-/// rejects a whole library for one bad line, and panics on a `Kd` of one number. Names are replaced
-/// by numbers, because `tobj` treats other characters as spaces.
-fn clean(library: &str, text: &str, report: &mut ObjReport) -> (String, Vec<String>) {
-    let (mut cleaned, mut names) = (String::new(), Vec::new());
-    let mut named = false;
+/// The materials of one library.
+fn parse(library: &str, bytes: &[u8], report: &mut ObjReport) -> Result<Materials, Problem> {
+    let mut materials = Materials::new();
     let mut has_dissolve = false;
-    for (at, line) in lines(text) {
-        let line = line.trim_start();
-        let mut words = line.split_whitespace();
-        let keyword = words.next().unwrap_or_default();
+    let mut lines = Lines::new(bytes);
+    while let Some(at) = lines.next()? {
+        let line = decode(&lines.line)?;
+        let mut words = words(&line);
         let mut is_clamped = false;
-        let kept = match keyword {
-            "newmtl" => {
-                let name = line[keyword.len()..].trim_ascii();
-                (named, has_dissolve) = (!name.is_empty(), false);
-                named.then(|| {
-                    names.push(name.to_owned());
-                    format!("newmtl {}\n", names.len())
-                })
+        let mut number = |word: Option<&str>| {
+            let number: f32 = word?.parse().ok()?;
+            let kept = number.clamp(0.0, 1.0);
+            is_clamped |= kept != number;
+            number.is_finite().then_some(kept)
+        };
+        // Lines behind a `newmtl` without a name are of no material.
+        let current = materials.last_mut().filter(|(name, _)| !name.is_empty());
+        let understood = match (words.next(), current) {
+            (Some("newmtl"), _) => {
+                let name = behind_keyword(&lines.line);
+                has_dissolve = false;
+                let material = Material { name: text(name).into_owned(), ..Material::DEFAULT };
+                materials.push((name.to_owned(), material));
+                !name.is_empty()
             }
-            "Kd" if named => {
-                color(words, &mut is_clamped).map(|[r, g, b]| format!("Kd {r} {g} {b}\n"))
+            (Some("Kd"), Some((_, material))) => {
+                // Red, green and blue, or one number for all.
+                let [red, green, blue] = [words.next(), words.next(), words.next()];
+                let color = number(red).and_then(|red| match green {
+                    None => Some([red; 3]),
+                    green => Some([red, number(green)?, number(blue)?]),
+                });
+                color.map(|color| material.color = color).is_some()
             }
-            "d" if named => {
+            (Some("d"), Some((_, material))) => {
                 has_dissolve = true;
-                number(words.next(), &mut is_clamped).map(|d| format!("d {d}\n"))
+                number(words.next()).map(|opacity| material.opacity = opacity).is_some()
             }
             // Transparency; `d` is the standard one and goes before it.
-            "Tr" if named && !has_dissolve => {
-                number(words.next(), &mut is_clamped).map(|tr| format!("d {}\n", 1.0 - tr))
+            (Some("Tr"), Some((_, material))) if !has_dissolve => {
+                number(words.next()).map(|tr| material.opacity = 1.0 - tr).is_some()
             }
             _ => continue,
         };
-        match kept {
-            Some(kept) => {
-                if is_clamped {
-                    report.clamped_material_lines.push(format!("{library}:{at}"));
-                }
-                cleaned.push_str(&kept);
-            }
-            None => report.skipped_material_lines += 1,
+        report.skipped_material_lines += usize::from(!understood);
+        if understood && is_clamped {
+            report.clamped_material_lines.push(format!("{library}:{at}"));
         }
     }
-    (cleaned, names)
-}
-
-/// Red, green and blue, or one number for all.
-fn color<'a>(mut words: impl Iterator<Item = &'a str>, is_clamped: &mut bool) -> Option<[f32; 3]> {
-    let mut number = |word| number(word, is_clamped);
-    let red = number(words.next())?;
-    match words.next().filter(|word| !word.starts_with('#')) {
-        None => Some([red; 3]),
-        green => Some([red, number(green)?, number(words.next())?]),
-    }
-}
-
-/// A finite number, brought between 0 and 1; notes if that changed it.
-fn number(word: Option<&str>, is_clamped: &mut bool) -> Option<f32> {
-    let number: f32 = word?.parse().ok()?;
-    let kept = number.is_finite().then(|| number.clamp(0.0, 1.0))?;
-    *is_clamped |= kept != number;
-    Some(kept)
+    materials.retain(|(name, _)| !name.is_empty());
+    Ok(materials)
 }

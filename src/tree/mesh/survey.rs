@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::{HashMap, TryReserveError};
 
-use crate::error::{Error, Limit};
+use crate::error::{Error, Kind};
 use crate::exact::vertex::Fraction;
 use crate::exact::{Faces, POSITION_OFF, PlaneId, VertexId, VertexKind};
 use crate::memory::{empty, reserve};
@@ -41,7 +41,7 @@ impl<'t> Survey<'t> {
         let mut survey =
             Self { tree, fragments, starts, edges, cuts: Vec::new(), carriers: Vec::new() };
         let edges = tree.fragments().map(|fragment| fragment.vertex_count()).sum();
-        u32::try_from(2 * edges).map_err(|_| Limit::Indices.error())?;
+        u32::try_from(2 * edges).map_err(|_| Kind::Indices.error())?;
         reserve(&mut survey.edges, edges)?;
         reserve(&mut survey.starts, tree.len() + 1)?;
         let mut names = Names::default();

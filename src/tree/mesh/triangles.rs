@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::error::{Error, Kind, Limit};
+use crate::error::{Error, Kind};
 use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
@@ -45,7 +45,7 @@ impl Triangles {
         let mut sum = 0_u32;
         starts.push(sum);
         for length in lengths {
-            sum = sum.checked_add(length).ok_or(Limit::Indices.error())?;
+            sum = sum.checked_add(length).ok_or(Kind::Indices.error())?;
             starts.push(sum);
         }
         reserve(&mut indices, sum as usize + CHUNK)?;
