@@ -2,61 +2,101 @@
 
 use std::ops::Range;
 
-use super::planes;
-use super::planes::{CellTree, Opened, Region, Whose};
-use super::skeleton::{Anchors, InsertionTree, Place, SlotSide};
+use glam::Vec4;
+
+use super::first_thin;
+use super::order::{Branch, InsertionTree, Place, SlotSide};
+use super::thin::{Anchors, between};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Limit};
-use crate::exact::{EdgeLine, Faces, PreparedPlane, Side, StoredVertex, Vertex};
+use crate::exact::{EdgeLine, Faces, PlaneId, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
-use crate::tree::node::MOST_FRAGMENTS;
+use crate::tree::node::{MOST_FRAGMENTS, NodeRecord, Ranges, Sizes, finish, make_room};
+use crate::tree::order::eye::rounded;
 use crate::tree::parts::{Parts, Record};
 
-/// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
-/// time to look at boxes of what is scattered; larger: time to look at the pieces of a body one by one.
+/// A set of at least this many pieces goes to one side of a plane at once where its box does. Too small:
+/// time to look at boxes of scattered pieces. Too large: time to look at the pieces of a body one by one.
 const CROWD: usize = 256;
 
-impl Placer {
-    /// Begins with the face of a number; the polygons' faces end before another.
-    pub(super) fn begin_at(&mut self, first: usize, thin: usize) {
-        (self.first, self.thin) = (first as u32, thin as u32);
-    }
+/// Places polygons, lines and points in a tree. Its lists are used again.
+#[derive(Default)]
+pub(super) struct Placer {
+    cells: OverlayBuilder,
+    cell: CellTree,
+    anchors: Anchors,
+    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
+    /// polygons, then lines, then points.
+    pieces: Vec<Piece>,
+    /// The vertices of cut pieces, in the order of the cuts.
+    arena: Vec<Vertex>,
+    pending: Vec<Pending>,
+    front: Vec<Piece>,
+    own: Vec<Piece>,
+    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
+    crowd: Option<[[f64; 3]; 2]>,
+    splitter: Splitter,
+}
 
+/// A set of pieces that is still to be divided: a range of the stack of pieces.
+#[derive(Debug)]
+struct Pending {
+    pieces: Range<usize>,
+    /// The length of the arena that it needs.
+    arena: usize,
+    region: Region,
+    place: Place,
+}
+
+/// What one placing reads and writes.
+struct Work<'a> {
+    tree: &'a BspTree,
+    faces: &'a Faces,
+    /// The first face without area.
+    thin: u32,
+    placer: &'a mut Placer,
+    pieces: &'a mut Parts,
+    insertions: &'a mut InsertionTree,
+    watch: &'a Watch<'a>,
+}
+
+impl Placer {
     /// Places all faces behind the tree's.
     pub(super) fn place(
         &mut self,
         tree: &BspTree,
         faces: &Faces,
         pieces: &mut Parts,
-        skeleton: &mut InsertionTree,
+        insertions: &mut InsertionTree,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let mut work = Work { tree, faces, placer: self, pieces, skeleton, watch };
+        let thin = first_thin(faces) as u32;
+        let mut work = Work { tree, faces, thin, placer: self, pieces, insertions, watch };
         work.begin()?;
         while let Some(pending) = work.placer.pending.pop() {
             work.placer.pieces.truncate(pending.pieces.end);
             work.placer.arena.truncate(pending.arena);
             work.step(pending)?;
         }
-        work.skeleton.finish();
+        work.insertions.finish();
         Ok(())
     }
 }
 
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
-        let Self { tree, faces, watch, .. } = *self;
-        let Placer { pieces, arena, pending, anchors, crowd, first, thin, .. } = &mut *self.placer;
+        let Self { tree, faces, thin, watch, .. } = *self;
+        let Placer { pieces, arena, pending, anchors, crowd, .. } = &mut *self.placer;
         anchors.fill(faces, watch)?;
         pieces.clear();
         arena.clear();
         pending.clear();
         *crowd = None;
-        let (new, thin) = (faces.len() - *first as usize, *thin);
+        let (first, new) = (tree.faces.len(), faces.len() - tree.faces.len());
         pieces.reserve(new);
-        pieces.extend((*first..thin).map(|face| Piece::whole(faces, face)));
+        pieces.extend((first as u32..thin).map(|face| Piece::whole(faces, face)));
         arena.reserve(2 * (faces.len() - thin as usize));
         for face in thin..faces.len() as u32 {
             let start = arena.len();
@@ -94,7 +134,7 @@ impl Work<'_> {
         if pieces.is_empty() && region.node.is_none() {
             // Polygons of a cell that no line or point comes to.
             let pieces = self.store_all(region.fragments, 0);
-            self.skeleton.hang(place, pieces);
+            self.insertions.attach(place, pieces);
             return Ok(());
         }
         let opened = Opened::of(region, self.tree, &self.placer.cell, self.faces);
@@ -111,7 +151,7 @@ impl Work<'_> {
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
         branch.pieces = self.store_all(own, self.placer.own.len());
-        let number = self.skeleton.push(place, branch);
+        let number = self.insertions.push(place, branch);
         let [front, back] = [Place::Front(number), Place::Back(number)];
         let rest = start..self.placer.pieces.len();
         if side == Some(Side::Front) {
@@ -190,18 +230,18 @@ impl Work<'_> {
     /// Puts the set on top of the stack, of at least one piece, into a cell without fragments; or gives
     /// a plane to divide it by.
     fn enter_cell(&mut self, start: usize, place: Place) -> Result<Option<Opened>, Error> {
-        let Placer { cells, cell, anchors, pieces, arena, own, thin, .. } = &mut *self.placer;
+        let Placer { cells, cell, anchors, pieces, arena, own, .. } = &mut *self.placer;
         let set = &pieces[start..];
         if let [piece] = *set {
             own.clear();
             own.push(piece);
             let side = self.store_all(0..0, 1);
-            self.skeleton.hang(place, side);
+            self.insertions.attach(place, side);
             return Ok(None);
         }
-        let polygons = set.partition_point(|piece| piece.face < *thin);
+        let polygons = set.partition_point(|piece| piece.face < self.thin);
         if polygons == 0 {
-            let plane = planes::between(self.faces, anchors, set, arena);
+            let plane = between(self.faces, anchors, set, arena);
             return Ok(Some(Opened::empty(self.faces, plane)));
         }
         let tree = cells.build(self.faces, &set[..polygons], arena, self.watch)?;
@@ -213,106 +253,14 @@ impl Work<'_> {
             return Ok(Opened::of(region, self.tree, cell, self.faces));
         }
         let first = self.store_tree(&tree);
-        self.skeleton.graft(place, self.faces, &tree, first);
+        self.insertions.attach_tree(place, self.faces, &tree, first);
         self.placer.cells.keep(tree);
         Ok(None)
     }
-}
 
-/// A set of pieces that is still to be divided: a range of the stack of pieces.
-#[derive(Debug)]
-pub(super) struct Pending {
-    pub(super) pieces: Range<usize>,
-    /// The length of the arena that it needs.
-    pub(super) arena: usize,
-    pub(super) region: Region,
-    pub(super) place: Place,
-}
-
-/// Places polygons, lines and points in a tree; its lists are kept to be used again.
-#[derive(Default)]
-pub(super) struct Placer {
-    pub(super) cells: OverlayBuilder,
-    pub(super) cell: CellTree,
-    pub(super) anchors: Anchors,
-    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
-    /// polygons, then lines, then points.
-    pub(super) pieces: Vec<Piece>,
-    /// The vertices of cut pieces, in the order of the cuts.
-    pub(super) arena: Vec<Vertex>,
-    pub(super) pending: Vec<Pending>,
-    pub(super) front: Vec<Piece>,
-    pub(super) own: Vec<Piece>,
-    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
-    pub(super) crowd: Option<[[f64; 3]; 2]>,
-    pub(super) splitter: Splitter,
-    /// The face to begin with: those before it are the tree's.
-    pub(super) first: u32,
-    /// The first face without area.
-    pub(super) thin: u32,
-}
-
-/// What one placing reads and writes.
-pub(super) struct Work<'a> {
-    pub(super) tree: &'a BspTree,
-    pub(super) faces: &'a Faces,
-    pub(super) placer: &'a mut Placer,
-    pub(super) pieces: &'a mut Parts,
-    pub(super) skeleton: &'a mut InsertionTree,
-    pub(super) watch: &'a Watch<'a>,
-}
-
-/// A segment of a line, before any plane cut it.
-#[cfg(feature = "drawing")]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GivenSegment {
-    pub(crate) line: usize,
-    /// Its number in its line.
-    pub(crate) number: usize,
-    /// Its ends on the grid.
-    pub(crate) ends: [[f64; 3]; 2],
-}
-
-/// What a drawing needs of an overlay: its lines and points, whole.
-#[cfg(feature = "drawing")]
-impl super::Overlay {
-    /// An error if the overlay is not one for the tree, or has polygons.
-    pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
-        self.expect(tree)?;
-        if self.base.faces < self.first_thin() {
-            let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
-            return Err(crate::error::InputFault::InOverlay.of_polygon(number));
-        }
-        Ok(())
-    }
-
-    /// All segments of its lines, in input order.
-    pub(crate) fn given_segments(&self) -> impl ExactSizeIterator<Item = GivenSegment> {
-        let first = self.first_thin();
-        (0..self.faces.thin.segments).map(move |i| {
-            let face = (first + i) as u32;
-            let corners = self.faces.corners(face);
-            let (line, number) = (self.faces.polygon(face), self.segments[i] as usize);
-            GivenSegment { line, number, ends: [corners[0], corners[1]] }
-        })
-    }
-
-    /// All its points on the grid, in input order.
-    pub(crate) fn given_points(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let first = self.faces.len() - self.faces.thin.points;
-        (0..self.faces.thin.points).map(move |i| self.faces.corners((first + i) as u32)[0])
-    }
-
-    /// The first face that has no area.
-    fn first_thin(&self) -> usize {
-        self.faces.len() - self.faces.thin.segments - self.faces.thin.points
-    }
-}
-
-impl Work<'_> {
     /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
     /// order.
-    pub(super) fn store_all(&mut self, fragments: Range<u32>, own: usize) -> SlotSide {
+    fn store_all(&mut self, fragments: Range<u32>, own: usize) -> SlotSide {
         let first = self.pieces.records.len() as u32;
         for fragment in fragments {
             let fragment = fragment as usize;
@@ -333,11 +281,11 @@ impl Work<'_> {
             add(self.pieces, piece.face, vertex_ids, cut.iter().map(Vertex::position));
             self.watch.finish(piece.cuts);
         }
-        self.skeleton.group(first..self.pieces.records.len() as u32)
+        self.insertions.group(first..self.pieces.records.len() as u32)
     }
 
     /// Appends the fragments of a small tree to the overlay's pieces, and gives the number of the first.
-    pub(super) fn store_tree(&mut self, tree: &Parts) -> u32 {
+    fn store_tree(&mut self, tree: &Parts) -> u32 {
         let pieces = &mut *self.pieces;
         let first = pieces.records.len() as u32;
         let shift = pieces.vertices.len() as u32;
@@ -365,4 +313,151 @@ fn add(
     vertices.extend(vertex_ids);
     positions.reserve(places.len());
     positions.extend(places);
+}
+
+/// A part of a tree, by its fragments: below a node, or a leaf.
+#[derive(Clone, Debug)]
+struct Region {
+    of: Whose,
+    node: Option<usize>,
+    fragments: Range<u32>,
+}
+
+/// Whose part a region is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Whose {
+    /// The tree's, that stays as it is.
+    Tree,
+    /// Of the small tree of the polygons that meet in one of its cells.
+    Cell,
+}
+
+impl Region {
+    /// A cell without fragments.
+    const EMPTY: Self = Self { of: Whose::Tree, node: None, fragments: 0..0 };
+
+    /// The root of a tree of so many nodes and fragments.
+    fn root(of: Whose, nodes: usize, fragments: usize) -> Self {
+        Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
+    }
+
+    /// Whether it has polygons that are still to be put in place.
+    fn has_pieces(&self) -> bool {
+        self.of == Whose::Cell && !self.fragments.is_empty()
+    }
+}
+
+/// The small tree of the polygons in a cell, as long as lines and points are cut by it.
+#[derive(Debug, Default)]
+struct CellTree {
+    nodes: Vec<NodeRecord>,
+    sizes: Vec<Sizes>,
+    parts: Parts,
+}
+
+impl CellTree {
+    /// Replaces the tree, and gives all of it as a region.
+    fn fill(&mut self, parts: Parts) -> Result<Region, Error> {
+        make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
+        finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
+        self.parts = parts;
+        Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
+    }
+}
+
+/// A region's plane, and both sides of it as they are without pieces.
+struct Opened {
+    branch: Branch,
+    /// The fragments on the plane.
+    own: Range<u32>,
+    sides: [Region; 2],
+}
+
+impl Opened {
+    /// A plane in a cell without fragments.
+    fn empty(faces: &Faces, plane: PlaneId) -> Self {
+        Self::new(rounded(faces, plane), plane, 0..0, [Region::EMPTY; 2])
+    }
+
+    #[inline]
+    fn new(rounded: Vec4, plane: PlaneId, own: Range<u32>, sides: [Region; 2]) -> Self {
+        // Those of a cell are pieces, which are attached one by one.
+        let of_tree = |fragments: &Range<u32>| match sides[0].of {
+            Whose::Tree => fragments.len(),
+            Whose::Cell => 0,
+        };
+        let [front, back] = sides.each_ref().map(|side| SlotSide::empty(of_tree(&side.fragments)));
+        let on_plane = of_tree(&own) as u32;
+        let pieces = SlotSide::empty(0);
+        let branch = Branch { rounded, plane, own: on_plane, pieces, front, back };
+        Self { branch, own, sides }
+    }
+
+    /// `None` for an empty cell. The plane of a leaf is that of its fragment, so that no piece crosses
+    /// it.
+    #[inline]
+    fn of(region: Region, tree: &BspTree, cell: &CellTree, faces: &Faces) -> Option<Self> {
+        let Region { of, node, fragments: all } = region;
+        let (nodes, records) = match of {
+            Whose::Tree => (&tree.nodes, &tree.records),
+            Whose::Cell => (&cell.nodes, &cell.parts.records),
+        };
+        let Some(index) = node else {
+            let plane = PlaneId::face(records[all.clone().next()? as usize].face);
+            let nothing = Region { of, node: None, fragments: all.end..all.end };
+            let sides = [nothing.clone(), nothing];
+            return Some(Self::new(rounded(faces, plane), plane, all, sides));
+        };
+        let node = &nodes[index];
+        let Ranges { own, front, back } = node.ranges(all);
+        let front = Region { of, node: node.front_node(index), fragments: front };
+        let back = Region { of, node: node.back_node(index), fragments: back };
+        let rounded = match of {
+            Whose::Tree => tree.planes.get(index),
+            Whose::Cell => rounded(faces, node.plane),
+        };
+        Some(Self::new(rounded, node.plane, own, [front, back]))
+    }
+}
+
+/// A segment of a line, before any plane cut it.
+#[cfg(feature = "drawing")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GivenSegment {
+    pub(crate) line: usize,
+    /// Its number in its line.
+    pub(crate) number: usize,
+    /// Its ends on the grid.
+    pub(crate) ends: [[f64; 3]; 2],
+}
+
+/// What a drawing needs of an overlay: its lines and points, whole.
+#[cfg(feature = "drawing")]
+impl super::Overlay {
+    /// An error if the overlay is not one for the tree, or has polygons.
+    pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
+        self.expect(tree)?;
+        if self.base.faces < first_thin(&self.faces) {
+            let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
+            return Err(crate::error::InputFault::InOverlay.of_polygon(number));
+        }
+        Ok(())
+    }
+
+    /// All segments of its lines, in input order.
+    pub(crate) fn given_segments(&self) -> impl ExactSizeIterator<Item = GivenSegment> {
+        let first = first_thin(&self.faces);
+        (0..self.faces.thin.segments).map(move |i| {
+            let face = (first + i) as u32;
+            let corners = self.faces.corners(face);
+            let (line, number) = (self.faces.polygon(face), self.segments[i] as usize);
+            GivenSegment { line, number, ends: [corners[0], corners[1]] }
+        })
+    }
+
+    /// All its points on the grid, in input order.
+    pub(crate) fn given_points(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        let first = self.faces.len() - self.faces.thin.points;
+        (0..self.faces.thin.points).map(move |i| self.faces.corners((first + i) as u32)[0])
+    }
 }
