@@ -6,8 +6,7 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::filter::is_off_plane;
-use super::probe::RayQuery;
+use super::ray::RayQuery;
 use crate::exact::PlaneId;
 use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
@@ -71,10 +70,10 @@ impl<'t> Location<'t> {
         let ray = Ray::between(self.point, self.point);
         let exact = ExactRay::new(ray, faces.lattice());
         let prepared = RayQuery::new(ray, faces.lattice()).zip(exact);
-        prepared.into_iter().flat_map(move |(probe, exact)| {
+        prepared.into_iter().flat_map(move |(query, exact)| {
             tree.fragments().filter_map(move |fragment| {
                 let face = fragment.face();
-                let is_on = !is_off_plane(&probe, faces, face)
+                let is_on = !query.is_off_plane(faces, face)
                     && exact.at(&faces.plane(PlaneId::face(face))).start().is_eq();
                 is_on.then_some(fragment.index())
             })
