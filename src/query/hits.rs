@@ -294,13 +294,13 @@ impl HitQueue {
     }
 
     /// Puts one in: O(log n) comparisons.
-    fn push(&mut self, interval: Interval, query: &mut RayQuery, faces: &Faces) {
+    fn push(&mut self, interval: Interval, query: &RayQuery, faces: &Faces) {
         self.heap.push(interval);
         self.rise(self.heap.len() - 1, query, faces);
     }
 
     /// Takes the nearest out: O(log n) comparisons.
-    fn pop(&mut self, query: &mut RayQuery, faces: &Faces) -> Option<Interval> {
+    fn pop(&mut self, query: &RayQuery, faces: &Faces) -> Option<Interval> {
         if self.heap.len() <= 1 {
             return self.heap.pop();
         }
@@ -322,7 +322,7 @@ impl HitQueue {
     }
 
     /// Moves a interval up before those that it comes before.
-    fn rise(&mut self, mut at: usize, query: &mut RayQuery, faces: &Faces) {
+    fn rise(&mut self, mut at: usize, query: &RayQuery, faces: &Faces) {
         while at > 0 {
             let above = (at - 1) / 2;
             if self.heap[at].compare(&self.heap[above], query, faces).is_gt() {
@@ -382,11 +382,11 @@ impl Bounds {
 
 fn is_blocked(tree: &BspTree, bounds: Option<&Bounds>, ray: Ray) -> bool {
     let faces = &tree.faces;
-    let Some(mut query) = RayQuery::new(ray, faces.lattice()) else { return false };
+    let Some(query) = RayQuery::new(ray, faces.lattice()) else { return false };
     let mut walk = Walk::new(tree, bounds, &query);
     let mut fragments = std::iter::from_fn(|| walk.next(f64::INFINITY));
     fragments.any(|fragment| {
-        Interval::new(&mut query, &tree.fragment(fragment), faces)
-            .is_some_and(|interval| interval.has_inner_point(&mut query, faces))
+        Interval::new(&query, &tree.fragment(fragment), faces)
+            .is_some_and(|interval| interval.has_inner_point(&query, faces))
     })
 }

@@ -10,12 +10,10 @@ use crate::tree::Fragment;
 use crate::tree::fragment::{along, plane_points};
 use crate::viewpoint::Ray;
 
-/// A ray in lattice units, rounded, and in integers as soon as they are needed.
+/// A ray in lattice units: in integers, and rounded.
 #[derive(Clone, Debug)]
 pub(super) struct RayQuery {
-    ray: Ray,
-    lattice: Lattice,
-    exact: Option<ExactRay>,
+    pub(super) exact: ExactRay,
     pub(super) origin: [f64; 3],
     /// The point of parameter t is at origin + t · direction. For an endless ray t has a unit of its
     /// own, in which the largest coordinate here is from 2⁵¹ to 2⁵².
@@ -48,6 +46,7 @@ const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
 impl RayQuery {
     /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
     pub(super) fn new(ray: Ray, lattice: &Lattice) -> Option<Self> {
+        let exact = ExactRay::new(ray, lattice)?;
         let (from, direction, least) = match ray {
             Ray::Segment { from, to } => {
                 let largest = lattice.largest_in_steps(&[from, to])?;
@@ -62,10 +61,6 @@ impl RayQuery {
                 (from, direction, largest * SHORT)
             }
             Ray::Endless { from, direction } => {
-                lattice.largest_in_steps(&[from])?;
-                if !direction.is_finite() {
-                    return None;
-                }
                 let largest = direction.abs().max_element();
                 let up = if largest > 0.0 { SPEED_BITS - 1 - exponent_of(largest) } else { 0 };
                 (from, direction.to_array().map(|c| scaled(c, up)), f64::MIN_POSITIVE)
@@ -75,9 +70,7 @@ impl RayQuery {
         let largest = |v: [f64; 3]| v.into_iter().fold(0.0, |max: f64, c| max.max(c.abs()));
         let (reach, speed) = (largest(origin) + MAX_CORNER, largest(direction));
         Some(Self {
-            ray,
-            lattice: *lattice,
-            exact: None,
+            exact,
             origin,
             direction,
             reach,
@@ -87,27 +80,11 @@ impl RayQuery {
         })
     }
 
-    /// The ray in integers. Never `None`, as there is a query.
-    pub(super) fn exact(&mut self) -> Option<ExactRay> {
-        self.exact = self.exact.or_else(|| ExactRay::new(self.ray, &self.lattice));
-        self.exact
-    }
-
     /// Whether the beginning of the ray certainly is off the plane of a face.
     pub(super) fn is_off_plane(&self, faces: &Faces, face: u32) -> bool {
         let (own, _) = RoundedAtRay::face(self, faces, face);
         own.start.abs() > START_ERROR * own.size * self.reach
     }
-}
-
-/// What floats can say.
-enum Guess {
-    /// The ray does not meet the fragment.
-    Misses,
-    /// It meets it inside, at a parameter between these, strictly between its ends.
-    Meets { low: f64, high: f64, from_front: bool },
-    /// They cannot tell.
-    Unsure,
 }
 
 /// A plane along a ray: `start` + t · `slope`.
@@ -172,56 +149,6 @@ impl RoundedAtRay {
             size: x.abs() + y.abs(),
         }
     }
-}
-
-/// Whether a ray meets a fragment, as far as floats can tell.
-fn guess(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Guess {
-    if !query.is_precise {
-        return Guess::Unsure;
-    }
-    let face = fragment.face();
-    let (own, rounded) = RoundedAtRay::face(query, faces, face);
-    let (start_error, slope_error) =
-        (START_ERROR * own.size * query.reach, SLOPE_ERROR * own.size * query.speed);
-    // As if the ray went to the front.
-    let turn = own.slope.signum();
-    let (start, slope) = (own.start * turn, own.slope * turn);
-    if slope <= 2.0 * slope_error {
-        // Along the plane, or nearly.
-        return Guess::Unsure;
-    }
-    // It meets the plane between its ends if it begins behind and ends in front.
-    let is_after = start < -start_error;
-    let is_before = query.is_endless || start + slope > start_error + slope_error;
-    if start > start_error || !query.is_endless && start + slope < -(start_error + slope_error) {
-        return Guess::Misses;
-    }
-    let mut is_sure = is_after && is_before;
-    let error = MEETING_ERROR * own.size * query.reach * query.speed;
-    let axis = faces.upright_axis(face).unwrap_or_else(|| rounded.longest());
-    let inwards = -rounded.normal[axis].signum();
-    let corners = faces.corners(face);
-    for line in fragment.lines() {
-        let (bound, inside) = match line.as_cut() {
-            Some(plane) => {
-                let inside = if line.is_behind() { -1.0 } else { 1.0 };
-                (RoundedAtRay::plane(query, faces, plane), inside)
-            }
-            None => (RoundedAtRay::edge(query, corners, line, axis), inwards),
-        };
-        let side = (bound.start * slope - bound.slope * start) * inside;
-        let error = error * bound.size;
-        if side < -error {
-            return Guess::Misses;
-        }
-        is_sure &= side > error;
-    }
-    if !is_sure {
-        return Guess::Unsure;
-    }
-    let t = -start / slope;
-    let off = (start_error + t * slope_error) / (slope - slope_error) * 1.001 + t * f64::EPSILON;
-    Guess::Meets { low: t - off, high: t + off, from_front: own.slope < 0.0 }
 }
 
 /// A point of a ray by what defines it.
@@ -304,7 +231,7 @@ impl Depth {
     }
 
     /// How the depths of two spots of a ray compare: exact.
-    pub(super) fn compare(&self, other: &Self, query: &mut RayQuery, faces: &Faces) -> Ordering {
+    pub(super) fn compare(&self, other: &Self, query: &RayQuery, faces: &Faces) -> Ordering {
         if self.high < other.low {
             return Ordering::Less;
         }
@@ -314,8 +241,8 @@ impl Depth {
         if self.spot == other.spot {
             return Ordering::Equal;
         }
-        let Some(ray) = query.exact() else { return Ordering::Equal };
-        self.spot.parameter(&ray, faces).compare(&other.spot.parameter(&ray, faces))
+        let [t, other] = [self, other].map(|depth| depth.spot.parameter(&query.exact, faces));
+        t.compare(&other)
     }
 }
 
@@ -336,24 +263,68 @@ pub(super) struct Interval {
 
 impl Interval {
     /// `None` if the ray and the fragment have nothing in common.
-    pub(super) fn new(
-        query: &mut RayQuery,
-        fragment: &Fragment<'_>,
-        faces: &Faces,
-    ) -> Option<Self> {
-        match guess(query, fragment, faces) {
-            Guess::Misses => None,
-            Guess::Meets { low, high, from_front } => {
-                let (fragment, face) = (fragment.index(), fragment.face());
-                let depth = Depth { spot: Spot::Plane(PlaneId::face(face)), low, high };
-                let facing = if from_front { Ordering::Greater } else { Ordering::Less };
-                Some(Self { fragment, face, enter: depth, leave: depth, facing })
-            }
-            Guess::Unsure => Self::exact(&query.exact()?, fragment, faces),
-        }
+    pub(super) fn new(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
+        let guess = Self::guess(query, fragment, faces);
+        guess.unwrap_or_else(|| Self::exact(&query.exact, fragment, faces))
     }
 
-    /// The same by integers. The plane of the face leaves a point of the ray, or all of a ray that lies in it;
+    /// By floats, inside of the fragment and strictly between the ends of the ray. `None` if they cannot tell.
+    fn guess(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Option<Self>> {
+        if !query.is_precise {
+            return None;
+        }
+        let face = fragment.face();
+        let (own, rounded) = RoundedAtRay::face(query, faces, face);
+        let (start_error, slope_error) =
+            (START_ERROR * own.size * query.reach, SLOPE_ERROR * own.size * query.speed);
+        // As if the ray went to the front.
+        let turn = own.slope.signum();
+        let (start, slope) = (own.start * turn, own.slope * turn);
+        if slope <= 2.0 * slope_error {
+            // Along the plane, or nearly.
+            return None;
+        }
+        // It meets the plane between its ends if it begins behind and ends in front.
+        let is_after = start < -start_error;
+        let is_before = query.is_endless || start + slope > start_error + slope_error;
+        if start > start_error || !query.is_endless && start + slope < -(start_error + slope_error)
+        {
+            return Some(None);
+        }
+        let mut is_sure = is_after && is_before;
+        let error = MEETING_ERROR * own.size * query.reach * query.speed;
+        let axis = faces.upright_axis(face).unwrap_or_else(|| rounded.longest());
+        let inwards = -rounded.normal[axis].signum();
+        let corners = faces.corners(face);
+        for line in fragment.lines() {
+            let (bound, inside) = match line.as_cut() {
+                Some(plane) => {
+                    let inside = if line.is_behind() { -1.0 } else { 1.0 };
+                    (RoundedAtRay::plane(query, faces, plane), inside)
+                }
+                None => (RoundedAtRay::edge(query, corners, line, axis), inwards),
+            };
+            let side = (bound.start * slope - bound.slope * start) * inside;
+            let error = error * bound.size;
+            if side < -error {
+                return Some(None);
+            }
+            is_sure &= side > error;
+        }
+        if !is_sure {
+            return None;
+        }
+        let t = -start / slope;
+        let off =
+            (start_error + t * slope_error) / (slope - slope_error) * 1.001 + t * f64::EPSILON;
+        let spot = Spot::Plane(PlaneId::face(face));
+        let depth = Depth { spot, low: t - off, high: t + off };
+        let facing = if own.slope < 0.0 { Ordering::Greater } else { Ordering::Less };
+        let fragment = fragment.index();
+        Some(Some(Self { fragment, face, enter: depth, leave: depth, facing }))
+    }
+
+    /// By integers. The plane of the face leaves a point of the ray, or all of a ray that lies in it;
     /// one bound after the other cuts it off (Cyrus and Beck 1978).
     fn exact(ray: &ExactRay, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
         let face = fragment.face();
@@ -395,7 +366,7 @@ impl Interval {
     }
 
     /// Whether it has a point that is no end of the ray.
-    pub(super) fn has_inner_point(&self, query: &mut RayQuery, faces: &Faces) -> bool {
+    pub(super) fn has_inner_point(&self, query: &RayQuery, faces: &Faces) -> bool {
         let Self { enter, leave, .. } = self;
         let is_before_end = query.is_endless || enter.compare(&Depth::END, query, faces).is_lt();
         is_before_end && enter.compare(&Depth::START, query, faces).is_gt()
@@ -404,7 +375,7 @@ impl Interval {
     }
 
     /// Nearest first; at the same point, in the order of the input.
-    pub(super) fn compare(&self, other: &Self, query: &mut RayQuery, faces: &Faces) -> Ordering {
+    pub(super) fn compare(&self, other: &Self, query: &RayQuery, faces: &Faces) -> Ordering {
         // Faces are numbered in the order of their polygons.
         self.enter
             .compare(&other.enter, query, faces)
