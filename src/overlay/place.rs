@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::Vec4;
+use glam::{DVec3, Vec4};
 
 use super::first_thin;
 use super::order::{Branch, InsertionTree, Place, SlotSide};
@@ -36,7 +36,7 @@ pub(super) struct Placer {
     front: Vec<Piece>,
     own: Vec<Piece>,
     /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
-    crowd: Option<[[f64; 3]; 2]>,
+    crowd: Option<[DVec3; 2]>,
     splitter: Splitter,
 }
 
@@ -94,10 +94,8 @@ impl Work<'_> {
         arena.clear();
         pending.clear();
         *crowd = None;
-        let (first, new) = (tree.faces.len(), faces.len() - tree.faces.len());
-        pieces.reserve(new);
-        pieces.extend((first as u32..thin).map(|face| Piece::whole(faces, face)));
-        arena.reserve(2 * (faces.len() - thin as usize));
+        let first = tree.faces.len() as u32;
+        pieces.extend((first..thin).map(|face| Piece::whole(faces, face)));
         for face in thin..faces.len() as u32 {
             let start = arena.len();
             let ends = 0..faces.reach(face) as u32;
@@ -106,10 +104,8 @@ impl Work<'_> {
             arena.extend(ends.map(end));
             pieces.push(Piece::thin(face, &arena[start..], start));
         }
-        if new > 0 {
-            let region = Region::root(Whose::Tree, tree.nodes.len(), tree.len());
-            self.push(Place::Root, region, 0..new);
-        }
+        let all = 0..pieces.len();
+        self.push(Place::Root, Region::root(Whose::Tree, tree.nodes.len(), tree.len()), all);
         Ok(())
     }
 
@@ -124,7 +120,9 @@ impl Work<'_> {
     /// Divides a set by the plane of its region, and puts both sides on the stack.
     fn step(&mut self, pending: Pending) -> Result<(), Error> {
         let Pending { pieces, region, place, .. } = pending;
-        let start = pieces.start;
+        let mut start = pieces.start;
+        self.placer.front.clear();
+        self.placer.own.clear();
         // Of this set, as that is divided next; it is not kept beyond.
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
@@ -133,7 +131,7 @@ impl Work<'_> {
         }
         if pieces.is_empty() && region.node.is_none() {
             // Polygons of a cell that no line or point comes to.
-            let pieces = self.store_all(region.fragments, 0);
+            let pieces = self.store_all(region.fragments);
             self.insertions.attach(place, pieces);
             return Ok(());
         }
@@ -144,28 +142,22 @@ impl Work<'_> {
         };
         let prepared = PreparedPlane::new(self.faces, branch.plane);
         let side = self.side_of_all(start, crowd, &prepared);
-        self.placer.front.clear();
-        self.placer.own.clear();
         if side.is_none() {
             self.divide(start, &prepared)?;
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
-        branch.pieces = self.store_all(own, self.placer.own.len());
+        branch.pieces = self.store_all(own);
         let number = self.insertions.push(place, branch);
-        let [front, back] = [Place::Front(number), Place::Back(number)];
-        let rest = start..self.placer.pieces.len();
-        if side == Some(Side::Front) {
-            self.push(back, behind, start..start);
-            self.push(front, in_front, rest);
-            return Ok(());
+        let is_all_in_front = side == Some(Side::Front);
+        let end = if is_all_in_front { start } else { self.placer.pieces.len() };
+        self.push(Place::Back(number), behind, start..end);
+        let Placer { pieces, front, .. } = &mut *self.placer;
+        if !is_all_in_front {
+            start = pieces.len();
+            pieces.extend_from_slice(front);
         }
-        self.push(back, behind, rest);
-        let Placer { pieces, front: list, .. } = &mut *self.placer;
-        let start = pieces.len();
-        pieces.reserve(list.len());
-        pieces.extend_from_slice(list);
         let rest = start..pieces.len();
-        self.push(front, in_front, rest);
+        self.push(Place::Front(number), in_front, rest);
         Ok(())
     }
 
@@ -173,7 +165,7 @@ impl Work<'_> {
     fn side_of_all(
         &mut self,
         start: usize,
-        known: Option<[[f64; 3]; 2]>,
+        known: Option<[DVec3; 2]>,
         prepared: &PreparedPlane,
     ) -> Option<Side> {
         let Placer { pieces, crowd, .. } = &mut *self.placer;
@@ -181,14 +173,12 @@ impl Work<'_> {
         if set.len() < CROWD {
             return None;
         }
-        let union = |[low, high]: [[f64; 3]; 2], piece: &Piece| {
-            let corner = |i: usize| (low[i].min(piece.min[i]), high[i].max(piece.max[i]));
-            let [x, y, z] = [corner(0), corner(1), corner(2)];
-            [[x.0, y.0, z.0], [x.1, y.1, z.1]]
+        let union = |[low, high]: [DVec3; 2], piece: &Piece| {
+            [low.min(piece.min.into()), high.max(piece.max.into())]
         };
-        let first = [set[0].min, set[0].max];
-        let bounds = known.unwrap_or_else(|| set.iter().fold(first, union));
-        let side = prepared.side_of_box(bounds);
+        let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let bounds = known.unwrap_or_else(|| set.iter().fold(nothing, union));
+        let side = prepared.side_of_box(bounds.map(|corner| corner.to_array()));
         *crowd = side.map(|_| bounds);
         side
     }
@@ -197,28 +187,26 @@ impl Work<'_> {
     /// `front`, and pieces on the plane to `own`.
     fn divide(&mut self, start: usize, prepared: &PreparedPlane) -> Result<(), Error> {
         let Placer { pieces, arena, front, own, splitter, .. } = &mut *self.placer;
-        // Each piece has at most one part in front, or is one on the plane.
-        front.reserve(pieces.len() - start);
-        own.reserve(pieces.len() - start);
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
             let behind = match piece.side(self.faces, prepared, arena) {
-                Side::Back => piece,
+                Side::Back => Some(piece),
                 Side::Front => {
                     front.push(piece);
-                    continue;
+                    None
                 }
                 Side::Coplanar => {
                     own.push(piece);
-                    continue;
+                    None
                 }
                 Side::Spanning => {
                     let parts = splitter.cut(self.faces, prepared, &piece, arena)?;
                     front.push(parts[0]);
-                    parts[1]
+                    Some(parts[1])
                 }
             };
+            let Some(behind) = behind else { continue };
             // Moved down in place: `back` never overtakes `i`, so nothing unread is lost.
             pieces[back] = behind;
             back += 1;
@@ -233,9 +221,8 @@ impl Work<'_> {
         let Placer { cells, cell, anchors, pieces, arena, own, .. } = &mut *self.placer;
         let set = &pieces[start..];
         if let [piece] = *set {
-            own.clear();
             own.push(piece);
-            let side = self.store_all(0..0, 1);
+            let side = self.store_all(0..0);
             self.insertions.attach(place, side);
             return Ok(None);
         }
@@ -258,9 +245,8 @@ impl Work<'_> {
         Ok(None)
     }
 
-    /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
-    /// order.
-    fn store_all(&mut self, fragments: Range<u32>, own: usize) -> SlotSide {
+    /// Adds fragments of the cell's tree to the pieces in place, and then those of `own`, in input order.
+    fn store_all(&mut self, fragments: Range<u32>) -> SlotSide {
         let first = self.pieces.records.len() as u32;
         for fragment in fragments {
             let fragment = fragment as usize;
@@ -272,10 +258,10 @@ impl Work<'_> {
             let face = records[fragment].face;
             add(self.pieces, face, vertex_ids.iter().copied(), places.iter().copied());
         }
-        let Placer { own: list, arena, .. } = &*self.placer;
+        let Placer { own, arena, .. } = &*self.placer;
         // Coplanar polygons are painted in input order, which sets keep when they are divided.
-        debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
-        for piece in &list[..own] {
+        debug_assert!(own.is_sorted_by_key(|piece| piece.face), "in input order");
+        for piece in own {
             let cut = piece.cut_vertices(arena).unwrap_or_default();
             let vertex_ids = cut.iter().map(|vertex| vertex.stored());
             add(self.pieces, piece.face, vertex_ids, cut.iter().map(Vertex::position));
@@ -284,17 +270,14 @@ impl Work<'_> {
         self.insertions.group(first..self.pieces.records.len() as u32)
     }
 
-    /// Appends the fragments of a small tree to the overlay's pieces, and gives the number of the first.
+    /// Appends the fragments of a small tree to the overlay's pieces, and returns the number of the first.
     fn store_tree(&mut self, tree: &Parts) -> u32 {
         let pieces = &mut *self.pieces;
         let first = pieces.records.len() as u32;
         let shift = pieces.vertices.len() as u32;
-        pieces.records.reserve(tree.records.len());
         let moved = |record: &Record| Record { vertices: record.vertices + shift, ..*record };
         pieces.records.extend(tree.records.iter().map(moved));
-        pieces.vertices.reserve(tree.vertices.len());
         pieces.vertices.extend_from_slice(&tree.vertices);
-        pieces.positions.reserve(tree.positions.len());
         pieces.positions.extend_from_slice(&tree.positions);
         first
     }
@@ -304,14 +287,12 @@ impl Work<'_> {
 fn add(
     pieces: &mut Parts,
     face: u32,
-    vertex_ids: impl ExactSizeIterator<Item = StoredVertex>,
-    places: impl ExactSizeIterator<Item = [f64; 3]>,
+    vertex_ids: impl Iterator<Item = StoredVertex>,
+    places: impl Iterator<Item = [f64; 3]>,
 ) {
     let Parts { records, vertices, positions, .. } = pieces;
     records.push(Record { face, vertices: vertices.len() as u32 });
-    vertices.reserve(vertex_ids.len());
     vertices.extend(vertex_ids);
-    positions.reserve(places.len());
     positions.extend(places);
 }
 

@@ -1,9 +1,6 @@
 //! Comparing a tree's picture with a depth buffer's, and the forms in which a tree returns an order with each
 //! other: the only module that knows both the tree and the judge.
 
-#[cfg(test)]
-mod tests;
-
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -246,3 +243,6 @@ fn each_once(list: &[u32], fragments: usize) -> Result<(), String> {
     let missing = seen.iter().position(|seen| !seen);
     missing.map_or(Ok(()), |fragment| Err(format!("leaves out fragment {fragment}")))
 }
+
+#[cfg(test)]
+mod tests;
