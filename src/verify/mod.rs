@@ -172,7 +172,7 @@ impl std::error::Error for OrderFault {}
 /// Checks that the orders of a viewpoint list every fragment once, are the same as a list of
 /// numbers, by iterator and by visitor, and that front to back is the reverse of back to front.
 ///
-/// This compares the orders only with each other; [`verify`](crate::verify::verify) also compares their
+/// This compares the orders only with each other; [`verify`] also compares their
 /// pictures with a depth buffer's.
 ///
 /// # Errors
