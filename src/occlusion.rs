@@ -1,9 +1,11 @@
 //! Which pixels are covered already, for walks from front to back that leave out what is hidden.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::paint::Pieces;
-use crate::raster::{Mask, Rays};
+use crate::raster::{Rays, Window, for_each_run};
 use crate::tree::{BspTree, Fragment};
 
 /// The pixels that are covered so far on a walk from front to back: occlusion culling.
@@ -45,9 +47,23 @@ use crate::tree::{BspTree, Fragment};
 pub struct CoverageMask<'t> {
     tree: &'t BspTree,
     rays: Rays,
-    mask: Mask,
     pieces: Pieces,
+    /// The side of a cell in pixels.
+    cell: u32,
+    /// Words of a row of cells.
+    words: usize,
+    /// A bit for each cell that is covered.
+    bits: Vec<u64>,
+    /// How many cells are not covered, in each row.
+    open: Vec<u32>,
+    /// The rows of which some cell is open.
+    open_rows: usize,
+    /// Working space: of a row of cells, in how many rows of pixels each was covered so far.
+    rows_covered: Vec<u32>,
 }
+
+/// Bits in a word.
+const WORD: u32 = u64::BITS;
 
 impl<'t> CoverageMask<'t> {
     /// A mask of which nothing is covered, for the picture of some rays through a tree's faces, with
@@ -58,8 +74,20 @@ impl<'t> CoverageMask<'t> {
     /// If the rays were made for another grid.
     pub fn new(tree: &'t BspTree, rays: &Rays, cell: u32) -> Self {
         rays.expect(tree.faces());
-        let mask = Mask::new(rays.size(), cell.max(1));
-        Self { tree, rays: rays.clone(), mask, pieces: Pieces::default() }
+        let cell = cell.max(1);
+        let [columns, rows] = rays.size().map(|side| side.div_ceil(cell));
+        let words = columns.div_ceil(WORD) as usize;
+        Self {
+            tree,
+            rays: rays.clone(),
+            pieces: Pieces::default(),
+            cell,
+            words,
+            bits: vec![0; words * rows as usize],
+            open: vec![columns; rows as usize],
+            open_rows: if columns > 0 { rows as usize } else { 0 },
+            rows_covered: vec![0; columns as usize],
+        }
     }
 
     /// Whether nothing in a box owns a pixel: all that it may cover is covered, or it is outside of
@@ -73,7 +101,13 @@ impl<'t> CoverageMask<'t> {
             let pick = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
             lattice.to_lattice(DVec3::new(pick(0), pick(1), pick(2)))
         });
-        self.mask.hides(&self.rays, &corners)
+        let Some(Window { columns, rows }) = self.rays.window(&corners) else { return true };
+        if self.is_full() {
+            return true;
+        }
+        let columns = columns.start / self.cell..columns.end.div_ceil(self.cell);
+        let mut rows = rows.start / self.cell..rows.end.div_ceil(self.cell);
+        rows.all(|row| self.open[row as usize] == 0 || !self.has_open(row, &columns))
     }
 
     /// Covers the pixels of a fragment, and returns whether it owns some: whether it covers a pixel
@@ -89,12 +123,62 @@ impl<'t> CoverageMask<'t> {
     pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
         // Its own faces, not those of the mask's tree: it may be a piece of an overlay.
         let faces = fragment.faces;
-        self.rays.expect(faces);
-        self.mask.cover(&self.rays, faces, self.pieces.of(fragment))
+        let mut runs: Vec<(u32, Range<u32>)> = Vec::new();
+        for_each_run(&self.rays, faces, self.pieces.of(fragment), |y, run| match runs.last_mut() {
+            // Runs of a row of pixels may touch: they are parts of one.
+            Some((last_y, last)) if *last_y == y && last.end == run.start => last.end = run.end,
+            _ => runs.push((y, run)),
+        });
+        let (mut owns, cell) = (false, self.cell);
+        for runs in runs.chunk_by(|(a, _), (b, _)| a / cell == b / cell) {
+            let row = runs[0].0 / cell;
+            owns |= self.open[row as usize] > 0
+                && runs.iter().any(|(_, run)| {
+                    self.has_open(row, &(run.start / cell..run.end.div_ceil(cell)))
+                });
+            self.close(row, runs);
+        }
+        owns
     }
 
     /// Whether all of the picture is covered.
     pub fn is_full(&self) -> bool {
-        self.mask.is_full()
+        self.open_rows == 0
+    }
+
+    /// Covers the cells of a row that the runs of pixels in it cover, all of them.
+    fn close(&mut self, row: u32, runs: &[(u32, Range<u32>)]) {
+        let [width, height] = self.rays.size();
+        let height = (height - row * self.cell).min(self.cell);
+        let end_of = |cell: u32| ((cell + 1) * self.cell).min(width);
+        for (_, run) in runs {
+            for cell in run.start.div_ceil(self.cell)..run.end.div_ceil(self.cell) {
+                if end_of(cell) > run.end {
+                    continue;
+                }
+                self.rows_covered[cell as usize] += 1;
+                let word = row as usize * self.words + (cell / WORD) as usize;
+                let bit = 1 << (cell % WORD);
+                if self.rows_covered[cell as usize] == height && self.bits[word] & bit == 0 {
+                    self.bits[word] |= bit;
+                    self.open[row as usize] -= 1;
+                    self.open_rows -= usize::from(self.open[row as usize] == 0);
+                }
+            }
+        }
+        self.rows_covered.fill(0);
+    }
+
+    /// Whether some of a row's cells are open.
+    fn has_open(&self, row: u32, columns: &Range<u32>) -> bool {
+        let words = &self.bits[row as usize * self.words..][..self.words];
+        let (first, last) = (columns.start / WORD, columns.end.saturating_sub(1) / WORD);
+        !columns.is_empty()
+            && (first..=last).any(|word| {
+                let from = columns.start.saturating_sub(word * WORD);
+                let to = (columns.end - word * WORD).min(WORD);
+                let wanted = (u64::MAX << from) & (u64::MAX >> (WORD - to));
+                !words[word as usize] & wanted != 0
+            })
     }
 }

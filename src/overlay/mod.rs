@@ -2,16 +2,15 @@
 
 mod order;
 pub(crate) mod place;
-mod planes;
 mod replace;
-mod skeleton;
+mod thin;
 
 use std::fmt;
 
+use order::InsertionTree;
 pub use order::Overlaid;
 use place::Placer;
 pub use replace::{Marker, Segment, Shape, Shapes};
-use skeleton::InsertionTree;
 
 use crate::error::{Error, Kind};
 use crate::exact::Faces;
@@ -133,7 +132,7 @@ use crate::tree::{BspTree, Fragment};
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
 /// | [`back_to_front_into`](Self::back_to_front_into) | that of the tree, and a copy of its list |
-/// | [`back_to_front`](Self::back_to_front), an iterator | O(n + p) if read to its end |
+/// | [`back_to_front`](Self::back_to_front), an iterator | the same, before it is read, and a list of its own |
 ///
 /// While many faces, as those of a body, lie on one side of a plane by their bounding box, they go
 /// there at once: such a body costs little until it meets the leaf that it is in. Give the faces of a
@@ -155,7 +154,7 @@ pub struct Overlay {
     preparer: Preparer,
     placer: Placer,
     pieces: Parts,
-    skeleton: InsertionTree,
+    insertions: InsertionTree,
     preparation: Preparation,
     /// For each face that is a segment, its number in its line.
     segments: Vec<u32>,
@@ -191,7 +190,7 @@ impl Overlay {
             preparer: Preparer::default(),
             placer: Placer::default(),
             pieces: Parts::default(),
-            skeleton: InsertionTree::new(tree.len()),
+            insertions: InsertionTree::new(tree.len()),
             preparation: Preparation::default(),
             segments: vec![],
         }
@@ -201,7 +200,7 @@ impl Overlay {
     pub fn clear(&mut self) {
         self.faces.truncate(self.base.faces);
         self.pieces.clear();
-        self.skeleton.clear(self.base.fragments);
+        self.insertions.clear(self.base.fragments);
         self.preparation = Preparation::default();
         self.segments.clear();
     }
@@ -245,6 +244,11 @@ impl Overlay {
     }
 }
 
+/// The first face that has no area: segments and points follow the polygons.
+fn first_thin(faces: &Faces) -> usize {
+    faces.len() - faces.thin.segments - faces.thin.points
+}
+
 impl fmt::Debug for Overlay {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Overlay")
@@ -253,7 +257,7 @@ impl fmt::Debug for Overlay {
             .field("segments", &self.segments.len())
             .field("points", &self.faces.thin.points)
             .field("pieces", &self.pieces.records.len())
-            .field("planes", &self.skeleton.branches.len())
+            .field("planes", &self.insertions.branches.len())
             .finish_non_exhaustive()
     }
 }

@@ -1,68 +1,196 @@
-//! One order of a tree's fragments and an overlay's pieces: items one by one, or numbers in a list.
+//! One order of a tree's fragments and an overlay's pieces, and the planes by which the pieces find their
+//! places in it.
 
 use std::hint::select_unpredictable;
 use std::iter::FusedIterator;
 use std::ops::Range;
+use std::vec;
 
+use glam::Vec4;
 use smallvec::{SmallVec, smallvec};
 
 use super::Overlay;
 use super::replace::Shape;
-use super::skeleton::{Branch, Group, SlotContent, SlotSide};
 use crate::error::Error;
-use crate::tree::order::eye::View;
-use crate::tree::{BspTree, Ordered};
+use crate::exact::{Faces, PlaneId};
+use crate::tree::BspTree;
+use crate::tree::order::eye::{View, rounded};
+use crate::tree::parts::{Parts, RawChild};
 use crate::viewpoint::Viewpoint;
 
-/// What comes next in an order.
-enum Step {
-    /// So many fragments of the tree, in the tree's order.
-    Fragments(u32),
-    /// Pieces, by their numbers in the overlay.
-    Pieces(Range<u32>),
+/// The planes of the tree that lead to the overlay's pieces, and those of the small trees in its cells.
+/// A branch comes after the one that it is attached to.
+#[derive(Debug)]
+pub(super) struct InsertionTree {
+    root: SlotSide,
+    pub(super) branches: Vec<Branch>,
+    /// The numbers, in the overlay, of pieces that need no plane between them: one, or coplanar ones in
+    /// input order.
+    groups: Vec<Range<u32>>,
 }
 
-/// The steps of an order.
-#[derive(Clone, Debug)]
-struct Steps<'a> {
-    overlay: &'a Overlay,
-    view: View,
-    near_first: bool,
-    stack: SmallVec<[SlotSide; 64]>,
+/// A plane with pieces on it or around it: of a node of the tree, of the fragment in a leaf, or of a
+/// small tree in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Branch {
+    pub(super) rounded: Vec4,
+    pub(super) plane: PlaneId,
+    /// How many fragments of the tree lie on the plane.
+    pub(super) own: u32,
+    /// The pieces on the plane, which come after those fragments.
+    pub(super) pieces: SlotSide,
+    pub(super) front: SlotSide,
+    pub(super) back: SlotSide,
 }
 
-impl<'a> Steps<'a> {
-    fn new(overlay: &'a Overlay, view: View, near_first: bool) -> Self {
-        Self { overlay, view, near_first, stack: smallvec![overlay.skeleton.root()] }
+/// What is on one side of a plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SlotSide {
+    /// Where an order notes its beginning. While the tree grows: 2k for branch k, 2k + 1 for group k, both
+    /// counted from 1.
+    slot: u32,
+    /// How many fragments and pieces it has.
+    len: u32,
+}
+
+/// The slot of sides without pieces: where they begin is never read.
+const EMPTY: u32 = 0;
+/// The remainder of a group's slot while the tree grows.
+const GROUP: u32 = 1;
+
+impl SlotSide {
+    /// Fragments of the tree, and no piece.
+    pub(super) fn empty(fragments: usize) -> Self {
+        Self { slot: EMPTY, len: fragments as u32 }
+    }
+}
+
+impl Branch {
+    fn len(&self) -> u32 {
+        self.own + self.pieces.len + self.front.len + self.back.len
+    }
+}
+
+/// Where a branch or a group is attached.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Place {
+    Root,
+    Front(u32),
+    Back(u32),
+}
+
+impl InsertionTree {
+    /// That of an overlay of nothing on a tree with a number of fragments.
+    pub(super) fn new(fragments: usize) -> Self {
+        Self { root: SlotSide::empty(fragments), branches: vec![], groups: vec![] }
     }
 
-    fn next(&mut self) -> Option<Step> {
-        loop {
-            let SlotSide { slot, len } = self.stack.pop()?;
-            match self.overlay.skeleton.part(slot) {
-                _ if len == 0 => {}
-                SlotContent::Still => return Some(Step::Fragments(len)),
-                SlotContent::Pieces(Group { first, len }) => {
-                    return Some(Step::Pieces(first..first + len));
-                }
-                SlotContent::Branch(number) => self.open(number),
+    /// Removes all branches; `fragments` is how many the tree has.
+    pub(super) fn clear(&mut self, fragments: usize) {
+        self.root = SlotSide::empty(fragments);
+        self.branches.clear();
+        self.groups.clear();
+    }
+
+    /// A side of these pieces alone.
+    pub(super) fn group(&mut self, pieces: Range<u32>) -> SlotSide {
+        if pieces.is_empty() {
+            return SlotSide::empty(0);
+        }
+        let len = pieces.len() as u32;
+        self.groups.push(pieces);
+        SlotSide { slot: 2 * self.groups.len() as u32 + GROUP, len }
+    }
+
+    /// Puts a side in its place.
+    pub(super) fn attach(&mut self, place: Place, side: SlotSide) {
+        match place {
+            Place::Root => self.root = side,
+            Place::Front(branch) => self.branches[branch as usize].front = side,
+            Place::Back(branch) => self.branches[branch as usize].back = side,
+        }
+    }
+
+    /// Adds a branch, attaches it, and returns its number.
+    pub(super) fn push(&mut self, place: Place, branch: Branch) -> u32 {
+        let number = self.branches.len() as u32;
+        self.branches.push(branch);
+        // Its length is not known before the lengths of its sides are.
+        self.attach(place, SlotSide { slot: 2 * (number + 1), len: 0 });
+        number
+    }
+
+    /// Attaches the small tree of a cell, whose fragments are the pieces from `next` on.
+    pub(super) fn attach_tree(&mut self, place: Place, faces: &Faces, tree: &Parts, mut next: u32) {
+        let mut open: SmallVec<[Place; 32]> = smallvec![place];
+        for node in &tree.nodes {
+            let Some(place) = open.pop() else { return };
+            let leaf = |child| match child {
+                RawChild::Leaf(len) => len,
+                RawChild::Node => 0,
+            };
+            // Fragments are numbered in this order: on the plane, front leaf, back leaf, the rest.
+            let [pieces, front, back] = [node.own, leaf(node.front), leaf(node.back)].map(|len| {
+                next += len;
+                self.group(next - len..next)
+            });
+            let plane = node.plane;
+            let rounded = rounded(faces, plane);
+            let number = self.push(place, Branch { rounded, plane, own: 0, pieces, front, back });
+            // Nodes stand depth first, the front before the back.
+            if node.back == RawChild::Node {
+                open.push(Place::Back(number));
+            }
+            if node.front == RawChild::Node {
+                open.push(Place::Front(number));
             }
         }
     }
 
-    fn open(&mut self, number: u32) {
-        let skeleton = &self.overlay.skeleton;
-        let &Branch { plane, rounded, own, pieces, front, back } =
-            &skeleton.branches[number as usize];
-        let is_in_front = self.view.is_in_front_of(&self.overlay.faces, plane, rounded);
-        let (far, near) = if is_in_front { (back, front) } else { (front, back) };
-        let own = SlotSide { slot: skeleton.slots() as u32 - 1, len: own };
-        let mut parts = [far, own, pieces, near];
-        // What comes first goes on top.
-        if !self.near_first {
-            parts.reverse();
+    /// Computes the lengths of all sides, and numbers the slots: of no pieces, of branches, of groups.
+    pub(super) fn finish(&mut self) {
+        // From the last to the first, so that the lengths of all branches below are known.
+        for i in (0..self.branches.len()).rev() {
+            let branch = self.branches[i];
+            let sides = [branch.pieces, branch.front, branch.back];
+            let [pieces, front, back] = sides.map(|side| self.finished(side));
+            self.branches[i] = Branch { pieces, front, back, ..branch };
         }
-        self.stack.extend(parts);
+        self.root = self.finished(self.root);
+    }
+
+    fn finished(&self, side: SlotSide) -> SlotSide {
+        let number = side.slot / 2;
+        match side.slot % 2 {
+            _ if side.slot == EMPTY => side,
+            GROUP => SlotSide { slot: (self.branches.len() as u32) + number, ..side },
+            _ => SlotSide { slot: number, len: self.branches[number as usize - 1].len() },
+        }
+    }
+
+    /// How many slots there are.
+    fn slots(&self) -> usize {
+        1 + self.branches.len() + self.groups.len()
+    }
+
+    /// Writes where each slot begins in the order of both parts.
+    ///
+    /// The loop has no branch on the eye's side, which no processor can predict.
+    fn write_begins(&self, faces: &Faces, view: &View, begins: &mut [u32]) {
+        begins[self.root.slot as usize] = 0;
+        for (i, branch) in self.branches.iter().enumerate() {
+            let &Branch { plane, rounded, own, pieces, front, back } = branch;
+            let is_in_front = view.is_in_front_of(faces, plane, rounded);
+            let begin = begins[i + 1];
+            let on_plane = own + pieces.len;
+            // The order is: far side, own, near side. The far side is the back if the eye is in front.
+            let to_front = select_unpredictable(is_in_front, back.len + on_plane, 0);
+            let to_back = select_unpredictable(is_in_front, 0, front.len + on_plane);
+            let to_pieces = own + select_unpredictable(is_in_front, back.len, front.len);
+            begins[front.slot as usize] = begin + to_front;
+            begins[back.slot as usize] = begin + to_back;
+            begins[pieces.slot as usize] = begin + to_pieces;
+        }
     }
 }
 
@@ -70,50 +198,22 @@ impl<'a> Steps<'a> {
 /// [`Overlay::back_to_front`] and [`Overlay::front_to_back`].
 #[derive(Clone, Debug)]
 pub struct Overlaid<'a> {
-    fragments: Ordered<'a>,
-    /// How many of them come before the next piece.
-    ahead: u32,
-    pieces: Range<u32>,
-    steps: Steps<'a>,
-    left: usize,
-}
-
-impl<'a> Overlaid<'a> {
-    fn new(overlay: &'a Overlay, tree: &'a BspTree, viewpoint: Viewpoint, near: bool) -> Self {
-        let fragments =
-            if near { tree.front_to_back(viewpoint) } else { tree.back_to_front(viewpoint) };
-        let steps = Steps::new(overlay, View::new(tree, viewpoint), near);
-        let left = tree.len() + overlay.len();
-        Self { fragments, ahead: 0, pieces: 0..0, steps, left }
-    }
+    overlay: &'a Overlay,
+    tree: &'a BspTree,
+    numbers: vec::IntoIter<u32>,
 }
 
 impl<'a> Iterator for Overlaid<'a> {
     type Item = Shape<'a>;
 
     fn next(&mut self) -> Option<Shape<'a>> {
-        loop {
-            if self.ahead > 0 {
-                self.ahead -= 1;
-                self.left -= 1;
-                return self.fragments.next().map(Shape::Fragment);
-            }
-            let piece =
-                if self.steps.near_first { self.pieces.next_back() } else { self.pieces.next() };
-            if let Some(piece) = piece {
-                self.left -= 1;
-                let overlay = self.steps.overlay;
-                return overlay.shape(overlay.base.fragments as u32 + piece);
-            }
-            match self.steps.next()? {
-                Step::Fragments(len) => self.ahead = len,
-                Step::Pieces(pieces) => self.pieces = pieces,
-            }
-        }
+        let number = self.numbers.next()?;
+        let shape = self.overlay.shape(number);
+        Some(shape.unwrap_or_else(|| Shape::Fragment(self.tree.fragment(number))))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.left, Some(self.left))
+        self.numbers.size_hint()
     }
 }
 
@@ -133,8 +233,9 @@ impl Overlay {
         tree: &'a BspTree,
         viewpoint: Viewpoint,
     ) -> Result<Overlaid<'a>, Error> {
-        self.expect(tree)?;
-        Ok(Overlaid::new(self, tree, viewpoint, false))
+        let mut order = vec![];
+        self.back_to_front_into(tree, viewpoint, &mut order)?;
+        Ok(Overlaid { overlay: self, tree, numbers: order.into_iter() })
     }
 
     /// The same, front to back: the reverse of [`back_to_front`](Self::back_to_front).
@@ -147,8 +248,9 @@ impl Overlay {
         tree: &'a BspTree,
         viewpoint: Viewpoint,
     ) -> Result<Overlaid<'a>, Error> {
-        self.expect(tree)?;
-        Ok(Overlaid::new(self, tree, viewpoint, true))
+        let mut order = vec![];
+        self.front_to_back_into(tree, viewpoint, &mut order)?;
+        Ok(Overlaid { overlay: self, tree, numbers: order.into_iter() })
     }
 }
 
@@ -200,62 +302,25 @@ impl Overlay {
 
     /// Inserts the pieces into the tree's order.
     ///
-    /// Every side of the skeleton knows how many fragments and pieces it has, so where a side begins
-    /// is known before it is read, as in the tree's own order.
+    /// Every side of a branch knows how many fragments and pieces it has. So where a side begins is known
+    /// before it is read, as in the tree's own order.
     fn insert(&self, view: &View, order: &mut Vec<u32>) {
         let (fragments, pieces) = (order.len(), self.len());
         let all = fragments + pieces;
-        let (slots, words) = (self.skeleton.slots(), all.div_ceil(WORD));
+        let (slots, words) = (self.insertions.slots(), all.div_ceil(WORD));
         // One buffer for all: the caller's, so that a frame allocates nothing.
-        let room = all + slots + 2 * words + 2 * pieces;
-        order.reserve(room - fragments);
-        order.resize(room, 0);
+        order.resize(all + slots + 2 * words + 2 * pieces, 0);
         let (order_itself, rest) = order.split_at_mut(all);
         let (begins, rest) = rest.split_at_mut(slots);
         let (marks, rest) = rest.split_at_mut(words);
         let (before, rest) = rest.split_at_mut(words);
         let (places, numbers) = rest.split_at_mut(pieces);
-        self.write_begins(view, begins);
-        let groups = &begins[self.skeleton.branches.len()..];
-        self.sort(groups, (marks, before), (places, numbers), fragments as u32);
-        spread(order_itself, fragments, places, numbers);
-        order.truncate(all);
-    }
-
-    /// Writes where each slot begins in the order of both parts.
-    ///
-    /// The loop has no branch on the eye's side, which no processor can predict.
-    fn write_begins(&self, view: &View, begins: &mut [u32]) {
-        begins[self.skeleton.root().slot as usize] = 0;
-        for (i, branch) in self.skeleton.branches.iter().enumerate() {
-            let &Branch { plane, rounded, own, pieces, front, back } = branch;
-            let is_in_front = view.is_in_front_of(&self.faces, plane, rounded);
-            let begin = begins[i];
-            let on_plane = own + pieces.len;
-            // The order is: far side, own, near side. The far side is the back if the eye is in front.
-            let to_front = select_unpredictable(is_in_front, back.len + on_plane, 0);
-            let to_back = select_unpredictable(is_in_front, 0, front.len + on_plane);
-            let to_pieces = own + select_unpredictable(is_in_front, back.len, front.len);
-            begins[front.slot as usize] = begin + to_front;
-            begins[back.slot as usize] = begin + to_back;
-            begins[pieces.slot as usize] = begin + to_pieces;
-        }
-    }
-
-    /// Writes the places of all pieces in ascending order, and their numbers, by marks on the places
-    /// and how many are marked before each word.
-    fn sort(
-        &self,
-        begins: &[u32],
-        (marks, before): (&mut [u32], &mut [u32]),
-        (places, numbers): (&mut [u32], &mut [u32]),
-        first_number: u32,
-    ) {
-        let pieces = || {
-            let groups = self.skeleton.groups.iter().zip(begins);
-            groups.flat_map(|(&Group { first, len }, &begin)| (begin..begin + len).zip(first..))
-        };
-        for (place, _) in pieces() {
+        self.insertions.write_begins(&self.faces, view, begins);
+        // Sorts the pieces by their places: marks these, and counts the marks before each word.
+        let begins = &begins[1 + self.insertions.branches.len()..];
+        let pieces = self.insertions.groups.iter().zip(begins);
+        let pieces = pieces.flat_map(|(group, &begin)| (begin..).zip(group.clone()));
+        for (place, _) in pieces.clone() {
             marks[place as usize / WORD] |= 1 << (place as usize % WORD);
         }
         let mut count = 0;
@@ -263,23 +328,20 @@ impl Overlay {
             *before = count;
             count += mark.count_ones();
         }
-        for (place, piece) in pieces() {
+        for (place, piece) in pieces {
             let word = place as usize / WORD;
             let lower = marks[word] & !(u32::MAX << (place as usize % WORD));
             let rank = (before[word] + lower.count_ones()) as usize;
-            (places[rank], numbers[rank]) = (place, first_number + piece);
+            (places[rank], numbers[rank]) = (place, fragments as u32 + piece);
         }
-    }
-}
-
-/// Inserts numbers into a list at ascending places, from its end on, so that each of the others moves
-/// to its final place at once.
-fn spread(order: &mut [u32], others: usize, places: &[u32], numbers: &[u32]) {
-    let mut end = others;
-    for (rank, (&place, &number)) in places.iter().zip(numbers).enumerate().rev() {
-        let (place, start) = (place as usize, place as usize - rank);
-        order.copy_within(start..end, place + 1);
-        order[place] = number;
-        end = start;
+        // From the end on, so that each fragment moves to its final place at once.
+        let mut end = fragments;
+        for (rank, (&place, &number)) in places.iter().zip(&*numbers).enumerate().rev() {
+            let (place, start) = (place as usize, place as usize - rank);
+            order_itself.copy_within(start..end, place + 1);
+            order_itself[place] = number;
+            end = start;
+        }
+        order.truncate(all);
     }
 }

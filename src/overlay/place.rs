@@ -2,62 +2,100 @@
 
 use std::ops::Range;
 
-use super::planes;
-use super::planes::{CellTree, Opened, Region, Whose};
-use super::skeleton::{Anchors, InsertionTree, Place, SlotSide};
+use glam::{DVec3, Vec4};
+
+use super::first_thin;
+use super::order::{Branch, InsertionTree, Place, SlotSide};
+use super::thin::{Anchors, between};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Kind};
-use crate::exact::{EdgeLine, Faces, PreparedPlane, Side, StoredVertex, Vertex};
+use crate::exact::{EdgeLine, Faces, PlaneId, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
-use crate::tree::node::MOST_FRAGMENTS;
+use crate::tree::node::{MOST_FRAGMENTS, NodeRecord, Ranges, Sizes, finish, make_room};
+use crate::tree::order::eye::rounded;
 use crate::tree::parts::{Parts, Record};
 
-/// A set of at least so many pieces goes to one side of a plane at once where its box does. Smaller:
-/// time to look at boxes of what is scattered; larger: time to look at the pieces of a body one by one.
+/// A set of at least this many pieces goes to one side of a plane at once where its box does. Too small:
+/// time to look at boxes of scattered pieces. Too large: time to look at the pieces of a body one by one.
 const CROWD: usize = 256;
 
-impl Placer {
-    /// Begins with the face of a number; the polygons' faces end before another.
-    pub(super) fn begin_at(&mut self, first: usize, thin: usize) {
-        (self.first, self.thin) = (first as u32, thin as u32);
-    }
+/// Places polygons, lines and points in a tree. Its lists are used again.
+#[derive(Default)]
+pub(super) struct Placer {
+    cells: OverlayBuilder,
+    cell: CellTree,
+    anchors: Anchors,
+    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
+    /// polygons, then lines, then points.
+    pieces: Vec<Piece>,
+    /// The vertices of cut pieces, in the order of the cuts.
+    arena: Vec<Vertex>,
+    pending: Vec<Pending>,
+    front: Vec<Piece>,
+    own: Vec<Piece>,
+    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
+    crowd: Option<[DVec3; 2]>,
+    splitter: Splitter,
+}
 
+/// A set of pieces that is still to be divided: a range of the stack of pieces.
+#[derive(Debug)]
+struct Pending {
+    pieces: Range<usize>,
+    /// The length of the arena that it needs.
+    arena: usize,
+    region: Region,
+    place: Place,
+}
+
+/// What one placing reads and writes.
+struct Work<'a> {
+    tree: &'a BspTree,
+    faces: &'a Faces,
+    /// The first face without area.
+    thin: u32,
+    placer: &'a mut Placer,
+    pieces: &'a mut Parts,
+    insertions: &'a mut InsertionTree,
+    watch: &'a Watch<'a>,
+}
+
+impl Placer {
     /// Places all faces behind the tree's.
     pub(super) fn place(
         &mut self,
         tree: &BspTree,
         faces: &Faces,
         pieces: &mut Parts,
-        skeleton: &mut InsertionTree,
+        insertions: &mut InsertionTree,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let mut work = Work { tree, faces, placer: self, pieces, skeleton, watch };
+        let thin = first_thin(faces) as u32;
+        let mut work = Work { tree, faces, thin, placer: self, pieces, insertions, watch };
         work.begin()?;
         while let Some(pending) = work.placer.pending.pop() {
             work.placer.pieces.truncate(pending.pieces.end);
             work.placer.arena.truncate(pending.arena);
             work.step(pending)?;
         }
-        work.skeleton.finish();
+        work.insertions.finish();
         Ok(())
     }
 }
 
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
-        let Self { tree, faces, watch, .. } = *self;
-        let Placer { pieces, arena, pending, anchors, crowd, first, thin, .. } = &mut *self.placer;
+        let Self { tree, faces, thin, watch, .. } = *self;
+        let Placer { pieces, arena, pending, anchors, crowd, .. } = &mut *self.placer;
         anchors.fill(faces, watch)?;
         pieces.clear();
         arena.clear();
         pending.clear();
         *crowd = None;
-        let (new, thin) = (faces.len() - *first as usize, *thin);
-        pieces.reserve(new);
-        pieces.extend((*first..thin).map(|face| Piece::whole(faces, face)));
-        arena.reserve(2 * (faces.len() - thin as usize));
+        let first = tree.faces.len() as u32;
+        pieces.extend((first..thin).map(|face| Piece::whole(faces, face)));
         for face in thin..faces.len() as u32 {
             let start = arena.len();
             let ends = 0..faces.reach(face) as u32;
@@ -66,10 +104,8 @@ impl Work<'_> {
             arena.extend(ends.map(end));
             pieces.push(Piece::thin(face, &arena[start..], start));
         }
-        if new > 0 {
-            let region = Region::root(Whose::Tree, tree.nodes.len(), tree.len());
-            self.push(Place::Root, region, 0..new);
-        }
+        let all = 0..pieces.len();
+        self.push(Place::Root, Region::root(Whose::Tree, tree.nodes.len(), tree.len()), all);
         Ok(())
     }
 
@@ -84,7 +120,9 @@ impl Work<'_> {
     /// Divides a set by the plane of its region, and puts both sides on the stack.
     fn step(&mut self, pending: Pending) -> Result<(), Error> {
         let Pending { pieces, region, place, .. } = pending;
-        let start = pieces.start;
+        let mut start = pieces.start;
+        self.placer.front.clear();
+        self.placer.own.clear();
         // Of this set, as that is divided next; it is not kept beyond.
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
@@ -93,8 +131,8 @@ impl Work<'_> {
         }
         if pieces.is_empty() && region.node.is_none() {
             // Polygons of a cell that no line or point comes to.
-            let pieces = self.store_all(region.fragments, 0);
-            self.skeleton.hang(place, pieces);
+            let pieces = self.store_all(region.fragments);
+            self.insertions.attach(place, pieces);
             return Ok(());
         }
         let opened = Opened::of(region, self.tree, &self.placer.cell, self.faces);
@@ -104,28 +142,22 @@ impl Work<'_> {
         };
         let prepared = PreparedPlane::new(self.faces, branch.plane);
         let side = self.side_of_all(start, crowd, &prepared);
-        self.placer.front.clear();
-        self.placer.own.clear();
         if side.is_none() {
             self.divide(start, &prepared)?;
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
-        branch.pieces = self.store_all(own, self.placer.own.len());
-        let number = self.skeleton.push(place, branch);
-        let [front, back] = [Place::Front(number), Place::Back(number)];
-        let rest = start..self.placer.pieces.len();
-        if side == Some(Side::Front) {
-            self.push(back, behind, start..start);
-            self.push(front, in_front, rest);
-            return Ok(());
+        branch.pieces = self.store_all(own);
+        let number = self.insertions.push(place, branch);
+        let is_all_in_front = side == Some(Side::Front);
+        let end = if is_all_in_front { start } else { self.placer.pieces.len() };
+        self.push(Place::Back(number), behind, start..end);
+        let Placer { pieces, front, .. } = &mut *self.placer;
+        if !is_all_in_front {
+            start = pieces.len();
+            pieces.extend_from_slice(front);
         }
-        self.push(back, behind, rest);
-        let Placer { pieces, front: list, .. } = &mut *self.placer;
-        let start = pieces.len();
-        pieces.reserve(list.len());
-        pieces.extend_from_slice(list);
         let rest = start..pieces.len();
-        self.push(front, in_front, rest);
+        self.push(Place::Front(number), in_front, rest);
         Ok(())
     }
 
@@ -133,7 +165,7 @@ impl Work<'_> {
     fn side_of_all(
         &mut self,
         start: usize,
-        known: Option<[[f64; 3]; 2]>,
+        known: Option<[DVec3; 2]>,
         prepared: &PreparedPlane,
     ) -> Option<Side> {
         let Placer { pieces, crowd, .. } = &mut *self.placer;
@@ -141,14 +173,12 @@ impl Work<'_> {
         if set.len() < CROWD {
             return None;
         }
-        let union = |[low, high]: [[f64; 3]; 2], piece: &Piece| {
-            let corner = |i: usize| (low[i].min(piece.min[i]), high[i].max(piece.max[i]));
-            let [x, y, z] = [corner(0), corner(1), corner(2)];
-            [[x.0, y.0, z.0], [x.1, y.1, z.1]]
+        let union = |[low, high]: [DVec3; 2], piece: &Piece| {
+            [low.min(piece.min.into()), high.max(piece.max.into())]
         };
-        let first = [set[0].min, set[0].max];
-        let bounds = known.unwrap_or_else(|| set.iter().fold(first, union));
-        let side = prepared.side_of_box(bounds);
+        let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let bounds = known.unwrap_or_else(|| set.iter().fold(nothing, union));
+        let side = prepared.side_of_box(bounds.map(|corner| corner.to_array()));
         *crowd = side.map(|_| bounds);
         side
     }
@@ -157,28 +187,26 @@ impl Work<'_> {
     /// `front`, and pieces on the plane to `own`.
     fn divide(&mut self, start: usize, prepared: &PreparedPlane) -> Result<(), Error> {
         let Placer { pieces, arena, front, own, splitter, .. } = &mut *self.placer;
-        // Each piece has at most one part in front, or is one on the plane.
-        front.reserve(pieces.len() - start);
-        own.reserve(pieces.len() - start);
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
             let behind = match piece.side(self.faces, prepared, arena) {
-                Side::Back => piece,
+                Side::Back => Some(piece),
                 Side::Front => {
                     front.push(piece);
-                    continue;
+                    None
                 }
                 Side::Coplanar => {
                     own.push(piece);
-                    continue;
+                    None
                 }
                 Side::Spanning => {
                     let parts = splitter.cut(self.faces, prepared, &piece, arena)?;
                     front.push(parts[0]);
-                    parts[1]
+                    Some(parts[1])
                 }
             };
+            let Some(behind) = behind else { continue };
             // Moved down in place: `back` never overtakes `i`, so nothing unread is lost.
             pieces[back] = behind;
             back += 1;
@@ -190,18 +218,17 @@ impl Work<'_> {
     /// Puts the set on top of the stack, of at least one piece, into a cell without fragments; or gives
     /// a plane to divide it by.
     fn enter_cell(&mut self, start: usize, place: Place) -> Result<Option<Opened>, Error> {
-        let Placer { cells, cell, anchors, pieces, arena, own, thin, .. } = &mut *self.placer;
+        let Placer { cells, cell, anchors, pieces, arena, own, .. } = &mut *self.placer;
         let set = &pieces[start..];
         if let [piece] = *set {
-            own.clear();
             own.push(piece);
-            let side = self.store_all(0..0, 1);
-            self.skeleton.hang(place, side);
+            let side = self.store_all(0..0);
+            self.insertions.attach(place, side);
             return Ok(None);
         }
-        let polygons = set.partition_point(|piece| piece.face < *thin);
+        let polygons = set.partition_point(|piece| piece.face < self.thin);
         if polygons == 0 {
-            let plane = planes::between(self.faces, anchors, set, arena);
+            let plane = between(self.faces, anchors, set, arena);
             return Ok(Some(Opened::empty(self.faces, plane)));
         }
         let tree = cells.build(self.faces, &set[..polygons], arena, self.watch)?;
@@ -213,53 +240,165 @@ impl Work<'_> {
             return Ok(Opened::of(region, self.tree, cell, self.faces));
         }
         let first = self.store_tree(&tree);
-        self.skeleton.graft(place, self.faces, &tree, first);
+        self.insertions.attach_tree(place, self.faces, &tree, first);
         self.placer.cells.keep(tree);
         Ok(None)
     }
+
+    /// Adds fragments of the cell's tree to the pieces in place, and then those of `own`, in input order.
+    fn store_all(&mut self, fragments: Range<u32>) -> SlotSide {
+        let first = self.pieces.records.len() as u32;
+        for fragment in fragments {
+            let fragment = fragment as usize;
+            let Parts { records, vertices, positions, .. } = &self.placer.cell.parts;
+            let end =
+                records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
+            let range = records[fragment].vertices as usize..end;
+            let (vertex_ids, places) = (&vertices[range.clone()], &positions[range]);
+            let face = records[fragment].face;
+            add(self.pieces, face, vertex_ids.iter().copied(), places.iter().copied());
+        }
+        let Placer { own, arena, .. } = &*self.placer;
+        // Coplanar polygons are painted in input order, which sets keep when they are divided.
+        debug_assert!(own.is_sorted_by_key(|piece| piece.face), "in input order");
+        for piece in own {
+            let cut = piece.cut_vertices(arena).unwrap_or_default();
+            let vertex_ids = cut.iter().map(|vertex| vertex.stored());
+            add(self.pieces, piece.face, vertex_ids, cut.iter().map(Vertex::position));
+            self.watch.finish(piece.cuts);
+        }
+        self.insertions.group(first..self.pieces.records.len() as u32)
+    }
+
+    /// Appends the fragments of a small tree to the overlay's pieces, and returns the number of the first.
+    fn store_tree(&mut self, tree: &Parts) -> u32 {
+        let pieces = &mut *self.pieces;
+        let first = pieces.records.len() as u32;
+        let shift = pieces.vertices.len() as u32;
+        let moved = |record: &Record| Record { vertices: record.vertices + shift, ..*record };
+        pieces.records.extend(tree.records.iter().map(moved));
+        pieces.vertices.extend_from_slice(&tree.vertices);
+        pieces.positions.extend_from_slice(&tree.positions);
+        first
+    }
 }
 
-/// A set of pieces that is still to be divided: a range of the stack of pieces.
-#[derive(Debug)]
-pub(super) struct Pending {
-    pub(super) pieces: Range<usize>,
-    /// The length of the arena that it needs.
-    pub(super) arena: usize,
-    pub(super) region: Region,
-    pub(super) place: Place,
+/// Adds a piece to those that are in place.
+fn add(
+    pieces: &mut Parts,
+    face: u32,
+    vertex_ids: impl Iterator<Item = StoredVertex>,
+    places: impl Iterator<Item = [f64; 3]>,
+) {
+    let Parts { records, vertices, positions, .. } = pieces;
+    records.push(Record { face, vertices: vertices.len() as u32 });
+    vertices.extend(vertex_ids);
+    positions.extend(places);
 }
 
-/// Places polygons, lines and points in a tree; its lists are kept to be used again.
-#[derive(Default)]
-pub(super) struct Placer {
-    pub(super) cells: OverlayBuilder,
-    pub(super) cell: CellTree,
-    pub(super) anchors: Anchors,
-    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
-    /// polygons, then lines, then points.
-    pub(super) pieces: Vec<Piece>,
-    /// The vertices of cut pieces, in the order of the cuts.
-    pub(super) arena: Vec<Vertex>,
-    pub(super) pending: Vec<Pending>,
-    pub(super) front: Vec<Piece>,
-    pub(super) own: Vec<Piece>,
-    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
-    pub(super) crowd: Option<[[f64; 3]; 2]>,
-    pub(super) splitter: Splitter,
-    /// The face to begin with: those before it are the tree's.
-    pub(super) first: u32,
-    /// The first face without area.
-    pub(super) thin: u32,
+/// A part of a tree, by its fragments: below a node, or a leaf.
+#[derive(Clone, Debug)]
+struct Region {
+    of: Whose,
+    node: Option<usize>,
+    fragments: Range<u32>,
 }
 
-/// What one placing reads and writes.
-pub(super) struct Work<'a> {
-    pub(super) tree: &'a BspTree,
-    pub(super) faces: &'a Faces,
-    pub(super) placer: &'a mut Placer,
-    pub(super) pieces: &'a mut Parts,
-    pub(super) skeleton: &'a mut InsertionTree,
-    pub(super) watch: &'a Watch<'a>,
+/// Whose part a region is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Whose {
+    /// The tree's, that stays as it is.
+    Tree,
+    /// Of the small tree of the polygons that meet in one of its cells.
+    Cell,
+}
+
+impl Region {
+    /// A cell without fragments.
+    const EMPTY: Self = Self { of: Whose::Tree, node: None, fragments: 0..0 };
+
+    /// The root of a tree of so many nodes and fragments.
+    fn root(of: Whose, nodes: usize, fragments: usize) -> Self {
+        Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
+    }
+
+    /// Whether it has polygons that are still to be put in place.
+    fn has_pieces(&self) -> bool {
+        self.of == Whose::Cell && !self.fragments.is_empty()
+    }
+}
+
+/// The small tree of the polygons in a cell, as long as lines and points are cut by it.
+#[derive(Debug, Default)]
+struct CellTree {
+    nodes: Vec<NodeRecord>,
+    sizes: Vec<Sizes>,
+    parts: Parts,
+}
+
+impl CellTree {
+    /// Replaces the tree, and gives all of it as a region.
+    fn fill(&mut self, parts: Parts) -> Result<Region, Error> {
+        make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
+        finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
+        self.parts = parts;
+        Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
+    }
+}
+
+/// A region's plane, and both sides of it as they are without pieces.
+struct Opened {
+    branch: Branch,
+    /// The fragments on the plane.
+    own: Range<u32>,
+    sides: [Region; 2],
+}
+
+impl Opened {
+    /// A plane in a cell without fragments.
+    fn empty(faces: &Faces, plane: PlaneId) -> Self {
+        Self::new(rounded(faces, plane), plane, 0..0, [Region::EMPTY; 2])
+    }
+
+    #[inline]
+    fn new(rounded: Vec4, plane: PlaneId, own: Range<u32>, sides: [Region; 2]) -> Self {
+        // Those of a cell are pieces, which are attached one by one.
+        let of_tree = |fragments: &Range<u32>| match sides[0].of {
+            Whose::Tree => fragments.len(),
+            Whose::Cell => 0,
+        };
+        let [front, back] = sides.each_ref().map(|side| SlotSide::empty(of_tree(&side.fragments)));
+        let on_plane = of_tree(&own) as u32;
+        let pieces = SlotSide::empty(0);
+        let branch = Branch { rounded, plane, own: on_plane, pieces, front, back };
+        Self { branch, own, sides }
+    }
+
+    /// `None` for an empty cell. The plane of a leaf is that of its fragment, so that no piece crosses
+    /// it.
+    #[inline]
+    fn of(region: Region, tree: &BspTree, cell: &CellTree, faces: &Faces) -> Option<Self> {
+        let Region { of, node, fragments: all } = region;
+        let (nodes, records) = match of {
+            Whose::Tree => (&tree.nodes, &tree.records),
+            Whose::Cell => (&cell.nodes, &cell.parts.records),
+        };
+        let Some(index) = node else {
+            let plane = PlaneId::face(records[all.clone().next()? as usize].face);
+            let nothing = Region { of, node: None, fragments: all.end..all.end };
+            let sides = [nothing.clone(), nothing];
+            return Some(Self::new(rounded(faces, plane), plane, all, sides));
+        };
+        let node = &nodes[index];
+        let Ranges { own, front, back } = node.ranges(all);
+        let front = Region { of, node: node.front_node(index), fragments: front };
+        let back = Region { of, node: node.back_node(index), fragments: back };
+        let rounded = match of {
+            Whose::Tree => tree.planes.get(index),
+            Whose::Cell => rounded(faces, node.plane),
+        };
+        Some(Self::new(rounded, node.plane, own, [front, back]))
+    }
 }
 
 /// A segment of a line, before any plane cut it.
@@ -279,7 +418,7 @@ impl super::Overlay {
     /// An error if the overlay is not one for the tree, or has polygons.
     pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
         self.expect(tree)?;
-        if self.base.faces < self.first_thin() {
+        if self.base.faces < first_thin(&self.faces) {
             let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
             return Err(crate::error::Kind::InOverlay.of_polygon(number));
         }
@@ -288,7 +427,7 @@ impl super::Overlay {
 
     /// All segments of its lines, in input order.
     pub(crate) fn given_segments(&self) -> impl ExactSizeIterator<Item = GivenSegment> {
-        let first = self.first_thin();
+        let first = first_thin(&self.faces);
         (0..self.faces.thin.segments).map(move |i| {
             let face = (first + i) as u32;
             let corners = self.faces.corners(face);
@@ -302,67 +441,4 @@ impl super::Overlay {
         let first = self.faces.len() - self.faces.thin.points;
         (0..self.faces.thin.points).map(move |i| self.faces.corners((first + i) as u32)[0])
     }
-
-    /// The first face that has no area.
-    fn first_thin(&self) -> usize {
-        self.faces.len() - self.faces.thin.segments - self.faces.thin.points
-    }
-}
-
-impl Work<'_> {
-    /// Adds fragments of the cell's tree to the pieces in place, and then so many of `own`, in input
-    /// order.
-    pub(super) fn store_all(&mut self, fragments: Range<u32>, own: usize) -> SlotSide {
-        let first = self.pieces.records.len() as u32;
-        for fragment in fragments {
-            let fragment = fragment as usize;
-            let Parts { records, vertices, positions, .. } = &self.placer.cell.parts;
-            let end =
-                records.get(fragment + 1).map_or(vertices.len(), |next| next.vertices as usize);
-            let range = records[fragment].vertices as usize..end;
-            let (vertex_ids, places) = (&vertices[range.clone()], &positions[range]);
-            let face = records[fragment].face;
-            add(self.pieces, face, vertex_ids.iter().copied(), places.iter().copied());
-        }
-        let Placer { own: list, arena, .. } = &*self.placer;
-        // Coplanar polygons are painted in input order, which sets keep when they are divided.
-        debug_assert!(list[..own].is_sorted_by_key(|piece| piece.face), "in input order");
-        for piece in &list[..own] {
-            let cut = piece.cut_vertices(arena).unwrap_or_default();
-            let vertex_ids = cut.iter().map(|vertex| vertex.stored());
-            add(self.pieces, piece.face, vertex_ids, cut.iter().map(Vertex::position));
-            self.watch.finish(piece.cuts);
-        }
-        self.skeleton.group(first..self.pieces.records.len() as u32)
-    }
-
-    /// Appends the fragments of a small tree to the overlay's pieces, and gives the number of the first.
-    pub(super) fn store_tree(&mut self, tree: &Parts) -> u32 {
-        let pieces = &mut *self.pieces;
-        let first = pieces.records.len() as u32;
-        let shift = pieces.vertices.len() as u32;
-        pieces.records.reserve(tree.records.len());
-        let moved = |record: &Record| Record { vertices: record.vertices + shift, ..*record };
-        pieces.records.extend(tree.records.iter().map(moved));
-        pieces.vertices.reserve(tree.vertices.len());
-        pieces.vertices.extend_from_slice(&tree.vertices);
-        pieces.positions.reserve(tree.positions.len());
-        pieces.positions.extend_from_slice(&tree.positions);
-        first
-    }
-}
-
-/// Adds a piece to those that are in place.
-fn add(
-    pieces: &mut Parts,
-    face: u32,
-    vertex_ids: impl ExactSizeIterator<Item = StoredVertex>,
-    places: impl ExactSizeIterator<Item = [f64; 3]>,
-) {
-    let Parts { records, vertices, positions, .. } = pieces;
-    records.push(Record { face, vertices: vertices.len() as u32 });
-    vertices.reserve(vertex_ids.len());
-    vertices.extend(vertex_ids);
-    positions.reserve(places.len());
-    positions.extend(places);
 }

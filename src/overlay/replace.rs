@@ -83,51 +83,31 @@ impl Overlay {
     {
         self.clear();
         self.expect(tree)?;
-        let mut filling = Filling { overlay: self, is_done: false };
-        filling.overlay.fill(tree, shapes, watch)?;
-        filling.is_done = true;
-        Ok(())
-    }
-
-    /// Fills an empty overlay; after an error it may have anything.
-    fn fill<P, L, Q>(
-        &mut self,
-        tree: &BspTree,
-        shapes: Shapes<P, L, Q>,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error>
-    where
-        P: IntoIterator<Item: Polygon>,
-        L: IntoIterator<Item: Polygon>,
-        Q: IntoIterator<Item: Point>,
-    {
-        let Self { faces, base, preparer, placer, pieces, skeleton, preparation, segments } = self;
+        let filling = Filling(self);
+        let Overlay { faces, base, preparer, placer, pieces, insertions, preparation, segments } =
+            &mut *filling.0;
         let Shapes { polygons, lines, points } = shapes;
         if faces.is_empty() {
             *faces = tree.faces.try_clone()?;
         }
         *preparation = preparer.append(faces, polygons, base.polygons, usize::MAX, watch)?;
-        placer.begin_at(base.faces, faces.len());
         preparer.append_lines(faces, lines, segments, watch)?;
         preparer.append_points(faces, points, watch)?;
         watch.expect(faces.len() - base.faces)?;
-        placer.place(tree, faces, pieces, skeleton, watch)?;
-        watch.end()
+        placer.place(tree, faces, pieces, insertions, watch)?;
+        watch.end()?;
+        std::mem::forget(filling);
+        Ok(())
     }
 }
 
-/// An overlay that is being filled. Unless that is done, it is emptied: after an error, and where the
+/// An overlay that is being filled. It is emptied if that ends early: after an error, and where the
 /// caller's callback or iterators panic.
-struct Filling<'a> {
-    overlay: &'a mut Overlay,
-    is_done: bool,
-}
+struct Filling<'a>(&'a mut Overlay);
 
 impl Drop for Filling<'_> {
     fn drop(&mut self) {
-        if !self.is_done {
-            self.overlay.clear();
-        }
+        self.0.clear();
     }
 }
 

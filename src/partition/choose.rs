@@ -57,11 +57,11 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
             continue;
         }
         let own = &mut samples[range.clone()];
-        let wall = wall(own, &room, count);
-        planes.push(wall);
-        let behind = range.start + move_behind(own, wall);
+        let plane = split_plane(own, &room, count);
+        planes.push(plane);
+        let behind = range.start + move_behind(own, plane);
         let [mut back_room, mut front_room] = [room; 2];
-        (back_room[1][wall.axis], front_room[0][wall.axis]) = (wall.at, wall.at);
+        (back_room[1][plane.axis], front_room[0][plane.axis]) = (plane.at, plane.at);
         let [back, front] = subtree.sides();
         parts.push(Samples { subtree: front, samples: behind..range.end, room: front_room });
         parts.push(Samples { subtree: back, samples: range.start..behind, room: back_room });
@@ -71,7 +71,7 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
 
 /// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, as
 /// that often is a corner, which cuts fewer polygons. The same in whatever order the samples are.
-fn wall(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {
+fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {
     let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for sample in &*samples {
         for axis in 0..3 {
@@ -105,10 +105,10 @@ fn longest([low, high]: &CellBox) -> usize {
 }
 
 /// Moves the samples behind a plane to the beginning, and counts them.
-fn move_behind(samples: &mut [[f64; 3]], wall: SplitPlane) -> usize {
+fn move_behind(samples: &mut [[f64; 3]], plane: SplitPlane) -> usize {
     let mut behind = 0;
     for i in 0..samples.len() {
-        if samples[i][wall.axis] < wall.at {
+        if samples[i][plane.axis] < plane.at {
             samples.swap(i, behind);
             behind += 1;
         }

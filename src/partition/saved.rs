@@ -33,9 +33,9 @@ impl Partition {
         let mut file = Writer::new(output, KIND)?;
         self.lattice.write(&mut file)?;
         file.f64(self.tolerance)?;
-        file.list(self.planes.iter(), |file, wall| {
-            file.u32(wall.axis as u32)?;
-            file.u64(wall.at as i64 as u64)
+        file.list(self.planes.iter(), |file, plane| {
+            file.u32(plane.axis as u32)?;
+            file.u64(plane.at as i64 as u64)
         })?;
         file.finish()
     }
@@ -62,7 +62,7 @@ impl Partition {
         if !(0.0..=MAX_TOLERANCE).contains(&tolerance) {
             return Err(LoadError::of("tolerance", "is negative, too large or no number"));
         }
-        let is_wrong = |wall: &SplitPlane| wall.axis > 2 || wall.at.abs() > LATTICE_LIMIT;
+        let is_wrong = |plane: &SplitPlane| plane.axis > 2 || plane.at.abs() > LATTICE_LIMIT;
         if let Some(plane) = planes.iter().position(is_wrong) {
             return Err(invalid("plane", plane, "is outside the grid"));
         }

@@ -7,9 +7,7 @@ use std::iter::FusedIterator;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::chord::{Chord, Spot, chord};
-use super::filter::{Guess, guess};
-use super::probe::{Depth, Meeting, RayQuery};
+use super::ray::{Depth, Interval, RayQuery, Spot};
 use super::walk::Walk;
 use crate::exact::Faces;
 use crate::exact::eye::{ExactRay, Parameter};
@@ -18,8 +16,8 @@ use crate::viewpoint::Ray;
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
-/// It searches only as far along the ray as the next hit requires. Nothing is allocated
-/// unless dozens of parts of the tree, or more than eight fragments at one place, are pending at once.
+/// It searches only as far along the ray as the next hit requires. Nothing is allocated unless dozens of parts
+/// of the tree or more than eight fragments are pending at once, or polygons lie in the plane of the ray.
 #[derive(Clone, Debug)]
 pub struct Hits<'t> {
     tree: &'t BspTree,
@@ -30,70 +28,48 @@ pub struct Hits<'t> {
 
 #[derive(Clone, Debug)]
 struct Search<'t> {
-    probe: RayQuery,
+    query: RayQuery,
     walk: Walk<'t>,
-    /// What the ray meets of what it has come to.
-    found: Found,
-    reached: SeenPolygons,
-}
-
-/// For each polygon hit so far, the depth at which the hit ends.
-#[derive(Clone, Debug, Default)]
-struct SeenPolygons {
-    /// The last few.
-    few: SmallVec<[(usize, Depth); FEW]>,
-    /// Others that may have gone on when there were more than a few.
-    many: BTreeMap<usize, Depth>,
-}
-
-/// How many polygons at one place are looked through one by one. Smaller: more rays need a map, and
-/// allocate. Larger: looking through them takes longer than a map.
-const FEW: usize = 8;
-
-impl SeenPolygons {
-    /// Where what was hit of a polygon ends. Those that end before a depth may be forgotten.
-    fn get(&mut self, polygon: usize, from: &Depth) -> Option<&mut Depth> {
-        self.few.retain(|(_, end)| end.high >= from.low);
-        match self.few.iter_mut().find(|(of, _)| *of == polygon) {
-            Some((_, end)) => Some(end),
-            None => self.many.get_mut(&polygon),
-        }
-    }
-
-    fn insert(&mut self, polygon: usize, end: Depth) {
-        if self.few.len() == FEW {
-            self.many.extend(self.few.drain(..));
-        }
-        self.few.push((polygon, end));
-    }
+    /// What the ray meets of the fragments that it has come to.
+    found: HitQueue,
+    /// The polygon of the last hit, and where that ends.
+    last: Option<(usize, Depth)>,
+    /// Where the hits of polygons end that lie in the plane of the ray.
+    ends: BTreeMap<usize, Depth>,
 }
 
 impl Search<'_> {
     /// The next fragment that the ray meets.
-    fn next(&mut self, tree: &BspTree) -> Option<Meeting> {
-        let Self { probe, walk, found, .. } = self;
+    fn next(&mut self, tree: &BspTree) -> Option<Interval> {
+        let Self { query, walk, found, .. } = self;
         loop {
-            // What comes no nearer than the nearest that is found need not be looked at.
+            // Fragments behind the nearest that is found need not be looked at.
             let limit = found.first().map_or(f64::INFINITY, |nearest| nearest.enter.high);
-            let Some(fragment) = walk.next(limit) else { return found.pop(probe, &tree.faces) };
+            let Some(fragment) = walk.next(limit) else { return found.pop(query, &tree.faces) };
             let fragment = tree.fragment(fragment);
-            if let Some(meeting) = Meeting::new(probe, &fragment, &tree.faces) {
-                found.push(meeting, probe, &tree.faces);
+            if let Some(interval) = Interval::new(query, &fragment, &tree.faces) {
+                found.push(interval, query, &tree.faces);
             }
         }
     }
 
-    /// Whether a meeting is a hit, rather than more of what was hit.
-    fn is_new(&mut self, tree: &BspTree, meeting: &Meeting) -> bool {
-        let Self { probe, reached, .. } = self;
-        let polygon = tree.faces.polygon(meeting.face);
-        let Some(end) = reached.get(polygon, &meeting.enter) else {
-            reached.insert(polygon, meeting.leave);
-            return true;
-        };
-        let is_apart = end.compare(&meeting.enter, probe, &tree.faces).is_lt();
-        if is_apart || end.compare(&meeting.leave, probe, &tree.faces).is_lt() {
-            *end = meeting.leave;
+    /// Whether an interval is a hit, rather than more of the last hit of its polygon. At one point a polygon's
+    /// intervals come in a row, so its last hit is the last of all, unless it goes on along the ray.
+    fn is_new(&mut self, tree: &BspTree, interval: &Interval) -> bool {
+        let Self { query, last, ends, .. } = self;
+        let (polygon, Interval { enter, leave, .. }) =
+            (tree.faces.polygon(interval.face), interval);
+        let known = ends.get(&polygon).or(match last {
+            Some((of, end)) if *of == polygon => Some(end),
+            _ => None,
+        });
+        let is_apart = known.is_none_or(|end| end.compare(enter, query, &tree.faces).is_lt());
+        if is_apart || known.is_some_and(|end| end.compare(leave, query, &tree.faces).is_lt()) {
+            if enter.spot == leave.spot && !ends.contains_key(&polygon) {
+                *last = Some((polygon, *leave));
+            } else {
+                ends.insert(polygon, *leave);
+            }
         }
         is_apart
     }
@@ -101,11 +77,12 @@ impl Search<'_> {
 
 impl<'t> Hits<'t> {
     fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, ray: Ray) -> Self {
-        let search = RayQuery::new(ray, tree.faces.lattice()).map(|probe| Search {
-            walk: Walk::new(tree, bounds, &probe),
-            probe,
-            found: Found::default(),
-            reached: SeenPolygons::default(),
+        let search = RayQuery::new(ray, tree.faces.lattice()).map(|query| Search {
+            walk: Walk::new(tree, bounds, &query),
+            query,
+            found: HitQueue::default(),
+            last: None,
+            ends: BTreeMap::new(),
         });
         Self { tree, ray, search }
     }
@@ -116,13 +93,12 @@ impl<'t> Iterator for Hits<'t> {
 
     fn next(&mut self) -> Option<Hit<'t>> {
         let search = self.search.as_mut()?;
-        let meeting = loop {
-            let meeting = search.next(self.tree)?;
-            if search.is_new(self.tree, &meeting) {
-                break meeting;
+        let Interval { fragment, enter, facing, .. } = loop {
+            let interval = search.next(self.tree)?;
+            if search.is_new(self.tree, &interval) {
+                break interval;
             }
         };
-        let Meeting { fragment, enter, facing, .. } = meeting;
         Some(Hit { tree: self.tree, ray: self.ray, fragment, spot: enter.spot, facing })
     }
 }
@@ -301,30 +277,30 @@ impl std::fmt::Debug for Hit<'_> {
     }
 }
 
-/// A binary heap: each meeting comes before the two below it. (That of the standard library compares
-/// without the ray, by which these are compared.)
+/// A binary heap: each interval comes before the two below it. (The heap of the standard library cannot pass
+/// the ray to comparisons.)
 ///
-/// To push takes a few comparisons if the meeting comes later than most, as at one place, where faces
-/// are reached in input order; to pop takes one or two a level.
+/// Pushing takes a few comparisons if the interval comes later than most, as at one place, where faces
+/// are met in input order. Popping takes one or two a level.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Found {
-    heap: SmallVec<[Meeting; 8]>,
+struct HitQueue {
+    heap: SmallVec<[Interval; 8]>,
 }
 
-impl Found {
+impl HitQueue {
     /// The nearest.
-    pub(super) fn first(&self) -> Option<&Meeting> {
+    fn first(&self) -> Option<&Interval> {
         self.heap.first()
     }
 
     /// Puts one in: O(log n) comparisons.
-    pub(super) fn push(&mut self, meeting: Meeting, probe: &mut RayQuery, faces: &Faces) {
-        self.heap.push(meeting);
-        self.rise(self.heap.len() - 1, probe, faces);
+    fn push(&mut self, interval: Interval, query: &RayQuery, faces: &Faces) {
+        self.heap.push(interval);
+        self.rise(self.heap.len() - 1, query, faces);
     }
 
     /// Takes the nearest out: O(log n) comparisons.
-    pub(super) fn pop(&mut self, probe: &mut RayQuery, faces: &Faces) -> Option<Meeting> {
+    fn pop(&mut self, query: &RayQuery, faces: &Faces) -> Option<Interval> {
         if self.heap.len() <= 1 {
             return self.heap.pop();
         }
@@ -334,49 +310,28 @@ impl Found {
         while below < self.heap.len() {
             let other = below + 1;
             if other < self.heap.len()
-                && self.heap[other].compare(&self.heap[below], probe, faces).is_lt()
+                && self.heap[other].compare(&self.heap[below], query, faces).is_lt()
             {
                 below = other;
             }
             self.heap.swap(at, below);
             (at, below) = (below, 2 * below + 1);
         }
-        self.rise(at, probe, faces);
+        self.rise(at, query, faces);
         Some(first)
     }
 
-    /// Moves a meeting up before those that it comes before.
-    fn rise(&mut self, mut at: usize, probe: &mut RayQuery, faces: &Faces) {
+    /// Moves a interval up before those that it comes before.
+    fn rise(&mut self, mut at: usize, query: &RayQuery, faces: &Faces) {
         while at > 0 {
             let above = (at - 1) / 2;
-            if self.heap[at].compare(&self.heap[above], probe, faces).is_gt() {
+            if self.heap[at].compare(&self.heap[above], query, faces).is_gt() {
                 break;
             }
             self.heap.swap(at, above);
             at = above;
         }
     }
-}
-
-/// Whether a ray meets a fragment between its ends.
-fn is_between(probe: &mut RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> bool {
-    match guess(probe, fragment, faces) {
-        Guess::Misses => false,
-        Guess::Meets { .. } => true,
-        Guess::Unsure => probe.exact().is_some_and(|ray| {
-            chord(ray, fragment, faces).is_some_and(|chord| reaches_inside(ray, &chord, faces))
-        }),
-    }
-}
-
-/// Whether some of what a ray and a fragment have in common is no end of the ray.
-fn reaches_inside(ray: &ExactRay, chord: &Chord, faces: &Faces) -> bool {
-    let [enter, leave] = [chord.enter, chord.leave].map(|spot| spot.parameter(ray, faces));
-    let is_inside = |t: &Parameter| {
-        t.compare(&Parameter::ZERO).is_gt() && ray.end().is_none_or(|end| t.compare(&end).is_lt())
-    };
-    // More than a point has more than ends.
-    enter.compare(&leave).is_lt() || is_inside(&enter)
 }
 
 impl BspTree {
@@ -426,12 +381,12 @@ impl Bounds {
 }
 
 fn is_blocked(tree: &BspTree, bounds: Option<&Bounds>, ray: Ray) -> bool {
-    let Some(mut probe) = RayQuery::new(ray, tree.faces.lattice()) else { return false };
-    let mut walk = Walk::new(tree, bounds, &probe);
-    while let Some(fragment) = walk.next(f64::INFINITY) {
-        if is_between(&mut probe, &tree.fragment(fragment), &tree.faces) {
-            return true;
-        }
-    }
-    false
+    let faces = &tree.faces;
+    let Some(query) = RayQuery::new(ray, faces.lattice()) else { return false };
+    let mut walk = Walk::new(tree, bounds, &query);
+    let mut fragments = std::iter::from_fn(|| walk.next(f64::INFINITY));
+    fragments.any(|fragment| {
+        Interval::new(&query, &tree.fragment(fragment), faces)
+            .is_some_and(|interval| interval.has_inner_point(&query, faces))
+    })
 }

@@ -6,8 +6,7 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::filter::is_off_plane;
-use super::probe::RayQuery;
+use super::ray::RayQuery;
 use crate::exact::PlaneId;
 use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
@@ -68,14 +67,12 @@ impl<'t> Location<'t> {
     /// ```
     pub fn coplanar(&self) -> impl Iterator<Item = u32> + Clone + use<'t> {
         let (tree, faces) = (self.tree, &self.tree.faces);
-        let ray = Ray::between(self.point, self.point);
-        let exact = ExactRay::new(ray, faces.lattice());
-        let prepared = RayQuery::new(ray, faces.lattice()).zip(exact);
-        prepared.into_iter().flat_map(move |(probe, exact)| {
+        let query = RayQuery::new(Ray::between(self.point, self.point), faces.lattice());
+        query.into_iter().flat_map(move |query| {
             tree.fragments().filter_map(move |fragment| {
                 let face = fragment.face();
-                let is_on = !is_off_plane(&probe, faces, face)
-                    && exact.at(&faces.plane(PlaneId::face(face))).start().is_eq();
+                let is_on = !query.is_off_plane(faces, face)
+                    && query.exact.at(&faces.plane(PlaneId::face(face))).start().is_eq();
                 is_on.then_some(fragment.index())
             })
         })

@@ -1,13 +1,15 @@
 //! Which fragments have points in a convex region.
 
 use std::iter::FusedIterator;
+use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::chord::upright;
+use super::ray::upright;
+use super::walk::next_block;
 use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
 use crate::exact::{EdgeLine, Faces, VertexKind};
-use crate::tree::{BLOCK, Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
+use crate::tree::{Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
 use crate::viewpoint::Frustum;
 
 /// The numbers of the fragments that have points in a region: [`Bounds::fragments_in`].
@@ -16,9 +18,9 @@ pub struct FragmentsIn<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
     sides: SmallVec<[RegionPlane; 6]>,
-    next: u32,
-    /// The fragments up to here are inside.
-    inside: u32,
+    rest: Range<u32>,
+    /// Fragments that are inside and come before the rest.
+    inside: Range<u32>,
 }
 
 /// A plane of a region.
@@ -31,13 +33,6 @@ struct RegionPlane {
     inner: HalfSpace,
 }
 
-/// Where a box is.
-enum Place {
-    Inside,
-    Outside,
-    Unsure,
-}
-
 impl<'t> FragmentsIn<'t> {
     fn new(tree: &'t BspTree, bounds: &'t Bounds, region: &Frustum) -> Self {
         let lattice = tree.faces.lattice();
@@ -47,33 +42,7 @@ impl<'t> FragmentsIn<'t> {
             Some(RegionPlane { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
         };
         let sides = region.planes().iter().filter_map(side).collect();
-        Self { tree, bounds, sides, next: 0, inside: 0 }
-    }
-
-    fn place(&self, bounds: &Flat) -> Place {
-        if self.sides.iter().any(|side| side.outer.is_behind(bounds)) {
-            Place::Outside
-        } else if self.sides.iter().all(|side| side.inner.is_behind(bounds)) {
-            Place::Inside
-        } else {
-            Place::Unsure
-        }
-    }
-
-    /// Passes over the largest block of fragments that begins here, if it is outside, and says so; if it is
-    /// inside, notes that.
-    fn skip(&mut self, number: u32, end: u32) -> bool {
-        let (level, _) = self.bounds.block(&(number..end));
-        for level in (0..=level).rev() {
-            let len = (BLOCK as u32).pow(level as u32);
-            match self.place(&self.bounds.get(level, number / len)) {
-                Place::Inside => self.inside = number + len,
-                Place::Outside => self.next = number + len,
-                Place::Unsure => continue,
-            }
-            break;
-        }
-        self.next > number
+        Self { tree, bounds, sides, rest: 0..tree.len() as u32, inside: 0..0 }
     }
 
     /// Whether a fragment has a point in the region: exact.
@@ -132,18 +101,22 @@ impl Iterator for FragmentsIn<'_> {
     type Item = u32;
 
     fn next(&mut self) -> Option<u32> {
-        let end = self.tree.len() as u32;
-        while self.next < end {
-            let number = self.next;
-            if number >= self.inside && self.skip(number, end) {
-                continue;
-            }
-            self.next = number + 1;
-            if number < self.inside || self.meets(number) {
+        loop {
+            if let Some(number) = self.inside.next() {
                 return Some(number);
             }
+            let sides = &self.sides;
+            let (block, is_inside) = next_block(self.bounds, &mut self.rest, |bounds: &Flat| {
+                if sides.iter().any(|side| side.outer.is_behind(bounds)) {
+                    Some(false)
+                } else {
+                    sides.iter().all(|side| side.inner.is_behind(bounds)).then_some(true)
+                }
+            })?;
+            if is_inside || self.meets(block.start) {
+                self.inside = block;
+            }
         }
-        None
     }
 }
 

@@ -2,15 +2,15 @@
 //!
 //! A partition plane divides the ray: one side of the tree is met only before it, the other only behind.
 //! But the tolerance lets fragments reach across the plane, and the planes that are read here are rounded
-//! to `f32`. So both sides are met up to a small distance beyond the plane, and what is *on* it within
-//! this distance. That costs some parts that are looked at in vain, and no decision depends on it: which
-//! fragments are met, and which of them first, is decided by `probe`.
+//! to `f32`. So both sides are met up to a small distance beyond the plane, and so are the fragments *on* it.
+//! Some parts are therefore visited without success, but no decision depends on it: `ray` decides which
+//! fragments are met, and which of them first.
 
 use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::probe::RayQuery;
+use super::ray::RayQuery;
 use crate::exact::LATTICE_LIMIT;
 use crate::exact::lattice::MAX_CORNER;
 use crate::tree::node::Ranges;
@@ -21,7 +21,7 @@ use crate::tree::{BLOCK, Bounds, BspTree, Flat};
 pub(super) struct Walk<'t> {
     tree: &'t BspTree,
     boxes: Option<Boxes<'t>>,
-    /// The one to be looked at next is on top.
+    /// A stack: the nearest part is on top.
     pending: SmallVec<[Pending; 24]>,
     /// The ray in units of 2⁵¹ lattice steps, as the tree's planes are given.
     origin: [f64; 3],
@@ -42,8 +42,6 @@ struct Pending {
     end: u32,
     from: f64,
     to: f64,
-    /// Neither this part nor those below it on the stack are met before this.
-    floor: f64,
 }
 
 const LEAF: u32 = u32::MAX;
@@ -53,25 +51,25 @@ const LEAF: u32 = u32::MAX;
 /// With a unit normal that is 2⁻²⁴ · 1.014 · (√3 + √3).
 const PLANE_ERROR: f64 = 2.2e-7;
 
-/// Rounding of a plane's distance at a point of the ray, as a share of the probe's reach.
+/// Rounding of a plane's distance at a point of the ray, as a share of the query's reach.
 const REACH_ERROR: f64 = 16.0 * f64::EPSILON;
 
 impl<'t> Walk<'t> {
     /// The whole tree. With boxes, what the ray passes by is left out.
-    pub(super) fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, probe: &RayQuery) -> Self {
+    pub(super) fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, query: &RayQuery) -> Self {
         let unit = 1.0 / LATTICE_LIMIT;
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
         let mut walk = Self {
             tree,
-            boxes: bounds.and_then(|bounds| Boxes::new(probe, bounds)),
+            boxes: bounds.and_then(|bounds| Boxes::new(query, bounds)),
             pending: SmallVec::new(),
-            origin: probe.origin.map(|c| c * unit),
-            direction: probe.direction.map(|c| c * unit),
-            slack: PLANE_ERROR + tolerance + REACH_ERROR * probe.reach * unit,
+            origin: query.origin.map(|c| c * unit),
+            direction: query.direction.map(|c| c * unit),
+            slack: PLANE_ERROR + tolerance + REACH_ERROR * query.reach * unit,
             run: 0..0,
             span: [0.0; 2],
         };
-        if let Some([from, to]) = walk.within_reach(probe) {
+        if let Some([from, to]) = walk.within_reach(query) {
             let node = if tree.nodes.is_empty() { LEAF } else { 0 };
             walk.push(node, 0..tree.len() as u32, [from, to]);
         }
@@ -90,7 +88,7 @@ impl<'t> Walk<'t> {
             if next.is_some() {
                 return next;
             }
-            if self.pending.last()?.floor > limit {
+            if !self.reaches(limit) {
                 return None;
             }
             let part = self.pending.pop()?;
@@ -98,32 +96,42 @@ impl<'t> Walk<'t> {
         }
     }
 
+    /// Whether some pending part is met at a limit or before.
+    fn reaches(&self, limit: f64) -> bool {
+        self.pending.iter().rev().any(|part| part.from <= limit)
+    }
+
     /// Goes down the near side of a subtree to the first fragments, and leaves the rest on the stack.
     fn descend(&mut self, part: Pending, limit: f64) {
-        let Pending { mut node, first, end, mut from, mut to, .. } = part;
+        let Pending { mut node, first, end, mut from, mut to } = part;
         let mut all = first..end;
-        // How many fragments the last box that was looked at has; at first none was.
+        // How many fragments the last box that was compared has; at first none was.
         let mut boxed = u32::MAX;
         while node != LEAF {
             let index = node as usize;
             let len = all.end - all.start;
             if let Some(boxes) = self.boxes.as_ref().filter(|_| len < boxed - boxed / 4) {
                 boxed = len;
-                let [enter, leave] = boxes.of_node(index);
+                let [enter, leave] = boxes.within(&boxes.bounds.nodes[index]);
                 from = if enter > from { enter } else { from };
                 to = if leave < to { leave } else { to };
                 if from > to {
                     return;
                 }
-                let below = self.pending.last().map_or(f64::INFINITY, |part| part.floor);
-                if from > limit && below > limit {
-                    self.push(node, all, [from, to]);
-                    return;
+                if from > limit && !self.reaches(limit) {
+                    return self.push(node, all, [from, to]);
                 }
             }
-            let (own, [front, back]) = self.divided(index, all);
-            let distance = self.distance(index);
-            let [begin, end] = [from, to].map(|t| distance.start + distance.slope * t);
+            let record = &self.tree.nodes[index];
+            let Ranges { own, front, back } = record.ranges(all);
+            let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
+            let front = (front, child(record.front_node(index)));
+            let back = (back, child(record.back_node(index)));
+            // The distance of the ray from the plane is start + t · slope.
+            let [x, y, z, offset] = self.tree.planes.get(index).to_array().map(f64::from);
+            let ([a, b, c], [d, e, f]) = (self.origin, self.direction);
+            let (start, slope) = (x * a + y * b + z * c - offset, x * d + y * e + z * f);
+            let [begin, end] = [from, to].map(|t| start + slope * t);
             if begin > self.slack && end > self.slack {
                 (all, node) = front;
                 continue;
@@ -132,8 +140,12 @@ impl<'t> Walk<'t> {
                 (all, node) = back;
                 continue;
             }
-            let Crossing { enter, leave, is_forwards } = distance.crossing(self.slack);
-            let (near, far) = if is_forwards { (back, front) } else { (front, back) };
+            let (near, far, toward) =
+                if slope >= 0.0 { (back, front, -start) } else { (front, back, start) };
+            // The ray is within the slack of the plane between these. Without a slope they are infinite, or
+            // NaN, for which every comparison is false.
+            let [enter, leave] =
+                [toward - self.slack, toward + self.slack].map(|d| d / slope.abs());
             let begin = if enter > from { enter } else { from };
             let is_near = from <= leave;
             let end = if leave < to { leave } else { to };
@@ -152,37 +164,18 @@ impl<'t> Walk<'t> {
         (self.run, self.span) = (all, [from, to]);
     }
 
-    /// The fragments on a node's plane, and those on its sides, each side with the node that divides it.
-    #[inline]
-    fn divided(&self, node: usize, all: Range<u32>) -> (Range<u32>, [(Range<u32>, u32); 2]) {
-        let record = &self.tree.nodes[node];
-        let Ranges { own, front, back } = record.ranges(all);
-        let child = |node: Option<usize>| node.map_or(LEAF, |node| node as u32);
-        (own, [(front, child(record.front_node(node))), (back, child(record.back_node(node)))])
-    }
-
-    /// How far the ray is from a node's plane.
-    #[inline]
-    fn distance(&self, node: usize) -> Distance {
-        let [x, y, z, offset] = self.tree.planes.get(node).to_array().map(f64::from);
-        let ([a, b, c], [d, e, f]) = (self.origin, self.direction);
-        Distance { start: x * a + y * b + z * c - offset, slope: x * d + y * e + z * f }
-    }
-
     fn push(&mut self, node: u32, fragments: Range<u32>, [from, to]: [f64; 2]) {
-        if fragments.is_empty() {
-            return;
+        if !fragments.is_empty() {
+            let Range { start: first, end } = fragments;
+            self.pending.push(Pending { node, first, end, from, to });
         }
-        let below = self.pending.last().map_or(f64::INFINITY, |part| part.floor);
-        let Range { start: first, end } = fragments;
-        self.pending.push(Pending { node, first, end, from, to, floor: from.min(below) });
     }
 
     /// The parameters between which the ray is where corners can be; `None` if it never is.
-    fn within_reach(&self, probe: &RayQuery) -> Option<[f64; 2]> {
+    fn within_reach(&self, query: &RayQuery) -> Option<[f64; 2]> {
         let reach = MAX_CORNER / LATTICE_LIMIT + self.slack;
         // An endless ray without a direction is a point as well.
-        let is_endless = probe.is_endless && probe.speed > 0.0;
+        let is_endless = query.is_endless && query.speed > 0.0;
         let (mut from, mut to) = (0.0_f64, if is_endless { f64::INFINITY } else { 1.0 });
         for (start, slope) in self.origin.into_iter().zip(self.direction) {
             // Without a slope these are infinite, or not a number, which `min` and `max` pass over.
@@ -193,35 +186,9 @@ impl<'t> Walk<'t> {
     }
 }
 
-/// The distance of a point of a ray from a plane: `start` + t · `slope`, positive in front.
-struct Distance {
-    start: f64,
-    slope: f64,
-}
-
-/// Where a ray crosses a plane, give or take the slack.
-struct Crossing {
-    enter: f64,
-    leave: f64,
-    /// Whether the ray goes to the front.
-    is_forwards: bool,
-}
-
-impl Distance {
-    /// Between which parameters the ray is within the slack of the plane.
-    #[inline]
-    fn crossing(&self, slack: f64) -> Crossing {
-        let is_forwards = self.slope >= 0.0;
-        let toward = if is_forwards { -self.start } else { self.start };
-        // Without a slope these are infinite, or not a number, with which every comparison is false.
-        let speed = self.slope.abs();
-        Crossing { enter: (toward - slack) / speed, leave: (toward + slack) / speed, is_forwards }
-    }
-}
-
 /// A ray and a tree's boxes, in the unit of these.
 #[derive(Clone, Debug)]
-pub(super) struct Boxes<'t> {
+struct Boxes<'t> {
     bounds: &'t Bounds,
     /// For each axis: the origin, with the slack added and taken off, and one over the direction.
     origins: [[f64; 2]; 3],
@@ -230,7 +197,7 @@ pub(super) struct Boxes<'t> {
 
 /// Boxes count as larger by this share of the largest coordinate: what the direction, its inverse, the
 /// way to a side and the product with it lose is a fourth of that.
-/// Smaller: fragments that are met are passed over. Larger: more are looked at in vain.
+/// Too small: fragments that are met are passed over. Too large: more are visited without success.
 const PARAMETER_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// One over the smallest coordinate of a direction that counts.
@@ -242,17 +209,17 @@ const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
     /// `None` if boxes cannot be trusted with a ray.
-    pub(super) fn new(probe: &RayQuery, bounds: &'t Bounds) -> Option<Self> {
+    fn new(query: &RayQuery, bounds: &'t Bounds) -> Option<Self> {
         let unit = 1.0 / LATTICE_LIMIT;
-        let [reach, speed] = [probe.reach * unit, probe.speed * unit];
+        let [reach, speed] = [query.reach * unit, query.speed * unit];
         if ![reach, speed].iter().all(|size| SIZES.contains(size)) {
             return None;
         }
         let slack = PARAMETER_ERROR * reach;
         Some(Self {
             bounds,
-            origins: probe.origin.map(|c| [c * unit + slack, c * unit - slack]),
-            inverses: probe.direction.map(|c| {
+            origins: query.origin.map(|c| [c * unit + slack, c * unit - slack]),
+            inverses: query.direction.map(|c| {
                 let inverse = 1.0 / (c * unit);
                 if inverse.abs() < STEEP { inverse } else { STEEP.copysign(c) }
             }),
@@ -275,34 +242,40 @@ impl<'t> Boxes<'t> {
         [enter, leave]
     }
 
-    /// The same for the box of a subtree.
+    /// The next of some fragments whose box the ray meets between two parameters.
     #[inline]
-    pub(super) fn of_node(&self, node: usize) -> [f64; 2] {
-        self.within(&self.bounds.nodes[node])
+    fn next(&self, run: &mut Range<u32>, [from, to]: [f64; 2]) -> Option<u32> {
+        let is_passed = |bounds: &Flat| {
+            let [enter, leave] = self.within(bounds);
+            !(enter <= leave && enter <= to && leave >= from)
+        };
+        next_block(self.bounds, run, |bounds| is_passed(bounds).then_some(false))
+            .map(|(block, _)| block.start)
     }
+}
 
-    /// Takes the fragments off a run whose boxes the ray does not meet between two parameters, up to the
-    /// first that it may meet; gives that one.
-    #[inline]
-    pub(super) fn next(&self, run: &mut Range<u32>, [from, to]: [f64; 2]) -> Option<u32> {
-        while run.start < run.end {
-            let (mut level, mut len) = self.bounds.block(run);
-            let is_met = loop {
-                let [enter, leave] = self.within(&self.bounds.get(level, run.start / len));
-                if !(enter <= leave && enter <= to && leave >= from) {
-                    break false;
-                }
-                if level == 0 {
-                    break true;
-                }
-                (level, len) = (level - 1, len / BLOCK as u32);
-            };
-            let first = run.start;
-            run.start += len;
-            if is_met {
-                return Some(first);
+/// Takes blocks off the beginning of a run of fragments, up to the first that may be inside of something, and
+/// returns that one, and whether it certainly is inside; otherwise it is one fragment. `is_inside` says so of a
+/// box, if it can tell.
+#[inline]
+pub(super) fn next_block(
+    bounds: &Bounds,
+    run: &mut Range<u32>,
+    is_inside: impl Fn(&Flat) -> Option<bool>,
+) -> Option<(Range<u32>, bool)> {
+    while run.start < run.end {
+        let (mut level, mut len) = bounds.block(run);
+        let found = loop {
+            match is_inside(&bounds.get(level, run.start / len)) {
+                None if level > 0 => (level, len) = (level - 1, len / BLOCK as u32),
+                found => break found,
             }
+        };
+        let block = run.start..run.start + len;
+        run.start = block.end;
+        if found != Some(false) {
+            return Some((block, found.is_some()));
         }
-        None
     }
+    None
 }

@@ -10,7 +10,7 @@
 
 use std::cmp::Ordering;
 
-use super::exact::{Plane, determinant, volume};
+use super::exact::{Plane, PlanePair, volume};
 use super::rays::{Given, RayOrigin, Rays, float};
 use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
 
@@ -97,14 +97,13 @@ impl Seen<'_> {
     fn oriented(&self, source: Source, given: Given) -> Ordering {
         let (rays, faces) = (self.rays, self.faces);
         let own = || Plane::of(faces, self.face);
+        let across = |other| PlanePair::new(rays, [own(), other]).at(given).determinant.sign();
         let sign = match source {
             Source::Edge(ends) => volume(rays, ends, given).sign(),
-            Source::Upright([a, b], axis) => {
-                determinant(rays, &own(), &Plane::upright(a, b, axis), given).sign()
+            Source::Upright([a, b], axis) => across(Plane::upright(a, b, axis)),
+            Source::Cut(line) => {
+                line.as_cut().map_or(Ordering::Equal, |cut| across(Plane::new(faces, cut)))
             }
-            Source::Cut(line) => line.as_cut().map_or(Ordering::Equal, |cut| {
-                determinant(rays, &own(), &Plane::new(faces, cut), given).sign()
-            }),
             Source::Ahead => own().phi(given).sign(),
         };
         if self.is_flipped(source) { sign.reverse() } else { sign }

@@ -12,38 +12,26 @@
 //! the lattice; and the labels that name the lines of a piece. Tests of the preparation compare
 //! these with the polygons as given.
 
-mod bounds;
-mod compare_pictures;
 mod coverage;
-mod digits;
 mod exact;
+mod judge;
 mod line;
 mod painter;
-mod picture;
 mod rays;
 #[cfg(test)]
 pub(crate) mod tests;
-mod zbuffer;
 
 pub use crate::exact::Faces;
+pub use judge::{Comparison, DepthImage, Verdict, compare, zbuffer};
+pub(crate) use judge::{Layers, compare_by, is_open, zbuffer_layers};
 #[cfg(feature = "drawing")]
-pub(crate) use bounds::VERTEX_ERROR;
-pub use compare_pictures::{Comparison, DepthError, Verdict, compare, depth_error};
-pub(crate) use compare_pictures::{compare_by, is_open};
-pub(crate) use coverage::Mask;
-#[cfg(feature = "drawing")]
-pub(crate) use line::edge;
-#[cfg(feature = "drawing")]
-pub(crate) use line::{Sheet, normal_of};
-pub use painter::{Image, NONE};
-pub(crate) use painter::{Layers, covers};
-pub(crate) use picture::for_each_shaded;
-pub use picture::{blend, brightness, colour_of, depth_map, difference, picture};
-#[cfg(feature = "drawing")]
-pub(crate) use rays::RayOrigin;
+pub(crate) use line::{Sheet, edge, normal_of};
+pub use painter::{Image, NONE, blend, brightness, colour_of, depth_map, difference, picture};
+pub(crate) use painter::{covers, for_each_shaded};
 pub use rays::Rays;
-pub(crate) use zbuffer::zbuffer_layers;
-pub use zbuffer::{DepthImage, zbuffer};
+pub(crate) use rays::Window;
+#[cfg(feature = "drawing")]
+pub(crate) use rays::{RayOrigin, VERTEX_ERROR};
 
 /// For painters of other orders, which `crates/evidence` compares with the tree's. What they draw is
 /// named by faces on the lattice, which users do not see.

@@ -1,11 +1,14 @@
-//! Pictures by faces, and the painter: a later piece covers earlier ones.
+//! The painter: a later piece covers earlier ones. And pictures in colours: RGB, 8 bits each, row by row from the
+//! top left.
 
 use std::ops::Range;
 
+use glam::DVec3;
+
 use super::coverage::{Coverage, Piece};
+use super::judge::{Comparison, DepthImage, Verdict};
 use super::rays::Rays;
 use crate::exact::Faces;
-use crate::random::mix;
 
 /// The order in which pieces are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,34 +142,146 @@ impl Image {
     }
 }
 
-/// For every pixel, the multiset of faces that cover it.
-///
-/// Stored as a hash, the sum of a pseudo-random number for each face: the hashes of two different
-/// multisets are equal with a probability of 2⁻³².
-#[derive(Clone, Debug)]
-pub(crate) struct Layers {
-    width: usize,
-    sums: Vec<u32>,
+/// A colour for a polygon by its number: neighbours in number differ clearly.
+pub fn colour_of(polygon: usize) -> [u8; 3] {
+    // Steps of the golden ratio spread the hues evenly however many there are.
+    let hue = (polygon as f64 * 0.618_033_988_749_894_9).fract() * 6.0;
+    let (saturation, value) = match polygon % 3 {
+        0 => (0.55, 0.95),
+        1 => (0.75, 0.85),
+        _ => (0.40, 0.90),
+    };
+    [5.0, 3.0, 1.0].map(|offset| {
+        let k = (offset + hue) % 6.0;
+        let share = k.min(4.0 - k).clamp(0.0, 1.0);
+        (255.0 * value * (1.0 - saturation * share)).round() as u8
+    })
 }
 
-impl Layers {
-    /// Without any faces.
-    pub(crate) fn new(rays: &Rays) -> Self {
-        let [width, height] = rays.size().map(|side| side as usize);
-        Self { width, sums: vec![0; width * height] }
-    }
+/// The brightness of a surface, from 0 to 1, given its normal and the direction in which it is
+/// seen, both of length 1: lit by a lamp at the eye, and faintly from everywhere.
+pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
+    0.55 + 0.45 * normal.dot(direction).abs()
+}
 
-    /// Adds a face in some columns of a row.
-    pub(crate) fn add(&mut self, face: u32, y: u32, columns: Range<u32>) {
-        let term = mix(u64::from(face)) as u32;
-        let row = &mut self.sums[y as usize * self.width..][..self.width];
-        for sum in &mut row[columns.start as usize..columns.end as usize] {
-            *sum = sum.wrapping_add(term);
+/// The picture in colours: each polygon in the colour that `colour` returns for its number, darker
+/// the more obliquely it is seen; `background` where there is no polygon.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
+pub fn picture(
+    rays: &Rays,
+    faces: &Faces,
+    image: &Image,
+    colour: impl Fn(usize) -> [u8; 3],
+    background: [u8; 3],
+) -> Vec<u8> {
+    rays.expect(faces);
+    let width = rays.size()[0] as usize;
+    let pixels = image.faces().iter().enumerate().map(|(i, &face)| {
+        if face == NONE {
+            return background;
         }
-    }
+        let direction = rays.direction((i % width) as u32, (i / width) as u32);
+        shaded(colour(faces.polygon(face)), flat_normal(faces, face), direction)
+    });
+    pixels.flatten().collect()
+}
 
-    /// The number of pixels in which the faces differ from those of `other`.
-    pub(crate) fn differences(&self, other: &Self) -> usize {
-        self.sums.iter().zip(&other.sums).filter(|(a, b)| a != b).count()
+/// The normal of a face, of length 1.
+pub(super) fn flat_normal(faces: &Faces, face: u32) -> DVec3 {
+    faces.normal(face).normalize()
+}
+
+/// A colour as it is seen on a surface.
+pub(super) fn shaded(colour: [u8; 3], normal: DVec3, direction: DVec3) -> [u8; 3] {
+    let share = brightness(normal, direction);
+    colour.map(|c| (f64::from(c) * share).round() as u8)
+}
+
+/// The depths as grey, from that of the nearest pixels to that of the furthest, `[255, 40]` or
+/// `[40, 255]`; black is nothing. The scale is linear in depth between the nearest and the furthest
+/// hundredth of the pixels.
+pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
+    let depths: Vec<f64> = depth.depths().collect();
+    let mut sorted: Vec<f64> = depths.iter().copied().filter(|d| d.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let at = |share: f64| sorted.get((sorted.len() as f64 * share) as usize).copied();
+    let (Some(near), Some(far)) = (at(0.01), at(0.99)) else {
+        return vec![0; depths.len() * 3];
+    };
+    let [nearest, furthest] = greys.map(f64::from);
+    let grey = |depth: f64| {
+        if depth.is_infinite() {
+            return 0;
+        }
+        let share = if far > near { ((depth - near) / (far - near)).clamp(0.0, 1.0) } else { 0.0 };
+        (nearest + (furthest - nearest) * share) as u8
+    };
+    depths.into_iter().flat_map(|depth| [grey(depth); 3]).collect()
+}
+
+/// A picture of the differences: `picture`, as RGB, at a quarter of its brightness, with contested
+/// pixels blue, wrong order red, holes yellow, and spills magenta.
+pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
+    let pixels = comparison.verdicts.iter().zip(picture.chunks_exact(3));
+    let colours = pixels.map(|(verdict, pixel)| match verdict {
+        Verdict::Empty | Verdict::Right => [pixel[0] / 4, pixel[1] / 4, pixel[2] / 4],
+        Verdict::Contested => [70, 130, 255],
+        Verdict::WrongOrder => [255, 40, 40],
+        Verdict::Hole => [255, 230, 0],
+        Verdict::Spill => [255, 0, 255],
+    });
+    colours.flatten().collect()
+}
+
+/// Paints a colour over that of a pixel, as every picture in colours of this library does. Amounts of
+/// red, green and blue are from 0 to 255. An opacity of 1 hides what is behind; 0 is invisible.
+///
+/// Rounded, so that the order counts: pixels painted elsewhere come out the same, bit for bit, only if
+/// the same colours are painted over the same ground one by one.
+pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
+    for (old, new) in pixel.iter_mut().zip(colour) {
+        *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
+    }
+}
+
+/// Calls `paint` with each pixel that a piece covers, by its number, row by row from the top left, and
+/// with the colour there: shaded as by [`picture`], darker the more obliquely the piece is
+/// seen.
+pub(crate) fn for_each_shaded(
+    rays: &Rays,
+    faces: &Faces,
+    piece: Piece<'_>,
+    colour: [u8; 3],
+    mut paint: impl FnMut(usize, [u8; 3]),
+) {
+    let Some(coverage) = Coverage::new(rays, faces, piece.face, piece.outline) else { return };
+    let normal: DVec3 = flat_normal(faces, piece.face);
+    let width = rays.size()[0] as usize;
+    coverage.for_each_run(&mut |y, columns| {
+        for x in columns {
+            paint(y as usize * width + x as usize, shaded(colour, normal, rays.direction(x, y)));
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In floats, the vector product of its edges is 0.
+    #[test]
+    fn the_normal_of_a_sliver_is_that_of_its_plane() {
+        let sliver = [
+            [-281_474_976_710_656, -140_737_488_355_328, -140_737_488_355_328],
+            [121_780_518_933_211, -326_184_141_481_648, -44_014_312_109_210],
+            [-450_158_144_636_571, -63_164_512_243_349, -181_197_127_361_614],
+        ]
+        .map(|corner: [i64; 3]| corner.map(|c| c as f64));
+        let (faces, _) = Faces::new([sliver], Some(0.0)).unwrap();
+        let off = flat_normal(&faces, 0) - DVec3::new(-2.0, -8.0, -7.0).normalize();
+        assert!(off.length() < 1e-9, "{off}");
     }
 }

@@ -1,17 +1,16 @@
-//! Comparing a tree's picture with a depth buffer's: the only module that knows both.
+//! Comparing a tree's picture with a depth buffer's, and the forms in which a tree returns an order with each
+//! other: the only module that knows both the tree and the judge.
 
-mod orders;
-#[cfg(test)]
-mod tests;
+use std::fmt;
+use std::ops::ControlFlow;
 
-use crate::paint::paint_list;
-use crate::raster::{Comparison, DepthImage, Image, Layers, Order, Rays, zbuffer_layers};
-use crate::tree::BspTree;
+use crate::paint::{Pieces, paint_list};
+use crate::raster::{
+    Comparison, DepthImage, Image, Layers, Order, Rays, compare_by, covers, is_open, zbuffer_layers,
+};
+use crate::tree::{BspTree, Fragment};
 use crate::view::{Camera, CameraError};
-
-use orders::{Orders, compare_by_planes};
-
-pub use orders::{OrderFault, check_orders};
+use crate::viewpoint::Viewpoint;
 
 /// A tree verified from one camera: the picture painted in its order, the true picture, and their
 /// differences.
@@ -93,7 +92,7 @@ pub fn verify_fronts(tree: &BspTree, camera: &Camera) -> Result<Verification, Ca
 /// Like [`verify`], for orders that need not be the tree's.
 fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let faces = tree.faces();
-    let (far_first, near_first) = (orders.back_to_front(), orders.front_to_back());
+    let (far_first, near_first) = (&orders.0[0], &orders.0[FAR_FIRST]);
     let mut layers = Layers::new(&rays);
     let painted = paint_list(tree, far_first, Order::BackToFront, &rays, Some(&mut layers));
     let (truth, all) = zbuffer_layers(&rays, faces);
@@ -110,3 +109,140 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let orders = orders.check(tree.len());
     Verification { rays, painted, truth, comparison, front_to_back, miscounted, orders }
 }
+
+/// Compares a painted picture of a tree with a true one. Contested are ties, and pixels in which the
+/// tolerance, at the plane between the two fragments, leaves open which of them is painted last.
+fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image) -> Comparison {
+    let faces = tree.faces();
+    if faces.tolerance() == 0.0 {
+        return compare_by(rays, faces, [painted, truth], 0.0, |_, _| false);
+    }
+    let mut sorted = None;
+    let mut pieces = Pieces::default();
+    // The fragment of a face that covers a pixel.
+    let mut fragment_at = |face: u32, pixel| {
+        let by_face: &Vec<(u32, u32)> = sorted.get_or_insert_with(|| {
+            let mut by_face: Vec<_> = tree.fragments().map(|f| (f.face(), f.index())).collect();
+            by_face.sort_unstable();
+            by_face
+        });
+        let first = by_face.partition_point(|&(other, _)| other < face);
+        let of_face = by_face[first..].iter().take_while(|&&(other, _)| other == face);
+        let mut fragments = of_face.map(|&(_, fragment)| fragment);
+        fragments.find(|&fragment| {
+            let piece = pieces.of(&tree.fragment(fragment));
+            covers(rays, faces, piece, pixel)
+        })
+    };
+    compare_by(rays, faces, [painted, truth], 0.0, |met, pixel| {
+        let [nearest, other] = met.map(|face| fragment_at(face, pixel));
+        let parting = nearest.zip(other).and_then(|(a, b)| tree.parting(a, b));
+        parting.is_some_and(|(plane, [near, far])| {
+            is_open(rays, faces, plane, [(met[0], near), (met[1], far)], pixel)
+        })
+    })
+}
+
+/// The forms in which a tree returns an order: back to front, then front to back.
+const FORMS: [&str; 6] = [
+    "back_to_front_into",
+    "back_to_front",
+    "visit_back_to_front",
+    "front_to_back",
+    "front_to_back_into",
+    "visit_front_to_back",
+];
+const FAR_FIRST: usize = 3;
+
+/// What is wrong with an order; see [`check_orders`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OrderFault {
+    form: &'static str,
+    fault: String,
+}
+
+impl fmt::Display for OrderFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.form, self.fault)
+    }
+}
+
+impl std::error::Error for OrderFault {}
+
+/// Checks that the orders of a viewpoint list every fragment once, are the same as a list of
+/// numbers, by iterator and by visitor, and that front to back is the reverse of back to front.
+///
+/// This compares the orders only with each other; [`verify`] also compares their
+/// pictures with a depth buffer's.
+///
+/// # Errors
+///
+/// The first fault found, if there is one.
+pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), OrderFault> {
+    Orders::of(tree, viewpoint).check(tree.len())
+}
+
+/// The orders of one viewpoint, a list of fragments for each of [`FORMS`].
+#[derive(Clone, Debug)]
+struct Orders([Vec<u32>; 6]);
+
+impl Orders {
+    /// The orders of a tree. An order that does not end is cut off once it is certainly too long.
+    fn of(tree: &BspTree, viewpoint: Viewpoint) -> Self {
+        let most = tree.len() + 1;
+        let (mut far_first, mut near_first) = (Vec::new(), Vec::new());
+        tree.back_to_front_into(viewpoint, &mut far_first);
+        tree.front_to_back_into(viewpoint, &mut near_first);
+        let number = |fragment: Fragment<'_>| fragment.index();
+        let (mut visited, mut visited_near) = (Vec::new(), Vec::new());
+        let note = |list: &mut Vec<u32>, fragment: Fragment<'_>| {
+            list.push(fragment.index());
+            if list.len() < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let _ = tree.visit_back_to_front(viewpoint, |fragment| note(&mut visited, fragment));
+        let _ = tree.visit_front_to_back(viewpoint, |fragment| note(&mut visited_near, fragment));
+        Self([
+            far_first,
+            tree.back_to_front(viewpoint).map(number).take(most).collect(),
+            visited,
+            tree.front_to_back(viewpoint).map(number).take(most).collect(),
+            near_first,
+            visited_near,
+        ])
+    }
+
+    /// Checks that each form lists each of `fragments` fragments once, and that all forms agree.
+    fn check(&self, fragments: usize) -> Result<(), OrderFault> {
+        let forms = || FORMS.into_iter().zip(&self.0).enumerate();
+        for (_, (form, list)) in forms() {
+            each_once(list, fragments).map_err(|fault| OrderFault { form, fault })?;
+        }
+        let [first, ..] = &self.0;
+        for (i, (form, list)) in forms() {
+            let expected =
+                |place| if i < FAR_FIRST { first[place] } else { first[fragments - 1 - place] };
+            if let Some(place) = (0..fragments).find(|&place| list[place] != expected(place)) {
+                let fault = format!("contradicts {} at place {place} of the order", FORMS[0]);
+                return Err(OrderFault { form, fault });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What is wrong with a list that does not have each fragment once.
+fn each_once(list: &[u32], fragments: usize) -> Result<(), String> {
+    let mut seen = vec![false; fragments];
+    for &fragment in list {
+        match seen.get_mut(fragment as usize) {
+            None => return Err(format!("lists fragment {fragment}, which does not exist")),
+            Some(true) => return Err(format!("lists fragment {fragment} more than once")),
+            Some(seen) => *seen = true,
+        }
+    }
+    let missing = seen.iter().position(|seen| !seen);
+    missing.map_or(Ok(()), |fragment| Err(format!("leaves out fragment {fragment}")))
+}
+
+#[cfg(test)]
+mod tests;

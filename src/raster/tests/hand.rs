@@ -8,7 +8,7 @@ use super::faces;
 use crate::exact::{EdgeLine, Faces, PlaneId};
 use crate::raster::{
     Comparison, Image, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare,
-    depth_error, depth_map, difference, is_open, picture, zbuffer,
+    depth_map, difference, is_open, picture, zbuffer,
 };
 use crate::view::Camera;
 
@@ -234,47 +234,6 @@ fn without_a_tolerance_no_order_is_open() {
         let pieces = [(1, Ordering::Equal), (0, Ordering::Equal)];
         let open = is_open(&rays(&faces), &faces, PlaneId::face(0), pieces, [2, 2]);
         assert_eq!(open, expected, "{tolerance}");
-    }
-}
-
-/// Painted by mistake where its ray misses it, a face has no depth there.
-#[test]
-fn faces_that_are_not_met_have_no_depth_error() {
-    let near = square([0.0, 0.0], [3.0, 6.0], 0.0);
-    let far = square([0.0, 0.0], [6.0, 6.0], -3.0);
-    let faces = faces(&[near, far], None);
-    let (rays, pixels) = (rays(&faces), (SIZE[0] * SIZE[1]) as usize);
-    let truth = zbuffer(&rays, &faces);
-    for (painted, expected) in [(0, 0), (1, 18)] {
-        let painted = Image::from_faces(SIZE, vec![painted; pixels], 0);
-        let comparison = compare(&rays, &faces, &painted, truth.image());
-        let error = depth_error(&rays, &faces, &painted, truth.image(), &comparison);
-        assert_eq!((comparison.wrong_order, error.pixels), (18, expected));
-    }
-}
-
-/// Two faces behind a third, painted in turn: each pixel is judged by the faces of its own. One of the
-/// two is met in the left half alone.
-#[test]
-fn each_pixel_is_judged_by_its_own_faces() {
-    let tolerance = 0.01;
-    let all = [(6.0, 0.0), (3.0, -1.5 * tolerance), (6.0, -5.0)]
-        .map(|(right, z)| square([0.0, 0.0], [right, 6.0], z));
-    let alternating = |one: u32, other: u32| {
-        (0..SIZE[0] * SIZE[1]).map(|i| if i % 2 == 0 { one } else { other }).collect()
-    };
-    for (tolerance, wrong, met, sum) in
-        [(0.0, 36, 30, 18.0 * 5.0 + 12.0 * 0.015), (tolerance, 18, 18, 18.0 * 5.0)]
-    {
-        let faces = faces(&all, Some(tolerance));
-        let rays = rays(&faces);
-        let truth = zbuffer(&rays, &faces);
-        let painted = Image::from_faces(SIZE, alternating(1, 2), 0);
-        let comparison = compare(&rays, &faces, &painted, truth.image());
-        assert_eq!((comparison.wrong_order, comparison.contested), (wrong, 36 - wrong));
-        let error = depth_error(&rays, &faces, &painted, truth.image(), &comparison);
-        assert_eq!(error.pixels, met);
-        assert!((error.max - 5.0).abs() < 1e-12 && (error.sum - sum).abs() < 1e-9, "{error:?}");
     }
 }
 

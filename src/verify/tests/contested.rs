@@ -8,7 +8,7 @@ use crate::random::SplitMix64;
 use crate::raster::tests::oracle::{Height, height, meets, meets_piece};
 use crate::raster::{Order, Rays, Verdict, compare_by, zbuffer};
 use crate::tree::BspTree;
-use crate::verify::orders::compare_by_planes;
+use crate::verify::compare_by_planes;
 use crate::view::Camera;
 use crate::{BuildOptions, Heuristic};
 use glam::DVec3;

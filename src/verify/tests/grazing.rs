@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::random::SplitMix64;
 use crate::raster::{Comparison, Image, Rays, compare, zbuffer};
 use crate::tree::BspTree;
+use crate::verify::Orders;
 use crate::verify::judge;
-use crate::verify::orders::Orders;
 use crate::view::Camera;
 use crate::{BuildOptions, Heuristic};
 

@@ -4,8 +4,7 @@ use super::cameras;
 use crate::raster::Rays;
 use crate::scene::{self, Scene};
 use crate::tree::BspTree;
-use crate::verify::orders::Orders;
-use crate::verify::{Verification, judge};
+use crate::verify::{Orders, Verification, judge};
 use crate::view::Camera;
 
 const FORMS: usize = 6;

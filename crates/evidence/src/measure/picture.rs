@@ -1,9 +1,11 @@
 //! Wrong pixels, over one picture or many.
 
+use std::collections::BTreeMap;
 use std::ops::AddAssign;
 
 use binspace::internals::Faces;
-use binspace::raster::{Image, Rays, compare, depth_error};
+use binspace::raster::{Comparison, Image, Outline, Piece, Rays, Verdict, compare, for_each_run};
+use dashu_int::IBig;
 
 /// What is wrong with painted pictures, counted over all that were added.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,7 +34,7 @@ impl PictureError {
     /// buffer](binspace::raster::zbuffer)'s, made with the same rays.
     pub fn of(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Self {
         let found = compare(rays, faces, painted, truth);
-        let depth = depth_error(rays, faces, painted, truth, &found);
+        let depth = DepthError::of(rays, faces, painted, truth, &found);
         let extent = extent(faces);
         let share = |length: f64| if extent > 0.0 { length / extent } else { 0.0 };
         Self {
@@ -73,6 +75,64 @@ impl AddAssign for PictureError {
     }
 }
 
+/// How far behind the nearest face the painted ones are, in world units along the direction of view: over the
+/// pixels in which the order is wrong, and whose rays meet the painted face at all.
+#[derive(Clone, Copy, Debug, Default)]
+struct DepthError {
+    pixels: usize,
+    max: f64,
+    sum: f64,
+}
+
+impl DepthError {
+    fn of(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image, found: &Comparison) -> Self {
+        let [width, height] = rays.size();
+        let mut wrong: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (pixel, (&face, verdict)) in painted.faces().iter().zip(&found.verdicts).enumerate() {
+            if *verdict == Verdict::WrongOrder {
+                wrong.entry(face).or_default().push(pixel);
+            }
+        }
+        // The direction through the middle of the picture.
+        let ends =
+            [rays.ray(0, 0), rays.ray(width - 1, height - 1)].map(|[_, direction]| direction);
+        let middle = [0, 1, 2].map(|i| 0.5 * (ends[0][i] + ends[1][i]) as f64);
+        let step =
+            faces.lattice().length_to_world(middle.iter().map(|c| c * c).sum::<f64>().sqrt());
+        let mut error = Self::default();
+        for (face, pixels) in wrong {
+            let piece = Piece { face, outline: Outline::Whole };
+            for_each_run(rays, faces, piece, |y, columns| {
+                let run = columns.map(|x| (x, (y * width + x) as usize));
+                for (x, pixel) in run.filter(|(_, pixel)| pixels.binary_search(pixel).is_ok()) {
+                    let met =
+                        [face, truth.faces()[pixel]].map(|face| met(faces, face, rays.ray(x, y)));
+                    let [[above, below], [other_above, other_below]] = &met;
+                    // Subtracted exactly, and only then rounded.
+                    let apart = above * other_below - other_above * below;
+                    let [apart, below, other_below] =
+                        [&apart, below, other_below].map(|number| number.to_f64().value());
+                    let depth = (apart / below / other_below * step).abs();
+                    error.pixels += 1;
+                    error.max = error.max.max(depth);
+                    error.sum += depth;
+                }
+            });
+        }
+        error
+    }
+}
+
+/// How far along a ray it meets the plane of a face: a numerator and a denominator.
+fn met(faces: &Faces, face: u32, [start, direction]: [[i128; 3]; 2]) -> [IBig; 2] {
+    let [p, q, r] =
+        faces.reference_triangle(face).map(|corner| faces.corner(corner).map(|c| c as i128));
+    let less = |a: [i128; 3], b: [i128; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
+    let (u, w) = (less(q, p), less(r, p));
+    let normal = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| IBig::from(u[j] * w[k] - u[k] * w[j]));
+    [less(p, start), direction].map(|v| normal.iter().zip(v).map(|(n, c)| n * IBig::from(c)).sum())
+}
+
 /// The longest side of the box around all faces, in world units.
 pub fn extent(faces: &Faces) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -84,4 +144,75 @@ pub fn extent(faces: &Faces) -> f64 {
     }
     let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
     faces.lattice().length_to_world(longest)
+}
+
+#[cfg(test)]
+mod tests {
+    use binspace::glam::DVec3;
+    use binspace::raster::zbuffer;
+    use binspace::view::Camera;
+
+    use super::*;
+
+    const SIZE: [u32; 2] = [6, 6];
+
+    /// Squares from (0, 0) to (right, 6) at a height, and rays down the z axis: a unit is a pixel.
+    fn scene(squares: &[(f64, f64)], tolerance: Option<f64>) -> (Faces, Rays) {
+        let square =
+            |&(x, z): &(f64, f64)| [[0.0, 0.0, z], [x, 0.0, z], [x, 6.0, z], [0.0, 6.0, z]];
+        let (faces, _) = Faces::new(squares.iter().map(square), tolerance).unwrap();
+        let centre = DVec3::new(3.0, 3.0, 0.0);
+        let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, centre, 6.0, SIZE).unwrap();
+        let rays = Rays::new(&camera, &faces).unwrap();
+        (faces, rays)
+    }
+
+    /// Painted by mistake where its ray misses it, a face has no depth there.
+    #[test]
+    fn faces_that_are_not_met_have_no_depth_error() {
+        let (faces, rays) = scene(&[(3.0, 0.0), (6.0, -3.0)], None);
+        let truth = zbuffer(&rays, &faces).into_image();
+        for (painted, expected) in [(0, 0), (1, 18)] {
+            let painted = Image::from_faces(SIZE, vec![painted; 36], 0);
+            let found = compare(&rays, &faces, &painted, &truth);
+            let error = DepthError::of(&rays, &faces, &painted, &truth, &found);
+            assert_eq!((found.wrong_order, error.pixels), (18, expected));
+        }
+    }
+
+    /// Two faces behind a third, painted in turn: each pixel is judged by the faces of its own. One of the
+    /// two is met in the left half alone.
+    #[test]
+    fn each_pixel_is_judged_by_its_own_faces() {
+        let tolerance = 0.01;
+        let all = [(6.0, 0.0), (3.0, -1.5 * tolerance), (6.0, -5.0)];
+        for (tolerance, wrong, met, sum) in
+            [(0.0, 36, 30, 18.0 * 5.0 + 12.0 * 0.015), (tolerance, 18, 18, 18.0 * 5.0)]
+        {
+            let (faces, rays) = scene(&all, Some(tolerance));
+            let truth = zbuffer(&rays, &faces).into_image();
+            let alternating = (0..36).map(|i| if i % 2 == 0 { 1 } else { 2 }).collect();
+            let painted = Image::from_faces(SIZE, alternating, 0);
+            let found = compare(&rays, &faces, &painted, &truth);
+            assert_eq!((found.wrong_order, found.contested), (wrong, 36 - wrong));
+            let error = DepthError::of(&rays, &faces, &painted, &truth, &found);
+            assert_eq!(error.pixels, met);
+            assert!((error.max - 5.0).abs() < 1e-12 && (error.sum - sum).abs() < 1e-9, "{error:?}");
+        }
+    }
+
+    /// The same by an eye: depth is along the direction of view, not along rays.
+    #[test]
+    fn depth_is_along_the_direction_of_view() {
+        let (faces, _) = scene(&[(6.0, 0.0), (6.0, -2.0)], Some(0.0));
+        let (eye, target) = (DVec3::new(3.0, 3.0, 4.0), DVec3::new(3.0, 3.0, 0.0));
+        let camera = Camera::perspective(eye, target, DVec3::Y, 0.9, SIZE).unwrap();
+        let rays = Rays::new(&camera, &faces).unwrap();
+        let truth = zbuffer(&rays, &faces).into_image();
+        let painted = Image::from_faces(SIZE, vec![1; 36], 0);
+        let found = compare(&rays, &faces, &painted, &truth);
+        let error = DepthError::of(&rays, &faces, &painted, &truth, &found);
+        assert!(error.pixels == 36 && (error.max - 2.0).abs() < 1e-12, "{error:?}");
+        assert!((error.sum - 72.0).abs() < 1e-9, "{error:?}");
+    }
 }

@@ -1,18 +1,14 @@
-//! Regions of a tree that an overlay reaches, and planes between lines and points in one of them.
+//! Planes between lines and points that meet in one cell.
 
-use std::ops::Range;
+use std::collections::HashMap;
 
-use glam::Vec4;
 use smallvec::SmallVec;
 
-use super::skeleton::{Anchors, Branch, SlotSide};
-use crate::Error;
 use crate::build::piece::Piece;
+use crate::error::Error;
+use crate::exact::faces::Thin;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind};
-use crate::tree::BspTree;
-use crate::tree::node::{NodeRecord, Ranges, Sizes, finish, make_room};
-use crate::tree::order::eye::rounded;
-use crate::tree::parts::Parts;
+use crate::progress::Watch;
 
 /// How many pieces of a set a plane is tried on, spread evenly over the set. More: time; fewer: worse
 /// planes for large sets.
@@ -132,112 +128,55 @@ fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) ->
     divides.then_some(front.max(back) + CUT * cuts)
 }
 
-/// A part of a tree, by its fragments: below a node, or a leaf.
-#[derive(Clone, Debug)]
-pub(super) struct Region {
-    pub(super) of: Whose,
-    pub(super) node: Option<usize>,
-    pub(super) fragments: Range<u32>,
-}
-
-/// Whose part a region is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Whose {
-    /// The tree's, that stays as it is.
-    Tree,
-    /// Of the small tree of the polygons that meet in one of its cells.
-    Cell,
-}
-
-impl Region {
-    /// A cell without fragments.
-    pub(super) const EMPTY: Self = Self { of: Whose::Tree, node: None, fragments: 0..0 };
-
-    /// The root of a tree of so many nodes and fragments.
-    pub(super) fn root(of: Whose, nodes: usize, fragments: usize) -> Self {
-        Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
-    }
-
-    /// Whether it has polygons that are still to be put in place.
-    pub(super) fn has_pieces(&self) -> bool {
-        self.of == Whose::Cell && !self.fragments.is_empty()
-    }
-}
-
-/// The small tree of the polygons in a cell, as long as lines and points are cut by it.
+/// For each point, a segment that it is an end of, if there is one.
+///
+/// A mark on a curve is to be painted over the curve. If a plane came between the two segments that
+/// meet at the mark, one of them would come later than the mark. The plane of the one that ends there
+/// has the next one on it as well (see `third_corner`), and the point.
 #[derive(Debug, Default)]
-pub(super) struct CellTree {
-    nodes: Vec<NodeRecord>,
-    sizes: Vec<Sizes>,
-    pub(super) parts: Parts,
+pub(super) struct Anchors {
+    /// The first point's face.
+    first: u32,
+    /// A segment for the place of each point, by the bits of its coordinates. (On the lattice 0 has one
+    /// form.)
+    segments: HashMap<[u64; 3], Option<u32>>,
 }
 
-impl CellTree {
-    /// Replaces the tree, and gives all of it as a region.
-    pub(super) fn fill(&mut self, parts: Parts) -> Result<Region, Error> {
-        make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
-        finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
-        self.parts = parts;
-        Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
-    }
-}
-
-/// A region's plane, and both sides of it as they are without pieces.
-pub(super) struct Opened {
-    pub(super) branch: Branch,
-    /// The fragments on the plane.
-    pub(super) own: Range<u32>,
-    pub(super) sides: [Region; 2],
-}
-
-impl Opened {
-    /// A plane in a cell without fragments.
-    pub(super) fn empty(faces: &Faces, plane: PlaneId) -> Self {
-        Self::new(rounded(faces, plane), plane, 0..0, [Region::EMPTY; 2])
-    }
-
-    #[inline]
-    fn new(rounded: Vec4, plane: PlaneId, own: Range<u32>, sides: [Region; 2]) -> Self {
-        // Those of a cell are pieces, and are hung where they belong one by one.
-        let still = |side: &Region| match side.of {
-            Whose::Tree => side.fragments.len(),
-            Whose::Cell => 0,
-        };
-        let [front, back] = sides.each_ref().map(|side| SlotSide::still(still(side)));
-        let on_plane = if sides[0].of == Whose::Tree { own.len() as u32 } else { 0 };
-        let pieces = SlotSide::still(0);
-        let branch = Branch { rounded, plane, own: on_plane, pieces, front, back };
-        Self { branch, own, sides }
+impl Anchors {
+    /// Finds the segments of all points.
+    pub(super) fn fill(&mut self, faces: &Faces, watch: &Watch<'_>) -> Result<(), Error> {
+        let Thin { segments, points } = faces.thin;
+        self.first = (faces.len() - points) as u32;
+        self.segments.clear();
+        if points == 0 {
+            return Ok(());
+        }
+        let place = |face: u32, end: usize| faces.corners(face)[end].map(f64::to_bits);
+        self.segments.extend((self.first..faces.len() as u32).map(|point| (place(point, 0), None)));
+        // Beginnings first, so that a segment that ends at a point is preferred.
+        for end in [0, 1] {
+            for face in self.first - segments as u32..self.first {
+                watch.work(1)?;
+                if let Some(segment) = self.segments.get_mut(&place(face, end)) {
+                    *segment = Some(face);
+                }
+            }
+        }
+        Ok(())
     }
 
-    /// `None` for an empty cell. The plane of a leaf is that of its fragment, so that no piece crosses
-    /// it.
-    #[inline]
-    pub(super) fn of(
-        region: Region,
-        tree: &BspTree,
-        cell: &CellTree,
-        faces: &Faces,
-    ) -> Option<Self> {
-        let Region { of, node, fragments: all } = region;
-        let (nodes, records) = match of {
-            Whose::Tree => (&tree.nodes, &tree.records),
-            Whose::Cell => (&cell.nodes, &cell.parts.records),
-        };
-        let Some(index) = node else {
-            let plane = PlaneId::face(records[all.clone().next()? as usize].face);
-            let nothing = Region { of, node: None, fragments: all.end..all.end };
-            let sides = [nothing.clone(), nothing];
-            return Some(Self::new(rounded(faces, plane), plane, all, sides));
-        };
-        let node = &nodes[index];
-        let Ranges { own, front, back } = node.ranges(all);
-        let front = Region { of, node: node.front_node(index), fragments: front };
-        let back = Region { of, node: node.back_node(index), fragments: back };
-        let rounded = match of {
-            Whose::Tree => tree.planes.get(index),
-            Whose::Cell => rounded(faces, node.plane),
-        };
-        Some(Self::new(rounded, node.plane, own, [front, back]))
+    /// The points of a set of pieces, which is in the order of faces.
+    fn points<'p>(&self, pieces: &'p [Piece]) -> &'p [Piece] {
+        &pieces[pieces.partition_point(|piece| piece.face < self.first)..]
+    }
+
+    /// The segment of a point, if the piece of it that ends there is in the same set.
+    fn segment(&self, point: &Piece, pieces: &[Piece], arena: &[Vertex]) -> Option<u32> {
+        let face = (*self.segments.get(&point.min.map(f64::to_bits))?)?;
+        let start = pieces.partition_point(|piece| piece.face < face);
+        let mut parts = pieces[start..].iter().take_while(|piece| piece.face == face);
+        let ends = |piece: &Piece| piece.cut_vertices(arena).unwrap_or_default();
+        let touches = |piece: &Piece| ends(piece).iter().any(|end| end.position() == point.min);
+        parts.any(touches).then_some(face)
     }
 }

@@ -58,14 +58,14 @@ fn floats_are_off_by_one_rounding_and_a_thousandth() {
             to[other] = from[other] * ROUNDING * random.range(0.9999, 1.0);
         }
         let ray = if round % 5 == 0 { Ray::new(from, to - from) } else { Ray::between(from, to) };
-        let probe = RayQuery::new(ray, lattice).unwrap();
+        let query = RayQuery::new(ray, lattice).unwrap();
         let (origin, direction, bits) = ExactRay::new(ray, lattice).unwrap().parts();
-        origins = origins.max(off(probe.origin, origin, bits, probe.reach));
-        if probe.is_precise {
+        origins = origins.max(off(query.origin, origin, bits, query.reach));
+        if query.is_precise {
             // An endless ray has a unit of its own.
-            let bits = if probe.is_endless { 123 - SPEED_BITS as u32 } else { bits };
-            directions = directions.max(off(probe.direction, direction, bits, probe.speed));
-            short += usize::from(!probe.is_endless && length < far - 56);
+            let bits = if query.is_endless { 123 - SPEED_BITS as u32 } else { bits };
+            directions = directions.max(off(query.direction, direction, bits, query.speed));
+            short += usize::from(!query.is_endless && length < far - 56);
         }
     }
     assert!((0.999..1.001).contains(&origins), "{origins} roundings");

@@ -1,12 +1,186 @@
-//! Compares a painted picture with a depth buffer's, pixel by pixel, and says how deep the errors are.
+//! The judge: a depth buffer, and the comparison of a painted picture with it, pixel by pixel.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::coverage::{Coverage, Outline};
 use super::exact::{Plane, PlanePair};
+use super::line::{ROUNDING, Seen};
 use super::painter::{Image, NONE};
 use super::rays::{Given, Rays};
 use crate::exact::{Faces, PlaneId};
+use crate::random::mix;
+
+/// Which face is nearest in each pixel, and how near it is.
+#[derive(Clone, Debug)]
+pub struct DepthImage {
+    image: Image,
+    /// 1/t for a perspective and −t for a parallel projection, where the ray meets the face after t
+    /// times its direction: larger is nearer.
+    nearness: Vec<f64>,
+    unit: f64,
+    perspective: bool,
+}
+
+impl DepthImage {
+    /// The faces.
+    pub fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// The faces alone.
+    pub fn into_image(self) -> Image {
+        self.image
+    }
+
+    /// The depth of the face in each pixel, rounded, in world units, row by row from the top left;
+    /// infinite where there is no face.
+    ///
+    /// Depth is measured along the direction in which the camera looks: from the eye, or, for
+    /// parallel rays, from the plane through the middle of the scene; then it may have either sign.
+    pub fn depths(&self) -> impl Iterator<Item = f64> {
+        self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
+            if face == NONE {
+                f64::INFINITY
+            } else if self.perspective {
+                self.unit / nearness
+            } else {
+                -nearness * self.unit
+            }
+        })
+    }
+}
+
+/// How near a face is, as a rounded linear function of the pixel, with a bound on its error.
+#[derive(Clone, Copy)]
+struct Nearness {
+    k: [f64; 3],
+    error: f64,
+}
+
+impl Nearness {
+    fn new(seen: &Seen<'_>) -> Self {
+        let sheet = &seen.sheet;
+        let factor = if seen.rays.is_perspective() { -1.0 } else { 1.0 } / sheet.kappa;
+        // φ is off by 12 roundings of its size, κ by 8 of its size; the quotient and the evaluation
+        // add a few more. If κ is uncertain by a quarter, nothing is known.
+        let uncertainty = 9.0 * ROUNDING * sheet.kappa_size / sheet.kappa.abs();
+        let error = if uncertainty < 0.25 {
+            sheet.phi_size * factor.abs() * (20.0 * ROUNDING + 2.0 * uncertainty)
+        } else {
+            f64::INFINITY
+        };
+        Self { k: sheet.phi.map(|c| c * factor), error }
+    }
+
+    fn at(&self, x: u32, y: u32) -> f64 {
+        self.k[0] + f64::from(y) * self.k[2] + f64::from(x) * self.k[1]
+    }
+}
+
+/// The nearest face in each pixel. Of faces at exactly the same distance, the later polygon's wins,
+/// as if it had been painted over the earlier one.
+///
+/// # Panics
+///
+/// If the rays were made for another grid.
+pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
+    zbuffer_and(rays, faces, |_, _, _| {})
+}
+
+/// The nearest face in each pixel, and all that cover it.
+pub(crate) fn zbuffer_layers(rays: &Rays, faces: &Faces) -> (DepthImage, Layers) {
+    let mut layers = Layers::new(rays);
+    let depth = zbuffer_and(rays, faces, |face, y, columns| layers.add(face, y, columns));
+    (depth, layers)
+}
+
+/// Like [`zbuffer`]; calls `also` with each face, and a row and columns that it covers.
+fn zbuffer_and(
+    rays: &Rays,
+    faces: &Faces,
+    mut also: impl FnMut(u32, u32, Range<u32>),
+) -> DepthImage {
+    rays.expect(faces);
+    let mut image = Image::new(rays.size());
+    let mut nearness = vec![f64::NEG_INFINITY; image.faces.len()];
+    let mut errors = vec![0.0f64; image.faces.len()];
+    let width = rays.size()[0] as usize;
+    for face in 0..faces.len() as u32 {
+        let Some(coverage) = Coverage::new(rays, faces, face, Outline::Whole) else { continue };
+        let near = Nearness::new(&coverage.seen);
+        coverage.for_each_run(&mut |y, columns| {
+            image.drawn += columns.len() as u64;
+            also(face, y, columns.clone());
+            for x in columns {
+                let i = y as usize * width + x as usize;
+                let value = near.at(x, y);
+                // Rounded values decide if they differ by more than their errors; otherwise
+                // integers.
+                let doubt = errors[i] + near.error;
+                let wins = if image.faces[i] == NONE || value - nearness[i] > doubt {
+                    true
+                } else if nearness[i] - value > doubt {
+                    false
+                } else {
+                    is_drawn_over(rays, faces, face, image.faces[i], x, y)
+                };
+                if wins {
+                    image.faces[i] = face;
+                    nearness[i] = value;
+                    errors[i] = near.error;
+                }
+            }
+        });
+    }
+    DepthImage { image, nearness, unit: rays.depth_unit, perspective: rays.is_perspective() }
+}
+
+/// Whether a face hides another in a pixel: it is nearer, or as near and of the later polygon.
+///
+/// Nearness is ∓φ/κ, so the nearer one has the sign of ∓(φ_a κ_b − φ_b κ_a), times the signs of both κ.
+#[cold]
+fn is_drawn_over(rays: &Rays, faces: &Faces, face: u32, other: u32, x: u32, y: u32) -> bool {
+    let pair = PlanePair::new(rays, [face, other].map(|face| Plane::of(faces, face)));
+    // κ_a φ_b − κ_b φ_a: the sign is turned once more.
+    let across = pair.at(rays.pixel(x, y)).determinant.sign().reverse();
+    let [a, b] = pair.kappas.map(|kappa| kappa.sign().is_lt());
+    let nearer = if a ^ b ^ rays.is_perspective() { across.reverse() } else { across };
+    let rank = |face| (faces.polygon(face), face);
+    nearer.then(rank(face).cmp(&rank(other))).is_gt()
+}
+
+/// For every pixel, the multiset of faces that cover it.
+///
+/// Stored as a hash, the sum of a pseudo-random number for each face: the hashes of two different
+/// multisets are equal with a probability of 2⁻³².
+#[derive(Clone, Debug)]
+pub(crate) struct Layers {
+    width: usize,
+    sums: Vec<u32>,
+}
+
+impl Layers {
+    /// Without any faces.
+    pub(crate) fn new(rays: &Rays) -> Self {
+        let [width, height] = rays.size().map(|side| side as usize);
+        Self { width, sums: vec![0; width * height] }
+    }
+
+    /// Adds a face in some columns of a row.
+    pub(crate) fn add(&mut self, face: u32, y: u32, columns: Range<u32>) {
+        let term = mix(u64::from(face)) as u32;
+        let row = &mut self.sums[y as usize * self.width..][..self.width];
+        for sum in &mut row[columns.start as usize..columns.end as usize] {
+            *sum = sum.wrapping_add(term);
+        }
+    }
+
+    /// The number of pixels in which the faces differ from those of `other`.
+    pub(crate) fn differences(&self, other: &Self) -> usize {
+        self.sums.iter().zip(&other.sums).filter(|(a, b)| a != b).count()
+    }
+}
 
 /// The verdict on one pixel of a painted picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -90,7 +264,6 @@ pub(crate) fn compare_by(
 ) -> Comparison {
     let width = rays.size()[0] as usize;
     let mut result = Comparison::default();
-    let mut pair = LastPair::new(rays, faces);
     let judge = |(i, (&shown, &nearest)): (usize, (&u32, &u32))| match (shown, nearest) {
         (NONE, NONE) => Verdict::Empty,
         (NONE, _) => Verdict::Hole,
@@ -98,7 +271,8 @@ pub(crate) fn compare_by(
         _ if faces.polygon(shown) == faces.polygon(nearest) => Verdict::Right,
         _ => {
             let [x, y] = [(i % width) as u32, (i / width) as u32];
-            let apart = distances(rays, pair.of([shown, nearest]), rays.pixel(x, y));
+            let pair = PlanePair::new(rays, [shown, nearest].map(|face| Plane::of(faces, face)));
+            let apart = distances(rays, &pair, rays.pixel(x, y));
             if apart.iter().all(|&apart| apart <= allowed) || is_open([nearest, shown], [x, y]) {
                 Verdict::Contested
             } else {
@@ -114,26 +288,6 @@ pub(crate) fn compare_by(
     result.holes = count(Verdict::Hole);
     result.spills = count(Verdict::Spill);
     result
-}
-
-/// The planes of two faces, kept from one pixel to the next: the same two meet in many.
-pub(super) struct LastPair<'a> {
-    rays: &'a Rays,
-    faces: &'a Faces,
-    last: Option<([u32; 2], PlanePair)>,
-}
-
-impl<'a> LastPair<'a> {
-    pub(super) fn new(rays: &'a Rays, faces: &'a Faces) -> Self {
-        Self { rays, faces, last: None }
-    }
-
-    pub(super) fn of(&mut self, both: [u32; 2]) -> &PlanePair {
-        let last = self.last.take().filter(|&(last, _)| last == both);
-        let planes = || both.map(|face| Plane::of(self.faces, face));
-        let pair = || (both, PlanePair::new(self.rays, planes()));
-        &self.last.insert(last.unwrap_or_else(pair)).1
-    }
 }
 
 /// The distances from each of two planes of the point where the ray of a pixel meets the other, in
@@ -189,68 +343,4 @@ pub(crate) fn is_open(
     meets(nearest)
         && (meets(other) || begins())
         && (pieces.into_iter().any(reaches_across) || is_within())
-}
-
-/// How far behind the nearest polygon the painted ones are; see [`depth_error`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct DepthError {
-    /// Wrong pixels in which the painted face is met at all.
-    pub pixels: usize,
-    /// The largest difference of depths, in world units along the direction of view.
-    pub max: f64,
-    /// The sum of the differences of all these pixels.
-    pub sum: f64,
-}
-
-/// The difference in depth between the painted face and the nearest, over the pixels with the
-/// verdict [wrong order](Verdict::WrongOrder). Pixels whose ray does not meet the painted face at
-/// all are left out.
-///
-/// # Panics
-///
-/// If the rays were made for another grid.
-pub fn depth_error(
-    rays: &Rays,
-    faces: &Faces,
-    painted: &Image,
-    truth: &Image,
-    comparison: &Comparison,
-) -> DepthError {
-    rays.expect(faces);
-    let width = rays.size()[0] as usize;
-    let mut result = DepthError::default();
-    let mut pairs = LastPair::new(rays, faces);
-    let mut last = None;
-    let pixels = painted.faces().iter().zip(truth.faces()).zip(&comparison.verdicts).enumerate();
-    for (i, ((&shown, &nearest), &verdict)) in pixels {
-        if verdict != Verdict::WrongOrder {
-            continue;
-        }
-        let (x, y) = ((i % width) as u32, (i / width) as u32);
-        // The same face mostly shows in the next wrong pixel, too.
-        let (_, coverage) = last
-            .take()
-            .filter(|&(face, _)| face == shown)
-            .unwrap_or_else(|| (shown, Coverage::new(rays, faces, shown, Outline::Whole)));
-        let is_met = coverage.as_ref().is_some_and(|coverage| coverage.covers(x, y));
-        last = Some((shown, coverage));
-        if is_met {
-            let pair = pairs.of([shown, nearest]);
-            let depth = difference(rays, pair, x, y);
-            result.pixels += 1;
-            result.max = result.max.max(depth);
-            result.sum += depth;
-        }
-    }
-    result
-}
-
-/// The distance along the ray of a pixel between its points on two planes. The points are at −κ/φ
-/// for a perspective, at −φ/κ for parallel rays; they are subtracted exactly before anything is
-/// rounded.
-fn difference(rays: &Rays, pair: &PlanePair, x: u32, y: u32) -> f64 {
-    let at = pair.at(rays.pixel(x, y));
-    let [p, q] = pair.divisors(rays, &at);
-    (at.determinant.to_f64() / p / q * rays.depth_unit).abs()
 }
