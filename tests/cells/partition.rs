@@ -1,18 +1,13 @@
 //! Partitions: which cells there are, and which polygons reach them.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use binspace::glam::DVec3;
-use binspace::partition::Extent;
-use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
-use testkit::effort::times;
-use testkit::enough;
-
 use crate::cells::polygons::{stars, tiles, triangles};
-use testkit::dice::Dice;
+use binspace::Preparation;
+use binspace::partition::Extent;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use testkit::divided::{Divided, extent};
+use testkit::prelude::*;
 use testkit::scenes::polygons;
-use testkit::shapes::{Corners, sheet};
+use testkit::shapes::sheet;
 use testkit::snapshot::Snapshot;
 
 /// What is seen of a tree: where its fragments are, and whose.

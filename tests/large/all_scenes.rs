@@ -2,7 +2,7 @@
 
 use super::scene::Scene;
 use super::{copies, heaps, layers, planes_through_lines, round_bodies};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 
 type Make = fn(&mut Dice, usize) -> Scene;
 

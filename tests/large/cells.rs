@@ -1,12 +1,10 @@
 //! The cells of a tree: which side of each plane a fragment is said to be on, and whether a point
 //! is there, exactly.
 
-use binspace::BspTree;
-use std::cmp::Ordering;
-use std::ops::Range;
-
 use super::exact::{Plane, Spot};
 use super::ray::Targets;
+use std::ops::Range;
+use testkit::prelude::*;
 
 /// A partition plane and the fragments around it.
 struct Node {

@@ -1,12 +1,11 @@
 //! A tree's fragments as they are drawn: by their rounded vertices, and by nothing else.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Fragment};
-
 use super::exact::Plane;
 use super::ray::Targets;
 use super::scene::world;
+use binspace::Fragment;
 use testkit::judge::{Verdict, ensure};
+use testkit::prelude::*;
 
 /// How far a vertex may be off its exact place, as a share of the scene's size: the roundings of a
 /// vertex are 2⁻⁵² of that each.

@@ -1,8 +1,7 @@
 //! Planes and signs in big integers.
 
 use dashu_int::IBig;
-use num_traits::Zero;
-use std::cmp::Ordering;
+use testkit::prelude::*;
 use testkit::vector::main_axis;
 
 pub(crate) use testkit::vector::{product, scalar, sign};

@@ -2,7 +2,7 @@
 
 use super::exact::Plane;
 use super::scene::{Point, Scene, add, between, minus, point_within, times, turned};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 
 /// Those that are not points or lines.
 pub(crate) fn with_area(polygons: Vec<Vec<Point>>) -> Vec<Vec<Point>> {

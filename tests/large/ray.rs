@@ -1,13 +1,10 @@
 //! Rays against the polygons as they were given: what is hit, exactly sorted.
 
-use dashu_int::IBig;
-use std::cmp::Ordering;
-
 use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
 use super::scene::{Point, Scene, minus, world};
-use binspace::BspTree;
-use binspace::glam::DVec3;
-use binspace::internals::{PlaneId, PlaneKind};
+use binspace::internals::PlaneKind;
+use dashu_int::IBig;
+use testkit::prelude::*;
 
 /// The points (origin / below) + s · direction, s above 0, or, if it is endless, any.
 #[derive(Clone, Debug)]

@@ -1,13 +1,9 @@
 //! Round bodies in whole numbers, all their sides planar to the last bit: globes, shells, cones,
 //! pipes.
 
-use std::f64::consts::{PI, TAU};
-
-use binspace::Heuristic;
-use binspace::glam::DVec3;
-
 use super::scene::{Point, Scene, add, between, each, tilt, times};
-use testkit::dice::Dice;
+use std::f64::consts::{PI, TAU};
+use testkit::prelude::*;
 use testkit::shapes::rotation;
 
 /// `sides` corners on a circle around the z axis, convex though rounded.

@@ -1,9 +1,7 @@
 //! Scenes of whole numbers: what the judge knows, and what the library is given.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Error, FrameBuilder, Heuristic};
-
-use testkit::dice::Dice;
+use binspace::Error;
+use testkit::prelude::*;
 
 pub(crate) type Point = [i64; 3];
 

@@ -1,17 +1,15 @@
 //! Trees held against rays: far before near, input order where polygons are in one plane, and
 //! every polygon covered once.
 
-use binspace::{BspTree, Viewpoint};
-
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
 use super::exact::Plane;
 use super::ray::{Hit, Ray, Targets};
 use super::scene::world;
 use super::view::{self, Place, View};
-use testkit::dice::Dice;
 use testkit::judge::{Verdict, ensure};
 use testkit::orders;
+use testkit::prelude::*;
 use testkit::rational;
 
 /// What has been compared.

@@ -1,12 +1,10 @@
 //! Scenes on trial, several at a time.
 
-use binspace::Heuristic;
-use rayon::prelude::*;
-
 use super::ray::Targets;
 use super::scene::Scene;
 use super::trees_by_rays::{Court, Score, Shot, shots};
-use testkit::dice::Dice;
+use rayon::prelude::*;
+use testkit::prelude::*;
 
 /// How a scene is tried.
 #[derive(Clone, Copy, Debug)]

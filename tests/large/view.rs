@@ -1,12 +1,9 @@
 //! Viewpoints that are known exactly, most of them where it is hard to tell sides.
 
-use binspace::Viewpoint;
-use binspace::glam::DVec3;
-
 use super::exact::{Vector, wide};
 use super::ray::Ray;
 use super::scene::{Point, Scene, add, between, minus, times};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 
 /// Where the viewer is: whole numbers over a power of two, or a direction whose largest component
 /// is a power of two, so that the library rounds neither.

@@ -1,9 +1,10 @@
 //! The conventions, on examples drawn by hand.
 
 use super::{Rect, camera};
-use binspace::glam::{DMat4, DVec2, DVec3, dvec2, dvec3};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
 use std::f64::consts::FRAC_PI_2;
+use testkit::prelude::*;
 
 /// Half sides 100 and 60.
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];

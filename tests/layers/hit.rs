@@ -1,10 +1,9 @@
 //! What is under a point of the screen, near edges, and on a screen of another size.
 
 use super::{Given, VIEWPORT, pages};
-use binspace::glam::{DMat4, DVec2, dvec3};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
-use testkit::enough;
+use testkit::prelude::*;
 
 /// A rectangle far from the origin of its own coordinates, where (u, v) are rounded coarsely: a point
 /// of what is painted is hit as soon as it is further from the edges than 10⁻⁹ of the viewport.

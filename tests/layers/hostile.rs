@@ -1,11 +1,9 @@
 //! Input that is wrong, degenerate or extreme.
 
 use super::{Given, Rect, VIEWPORT, camera, wild};
-use binspace::glam::{DMat4, DVec4, Mat4, dvec3};
+use binspace::glam::{DMat4, DVec4, Mat4};
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
-use testkit::effort::{seeds, times};
-use testkit::enough;
+use testkit::prelude::*;
 
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
 

@@ -13,11 +13,11 @@ mod outline;
 mod planes;
 mod short_edges;
 
-use binspace::glam::{DMat4, dvec3};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
 use oracle::Truth;
-use testkit::dice::Dice;
 use testkit::pages::{self, PageLayer, SCREEN, camera};
+use testkit::prelude::*;
 
 type Rect = [[f64; 2]; 2];
 

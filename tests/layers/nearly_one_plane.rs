@@ -3,12 +3,10 @@
 
 use super::Given;
 use super::oracle::{Truth, covers, number};
-use binspace::glam::{DMat4, DVec2, DVec3, Mat4, dvec3};
+use binspace::glam::{DMat4, Mat4};
 use binspace::layers::{Layer, LayerVertex, Layers};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
-use testkit::rational::{Rational, exact};
+use testkit::prelude::*;
+use testkit::rational::exact;
 
 /// The longer side of the viewport.
 const SIZE: f64 = 640.0;

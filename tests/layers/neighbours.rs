@@ -1,9 +1,8 @@
 //! Layers side by side.
 
 use super::{VIEWPORT, wild};
-use binspace::glam::DVec3;
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 
 /// The edge runs up in one of them and down in the other.
 #[test]

@@ -2,9 +2,9 @@
 
 use super::oracle::{Truth, covers, number};
 use super::{Given, Rect, VIEWPORT, wild};
-use binspace::glam::{DMat4, DVec2, dvec3};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::rational::exact;
 
 /// A camera a thousand pixels in front of a page of 640 × 480.

@@ -2,14 +2,10 @@
 
 use super::oracle::{Point2, Truth, covers, number};
 use super::{Given, page_of, wild};
-use binspace::glam::DVec2;
 use binspace::layers::Layers;
-use num_traits::Signed;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
 use testkit::pages::{Page, SCREEN};
-use testkit::rational::{Rational, exact};
+use testkit::prelude::*;
+use testkit::rational::exact;
 
 /// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by
 /// less in pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.

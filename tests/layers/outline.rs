@@ -2,12 +2,8 @@
 
 use super::oracle::{Point2, area, number};
 use super::{Given, VIEWPORT, page_of, pages, wild};
-use binspace::glam::DVec3;
 use binspace::layers::LayerVertex;
-use num_traits::Signed;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use testkit::prelude::*;
 use testkit::rational::exact;
 
 /// Twenty steps of `f64`, times what the terms of a coordinate add up to.

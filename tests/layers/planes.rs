@@ -1,11 +1,9 @@
 //! Layers that are meant to be in one plane, and layers that pass near the eye.
 
 use super::{VIEWPORT, camera, pages};
-use binspace::glam::{DMat4, Mat4, Quat, dvec3, vec3};
+use binspace::glam::{DMat4, Mat4, Quat, vec3};
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
-use testkit::effort::{seeds, times};
-use testkit::enough;
+use testkit::prelude::*;
 
 fn order(page: &Layers) -> Vec<usize> {
     page.back_to_front().map(|piece| piece.layer()).collect()

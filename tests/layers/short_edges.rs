@@ -2,9 +2,9 @@
 
 use super::oracle::{Truth, number};
 use super::{Given, camera};
-use binspace::glam::{DMat4, DVec2, dvec3};
+use binspace::glam::DMat4;
 use binspace::layers::Layers;
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::rational::exact;
 
 /// Cards that turn about one point, which is a corner of some and on an edge of others, on a screen

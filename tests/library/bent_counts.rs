@@ -1,9 +1,9 @@
 //! Which polygons count as bent does not depend on what they are given with: at once, one after the other,
 //! or in cells.
 
-use binspace::glam::DVec3;
+use binspace::Preparation;
 use binspace::partition::Extent;
-use binspace::{BuildOptions, Polygon, Preparation};
+use testkit::prelude::*;
 
 /// A quad of which a corner is off the plane of the others, with a precision of its own.
 #[derive(Clone, Copy)]

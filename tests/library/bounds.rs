@@ -2,11 +2,10 @@
 //! would decide wrongly. The library decides them rightly, so the bound is large enough there; they
 //! exist, so the bound is hardly larger than necessary.
 
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex};
+use binspace::internals::{PreparedPlane, Side, Vertex};
 use dashu_int::IBig;
-use num_traits::{Signed, ToPrimitive, Zero};
-use testkit::dice::Dice;
-use testkit::enough;
+use num_traits::ToPrimitive;
+use testkit::prelude::*;
 
 /// The largest coordinate of a scene whose lattice step is 1.
 const EDGE: i64 = (1 << 51) - 1;

@@ -1,7 +1,6 @@
 //! Polygons that are given more than once are kept and counted.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Viewpoint};
+use testkit::prelude::*;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 

@@ -1,9 +1,10 @@
 //! The default tolerance far from the origin, where numbers are coarse.
 
-use binspace::glam::{DVec3, Vec3};
+use binspace::Tolerance;
+use binspace::glam::Vec3;
 use binspace::partition::Extent;
-use binspace::{BspTree, BuildOptions, Polygon, Tolerance};
 use testkit::divided::extent;
+use testkit::prelude::*;
 
 fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-6 * expected, "{found:e}, not {expected:e}");

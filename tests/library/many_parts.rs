@@ -1,9 +1,7 @@
 //! Thousands of polygons, which are prepared in parts: what is counted is summed over all parts, and
 //! what is named by number is named right in each.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions};
-use testkit::enough;
+use testkit::prelude::*;
 
 const COUNT: usize = 5000;
 

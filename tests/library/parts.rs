@@ -1,10 +1,7 @@
 //! Scenes so large that they are prepared in parts: the result is the same as in one part.
 
-use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::{BspTree, BuildOptions, Preparation};
-use testkit::enough;
-use testkit::shapes::Corners;
+use binspace::Preparation;
+use testkit::prelude::*;
 
 /// More than what is prepared at once, which is sixteen parts of 1024 polygons.
 const COUNT: usize = 20_000;

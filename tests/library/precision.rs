@@ -1,10 +1,9 @@
 //! The default tolerance follows the precision of the input, and merges nothing that the input
 //! tells apart.
 
-use binspace::glam::{DVec3, Mat4, Quat, Vec3, vec3};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Polygon, Tolerance, Viewpoint};
-use testkit::dice::Dice;
-use testkit::enough;
+use binspace::Tolerance;
+use binspace::glam::{Mat4, Quat, Vec3, vec3};
+use testkit::prelude::*;
 
 /// How many turns of the cards are tried.
 const TURNS: u64 = 24;

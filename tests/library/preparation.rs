@@ -2,15 +2,13 @@
 //! dropped, what is an error.
 
 use binspace::Preparation;
-use binspace::glam::{DMat3, DVec3};
-use binspace::internals::{DEFAULT_TOLERANCE, Faces};
-use num_traits::Signed;
+use binspace::glam::DMat3;
+use binspace::internals::DEFAULT_TOLERANCE;
 use proptest::prelude::*;
 use testkit::checks::{area, assert_convex_and_planar, face_area};
-use testkit::effort::cases;
-use testkit::hard;
+use testkit::prelude::*;
 use testkit::rational;
-use testkit::shapes::{self, Corners};
+use testkit::shapes;
 
 fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
     Faces::new(polygons, None).expect("finite")

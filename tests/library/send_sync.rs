@@ -1,8 +1,8 @@
 //! Public types are `Send` and `Sync`: trees above all, with everything that they return.
 
 use binspace::internals::{
-    EdgeLine, Eye, Faces, Lattice, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex,
-    VertexId, VertexKind,
+    EdgeLine, Eye, Lattice, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex, VertexId,
+    VertexKind,
 };
 use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
@@ -10,14 +10,14 @@ use binspace::mesh::{Mesh, Triangles};
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::{Marker, Overlaid, Overlay, Segment, Shape};
 use binspace::raster::{Comparison, DepthImage, Image};
-use binspace::scene::{Builtin, Material, Scene};
+use binspace::scene::Material;
 use binspace::verify::Verification;
-use binspace::view::{Camera, CameraError, Projection};
+use binspace::view::{CameraError, Projection};
 use binspace::{
-    Bounds, BspTree, BuildOptions, Child, Culling, Error, Fragment, FrameBuilder, Frustum, Grid,
-    Heuristic, Hit, Location, Node, ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
-    Viewpoint,
+    Bounds, Child, Culling, Error, Fragment, Frustum, Grid, Hit, Location, Node,
+    ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
 };
+use testkit::prelude::*;
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
 macro_rules! assert_shared {

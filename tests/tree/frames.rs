@@ -1,17 +1,12 @@
 //! One builder, scene after scene, against trees that are built alone.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, Tuning, tree_of};
-use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Polygon, Viewpoint};
-use proptest::prelude::*;
-use testkit::enough;
-
 use crate::tree::{heuristic, shoot};
-use testkit::dice::Dice;
-use testkit::hard;
+use binspace::internals::{Tuning, tree_of};
+use binspace::{Error, Fragment};
+use proptest::prelude::*;
+use testkit::prelude::*;
 use testkit::rays::Rays;
 use testkit::snapshot::order;
-use testkit::tally::{fail, tally};
 use testkit::{orders, views};
 
 fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {

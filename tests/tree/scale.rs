@@ -1,12 +1,10 @@
 //! Large and deep: no recursion, no quadratic work, budgets that hold.
 
-use binspace::glam::DVec3;
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Error, Heuristic, Viewpoint};
+use binspace::Error;
 use std::thread;
-use testkit::dice::Dice;
+use testkit::orders;
+use testkit::prelude::*;
 use testkit::scenes::scene_of;
-use testkit::{enough, orders};
 
 const LARGE: u32 = 100_000;
 

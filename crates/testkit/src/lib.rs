@@ -20,6 +20,7 @@ pub mod layered;
 pub mod model;
 pub mod orders;
 pub mod pages;
+pub mod prelude;
 pub mod rational;
 pub mod rays;
 pub mod real_scenes;
