@@ -1,9 +1,8 @@
 //! Pieces with an edge so short that rounding decides where it points.
 
 use super::oracle::{Truth, number};
-use super::{Given, camera};
+use super::{Given, camera, outlines, page_on};
 use binspace::glam::DMat4;
-use binspace::layers::Layers;
 use testkit::prelude::*;
 use testkit::rational::exact;
 
@@ -53,10 +52,12 @@ fn a_hit_does_not_look_through_a_piece_with_a_very_short_edge() {
     for _ in 0..60 {
         let given = cards(&mut dice, off);
         let truths: Vec<Truth> = given.iter().map(Given::truth).collect();
-        let mut page = Layers::new([[off, off], [off + 1920.0, off + 1080.0]]);
-        page.update(&given.iter().map(Given::layer).collect::<Vec<_>>()).unwrap();
-        for piece in page.back_to_front() {
-            let outline: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
+        let page = page_on(
+            [[off, off], [off + 1920.0, off + 1080.0]],
+            true,
+            given.iter().map(Given::layer),
+        );
+        for (_, outline) in outlines(&page) {
             let next = outline.iter().cycle().skip(1);
             if !outline.iter().zip(next).any(|(a, b)| a.distance(*b) < 1e-8) {
                 continue;

@@ -142,6 +142,35 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
     }
 }
 
+/// The rest follows the faces of a finished tree. A mesh has corners as they were given, also those that were
+/// moved onto a plane.
+#[test]
+fn a_tree_that_is_extended_by_several_parts_is_that_of_all() {
+    let polygons = scene(5000);
+    let options = BuildOptions::DEFAULT.with_tolerance(TOLERANCE);
+    let expected = options.build(&polygons).expect("finite");
+    let mut extended = options.build(&polygons[..1500]).expect("finite");
+    extended.extend(&polygons[1500..]).expect("on the ground");
+    for tree in [&expected, &extended] {
+        assert_eq!(tree.preparation(), expected.preparation());
+        assert!(tree.dropped().eq(expected.dropped()));
+        let (mesh, mut moved) = (tree.mesh().expect("memory"), 0);
+        for fragment in tree.fragments().filter(|fragment| fragment.is_whole()) {
+            let k = fragment.polygon();
+            // The kind that is planar within the tolerance.
+            if polygons[k].len() == 4 && polygons[k][2].z.fract() == 2f64.powi(-11) {
+                let range = mesh.triangles().range(fragment.index());
+                for vertex in &mesh.triangles().indices()[range] {
+                    let found = mesh.positions()[*vertex as usize];
+                    assert!(polygons[k].contains(&found), "{k}: {found} for {:?}", polygons[k]);
+                    moved += 1;
+                }
+            }
+        }
+        enough!(moved > 1500; "{moved} corners");
+    }
+}
+
 #[test]
 fn polygons_given_again_in_another_part_are_counted() {
     let mut polygons = scene(COUNT);

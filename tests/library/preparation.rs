@@ -168,20 +168,6 @@ fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
     );
 }
 
-/// Many polygons are prepared in parts: what a later one lists counts on from the earlier ones.
-#[test]
-fn corner_numbers_hold_in_later_parts_of_a_large_input() {
-    let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::ONE];
-    let mut polygons = vec![vec![a, b, c]; 3000];
-    polygons[0] = vec![a, a, b, c];
-    polygons[2500] = vec![a, b, b, c];
-    let (faces, _) = prepare(&polygons);
-    let numbers = |face: u32| [0, 1, 2].map(|k| faces.corner_number(face, k));
-    assert_eq!(numbers(0), [1, 2, 3]);
-    assert_eq!(numbers(2499), [0, 1, 2]);
-    assert_eq!(numbers(2500), [0, 2, 3]);
-}
-
 /// The fan over a bent polygon leaves out corners in the middle of its first side, which is one edge
 /// of the polygon's all the same; diagonals are none.
 #[test]

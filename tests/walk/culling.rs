@@ -10,13 +10,8 @@ use testkit::prelude::*;
 use testkit::rational::Plane;
 use testkit::scenes::cells;
 use testkit::shapes;
+use testkit::snapshot::order;
 use testkit::views::View;
-
-fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
-    let mut order = Vec::new();
-    tree.back_to_front_into(viewpoint, &mut order);
-    order
-}
 
 /// A culled order, after checks that it is a part of the whole order, from both ends.
 fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling<'_>) -> Vec<u32> {
