@@ -1,7 +1,7 @@
 //! Heaps: corners on a small lattice, triangles by chance, duplicates, polygons that touch.
 
-use super::exact::Plane;
-use super::scene::{Point, Scene, add, between, minus, point_within, times, turned};
+use testkit::as_given::exact::Plane;
+use testkit::as_given::scene::{Point, Scene, add, between, minus, point_within, times, turned};
 use testkit::prelude::*;
 
 /// Those that are not points or lines.

@@ -3,9 +3,9 @@
 #![allow(clippy::print_stdout, reason = "the table is what is asked for")]
 
 use super::all_scenes::{self, KINDS};
-use super::trees_by_rays::Score;
 use super::trial::Trial;
 use std::collections::BTreeMap;
+use testkit::as_given::trees_by_rays::Score;
 use testkit::effort::effort;
 use testkit::prelude::*;
 

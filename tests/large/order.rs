@@ -1,8 +1,8 @@
 //! Orders of trees past every threshold of the builder.
 
 use super::all_scenes::{self, KINDS};
-use super::trees_by_rays::Score;
 use super::trial::Trial;
+use testkit::as_given::trees_by_rays::Score;
 use testkit::effort::effort;
 use testkit::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Planes through one line.
 
-use super::scene::{Point, Scene, add, between, each, tilt, times};
+use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
 use testkit::prelude::*;
 
 /// Strips along both rulings of z = x y: each crosses all of the other ruling.

@@ -1,8 +1,8 @@
 //! Round bodies in whole numbers, all their sides planar to the last bit: globes, shells, cones,
 //! pipes.
 
-use super::scene::{Point, Scene, add, between, each, tilt, times};
 use std::f64::consts::{PI, TAU};
+use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
 use testkit::prelude::*;
 use testkit::shapes::rotation;
 

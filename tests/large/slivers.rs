@@ -2,9 +2,9 @@
 
 use super::all_scenes::{self, KINDS};
 use super::layers;
-use super::scene::{Point, Scene, add, each, times, world};
-use super::trees_by_rays::Score;
 use super::trial::Trial;
+use testkit::as_given::scene::{Point, Scene, add, each, times, world};
+use testkit::as_given::trees_by_rays::Score;
 use testkit::prelude::*;
 use testkit::slivers::{Sliver, along, whole};
 

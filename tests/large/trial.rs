@@ -1,9 +1,9 @@
 //! Scenes on trial, several at a time.
 
-use super::ray::Targets;
-use super::scene::Scene;
-use super::trees_by_rays::{Court, Score, Shot, shots};
 use rayon::prelude::*;
+use testkit::as_given::ray::Targets;
+use testkit::as_given::scene::Scene;
+use testkit::as_given::trees_by_rays::{Court, Score, Shot, shots};
 use testkit::prelude::*;
 
 /// How a scene is tried.
