@@ -1,14 +1,11 @@
 //! Who hides whom against rays, permutations and pictures.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Eye, Faces, SplitMix64};
-use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, zbuffer};
-use binspace::scene::{self, Scene};
-use binspace::view::Camera;
-use binspace::{BspTree, Viewpoint};
+use binspace::internals::{Eye, SplitMix64};
+use binspace::raster::{Order, Outline, Painter, Piece, compare, zbuffer};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use num_traits::{One, Signed};
+use num_traits::One;
+use testkit::prelude::*;
 
 use testkit::model::Face;
 use testkit::vector::{difference, scalar};

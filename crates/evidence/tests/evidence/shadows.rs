@@ -1,12 +1,8 @@
 //! Sight lines between points of surfaces and a lamp, against whole numbers of 128 bits.
 
-use binspace::BuildOptions;
-use binspace::glam::{DVec3, dvec3};
-use binspace::scene::Scene;
-use binspace::{BspTree, Ray};
+use binspace::Ray;
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
-use testkit::dice::Dice;
-use testkit::effort::times;
+use testkit::prelude::*;
 use testkit::vector::{Plane, difference, product, scalar};
 
 type Point = [i128; 3];

@@ -1,14 +1,13 @@
 //! Newell's algorithm against brute force, and its cycles.
 
-use glam::{DQuat, DVec3};
+use glam::DQuat;
+use testkit::prelude::*;
 
 use super::oracle::nearest;
 use super::{Polygons, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show};
 use crate::method::{Method, Newell};
 use binspace::internals::SplitMix64;
-use binspace::raster::{NONE, Rays};
-use binspace::scene;
-use binspace::view::Camera;
+use binspace::raster::NONE;
 
 /// Asserts that every pixel that brute force is sure of shows what it says; and gives back the
 /// pieces of all views together.

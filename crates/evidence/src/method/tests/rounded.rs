@@ -1,13 +1,10 @@
 //! Rounded planes and an epsilon against exact decisions.
 
-use glam::DVec3;
-
 use super::{cameras, disjoint, faces, judge};
 use crate::method::Bsp;
 use crate::{Precision, RoundedPiece, RoundedPlane};
-use binspace::BuildOptions;
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, SplitMix64, Vertex, split};
-use binspace::scene;
+use binspace::internals::{PreparedPlane, Side, SplitMix64, Vertex, split};
+use testkit::prelude::*;
 
 /// The least distance of positions from the plane of a face, as a share of half the extent and of
 /// up to four times that: what an epsilon is a share of.
