@@ -38,7 +38,7 @@ fn scenes_of_seed_after_seed_are_in_order() {
     for (seed, kind) in (1000..).take(effort()).flat_map(|s| (0..KINDS + 2).map(move |k| (s, k))) {
         let (name, score) = one(seed, kind);
         let row = table.entry(name).or_default();
-        *row = (row.0 + 1, row.1.add(score));
+        *row = (row.0 + 1, row.1.plus(score));
     }
     table.iter().for_each(|(name, (scenes, score))| println!("{name}: {scenes} scenes, {score:?}"));
     assert!(table.len() >= KINDS, "every kind had its turn");

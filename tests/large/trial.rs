@@ -25,7 +25,7 @@ impl Trial<'_> {
             self.tree(&targets, &shots, heuristic)
                 .unwrap_or_else(|what| panic!("{} by {heuristic}, seed {seed}: {what}", scene.name))
         };
-        self.heuristics.par_iter().map(judge).reduce(Score::default, Score::add)
+        self.heuristics.par_iter().map(judge).reduce(Score::default, Score::plus)
     }
 
     fn tree(
@@ -35,7 +35,7 @@ impl Trial<'_> {
         heuristic: Heuristic,
     ) -> Result<Score, String> {
         let scene = targets.scene;
-        let most = self.most * scene.len();
+        let most = self.most * scene.polygons.len();
         if heuristic == Heuristic::Auto
             && let Ok(frame) = scene.frame(most)
         {

@@ -23,10 +23,6 @@ impl Scene {
         Self { tolerance, ..self }
     }
 
-    pub fn len(&self) -> usize {
-        self.polygons.len()
-    }
-
     /// The largest magnitude of a coordinate.
     pub fn size(&self) -> i64 {
         self.polygons.iter().flatten().flatten().map(|c| c.abs()).max().unwrap_or(1)

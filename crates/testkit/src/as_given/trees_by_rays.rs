@@ -35,10 +35,10 @@ pub struct Score {
 
 impl Score {
     pub fn total(scores: &[(String, Self)]) -> Self {
-        scores.iter().map(|(_, score)| *score).fold(Self::default(), Self::add)
+        scores.iter().map(|(_, score)| *score).fold(Self::default(), Self::plus)
     }
 
-    pub fn add(mut self, other: Self) -> Self {
+    pub fn plus(mut self, other: Self) -> Self {
         self.trees += other.trees;
         self.given_up += other.given_up;
         self.faces += other.faces;
@@ -124,7 +124,7 @@ impl<'t> Court<'t> {
     /// What the judge takes for granted: faces are the polygons, with the very corners.
     fn input_has_not_moved(&self) -> Verdict {
         let (scene, faces) = (self.targets.scene, self.tree.faces());
-        ensure(faces.len() == scene.len(), || format!("{} faces", faces.len()))?;
+        ensure(faces.len() == scene.polygons.len(), || format!("{} faces", faces.len()))?;
         for (face, polygon) in scene.polygons.iter().enumerate() {
             let corners = faces.corners(face as u32);
             let same = corners.len() == polygon.len()

@@ -62,8 +62,11 @@ impl View {
     /// there.
     pub fn some_ray(&self, scene: &Scene, generic: bool, dice: &mut Dice) -> Option<Ray> {
         let all = self.about.is_empty() || dice.below(4) == 0;
-        let polygon =
-            if all { dice.below(scene.len()) } else { self.about[dice.below(self.about.len())] };
+        let polygon = if all {
+            dice.below(scene.polygons.len())
+        } else {
+            self.about[dice.below(self.about.len())]
+        };
         let corners = &scene.polygons[polygon];
         let first = dice.below(corners.len());
         let corner = |k: usize| corners[(first + k) % corners.len()];
@@ -100,7 +103,7 @@ impl View {
 }
 
 fn some_corner(scene: &Scene, dice: &mut Dice) -> (usize, Point) {
-    let polygon = dice.below(scene.len());
+    let polygon = dice.below(scene.polygons.len());
     let corners = &scene.polygons[polygon];
     (polygon, corners[dice.below(corners.len())])
 }
@@ -119,7 +122,7 @@ fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
 pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     let size = scene.size();
     let anywhere = |dice: &mut Dice, n: i64| [0; 3].map(|_| between(dice, -n, n));
-    let polygon = dice.below(scene.len());
+    let polygon = dice.below(scene.polygons.len());
     match kind % KINDS {
         0 => View::eye(anywhere(dice, 4 * size)),
         1 => View::eye(anywhere(dice, size)),
@@ -158,8 +161,8 @@ pub const KINDS: usize = 10;
 /// An eye in line with two polygons that follow one another, and may be near each other; to look
 /// at them both.
 pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
-    let first = dice.below(scene.len());
-    let second = (first + 1 + dice.below(3)) % scene.len();
+    let first = dice.below(scene.polygons.len());
+    let second = (first + 1 + dice.below(3)) % scene.polygons.len();
     // A quarter of the sum of four corners, one of them twice in a triangle.
     let mut inside = |polygon: usize| {
         let corners = &scene.polygons[polygon];

@@ -140,15 +140,17 @@ fn random_ring(random: &mut SplitMix64) -> Polygons {
     (0..count as usize).map(&mut spike).collect()
 }
 
+fn any_turn(random: &mut SplitMix64) -> DQuat {
+    let axis = random.point(-1.0, 1.0).normalize();
+    DQuat::from_axis_angle(axis, 3.0 * random.range(-1.0, 1.0))
+}
+
 #[test]
 fn random_cycles_come_out_as_brute_force_has_them() {
     let mut random = SplitMix64::new(17);
     for number in 0..24 {
         let ring = random_ring(&mut random);
-        let turn = DQuat::from_axis_angle(
-            random.point(-1.0, 1.0).normalize(),
-            3.0 * random.range(-1.0, 1.0),
-        );
+        let turn = any_turn(&mut random);
         let (scale, shift) = (10f64.powf(random.range(-1.0, 1.0)), 4.0 * random.point(-1.0, 1.0));
         let place = |point: DVec3| turn * point * scale + shift;
         let polygons: Polygons =
@@ -171,10 +173,7 @@ fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
     for number in 0..8 {
         let mut polygons = Polygons::new();
         for _ in 0..3 {
-            let turn = DQuat::from_axis_angle(
-                random.point(-1.0, 1.0).normalize(),
-                3.0 * random.range(-1.0, 1.0),
-            );
+            let turn = any_turn(&mut random);
             let shift = 0.3 * random.point(-1.0, 1.0);
             let place = |spike: Vec<DVec3>| spike.iter().map(|&c| turn * c + shift).collect();
             polygons.extend(random_ring(&mut random).into_iter().map(place));
