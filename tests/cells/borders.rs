@@ -1,17 +1,10 @@
 //! Neighbouring cells have the vertices that the planes between them make in common, bit for bit.
 
-use std::collections::BTreeMap;
-use testkit::enough;
-
-use binspace::BuildOptions;
-use binspace::glam::DVec3;
-use binspace::internals::{PlaneKind, VertexKind};
-use binspace::scene;
-
 use crate::cells::polygons::triangles;
-use testkit::dice::Dice;
+use binspace::internals::{PlaneKind, VertexKind};
+use std::collections::BTreeMap;
 use testkit::divided::Divided;
-use testkit::shapes::Corners;
+use testkit::prelude::*;
 
 /// A plane between cells: its axis, and the bits of its lattice coordinate.
 type Wall = (usize, u64);

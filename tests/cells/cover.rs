@@ -1,17 +1,11 @@
 //! Each point of each polygon is in one cell: areas and edges of all cells together, in rationals.
 
-use binspace::glam::DVec3;
-use binspace::{BuildOptions, Heuristic};
-
 use crate::cells::polygons::{stars, tiles, triangles};
 use testkit::cell_cover::check;
-use testkit::dice::Dice;
 use testkit::divided::Divided;
-use testkit::enough;
-use testkit::hard;
 use testkit::judge::{Verdict, ensure};
-use testkit::shapes::{Corners, sheet};
-use testkit::tally::{fail, tally};
+use testkit::prelude::*;
+use testkit::shapes::sheet;
 
 fn checked(polygons: Vec<Corners>, options: BuildOptions, cells: usize) -> usize {
     let scene = Divided::new(polygons, options, cells).unwrap();

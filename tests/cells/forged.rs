@@ -1,8 +1,7 @@
 //! Partitions of strangers that are wrong in one plane: refused, and the message says which it is.
 
 use binspace::partition::{Extent, Partition};
-use binspace::{BuildOptions, glam::DVec3};
-
+use testkit::prelude::*;
 use testkit::saved::seal;
 
 const LIMIT: i64 = 1 << 51;

@@ -1,20 +1,12 @@
 //! The orders of cells, one after the other, are an order of the scene: held against rays, in big
 //! integers.
 
-use proptest::prelude::*;
-use testkit::effort::times;
-use testkit::enough;
-
-use binspace::glam::DVec3;
-use binspace::{BuildOptions, Heuristic};
-
 use crate::cells::polygons::{stars, tiles, triangles};
+use proptest::prelude::*;
 use testkit::cell_orders::{Score, judge, places, shoot};
-use testkit::dice::Dice;
 use testkit::divided::Divided;
-use testkit::hard;
+use testkit::prelude::*;
 use testkit::rays::{Ray, Rays};
-use testkit::tally::{fail, tally};
 use testkit::views::View;
 
 #[test]

@@ -1,18 +1,13 @@
 //! Partitions: which cells there are, and which polygons reach them.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use binspace::glam::DVec3;
-use binspace::partition::Extent;
-use binspace::{BspTree, BuildOptions, Polygon, Preparation, Viewpoint, scene};
-use testkit::effort::times;
-use testkit::enough;
-
 use crate::cells::polygons::{stars, tiles, triangles};
-use testkit::dice::Dice;
+use binspace::Preparation;
+use binspace::partition::Extent;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use testkit::divided::{Divided, extent};
+use testkit::prelude::*;
 use testkit::scenes::polygons;
-use testkit::shapes::{Corners, sheet};
+use testkit::shapes::{Claim, sheet};
 use testkit::snapshot::Snapshot;
 
 /// What is seen of a tree: where its fragments are, and whose.
@@ -259,20 +254,15 @@ fn what_is_added_again_is_known_by_its_corners_as_given() {
     }
 }
 
-/// A square in numbers of which all digits are right.
-struct Exact(Corners);
-
-impl Polygon for Exact {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.0.iter().copied()
-    }
-}
-
 /// Far from the origin, numbers are less precise than a small scene's tolerance: which does not follow bounds.
 #[test]
 fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
     let at = DVec3::splat(5e6);
-    let square = |x: f64| Exact(sheet(0, x, 1.0).map(|corner| at + DVec3::from(corner)).to_vec());
+    // In numbers of which all digits are right.
+    let square = |x: f64| {
+        let corners = sheet(0, x, 1.0).map(|corner| at + DVec3::from(corner)).to_vec();
+        Claim { corners, precision: 0.0 }
+    };
     let squares = [square(0.0), square(0.5)];
     let mut extent = Extent::default();
     squares.iter().for_each(|square| extent.include(square));

@@ -1,9 +1,6 @@
 //! Polygons that planes of cells go through, and along.
 
-use binspace::glam::DVec3;
-
-use testkit::dice::Dice;
-use testkit::shapes::Corners;
+use testkit::prelude::*;
 
 /// Triangles at random with whole corners from −n to n.
 pub(crate) fn triangles(dice: &mut Dice, count: usize, n: u32) -> Vec<Corners> {

@@ -1,8 +1,7 @@
 //! Samples that are no points say nothing of where planes go.
 
-use binspace::glam::DVec3;
 use binspace::partition::Extent;
-use binspace::{BuildOptions, Viewpoint};
+use testkit::prelude::*;
 
 #[test]
 fn samples_that_are_not_finite_choose_nothing() {

@@ -1,12 +1,9 @@
 //! Partitions and trees of cells in files.
 
-use binspace::partition::Partition;
-use binspace::{BspTree, BuildOptions};
-use testkit::enough;
-
 use crate::cells::polygons::{stars, tiles, triangles};
-use testkit::dice::Dice;
+use binspace::partition::Partition;
 use testkit::divided::Divided;
+use testkit::prelude::*;
 use testkit::saved::{bytes, seal, use_all};
 use testkit::snapshot::Snapshot;
 use testkit::targets;

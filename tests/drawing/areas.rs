@@ -1,13 +1,8 @@
 //! Areas: the cells of a closed room add up to the picture.
 
+use super::map_of;
 use super::scenes::cameras;
-use binspace::BspTree;
-use binspace::drawing::VisibilityMap;
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::scene::Scene;
-use testkit::dice::Dice;
-use testkit::effort::times;
+use testkit::prelude::*;
 use testkit::scenes::triangles;
 
 /// Six walls around some triangles.
@@ -60,7 +55,7 @@ fn areas_add_up_to_the_picture() {
     assert_eq!(pictures, 9);
     // From outside the room, no more than the picture.
     for camera in cameras(&scene, 3, [200, 150]) {
-        let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+        let map = map_of(&tree, &camera);
         let sum: f64 = map.polygons().map(|shown| shown.area).sum();
         assert!(sum < 30_000.0 * (1.0 + 1e-9), "{sum}");
     }

@@ -1,19 +1,14 @@
 //! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
 
+use super::map_of;
+use super::on_grid;
 use super::overlay::{between, place_in};
 use super::sightlines::Sightlines;
-use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
-use binspace::glam::{DVec2, DVec3};
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
-use num_traits::{Signed, Zero};
-use std::cmp::Ordering;
+use binspace::drawing::{EdgeKind, EdgeRun};
 use std::collections::BTreeMap;
-use testkit::dice::Dice;
-use testkit::enough;
 use testkit::model::Face;
-use testkit::rational::{self, Point, Rational};
+use testkit::prelude::*;
+use testkit::rational::Point;
 
 /// A quad that is bent along its shorter diagonal, which a wall goes through.
 #[test]
@@ -25,7 +20,7 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
         assert_eq!(tree.faces().len(), 3, "the roof is bent");
         let direction = DVec3::new(-1.0, 0.0, -1.0);
         let camera = Camera::parallel(direction, DVec3::Z, DVec3::ZERO, 8.0, [80, 80]).unwrap();
-        let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+        let map = map_of(&tree, &camera);
         let in_layers = map.crossings_in_layers().unwrap();
         assert_eq!(in_layers.len(), usize::from(expected > 0.0), "{in_layers:?}");
         for run in map.crossings().unwrap().iter().chain(&in_layers) {
@@ -50,7 +45,7 @@ fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
         for eye in [[9.0, -2.0, 8.0], [-5.0, -9.0, 3.0], [3.0, -9.0, 8.0], [2.0, -3.0, -5.0]] {
             let (eye, target) = (DVec3::from(eye), DVec3::new(1.0, 1.0, 0.0));
             let camera = Camera::perspective(eye, target, DVec3::Z, 0.8, [320, 240]).unwrap();
-            let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+            let map = map_of(&tree, &camera);
             let [a, b] = [DVec3::ZERO, target].map(|end| DVec2::from(camera.project(end).unwrap()));
             let expected = a.distance(b);
             for runs in [map.crossings(), map.crossings_with_hidden(), map.crossings_in_layers()] {
@@ -246,9 +241,8 @@ fn crossings_along_bends_are_those_that_rays_meet() {
     {
         for round in 0..rounds {
             let tree = options.build(pairs(&mut dice, count)).unwrap();
-            let lattice = *tree.faces().lattice();
             let place = dice.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };
-            let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
+            let eye = on_grid(&tree, place);
             let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]);
             let parallel = Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 3.0, [320, 240]);
             for camera in [perspective.unwrap(), parallel.unwrap()] {
@@ -283,8 +277,7 @@ fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
             let tree = options.build(pairs(&mut dice, 8)).unwrap();
             let eye = dice.point(-1.0, 1.0).normalize() * 4.0;
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            let map = VisibilityMap::of(&tree, rays).unwrap();
+            let map = map_of(&tree, &camera);
             let expected = shown(&map.crossings().unwrap());
             let found = shown(&map.crossings_with_hidden().unwrap());
             for (pair, length) in &expected {

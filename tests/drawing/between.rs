@@ -1,20 +1,14 @@
 //! Lines and points between translucent polygons, against rays in rationals.
 
+use super::on_grid;
 use super::overlay::{between, for_each_crowd, hard_shapes, place_in};
 use super::sightlines::Sightlines;
-use binspace::drawing::{DisplayItem, Drawing, LineRun, Path, VisibilityMap};
-use binspace::glam::DVec3;
+use binspace::drawing::{DisplayItem, Drawing, LineRun, Path};
 use binspace::overlay::{Overlay, Shapes};
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
-use testkit::dice::Dice;
-use testkit::enough;
-use testkit::hard;
-use testkit::rational::{self, Point};
+use testkit::prelude::*;
+use testkit::rational::Point;
 use testkit::shapes::rectangle;
-use testkit::tally::{fail, tally};
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -254,10 +248,9 @@ fn lines_come_between_hard_polygons() {
         let options = BuildOptions::DEFAULT.with_tolerance(0.0);
         let options = options.with_bounds(middle - reach, middle + reach);
         let Ok(tree) = options.build(&scene.polygons) else { return Ok(()) };
-        let lattice = tree.faces().lattice();
         let off = DVec3::from([(); 3].map(|()| dice.around_zero(3)));
         let eye = middle + off * (high - low) * 0.5;
-        let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+        let eye = on_grid(&tree, eye);
         let up = DVec3::new(0.1, 0.2, 0.9);
         let (lines, points) = hard_shapes(&scene.polygons, eye, &mut dice);
         let at = Camera::perspective(eye, middle, up, 1.0, [96, 72]);

@@ -1,11 +1,9 @@
 //! Edges over a grid, many of them along borders of the picture and of its tiles, and on cuts of other polygons.
 
-use std::collections::BTreeMap;
-
+use super::map_of;
 use super::sheets::{Sheet, from_above, stack, tree_of};
-use binspace::drawing::VisibilityMap;
-use binspace::raster::Rays;
-use testkit::dice::Dice;
+use std::collections::BTreeMap;
+use testkit::prelude::*;
 
 /// The ends of an edge, the lower first.
 type Ends = [[i64; 3]; 2];
@@ -104,7 +102,7 @@ fn a_crossing_along_a_border_is_not_in_the_picture() {
     let tree = tree_of(&[roof, plank].map(Vec::from));
     for (height, count) in [(8.0, 1), (4.0, 0)] {
         let camera = from_above(height, [64; 2]);
-        let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+        let map = map_of(&tree, &camera);
         let (shown, all) = (map.crossings().unwrap(), map.crossings_with_hidden().unwrap());
         assert_eq!([shown.len(), all.len()], [count; 2], "{all:?}");
     }

@@ -1,15 +1,11 @@
 //! Small scenes full of coincidences, from hard places.
 
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::{Camera, views};
-use binspace::{BspTree, Heuristic};
+use binspace::view::views;
 use proptest::prelude::*;
-use testkit::enough;
 use testkit::fill::{Score, check};
-use testkit::hard::{self, HardScene};
+use testkit::hard::HardScene;
 use testkit::layered::{Layers, check_layers, check_mixed};
-use testkit::tally::{fail, tally};
+use testkit::prelude::*;
 
 #[test]
 fn hard_scenes_are_drawn_as_rays_meet_them() {

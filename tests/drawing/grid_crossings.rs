@@ -4,17 +4,12 @@
 use super::bent::{at, do_cross, sides_at};
 use super::overlay::between;
 use super::sightlines::{Cover, Origin, Sightlines, common};
-use binspace::drawing::{EdgeKind, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Ray};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use binspace::Ray;
+use binspace::drawing::EdgeKind;
 use testkit::fill::ray;
 use testkit::model::Face;
-use testkit::rational::{self, Point};
+use testkit::prelude::*;
+use testkit::rational::Point;
 
 /// So many corners along each axis.
 const GRID: f64 = 4.0;

@@ -1,15 +1,12 @@
 //! What is just hidden, and what just shows.
 
-use binspace::BspTree;
-use binspace::drawing::VisibilityMap;
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::Camera;
+use super::map_of;
 use testkit::fill::{Score, check};
+use testkit::prelude::*;
 use testkit::shapes::rectangle;
 
 fn shown(tree: &BspTree, camera: &Camera) -> Vec<usize> {
-    let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
+    let map = map_of(tree, camera);
     map.polygons().map(|shown| shown.polygon).collect()
 }
 
@@ -87,34 +84,4 @@ fn a_wall_in_pieces_hides_all_behind_it() {
     let eye = DVec3::new(0.3, 0.2, 30.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [120, 90]).unwrap();
     assert!(shown(&tree, &camera).iter().all(|&polygon| polygon < visible));
-}
-
-/// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing.
-#[test]
-fn eyes_on_polygons_and_away_from_all() {
-    let square = sized([-1.0, -1.0], [2.0; 2], 0.0);
-    let floor: Vec<DVec3> =
-        [[-9.0, -2.0, 9.0], [9.0, -2.0, 9.0], [9.0, -2.0, -9.0], [-9.0, -2.0, -9.0]]
-            .map(DVec3::from)
-            .to_vec();
-    let tree = BspTree::build([square, floor]).unwrap();
-    for (eye, target, expected) in [
-        (DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, vec![0, 1]),
-        (DVec3::new(3.0, 0.5, 0.0), DVec3::ZERO, vec![1]),
-        (DVec3::new(0.0, -2.0, 5.0), DVec3::ZERO, vec![0]),
-        (DVec3::new(0.0, 0.0, 50.0), DVec3::new(0.0, 0.0, 90.0), vec![]),
-    ] {
-        for size in [[1, 1], [50, 40], [300, 2]] {
-            let camera = Camera::perspective(eye, target, DVec3::Y, 1.2, size).unwrap();
-            let found = shown(&tree, &camera);
-            if size == [50, 40] {
-                assert_eq!(found, expected, "{eye}");
-            }
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            check(&tree, &camera, rays, &mut Score::default()).unwrap();
-        }
-    }
-    let none = BspTree::build::<Vec<DVec3>>([]).unwrap();
-    let camera = Camera::perspective(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [9, 9]).unwrap();
-    assert!(shown(&none, &camera).is_empty());
 }

@@ -1,15 +1,13 @@
 //! Where polygons go through one another, shown or hidden, against rays in rationals.
 
+use super::map_of;
+use super::on_grid;
 use super::overlay::{between, place_in};
 use super::sightlines::{Sightlines, common};
-use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
-use binspace::glam::{DVec2, DVec3};
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
-use testkit::dice::Dice;
+use binspace::drawing::{EdgeKind, EdgeRun};
 use testkit::hard::bounds;
 use testkit::model::Face;
+use testkit::prelude::*;
 use testkit::rational::Point;
 use testkit::scenes::triangles;
 use testkit::shapes::rectangle;
@@ -72,7 +70,6 @@ fn crossings_have_as_many_layers_as_rays_meet() {
     {
         let polygons = triangles(&mut dice, count, [-1.0, 1.0], edge);
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap();
-        let lattice = tree.faces().lattice();
         let faces: Vec<Face> =
             (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
         assert_eq!(faces.len(), polygons.len());
@@ -91,14 +88,14 @@ fn crossings_have_as_many_layers_as_rays_meet() {
         pairs += crossing.len();
         for far in [3.0, 0.4] {
             let place = dice.point(-1.0, 1.0).normalize() * far;
-            let eye = lattice.to_world(lattice.to_lattice(place).map(f64::round));
+            let eye = on_grid(&tree, place);
             let camera = match is_parallel {
                 true => Camera::parallel(eye, DVec3::Z, DVec3::ZERO, 1.5 * far, [320, 240]),
                 false => Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]),
             };
             let camera = camera.unwrap();
             let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
-            let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+            let map = map_of(&tree, &camera);
             let runs = map.crossings_in_layers().unwrap();
             let mut judged_runs = 0;
             let shown = map.crossings().unwrap();
@@ -113,7 +110,7 @@ fn crossings_have_as_many_layers_as_rays_meet() {
                 // Runs are on the line where they cross.
                 if let [Some(from), Some(to)] = ends.each_ref().map(|end| sightlines.place_of(end))
                 {
-                    for run in &runs {
+                    for run in runs.iter().chain(&shown) {
                         assert!(is_between(run.ends, [from, to]), "{run:?} {from:?} {to:?}");
                         on_lines += 1;
                     }

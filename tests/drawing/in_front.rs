@@ -1,23 +1,18 @@
 //! How many polygons lie in front of hidden edges, against rays in rationals.
 
+use super::map_of;
+use super::on_grid;
 use super::overlay::{between, place_in};
 use super::sightlines::Sightlines;
-use binspace::drawing::{EdgeRun, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::scene::Builtin;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use binspace::drawing::EdgeRun;
 use testkit::hard::bounds;
-use testkit::rational::{self, Point};
+use testkit::prelude::*;
+use testkit::rational::Point;
 use testkit::scenes::{polygons, triangles};
 use testkit::shapes::rectangle;
 
 fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
-    let map = VisibilityMap::of(tree, Rays::new(camera, tree.faces()).unwrap()).unwrap();
+    let map = map_of(tree, camera);
     let runs = map.edges().unwrap();
     let layered = map.edges_in_layers().unwrap();
     // They are the same runs, cut further.
@@ -80,7 +75,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
         for far in [2.0, 0.2] {
             let (middle, size) = ((low + high) * 0.5, high - low);
             let eye = middle + random.point(-1.0, 1.0).normalize() * size * far;
-            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let eye = on_grid(&tree, eye);
             let camera = Camera::perspective(eye, middle, DVec3::Z, 0.8, [320, 240]).unwrap();
             let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             for run in in_layers(&tree, &camera) {
@@ -173,7 +168,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
     for far in [30.0, 6.0] {
         for _ in 0..times(1) {
             let eye = random.point(-1.0, 1.0).normalize() * far;
-            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let eye = on_grid(&tree, eye);
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [320, 240]).unwrap();
             let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             let runs = in_layers(&tree, &camera);

@@ -1,22 +1,16 @@
 //! Visible and hidden runs of edges, by hand and against rays.
 
-use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
-use binspace::glam::DVec3;
+use super::map_of;
+use binspace::drawing::{EdgeKind, EdgeRun};
 use binspace::internals::cuboid;
-use binspace::raster::Rays;
-use binspace::scene::Builtin;
-use binspace::view::{Camera, views};
-use binspace::{BspTree, Viewpoint};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use binspace::view::views;
 use testkit::fill::ray;
 use testkit::hard::bounds;
+use testkit::prelude::*;
 use testkit::scenes::{polygons, triangles};
 
 fn edges(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
-    let rays = Rays::new(camera, tree.faces()).unwrap();
-    VisibilityMap::of(tree, rays).unwrap().edges().unwrap()
+    map_of(tree, camera).edges().unwrap()
 }
 
 #[test]

@@ -1,13 +1,9 @@
 //! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide all that is
 //! behind, until a part is missing.
 
-use binspace::BspTree;
-use binspace::drawing::VisibilityMap;
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::Camera;
 use testkit::fill::{Score, check};
 use testkit::layered::{Layers, check_mixed};
+use testkit::prelude::*;
 
 fn camera() -> Camera {
     let eye = DVec3::new(3.0, 5.0, 900.0);

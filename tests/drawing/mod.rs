@@ -14,7 +14,6 @@ mod hidden_crossings;
 mod in_front;
 mod lines;
 mod meetings;
-mod mixed;
 mod overlay;
 mod pen;
 mod progress;
@@ -25,3 +24,26 @@ mod sheets;
 mod sightlines;
 mod silhouettes;
 mod translucent;
+
+use testkit::prelude::*;
+
+/// What is visible of a tree.
+fn map_of<'t>(tree: &'t BspTree, camera: &Camera) -> VisibilityMap<'t> {
+    map_with(tree, camera, |_| 1.0)
+}
+
+/// The same of polygons with opacities.
+fn map_with<'t>(
+    tree: &'t BspTree,
+    camera: &Camera,
+    opacity: impl Fn(usize) -> f64,
+) -> VisibilityMap<'t> {
+    let rays = Rays::new(camera, tree.faces()).unwrap();
+    VisibilityMap::with_opacities(tree, rays, opacity).unwrap()
+}
+
+/// The point of a tree's grid that is next to a place.
+fn on_grid(tree: &BspTree, place: DVec3) -> DVec3 {
+    let lattice = tree.faces().lattice();
+    lattice.to_world(lattice.to_lattice(place).map(f64::round))
+}

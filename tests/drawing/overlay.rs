@@ -1,20 +1,15 @@
 //! Lines and points of an overlay in a picture, by hand and against rays in rationals.
 
+use super::map_of;
+use super::on_grid;
 use super::sightlines::Sightlines;
-use binspace::drawing::{LineRun, MarkerView, VisibilityMap};
-use binspace::glam::DVec3;
+use binspace::drawing::{LineRun, MarkerView};
 use binspace::overlay::{Overlay, Shapes};
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
 use proptest::prelude::*;
-use testkit::dice::Dice;
-use testkit::enough;
-use testkit::hard;
-use testkit::rational::{self, Point};
+use testkit::prelude::*;
+use testkit::rational::Point;
 use testkit::scenes::triangles;
 use testkit::shapes::rectangle;
-use testkit::tally::{fail, tally};
 
 /// What was compared.
 #[derive(Debug, Default)]
@@ -133,7 +128,7 @@ fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let mut overlay = Overlay::new(&tree);
     overlay.replace_with(&tree, Shapes::NONE.with_lines([line])).unwrap();
-    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    let map = map_of(&tree, &camera);
     let runs = map.lines(&overlay).unwrap();
     let rounded = |x: f64| (x * 1e6).round() / 1e6;
     runs.iter()
@@ -208,7 +203,7 @@ fn lines_across_the_eye_end_with_the_picture() {
     let bounded = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1e6), DVec3::splat(1e6));
     let tree = bounded.build([wall]).unwrap();
     let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.6, [200, 100]).unwrap();
-    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    let map = map_of(&tree, &camera);
     let mut overlay = Overlay::new(&tree);
     let line = [[0.001, 0.0, 1e6], [0.001, 0.0, -1e6]];
     let behind = [[5.0, 1.0, 1.0], [-5.0, 1.0, 1.0]];
@@ -230,7 +225,7 @@ fn overlays_of_other_trees_and_polygons_are_refused() {
     let tree = BspTree::build([rectangle([-1.0, -1.0], [1.0, 1.0], 0.0)]).unwrap();
     let other = BspTree::build([[DVec3::ZERO, DVec3::X, DVec3::Y]]).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
-    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    let map = map_of(&tree, &camera);
     assert!(map.lines(&Overlay::new(&other)).is_err());
     let mut overlay = Overlay::new(&tree);
     assert_eq!(map.lines(&overlay), Ok(vec![]));
@@ -287,12 +282,11 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
         let options = BuildOptions::DEFAULT.with_tolerance(0.0);
         let options = options.with_bounds(middle - reach, middle + reach);
         let Ok(tree) = options.build(&scene.polygons) else { return Ok(()) };
-        let lattice = tree.faces().lattice();
         for _ in 0..3 {
             // On planes of the scene as well, and in the middle of it.
             let off = [(); 3].map(|()| dice.around_zero(3));
             let eye = middle + DVec3::from(off) * size * 0.5;
-            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let eye = on_grid(&tree, eye);
             let direction = DVec3::from([(); 3].map(|()| dice.around_zero(2)));
             let along =
                 Camera::parallel(direction, DVec3::new(0.1, 0.2, 0.9), middle, reach.x, [48, 36]);
@@ -322,10 +316,9 @@ pub(crate) fn for_each_crowd(
         let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
         let bounded = exact.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
         let tree = bounded.build(&triangles).unwrap();
-        let lattice = tree.faces().lattice();
         for far in [4.0, 0.5] {
             let eye = random.point(-1.0, 1.0).normalize() * far;
-            let eye = lattice.to_world(lattice.to_lattice(eye).map(f64::round));
+            let eye = on_grid(&tree, eye);
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
             let mut lines: Vec<Vec<DVec3>> =
                 (0..20).map(|_| (0..4).map(|_| random.point(-2.0, 2.0)).collect()).collect();

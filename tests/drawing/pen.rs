@@ -1,14 +1,9 @@
 //! Lines for a pen, against what graphs and exhaustive searches say.
 
-use binspace::BspTree;
-use binspace::drawing::{Polyline, VisibilityMap, polylines};
-use binspace::glam::DVec3;
+use super::map_of;
+use binspace::drawing::{Polyline, polylines};
 use binspace::internals::cuboid;
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use testkit::prelude::*;
 
 type Segment = [[f64; 2]; 2];
 
@@ -134,7 +129,7 @@ fn a_cube_is_two_lines() {
     let tree = BspTree::build(cuboid(-DVec3::ONE, DVec3::ONE)).unwrap();
     let eye = DVec3::new(4.0, 3.0, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [300, 200]).unwrap();
-    let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+    let map = map_of(&tree, &camera);
     let runs = map.edges().unwrap();
     let visible: Vec<Segment> =
         runs.iter().filter(|run| run.is_visible).map(|run| run.ends).collect();

@@ -1,18 +1,11 @@
 //! Progress of maps, of what is asked of them, and of drawings; and their cancellation.
 
-use std::ops::ControlFlow;
+use binspace::drawing::Drawing;
+use binspace::overlay::{Overlay, Shapes};
+use binspace::{Error, Progress};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use testkit::dice::Dice;
-use testkit::enough;
-
-use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::overlay::{Overlay, Shapes};
-use binspace::raster::Rays;
-use binspace::scene::Builtin;
-use binspace::view::Camera;
-use binspace::{BspTree, Error, Progress};
+use testkit::prelude::*;
 
 /// Many crossing triangles in a view, and lines and points between them.
 struct View {

@@ -1,13 +1,10 @@
 //! The same results on however many threads, for pictures of every size, and for parts of pictures.
 
+use super::map_with;
 use super::scenes::cameras;
-use binspace::BspTree;
-use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::raster::Rays;
-use binspace::scene::{Builtin, Scene};
-use binspace::view::Camera;
+use binspace::drawing::Drawing;
 use std::ops::Range;
-use testkit::enough;
+use testkit::prelude::*;
 
 /// Every third polygon is translucent.
 fn mixed(polygon: usize) -> f64 {
@@ -63,8 +60,7 @@ fn drawings_do_not_depend_on_threads() {
 }
 
 fn shown(tree: &BspTree, camera: &Camera) -> Vec<(usize, f64)> {
-    let rays = Rays::new(camera, tree.faces()).unwrap();
-    let map = VisibilityMap::with_opacities(tree, rays, mixed).unwrap();
+    let map = map_with(tree, camera, mixed);
     map.polygons().map(|shown| (shown.polygon, shown.area)).collect()
 }
 

@@ -1,14 +1,9 @@
 //! Scenes large enough for every part: tiles, threads, cycles.
 
-use binspace::drawing::VisibilityMap;
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::scene::{Builtin, Scene};
-use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions};
-use testkit::dice::Dice;
-use testkit::enough;
+use super::map_of;
+use binspace::view::views;
 use testkit::fill::{Score, check, check_rays};
+use testkit::prelude::*;
 use testkit::scenes::{scene_of, triangles};
 
 const SIZE: [u32; 2] = [240, 180];
@@ -67,7 +62,7 @@ fn nothing_is_clipped_of_scans() {
         let scene = builtin.build(Some(2000), 3);
         let tree = BspTree::build(scene.polygons()).unwrap();
         for camera in cameras(&scene, 4, SIZE) {
-            let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+            let map = map_of(&tree, &camera);
             let drawing = map.drawing().unwrap();
             assert!(drawing.paths().all(|path| !path.is_clipped()), "{builtin:?}");
         }

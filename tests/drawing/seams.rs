@@ -1,15 +1,11 @@
 //! Outlines of regions and paths go around areas, and never along a line within one: nearly everything in these scenes
 //! lies on a grid, so that cuts coincide with edges of others, and edges with borders of the picture's tiles.
 
-use std::collections::{BTreeMap, BTreeSet};
-
+use super::map_of;
 use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
-use binspace::BspTree;
-use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use testkit::dice::Dice;
+use binspace::drawing::Drawing;
+use std::collections::{BTreeMap, BTreeSet};
+use testkit::prelude::*;
 
 type Outline = Vec<[f64; 2]>;
 
@@ -113,8 +109,7 @@ fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
     ];
     let tree = tree_of(&polygons);
     let camera = from_above(8.0, [64, 64]);
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
-    let map = VisibilityMap::of(&tree, rays).unwrap();
+    let map = map_of(&tree, &camera);
     // The rectangle, and the triangle, which touches its border with a corner.
     let regions = map.regions().unwrap();
     assert_eq!(regions[0].outlines().map(<[_]>::len).collect::<BTreeSet<_>>(), [3, 4].into());

@@ -1,9 +1,6 @@
 //! Rectangles over a grid, seen from above: what shows of them where is known in integers.
 
-use binspace::glam::DVec3;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 
 pub(crate) type Corners = Vec<[f64; 3]>;
 

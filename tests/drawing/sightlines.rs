@@ -1,13 +1,10 @@
 //! What hides a point, in rationals: faces, with their edges, between it and the eye.
 
-use binspace::glam::DVec3;
 use binspace::internals::Lattice;
-use binspace::view::Camera;
-use binspace::{BspTree, Viewpoint};
-use num_traits::{One, Signed, Zero};
-use std::cmp::Ordering;
+use num_traits::One;
 use testkit::model::Face;
-use testkit::rational::{self, Point, Rational};
+use testkit::prelude::*;
+use testkit::rational::Point;
 
 /// Where rays come from, on the lattice of a scene.
 pub(crate) enum Origin {

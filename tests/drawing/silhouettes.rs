@@ -1,14 +1,9 @@
 //! Silhouettes of closed bodies are closed: at each corner as many of their edges begin as end.
 
+use super::map_of;
+use binspace::drawing::{EdgeKind, EdgeRun};
 use std::collections::{BTreeMap, BTreeSet};
-use testkit::dice::Dice;
-use testkit::enough;
-
-use binspace::BspTree;
-use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::Camera;
+use testkit::prelude::*;
 
 type Corners = Vec<Vec<DVec3>>;
 
@@ -43,8 +38,7 @@ fn silhouettes_of_closed_bodies_are_closed() {
             let eye = dice.point(-1.0, 1.0).normalize() * 30.0;
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            let runs = VisibilityMap::of(&tree, rays).unwrap().edges().unwrap();
+            let runs = map_of(&tree, &camera).edges().unwrap();
             assert!(runs.iter().all(|run| run.kind != EdgeKind::Border));
             // Each edge once, in however many runs.
             let mut silhouette = BTreeSet::new();
@@ -80,8 +74,7 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
             let eye = dice.point(-1.0, 1.0).normalize() * 30.0;
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            let map = VisibilityMap::of(&tree, rays).unwrap();
+            let map = map_of(&tree, &camera);
             let runs = map.edges().unwrap();
             let layered = map.edges_in_layers().unwrap();
             let count = |runs: &[EdgeRun]| runs.iter().filter(|run| run.edge.is_none()).count();

@@ -1,49 +1,98 @@
-//! Drawings in which nothing is hidden, of whole scenes.
+//! Drawings of scenes in which nothing is hidden, and of those in which some polygons are translucent and
+//! some are not.
 
 use super::scenes::cameras;
-use binspace::BuildOptions;
-use binspace::raster::Rays;
-use binspace::scene::{Builtin, Scene};
-use testkit::dice::Dice;
-use testkit::enough;
-use testkit::layered::{Layers, check_layers};
+use binspace::drawing::{EdgeKind, EdgeRun};
+use testkit::layered::{Layers, check_layers, check_mixed, check_sight};
+use testkit::prelude::*;
 use testkit::scenes::{scene_of, triangles};
 
-fn check_scene(scene: &Scene, score: &mut Layers) {
-    let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
-    for camera in cameras(scene, 4, [96, 72]) {
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        check_layers(&tree, &camera, rays, score)
-            .unwrap_or_else(|fault| panic!("{}, {camera:?}: {fault}", scene.name()));
+/// Opacities of a third of the polygons, of nearly all, and with some left out.
+const MIXES: [fn(usize) -> f64; 3] = [
+    |polygon| if polygon.is_multiple_of(3) { 0.5 } else { 1.0 },
+    |polygon| if polygon.is_multiple_of(17) { 1.0 } else { 0.25 },
+    |polygon| [0.0, 1.0, 0.75, 1.0][polygon / 5 % 4],
+];
+
+/// What was compared of drawings of all that is translucent, and of mixed ones.
+#[derive(Default)]
+struct Scores {
+    all: Layers,
+    mixed: Layers,
+}
+
+fn check_scene(scene: &Scene, Scores { all, mixed }: &mut Scores) {
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    for (i, camera) in cameras(scene, 4, [96, 72]).into_iter().enumerate() {
+        let rays = || Rays::new(&camera, tree.faces()).unwrap();
+        check_layers(&tree, &camera, rays(), all)
+            .and_then(|()| check_mixed(&tree, &camera, rays(), &MIXES[i % 3], mixed))
+            .and_then(|()| check_sight(&tree, &camera, rays(), &MIXES[i % 3], mixed))
+            .unwrap_or_else(|fault| panic!("{}, {i}, {camera:?}: {fault}", scene.name()));
     }
 }
 
+/// Those of the tree; where some are opaque, they end there.
 #[test]
 fn layers_of_whole_scenes_are_those_of_the_tree() {
-    let mut score = Layers::default();
+    let mut scores = Scores::default();
     for builtin in Builtin::ALL {
         let size = builtin.default_size().map(|size| size.min(300));
-        check_scene(&builtin.build(size, 3), &mut score);
+        check_scene(&builtin.build(size, 3), &mut scores);
     }
-    enough!(score.pixels > 400_000, score.layers > 500_000; "{score:?}");
-    assert!(score.unsure < score.pixels / 100, "{score:?}");
-    // Most cuts of the tree are undone.
-    assert!(score.paths * 2 < score.polygons * 3, "{score:?}");
+    let Scores { all, mixed } = scores;
+    enough!(all.pixels > 400_000, all.layers > 500_000; "{all:?}");
+    enough!(mixed.pixels > 400_000, mixed.layers > 300_000; "{mixed:?}");
+    enough!(mixed.hidden > 6_000, mixed.rays > 10_000, mixed.small > 3_000; "{mixed:?}");
+    enough!(mixed.regions > 30_000; "{mixed:?}");
+    assert!(
+        [all, mixed].iter().all(|score| score.unsure < score.pixels / 100),
+        "{all:?} {mixed:?}"
+    );
+    // Most cuts of the tree are undone, and few polygons are in parts.
+    assert!(all.paths * 2 < all.polygons * 3, "{all:?}");
+    assert!(mixed.paths * 10 < mixed.polygons * 11, "{mixed:?}");
 }
 
-/// Scenes of random triangles that cross: small ones, large ones, and few that are larger still.
-pub(crate) fn crossing_triangles() -> impl Iterator<Item = Scene> {
-    let mut dice = Dice(1);
-    [(300, 0.1), (150, 0.5), (50, 1.0)].into_iter().map(move |(count, edge)| {
-        let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
-        scene_of(format!("{count} triangles"), triangles)
-    })
-}
-
-/// Polygons that cross have to be in parts.
+/// Polygons that cross, small ones, large ones, and few that are larger still: opaque ones are clipped,
+/// translucent ones in parts.
 #[test]
-fn layers_of_crossing_triangles() {
-    let mut score = Layers::default();
-    crossing_triangles().for_each(|scene| check_scene(&scene, &mut score));
-    assert!(score.layers > 200_000 && score.paths > 3 * score.polygons, "{score:?}");
+fn layers_of_crossing_triangles_are_those_of_the_tree() {
+    let (mut dice, mut scores) = (Dice(1), Scores::default());
+    for (count, edge) in [(300, 0.1), (150, 0.5), (50, 1.0)] {
+        let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
+        check_scene(&scene_of(format!("{count} triangles"), triangles), &mut scores);
+    }
+    let Scores { all, mixed } = scores;
+    assert!(all.layers > 200_000 && all.paths > 3 * all.polygons, "{all:?}");
+    assert!(mixed.clipped > 50 && mixed.paths > mixed.polygons, "{mixed:?}");
+}
+
+/// Two panes that go through one another: the line is there once, whatever shows through.
+#[test]
+fn panes_cross_in_one_line() {
+    let upright = [[0.3, -1.0, -1.0], [0.3, 1.0, -1.0], [0.3, 1.0, 1.0], [0.3, -1.0, 1.0]];
+    let level = [[-1.0, -1.0, 0.1], [1.0, -1.0, 0.1], [1.0, 1.0, 0.1], [-1.0, 1.0, 0.1]];
+    let tree = BspTree::build([upright, level].map(|square| square.map(DVec3::from))).unwrap();
+    let eye = DVec3::new(4.0, 3.0, 5.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [300, 200]).unwrap();
+    let rays = Rays::new(&camera, tree.faces()).unwrap();
+    let runs = |opacities: [f64; 2]| {
+        let opacity = |polygon: usize| opacities[polygon];
+        let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
+        map.crossings().unwrap()
+    };
+    let length = |run: &EdgeRun| {
+        let [[ax, ay], [bx, by]] = run.ends;
+        (bx - ax).hypot(by - ay)
+    };
+    let [glass, thick, front] = [[0.5, 0.5], [1.0, 1.0], [1.0, 0.5]].map(runs);
+    for runs in [&glass, &thick, &front] {
+        assert_eq!(runs.len(), 1, "{runs:?}");
+        assert_eq!((runs[0].polygon, runs[0].kind), (0, EdgeKind::Crossing(1)));
+        assert!(length(&runs[0]) <= length(&glass[0]) + 1e-9);
+    }
+    // All of it shows through glass.
+    assert!((length(&glass[0]) - length(&thick[0])).abs() < 1e-9, "{glass:?} {thick:?}");
+    assert!(runs([0.0, 0.5]).is_empty());
 }

@@ -1,10 +1,11 @@
 //! The sets that a tree's nodes divided, cut anew in exact rationals.
 
-use binspace::internals::{EdgeLine, Faces, PlaneId, PlaneKind};
-use binspace::{BspTree, Node};
+use binspace::Node;
+use binspace::internals::{EdgeLine, PlaneKind};
 use std::collections::HashMap;
-use testkit::model::{self, Face, Vertex, clip};
-use testkit::rational::{self, Plane, Rational};
+use testkit::model::{Face, Vertex, clip};
+use testkit::prelude::*;
+use testkit::rational::Plane;
 
 /// A piece of a face on its way down the tree.
 #[derive(Clone)]

@@ -3,14 +3,10 @@
 
 mod divided;
 
-use binspace::glam::DVec3;
-use binspace::internals::{PlaneId, PlaneKind};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic};
+use binspace::internals::PlaneKind;
 use divided::{Counts, Divided, nodes, work};
-use testkit::dice::Dice;
-use testkit::effort::seeds;
-use testkit::enough;
-use testkit::shapes::{self, Corners};
+use testkit::prelude::*;
+use testkit::shapes;
 
 /// A scene on a small lattice, of one of several kinds.
 fn scene(dice: &mut Dice, count: usize) -> Vec<Corners> {

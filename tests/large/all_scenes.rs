@@ -1,8 +1,8 @@
 //! All kinds of scenes.
 
-use super::scene::Scene;
 use super::{copies, heaps, layers, planes_through_lines, round_bodies};
-use testkit::dice::Dice;
+use testkit::as_given::scene::Scene;
+use testkit::prelude::*;
 
 type Make = fn(&mut Dice, usize) -> Scene;
 

@@ -1,15 +1,12 @@
 //! The hard scenes of a few polygons, many times over.
 
+use super::heaps::copies;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-
-use super::exact::{Plane, sign};
-use super::heaps::copies;
-use super::scene::{Point, Scene};
-use testkit::dice::Dice;
-use testkit::hard;
-use testkit::shapes::Corners;
+use testkit::as_given::exact::{Plane, sign};
+use testkit::as_given::scene::{Point, Scene};
+use testkit::prelude::*;
 
 /// A family of hard scenes, and how many steps of the grid make one unit.
 struct Family {

@@ -1,8 +1,8 @@
 //! Heaps: corners on a small lattice, triangles by chance, duplicates, polygons that touch.
 
-use super::exact::Plane;
-use super::scene::{Point, Scene, add, between, minus, point_within, times, turned};
-use testkit::dice::Dice;
+use testkit::as_given::exact::Plane;
+use testkit::as_given::scene::{Point, Scene, add, between, minus, point_within, times, turned};
+use testkit::prelude::*;
 
 /// Those that are not points or lines.
 pub(crate) fn with_area(polygons: Vec<Vec<Point>>) -> Vec<Vec<Point>> {

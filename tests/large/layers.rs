@@ -1,7 +1,7 @@
 //! What lies in layers: thin ones, coplanar ones, noisy ones, walls of bricks.
 
-use super::scene::{Point, Scene, add, between, each, tilt, times};
-use testkit::dice::Dice;
+use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
+use testkit::prelude::*;
 
 /// Rectangles in planes z = 0, 1, 2 …, a thousand times as wide as they are apart; `few` planes
 /// hold many each.

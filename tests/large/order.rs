@@ -1,12 +1,10 @@
 //! Orders of trees past every threshold of the builder.
 
-use binspace::Heuristic;
-use testkit::effort::{effort, times};
-use testkit::enough;
-
 use super::all_scenes::{self, KINDS};
-use super::trees_by_rays::Score;
 use super::trial::Trial;
+use testkit::as_given::trees_by_rays::Score;
+use testkit::effort::effort;
+use testkit::prelude::*;
 
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {

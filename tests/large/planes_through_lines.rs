@@ -1,7 +1,7 @@
 //! Planes through one line.
 
-use super::scene::{Point, Scene, add, between, each, tilt, times};
-use testkit::dice::Dice;
+use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
+use testkit::prelude::*;
 
 /// Strips along both rulings of z = x y: each crosses all of the other ruling.
 pub(crate) fn rulings(dice: &mut Dice, n: usize) -> Scene {

@@ -1,14 +1,11 @@
 //! Slivers among other polygons, at the default tolerance of `f64`: 10⁻⁹ of the extent.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Heuristic};
-
 use super::all_scenes::{self, KINDS};
 use super::layers;
-use super::scene::{Point, Scene, add, each, times, world};
-use super::trees_by_rays::Score;
 use super::trial::Trial;
-use testkit::dice::Dice;
+use testkit::as_given::scene::{Point, Scene, add, each, times, world};
+use testkit::as_given::trees_by_rays::Score;
+use testkit::prelude::*;
 use testkit::slivers::{Sliver, along, whole};
 
 /// Coordinates are below this. Larger: viewpoints have no room for digits that are exact.

@@ -1,12 +1,10 @@
 //! Scenes on trial, several at a time.
 
-use binspace::Heuristic;
 use rayon::prelude::*;
-
-use super::ray::Targets;
-use super::scene::Scene;
-use super::trees_by_rays::{Court, Score, Shot, shots};
-use testkit::dice::Dice;
+use testkit::as_given::ray::Targets;
+use testkit::as_given::scene::Scene;
+use testkit::as_given::trees_by_rays::{Court, Score, Shot, shots};
+use testkit::prelude::*;
 
 /// How a scene is tried.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +25,7 @@ impl Trial<'_> {
             self.tree(&targets, &shots, heuristic)
                 .unwrap_or_else(|what| panic!("{} by {heuristic}, seed {seed}: {what}", scene.name))
         };
-        self.heuristics.par_iter().map(judge).reduce(Score::default, Score::add)
+        self.heuristics.par_iter().map(judge).reduce(Score::default, Score::plus)
     }
 
     fn tree(
@@ -37,7 +35,7 @@ impl Trial<'_> {
         heuristic: Heuristic,
     ) -> Result<Score, String> {
         let scene = targets.scene;
-        let most = self.most * scene.len();
+        let most = self.most * scene.polygons.len();
         if heuristic == Heuristic::Auto
             && let Ok(frame) = scene.frame(most)
         {

@@ -1,22 +1,16 @@
 //! The conventions, on examples drawn by hand.
 
-use super::{Rect, camera};
-use binspace::glam::{DMat4, DVec2, DVec3, dvec2, dvec3};
+use super::{Rect, VIEWPORT, camera, order, page_on};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
 use std::f64::consts::FRAC_PI_2;
+use testkit::prelude::*;
 
 /// Half sides 100 and 60.
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
-const SCREEN: Rect = [[0.0, 0.0], [1920.0, 1080.0]];
 
 fn page(layers: &[Layer]) -> Layers {
-    let mut page = Layers::new(SCREEN);
-    page.update(layers).unwrap();
-    page
-}
-
-fn order(page: &Layers) -> Vec<usize> {
-    page.back_to_front().map(|piece| piece.layer()).collect()
+    page_on(VIEWPORT, true, layers.iter().copied())
 }
 
 /// The eye is 1200 pixels in front of (960, 540). A card 600 in front of the screen appears twice as

@@ -1,10 +1,10 @@
 //! What is under a point of the screen, near edges, and on a screen of another size.
 
-use super::{Given, VIEWPORT, pages};
-use binspace::glam::{DMat4, DVec2, dvec3};
+use super::{Given, VIEWPORT, layers_of, outlines, page_on};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
-use testkit::enough;
+use testkit::pages::Page;
+use testkit::prelude::*;
 
 /// A rectangle far from the origin of its own coordinates, where (u, v) are rounded coarsely: a point
 /// of what is painted is hit as soon as it is further from the edges than 10⁻⁹ of the viewport.
@@ -19,8 +19,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
                 * DMat4::from_rotation_z(6.3 * dice.share())
                 * DMat4::from_translation(dvec3(-origin, 0.0, 0.0));
             let layer = Layer::new([[origin, 0.0], [origin + 120.0, 80.0]], matrix);
-            let mut page = Layers::new(VIEWPORT);
-            page.update(&[layer]).unwrap();
+            let page = page_on(VIEWPORT, true, [layer]);
             let piece = page.back_to_front().next().unwrap();
             let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
             for (k, &a) in corners.iter().enumerate() {
@@ -42,12 +41,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
 /// A page on another screen is the one that would be made for it.
 #[test]
 fn another_viewport_makes_another_page() {
-    let layers: Vec<Layer> =
-        pages::Page::Carousel.layers(12, 3).into_iter().map(|l| Given::from(l).layer()).collect();
-    let pieces = |page: &Layers| -> Vec<(usize, Vec<[f64; 2]>)> {
-        let corners = |v: binspace::layers::LayerVertex| v.position.truncate().to_array();
-        page.back_to_front().map(|p| (p.layer(), p.vertices().map(corners).collect())).collect()
-    };
+    let layers: Vec<Layer> = layers_of(Page::Carousel, 12, 3).iter().map(Given::layer).collect();
     let mut page = Layers::new(VIEWPORT);
     let mut seen = Vec::new();
     for viewport in [VIEWPORT, [[100.0, 100.0], [900.0, 500.0]], [[0.0, 0.0], [400.0, 1080.0]]] {
@@ -59,9 +53,9 @@ fn another_viewport_makes_another_page() {
         assert!(!page.update(&layers).unwrap());
         let mut new = Layers::new(viewport);
         new.update(&layers).unwrap();
-        assert_eq!(pieces(&page), pieces(&new));
-        assert!(!seen.contains(&pieces(&page)), "{viewport:?} shows nothing");
-        seen.push(pieces(&page));
+        assert_eq!(outlines(&page), outlines(&new));
+        assert!(!seen.contains(&outlines(&page)), "{viewport:?} shows nothing");
+        seen.push(outlines(&page));
     }
 }
 
@@ -71,8 +65,8 @@ fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
     let mut diamond = DMat4::IDENTITY;
     (diamond.x_axis.y, diamond.y_axis.x) = (1.0, -1.0);
     let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
-    let mut page = Layers::new(VIEWPORT);
-    page.update(&[Layer::new([[-50.0, -50.0], [50.0, 50.0]], middle * diamond)]).unwrap();
+    let page =
+        page_on(VIEWPORT, true, [Layer::new([[-50.0, -50.0], [50.0, 50.0]], middle * diamond)]);
     // Its corners are 100 to the right, below, to the left and above.
     for x in [-99.0, -50.0, 0.0, 50.0, 99.0] {
         assert!(page.hit([960.0 + x, 540.0]).is_some(), "{x}");

@@ -1,11 +1,9 @@
 //! Input that is wrong, degenerate or extreme.
 
-use super::{Given, Rect, VIEWPORT, camera, wild};
-use binspace::glam::{DMat4, DVec4, Mat4, dvec3};
+use super::{Given, Rect, VIEWPORT, camera, page_on, wild};
+use binspace::glam::{DMat4, DVec4, Mat4};
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
-use testkit::effort::{seeds, times};
-use testkit::enough;
+use testkit::prelude::*;
 
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
 
@@ -174,8 +172,7 @@ fn the_scale_of_a_matrix_does_not_matter() {
     for _ in 0..times(40) {
         let Given { rect, matrix } = wild(&mut dice);
         let mut pages = [1.0, 2f64.powi(600), 2f64.powi(-600), 2f64.powi(-900)].map(|scale| {
-            let mut page = Layers::new(VIEWPORT);
-            page.update(&[Layer::new(rect, matrix * scale)]).unwrap();
+            let page = page_on(VIEWPORT, true, [Layer::new(rect, matrix * scale)]);
             let piece = page.back_to_front().next();
             piece.map_or(Vec::new(), |p| p.vertices().map(|v| (v.position, v.local)).collect())
         });

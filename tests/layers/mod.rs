@@ -13,11 +13,11 @@ mod outline;
 mod planes;
 mod short_edges;
 
-use binspace::glam::{DMat4, dvec3};
-use binspace::layers::{Layer, Layers};
+use binspace::glam::DMat4;
+use binspace::layers::{Layer, LayerPiece, Layers};
 use oracle::Truth;
-use testkit::dice::Dice;
-use testkit::pages::{self, PageLayer, SCREEN, camera};
+use testkit::pages::{Page, PageLayer, SCREEN, camera};
+use testkit::prelude::*;
 
 type Rect = [[f64; 2]; 2];
 
@@ -46,11 +46,32 @@ impl Given {
     }
 }
 
-fn page_of(layers: &[Given]) -> Layers {
-    let mut page = Layers::new(VIEWPORT);
-    let layers: Vec<Layer> = layers.iter().map(Given::layer).collect();
-    assert!(page.update(&layers).unwrap());
+/// The layers of a page's pieces, back to front.
+fn order(page: &Layers) -> Vec<usize> {
+    page.back_to_front().map(|piece| piece.layer()).collect()
+}
+
+/// The same, and the pieces' outlines on the screen.
+fn outlines(page: &Layers) -> Vec<(usize, Vec<DVec2>)> {
+    let outline = |piece: LayerPiece<'_>| piece.vertices().map(|v| v.position.truncate()).collect();
+    page.back_to_front().map(|piece| (piece.layer(), outline(piece))).collect()
+}
+
+/// The layers of a page as it is given.
+fn layers_of(page: Page, count: usize, seed: u64) -> Vec<Given> {
+    page.layers(count, seed).into_iter().map(Given::from).collect()
+}
+
+/// A page of a screen's part.
+fn page_on(viewport: Rect, is_clipped: bool, layers: impl IntoIterator<Item = Layer>) -> Layers {
+    let page = Layers::new(viewport);
+    let mut page = if is_clipped { page } else { page.unclipped() };
+    page.update(&layers.into_iter().collect::<Vec<_>>()).unwrap();
     page
+}
+
+fn page_of(layers: &[Given]) -> Layers {
+    page_on(VIEWPORT, true, layers.iter().map(Given::layer))
 }
 
 /// Rectangles of all sizes turned every way, many partly behind the eye or beside the screen.
@@ -67,17 +88,17 @@ fn wild(dice: &mut Dice) -> Given {
 
 #[test]
 fn an_unchanged_frame_is_not_worked_on() {
-    let layers: Vec<Layer> =
-        pages::Page::Carousel.layers(12, 3).into_iter().map(|l| Given::from(l).layer()).collect();
+    let given = layers_of(Page::Carousel, 12, 3);
+    let layers: Vec<Layer> = given.iter().map(Given::layer).collect();
     let mut page = Layers::new(VIEWPORT);
     assert!(page.is_empty() && page.visible() == 0);
     assert!(page.update(&layers).unwrap());
-    let first: Vec<_> = page.back_to_front().map(|piece| piece.layer()).collect();
+    let first = order(&page);
     assert!(!page.update(&layers).unwrap());
-    assert_eq!(page.back_to_front().map(|piece| piece.layer()).collect::<Vec<_>>(), first);
+    assert_eq!(order(&page), first);
     // Any number that differs is a change; so are one layer more or less and another order.
     let mut moved = layers.clone();
-    let mut matrix = pages::Page::Carousel.layers(12, 3)[7].matrix;
+    let mut matrix = given[7].matrix;
     matrix.w_axis.x += 1e-9;
     moved[7] = Layer::new([[-1.0; 2], [1.0; 2]], matrix);
     for changed in [&moved[..], &layers[..11], &layers, &[], &layers] {

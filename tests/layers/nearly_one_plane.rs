@@ -1,14 +1,12 @@
 //! Layers that matrices of their own put into one plane, seen nearly along it and near the eye: what the
 //! tolerance promises of two of them.
 
-use super::Given;
 use super::oracle::{Truth, covers, number};
-use binspace::glam::{DMat4, DVec2, DVec3, Mat4, dvec3};
+use super::{Given, order, page_on};
+use binspace::glam::{DMat4, Mat4};
 use binspace::layers::{Layer, LayerVertex, Layers};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
-use testkit::rational::{Rational, exact};
+use testkit::prelude::*;
+use testkit::rational::exact;
 
 /// The longer side of the viewport.
 const SIZE: f64 = 640.0;
@@ -22,14 +20,11 @@ struct Kind {
 
 impl Kind {
     fn page(self, given: &[Given]) -> Layers {
-        let page = Layers::new([[0.0; 2], [SIZE, 480.0]]);
-        let mut page = if self.is_clipped { page } else { page.unclipped() };
         let layer = |given: &Given| match self.is_single {
             true => Layer::from_f32(given.rect, given.matrix.as_mat4()),
             false => given.layer(),
         };
-        page.update(&given.iter().map(layer).collect::<Vec<_>>()).unwrap();
-        page
+        page_on([[0.0; 2], [SIZE, 480.0]], self.is_clipped, given.iter().map(layer))
     }
 
     fn step(self) -> f64 {
@@ -265,8 +260,7 @@ fn a_small_card_does_not_come_between_two_others_of_its_plane() {
         ),
     ];
     let kind = Kind { is_single: false, is_clipped: true };
-    let order: Vec<usize> = kind.page(&cards).back_to_front().map(|piece| piece.layer()).collect();
-    assert_eq!(order, [0, 1, 2]);
+    assert_eq!(order(&kind.page(&cards)), [0, 1, 2]);
 }
 
 /// The box ends a million sizes of the viewport away, where the last bit of a place in the rectangle is a

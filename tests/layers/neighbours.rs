@@ -1,9 +1,8 @@
 //! Layers side by side.
 
-use super::{VIEWPORT, wild};
-use binspace::glam::DVec3;
-use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
+use super::{VIEWPORT, page_on, wild};
+use binspace::layers::Layer;
+use testkit::prelude::*;
 
 /// The edge runs up in one of them and down in the other.
 #[test]
@@ -19,8 +18,7 @@ fn two_layers_are_clipped_at_the_same_point_of_an_edge_that_they_share() {
             Layer::new([[left, low], [middle, high]], given.matrix),
             Layer::new([[middle, low], [right, high]], given.matrix),
         ];
-        let mut page = Layers::new(VIEWPORT);
-        page.update(&layers).unwrap();
+        let page = page_on(VIEWPORT, true, layers.iter().copied());
         let on_edge = |layer: usize| -> Vec<(f64, DVec3)> {
             let piece = page.back_to_front().find(|piece| piece.layer() == layer);
             let vertices = piece.into_iter().flat_map(|piece| piece.vertices());

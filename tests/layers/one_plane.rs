@@ -1,10 +1,10 @@
 //! Layers of one matrix lie in one plane, and come in the order of the list.
 
 use super::oracle::{Truth, covers, number};
-use super::{Given, Rect, VIEWPORT, wild};
-use binspace::glam::{DMat4, DVec2, dvec3};
+use super::{Given, Rect, VIEWPORT, order, outlines, page_on, wild};
+use binspace::glam::DMat4;
 use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::rational::exact;
 
 /// A camera a thousand pixels in front of a page of 640 × 480.
@@ -15,15 +15,8 @@ fn camera() -> DMat4 {
 }
 
 fn page(is_clipped: bool, rects: &[Rect], matrix: DMat4) -> Layers {
-    let page = Layers::new([[0.0, 0.0], [640.0, 480.0]]);
-    let mut page = if is_clipped { page } else { page.unclipped() };
-    let layers: Vec<Layer> = rects.iter().map(|&rect| Layer::new(rect, matrix)).collect();
-    page.update(&layers).unwrap();
-    page
-}
-
-fn order(page: &Layers) -> Vec<usize> {
-    page.back_to_front().map(|piece| piece.layer()).collect()
+    let layers = rects.iter().map(|&rect| Layer::new(rect, matrix));
+    page_on([[0.0, 0.0], [640.0, 480.0]], is_clipped, layers)
 }
 
 /// The plane of the card, extended over the floor, is off by the rounding of its corners times
@@ -107,15 +100,8 @@ fn layers_of_one_matrix_come_in_the_order_of_the_list() {
         let is_clipped = round % 2 == 0;
         let given = layers(&mut dice);
         let truths: Vec<Truth> = given.iter().map(Given::truth).collect();
-        let mut page = Layers::new(VIEWPORT);
-        if !is_clipped {
-            page = page.unclipped();
-        }
-        page.update(&given.iter().map(Given::layer).collect::<Vec<_>>()).unwrap();
-        let pieces: Vec<(usize, Vec<DVec2>)> = page
-            .back_to_front()
-            .map(|piece| (piece.layer(), piece.vertices().map(|v| v.position.truncate()).collect()))
-            .collect();
+        let page = page_on(VIEWPORT, is_clipped, given.iter().map(Given::layer));
+        let pieces = outlines(&page);
         for (a, b) in (0..given.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
             if given[a].matrix != given[b].matrix {
                 continue;
@@ -163,8 +149,7 @@ fn cut_layers_of_one_matrix_know_their_places() {
         layers.extend(
             others.map(|turn| Given { rect: rect(150.0), matrix: camera() * turn * across }),
         );
-        let mut page = Layers::new([[0.0, 0.0], [640.0, 480.0]]);
-        page.update(&layers.iter().map(Given::layer).collect::<Vec<_>>()).unwrap();
+        let page = page_on([[0.0, 0.0], [640.0, 480.0]], true, layers.iter().map(Given::layer));
         for piece in page.back_to_front() {
             let truth = layers[piece.layer()].truth();
             for (vertex, is_own) in piece.vertices().zip(piece.edges()) {

@@ -1,9 +1,9 @@
 //! What is true of a layer, in exact rationals.
 
 use super::Rect;
-use binspace::glam::{DMat4, DVec2};
-use num_traits::Signed;
-use testkit::rational::{Rational, exact, sign, total};
+use binspace::glam::DMat4;
+use testkit::prelude::*;
+use testkit::rational::{exact, sign, total};
 
 pub(crate) type Point2 = [Rational; 2];
 

@@ -1,15 +1,11 @@
 //! The order of pages, judged at points of the screen by the exact depths of the layers given.
 
 use super::oracle::{Point2, Truth, covers, number};
-use super::{Given, page_of, wild};
-use binspace::glam::DVec2;
+use super::{Given, layers_of, order, outlines, page_of, wild};
 use binspace::layers::Layers;
-use num_traits::Signed;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
 use testkit::pages::{Page, SCREEN};
-use testkit::rational::{Rational, exact};
+use testkit::prelude::*;
+use testkit::rational::exact;
 
 /// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by
 /// less in pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.
@@ -34,10 +30,7 @@ fn depth(truth: &Truth, at: &Point2) -> Result<Option<(Point2, Rational)>, ()> {
 
 fn judge(given: &[Given], page: &Layers, points: usize, dice: &mut Dice, tally: &mut Tally) {
     let truths: Vec<Truth> = given.iter().map(Given::truth).collect();
-    let outlines: Vec<(usize, Vec<DVec2>)> = page
-        .back_to_front()
-        .map(|piece| (piece.layer(), piece.vertices().map(|v| v.position.truncate()).collect()))
-        .collect();
+    let outlines = outlines(page);
     assert_eq!(outlines.len(), page.len());
     'points: for _ in 0..points {
         // In the middle, where layers are, as often as anywhere.
@@ -90,8 +83,7 @@ fn pages_are_painted_by_depth() {
         let mut tally = Tally::default();
         for (count, seed) in [(12, 1), (12, 2), (30, 3), (30, 4), (60, 5)] {
             let count = if page == Page::Crossing { count.min(30) } else { count };
-            let layers: Vec<Given> =
-                page.layers(count, seed).into_iter().map(Given::from).collect();
+            let layers = layers_of(page, count, seed);
             let drawn = page_of(&layers);
             assert!(drawn.visible() <= count && drawn.len() >= drawn.visible());
             match page {
@@ -120,9 +112,8 @@ fn layers_that_reach_behind_the_eye_are_painted_by_depth() {
 
 #[test]
 fn front_to_back_is_the_reverse() {
-    let layers: Vec<Given> = Page::Crossing.layers(12, 6).into_iter().map(Given::from).collect();
-    let page = page_of(&layers);
-    let mut forwards: Vec<usize> = page.back_to_front().map(|piece| piece.layer()).collect();
+    let page = page_of(&layers_of(Page::Crossing, 12, 6));
+    let mut forwards = order(&page);
     forwards.reverse();
     assert_eq!(page.back_to_front().rev().map(|piece| piece.layer()).collect::<Vec<_>>(), forwards);
     assert!(forwards.len() > 12 && page.back_to_front().len() == page.len());

@@ -1,13 +1,10 @@
 //! What is seen of one layer, and where in it.
 
 use super::oracle::{Point2, area, number};
-use super::{Given, VIEWPORT, page_of, pages, wild};
-use binspace::glam::DVec3;
+use super::{Given, VIEWPORT, layers_of, page_of, wild};
 use binspace::layers::LayerVertex;
-use num_traits::Signed;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use testkit::pages::Page;
+use testkit::prelude::*;
 use testkit::rational::exact;
 
 /// Twenty steps of `f64`, times what the terms of a coordinate add up to.
@@ -106,8 +103,8 @@ fn places_in_a_layer_are_right_after_the_division() {
     let (mut compared, mut cut, mut misled) = (0, 0, 0);
     let mut scenes: Vec<Vec<Given>> =
         (0..25).map(|_| (0..12).map(|_| wild(&mut dice)).collect()).collect();
-    for page in pages::Page::ALL {
-        scenes.push(page.layers(30, 5).into_iter().map(Given::from).collect());
+    for page in Page::ALL {
+        scenes.push(layers_of(page, 30, 5));
     }
     for scene in scenes {
         let page = page_of(&scene);

@@ -1,15 +1,10 @@
 //! Layers that are meant to be in one plane, and layers that pass near the eye.
 
-use super::{VIEWPORT, camera, pages};
-use binspace::glam::{DMat4, Mat4, Quat, dvec3, vec3};
-use binspace::layers::{Layer, Layers};
-use testkit::dice::Dice;
-use testkit::effort::{seeds, times};
-use testkit::enough;
-
-fn order(page: &Layers) -> Vec<usize> {
-    page.back_to_front().map(|piece| piece.layer()).collect()
-}
+use super::{Given, VIEWPORT, camera, layers_of, order, page_on};
+use binspace::glam::{DMat4, Mat4, Quat, vec3};
+use binspace::layers::Layer;
+use testkit::pages::Page;
+use testkit::prelude::*;
 
 /// A page's camera as a program in `f32` makes it, product by product.
 fn single_camera() -> Mat4 {
@@ -35,14 +30,12 @@ fn forty_cards_put_into_one_tilted_plane_by_f32_matrices_stay_whole() {
             })
             .collect();
         let card = [[0.0, 0.0], [120.3, 80.7]];
-        let layers: Vec<Layer> = matrices.iter().map(|&m| Layer::from_f32(card, m)).collect();
-        let mut page = Layers::new(VIEWPORT);
-        page.update(&layers).unwrap();
+        let page = page_on(VIEWPORT, true, matrices.iter().map(|&m| Layer::from_f32(card, m)));
         assert_eq!((page.len(), page.visible()), (40, 40));
         assert_eq!(order(&page), (0..40).collect::<Vec<_>>());
         // As `f64` matrices, the same numbers are not in one plane: the case shows something.
-        let exact: Vec<Layer> = matrices.iter().map(|m| Layer::new(card, m.as_dmat4())).collect();
-        page.update(&exact).unwrap();
+        let exact = matrices.iter().map(|m| Layer::new(card, m.as_dmat4()));
+        let page = page_on(VIEWPORT, true, exact);
         rounded += usize::from(page.len() > 40 || order(&page) != (0..40).collect::<Vec<_>>());
     }
     enough!(rounded > 50; "{rounded}");
@@ -54,16 +47,13 @@ fn cards_put_into_one_plane_by_f64_matrices_stay_whole() {
     for _ in 0..times(60) {
         let tilt = DMat4::from_rotation_x(1.4 * dice.share() - 0.7)
             * DMat4::from_rotation_y(1.4 * dice.share() - 0.7);
-        let layers: Vec<Layer> = (0..40)
-            .map(|_| {
-                let at = dvec3(700.0 * dice.share() - 350.0, 700.0 * dice.share() - 350.0, 0.0);
-                let turned = DMat4::from_rotation_z(dice.share());
-                let matrix = camera() * tilt * DMat4::from_translation(at) * turned;
-                Layer::new([[0.0, 0.0], [120.3, 80.7]], matrix)
-            })
-            .collect();
-        let mut page = Layers::new(VIEWPORT);
-        page.update(&layers).unwrap();
+        let card = |_| {
+            let at = dvec3(700.0 * dice.share() - 350.0, 700.0 * dice.share() - 350.0, 0.0);
+            let turned = DMat4::from_rotation_z(dice.share());
+            let matrix = camera() * tilt * DMat4::from_translation(at) * turned;
+            Layer::new([[0.0, 0.0], [120.3, 80.7]], matrix)
+        };
+        let page = page_on(VIEWPORT, true, (0..40).map(card));
         assert_eq!(order(&page), (0..40).collect::<Vec<_>>());
     }
 }
@@ -78,11 +68,7 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
         let wall = DMat4::from_rotation_y(std::f64::consts::FRAC_PI_2 + tilt);
         let wall = Layer::new([[-3000.0, 100.0], [3000.0, 200.0]], camera() * wall);
         for unclipped in [false, true] {
-            let mut page = Layers::new(VIEWPORT);
-            if unclipped {
-                page = page.unclipped();
-            }
-            page.update(&[wall, at(0.002), at(0.0), at(0.001)]).unwrap();
+            let page = page_on(VIEWPORT, !unclipped, [wall, at(0.002), at(0.0), at(0.001)]);
             let reach = 1920.0 * f64::from(1 << 20);
             for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
                 assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
@@ -105,8 +91,7 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     let at = |z: f64| Layer::new(card, camera() * DMat4::from_translation(dvec3(0.0, 0.0, z)));
     let wall = camera() * DMat4::from_rotation_y(1.5);
     let wall = Layer::from_f32([[-3000.0, 100.0], [3000.0, 200.0]], wall.as_mat4());
-    let mut page = Layers::new(VIEWPORT).unclipped();
-    page.update(&[wall, at(0.2), at(0.0), at(0.1)]).unwrap();
+    let page = page_on(VIEWPORT, false, [wall, at(0.2), at(0.0), at(0.1)]);
     // The wall may cut them.
     let mut cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
     cards.dedup();
@@ -134,8 +119,7 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
         let mut layers = vec![Layer::new([[-3000.0; 2], [3000.0; 2]], floor)];
         layers.extend(cards.iter().map(|&card| Layer::new(card, plane)));
         // A small one: its least tolerance is small, and the grid is as coarse.
-        let mut page = Layers::new([[640.0, 360.0], [1280.0, 720.0]]).unclipped();
-        page.update(&layers).unwrap();
+        let page = page_on([[640.0, 360.0], [1280.0, 720.0]], false, layers.iter().copied());
         for _ in 0..40 {
             let [x, y] = [some(600.0), some(480.0)];
             let has = |card: &[[f64; 2]; 2]| {
@@ -161,14 +145,10 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
 fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
     let mut dice = Dice(43);
     let mut compared = 0;
-    for page in pages::Page::ALL {
-        let layers: Vec<Layer> =
-            page.layers(30, 8).into_iter().map(|layer| super::Given::from(layer).layer()).collect();
-        let pages = [Layers::new(VIEWPORT), Layers::new(VIEWPORT).unclipped()];
-        let [clipped, unclipped] = pages.map(|mut page| {
-            page.update(&layers).unwrap();
-            page
-        });
+    for page in Page::ALL {
+        let layers: Vec<Layer> = layers_of(page, 30, 8).iter().map(Given::layer).collect();
+        let [clipped, unclipped] =
+            [true, false].map(|is_clipped| page_on(VIEWPORT, is_clipped, layers.iter().copied()));
         for _ in 0..400 {
             let at = [1920.0 * dice.share(), 1080.0 * dice.share()];
             let [a, b] = [&clipped, &unclipped].map(|page| page.hit(at).map(|(layer, _)| layer));
@@ -179,8 +159,7 @@ fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
     enough!(compared > 100; "{compared}");
     // What is beside the screen is there, whole.
     let beside = Layer::new([[-900.0, 50.0], [-100.0, 90.0]], DMat4::IDENTITY);
-    let mut page = Layers::new(VIEWPORT).unclipped();
-    page.update(&[beside]).unwrap();
+    let page = page_on(VIEWPORT, false, [beside]);
     let corners = page.back_to_front().flat_map(|piece| piece.vertices());
     assert!(corners.map(|corner| corner.position.x).eq([-900.0, -100.0, -100.0, -900.0]));
 }

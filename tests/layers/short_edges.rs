@@ -1,10 +1,9 @@
 //! Pieces with an edge so short that rounding decides where it points.
 
 use super::oracle::{Truth, number};
-use super::{Given, camera};
-use binspace::glam::{DMat4, DVec2, dvec3};
-use binspace::layers::Layers;
-use testkit::dice::Dice;
+use super::{Given, camera, outlines, page_on};
+use binspace::glam::DMat4;
+use testkit::prelude::*;
 use testkit::rational::exact;
 
 /// Cards that turn about one point, which is a corner of some and on an edge of others, on a screen
@@ -53,10 +52,12 @@ fn a_hit_does_not_look_through_a_piece_with_a_very_short_edge() {
     for _ in 0..60 {
         let given = cards(&mut dice, off);
         let truths: Vec<Truth> = given.iter().map(Given::truth).collect();
-        let mut page = Layers::new([[off, off], [off + 1920.0, off + 1080.0]]);
-        page.update(&given.iter().map(Given::layer).collect::<Vec<_>>()).unwrap();
-        for piece in page.back_to_front() {
-            let outline: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
+        let page = page_on(
+            [[off, off], [off + 1920.0, off + 1080.0]],
+            true,
+            given.iter().map(Given::layer),
+        );
+        for (_, outline) in outlines(&page) {
             let next = outline.iter().cycle().skip(1);
             if !outline.iter().zip(next).any(|(a, b)| a.distance(*b) < 1e-8) {
                 continue;

@@ -1,34 +1,20 @@
 //! Which polygons count as bent does not depend on what they are given with: at once, one after the other,
 //! or in cells.
 
-use binspace::glam::DVec3;
+use binspace::Preparation;
 use binspace::partition::Extent;
-use binspace::{BuildOptions, Polygon, Preparation};
+use testkit::prelude::*;
+use testkit::shapes::Claim;
 
-/// A quad of which a corner is off the plane of the others, with a precision of its own.
-#[derive(Clone, Copy)]
-struct Quad {
-    corners: [DVec3; 4],
-    precision: f64,
-}
-
-impl Polygon for Quad {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.corners.into_iter()
-    }
-
-    fn precision(&self) -> f64 {
-        self.precision
-    }
-}
-
-fn quad(at: f64, off: f64, precision: f64) -> Quad {
+/// A quad of which a corner is off the plane of the others.
+fn quad(at: f64, off: f64, precision: f64) -> Claim {
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, off], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    Quad { corners: corners.map(|corner| DVec3::from(corner) + DVec3::X * at), precision }
+    let corners = corners.map(|corner| DVec3::from(corner) + DVec3::X * at).to_vec();
+    Claim { corners, precision }
 }
 
 /// Quads in a scene of some extent, bent from much less to much more than 10⁻⁵ of it.
-fn quads(extent: f64) -> Vec<Quad> {
+fn quads(extent: f64) -> Vec<Claim> {
     let mut quads = Vec::new();
     for k in 0..60 {
         let off = extent * 1e-6 * 1.1f64.powi(k);
@@ -60,7 +46,7 @@ fn bent_polygons_are_counted_alike_at_once_one_by_one_and_in_cells() {
         assert_eq!(bent(tree.preparation()), bent(&expected), "{extent}, one by one");
         let mut extents = Extent::default();
         quads.iter().for_each(|quad| extents.include(quad));
-        let samples = quads.iter().flat_map(|quad| quad.corners);
+        let samples = quads.iter().flat_map(|quad| quad.corners.clone());
         let partition = options.partition(&extents, samples, 3).expect("cells");
         assert_eq!(bent(&partition.preparation(&quads).expect("memory")), bent(&expected));
         for cell in 0..3 {
@@ -72,4 +58,25 @@ fn bent_polygons_are_counted_alike_at_once_one_by_one_and_in_cells() {
             quads.iter().map(|quad| *options.build([quad]).expect("within budget").preparation());
         assert_eq!(alone.map(|found| found.bent).sum::<usize>(), expected.bent);
     }
+}
+
+/// Quads of coarse coordinates, a little bent, of which there are thousands: they are prepared in parts.
+#[test]
+fn bent_quads_of_all_parts_are_counted() {
+    let quad = |k: usize| {
+        let at = DVec3::new((k % 50) as f64, (k / 50) as f64, 0.0);
+        let lift = if k % 5 == 2 { 1e-5 } else { 0.0 };
+        [[0.0, 0.0, 0.0], [0.75, 0.0, 0.0], [0.75, 0.75, lift], [0.0, 0.75, 0.0]]
+            .map(|corner| (at + DVec3::from(corner)).as_vec3().to_array())
+    };
+    let options = BuildOptions::DEFAULT.with_tolerance(1e-9);
+    let bent = |numbers: std::ops::Range<usize>| {
+        let quads: Vec<[[f32; 3]; 4]> = numbers.map(quad).collect();
+        let tree = options.build(&quads).unwrap();
+        (tree.preparation().bent, tree.preparation().bent_by)
+    };
+    let (all, by) = bent(0..5000);
+    // As many as in pieces that are each prepared as one part, but for what rounding is of them.
+    assert_eq!(all, 5000 / 5, "bent by {by}");
+    assert!(by > 1e-6 && by < 1e-5, "{by}");
 }

@@ -2,11 +2,10 @@
 //! would decide wrongly. The library decides them rightly, so the bound is large enough there; they
 //! exist, so the bound is hardly larger than necessary.
 
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex};
+use binspace::internals::{PreparedPlane, Side, Vertex};
 use dashu_int::IBig;
-use num_traits::{Signed, ToPrimitive, Zero};
-use testkit::dice::Dice;
-use testkit::enough;
+use num_traits::ToPrimitive;
+use testkit::prelude::*;
 
 /// The largest coordinate of a scene whose lattice step is 1.
 const EDGE: i64 = (1 << 51) - 1;
@@ -245,7 +244,8 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
 }
 
 /// The tolerance times the length of a normal is no whole number, and a determinant is one: the
-/// next larger one is beyond the tolerance, the next smaller one is not.
+/// next larger one is beyond the tolerance, the next smaller one is not. So are distances from the plane
+/// perpendicular to an axis.
 #[test]
 fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyond_it() {
     // Normals (1, 1, 1) and along an axis: lengths √3 and 1.
@@ -271,15 +271,18 @@ fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyon
                     .collect();
             let (faces, _) = Faces::new(&scene, Some(tolerance)).expect("finite");
             assert_eq!(faces.tolerance(), tolerance);
-            let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
-            let side = |face| prepared.classify(&faces, face, None);
-            let sides = [2, 3, 4].map(side);
             let expected = if beyond {
                 [Side::Spanning, Side::Front, Side::Back]
             } else {
                 [Side::Coplanar; 3]
             };
-            assert_eq!(sides, expected, "{value} off {plane:?}, tolerance {tolerance}");
+            let level = PlaneId::axis(2, faces.corner_range(1).start as u32);
+            for id in [PlaneId::face(1), level].into_iter().take(if plane == flat { 2 } else { 1 })
+            {
+                let prepared = PreparedPlane::new(&faces, id);
+                let sides = [2, 3, 4].map(|face| prepared.classify(&faces, face, None));
+                assert_eq!(sides, expected, "{value} off {plane:?}, {id:?}, tolerance {tolerance}");
+            }
         }
     }
 }
@@ -301,25 +304,4 @@ fn without_a_tolerance_one_step_off_a_plane_is_off_it() {
         }
     }
     assert_eq!(decided, 6);
-}
-
-/// The same of a plane perpendicular to an axis, from which distances are whole numbers.
-#[test]
-fn a_corner_beyond_the_tolerance_of_an_axis_s_plane_by_less_than_a_step_is_beyond_it() {
-    let flat = [[0, 0, 0], [1, 0, 0], [0, 1, 0]];
-    for (value, beyond) in [(2, false), (3, true)] {
-        let across = [[0, 0, value], [100, 0, -value], [0, 9000, 0]];
-        let above = [[0, 0, value], [0, 100, 0], [9000, 0, 0]];
-        let below = above.map(|[x, y, z]| [x, y, -z]);
-        let scene = [[[-EDGE; 3], [EDGE; 3], [EDGE, -EDGE, 0]], flat, across, above, below];
-        let scene: Vec<_> = scene.iter().map(floats).collect();
-        let (faces, _) = Faces::new(&scene, Some(2.5)).expect("finite");
-        assert_eq!(faces.tolerance(), 2.5);
-        let corner = faces.corner_range(1).start as u32;
-        let prepared = PreparedPlane::new(&faces, PlaneId::axis(2, corner));
-        let side = |face| prepared.classify(&faces, face, None);
-        let expected =
-            if beyond { [Side::Spanning, Side::Front, Side::Back] } else { [Side::Coplanar; 3] };
-        assert_eq!([2, 3, 4].map(side), expected, "{value} off");
-    }
 }

@@ -1,11 +1,7 @@
 //! A cancel takes effect while a single polygon is being read or prepared.
 
 use std::cell::Cell;
-use std::ops::ControlFlow;
-use testkit::enough;
-
-use binspace::glam::DVec3;
-use binspace::{BuildOptions, Polygon};
+use testkit::prelude::*;
 
 /// Corners without end.
 struct Endless<'a> {

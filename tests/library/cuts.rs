@@ -1,125 +1,10 @@
-//! Cuts that other libraries get wrong, and cuts that neighbours must agree on.
+//! Cuts that neighbours must agree on.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind, split};
+use binspace::internals::{PreparedPlane, Vertex};
 use proptest::prelude::*;
 use std::collections::HashMap;
-use testkit::enough;
-use testkit::hard;
-use testkit::model::{self, Face};
-use testkit::rational;
-use testkit::shapes::Corners;
-use testkit::tally::tally;
-
-fn faces(polygons: &[Corners]) -> Faces {
-    Faces::new(polygons, None).expect("finite").0
-}
-
-fn corners(points: &[[f64; 3]]) -> Corners {
-    points.iter().map(|&p| p.into()).collect()
-}
-
-fn classify(faces: &Faces, plane: PlaneId, face: u32) -> Side {
-    (PreparedPlane::new(faces, plane)).classify(faces, face, None)
-}
-
-fn outline(faces: &Faces, face: u32) -> Vec<Vertex> {
-    let count = faces.corners(face).len() as u32;
-    (0..count).map(|k| Vertex::corner(faces, face, k)).collect()
-}
-
-fn parts(faces: &Faces, plane: PlaneId, face: u32) -> [Vec<Vertex>; 2] {
-    let (mut front, mut back) = (Vec::new(), Vec::new());
-    let prepared = PreparedPlane::new(faces, plane);
-    let whole = outline(faces, face);
-    split(faces, &prepared, face, &whole, &mut front, &mut back);
-    [front, back]
-}
-
-fn has_area(faces: &Faces, face: u32, part: &[Vertex]) -> bool {
-    let exact = Face::new(faces, face);
-    let points: Vec<_> = part.iter().map(|v| exact.resolve(faces, v.vertex_id())).collect();
-    rational::area(&points).iter().any(|c| !c.is_zero())
-}
-
-#[test]
-fn a_pentagon_with_corners_next_to_the_plane_gives_two_proper_pieces() {
-    let pentagon = corners(&[
-        [9.0, 9.0, 5.0],
-        [1.0, 1.0, 0.001],
-        [1.0, 1.0, 0.0],
-        [1.002, 1.002, -0.005],
-        [9.0, 9.0, -4.0],
-    ]);
-    let ground = corners(&[[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]]);
-    let faces = faces(&[pentagon, ground]);
-    assert_eq!(faces.len(), 2);
-    for plane in [PlaneId::face(1), PlaneId::axis(2, 2), PlaneId::axis(2, 6)] {
-        assert_eq!(classify(&faces, plane, 0), Side::Spanning);
-        let [above, below] = parts(&faces, plane, 0);
-        // The corner on the plane belongs to both, with one new vertex on the far edge.
-        assert_eq!((above.len(), below.len()), (4, 4));
-        for part in [&above, &below] {
-            assert!(has_area(&faces, 0, part));
-            let on_plane = part.iter().filter(|v| v.line().as_cut() == Some(plane)).count();
-            assert_eq!(on_plane, 1);
-        }
-        let ground_level = faces.corner(2)[2];
-        assert!(above.iter().all(|v| v.position()[2] >= ground_level));
-        assert!(below.iter().all(|v| v.position()[2] <= ground_level));
-    }
-}
-
-#[test]
-fn a_square_that_touches_the_plane_with_an_edge_is_not_cut() {
-    let ground = corners(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]);
-    let standing = |height: f64| {
-        let (base, top) =
-            ([[-0.5, 0.1, 0.0], [0.7, 0.3, 0.0]], [[0.7, 0.3, height], [-0.5, 0.1, height]]);
-        corners(&[base[0], base[1], top[0], top[1]])
-    };
-    let corner_down = corners(&[[0.0, 0.0, 0.0], [0.5, 0.0, 0.5], [-0.5, 0.0, 0.5]]);
-    let faces = faces(&[ground, standing(1.0), standing(-1.0), corner_down]);
-    for plane in [PlaneId::face(0), PlaneId::axis(2, 0)] {
-        let sides = [1, 2, 3].map(|face| classify(&faces, plane, face));
-        assert_eq!(sides, [Side::Front, Side::Back, Side::Front]);
-    }
-}
-
-#[test]
-fn of_two_crossing_squares_either_cuts_the_other_in_two() {
-    let flat = corners(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]);
-    let upright = flat.iter().map(|p| DVec3::new(p.x, 0.0, p.y)).collect();
-    let faces = faces(&[flat, upright]);
-    for (plane, face) in [(0, 1), (1, 0)] {
-        let plane = PlaneId::face(plane);
-        assert_eq!(classify(&faces, plane, face), Side::Spanning);
-        assert_eq!(parts(&faces, plane, face).map(|part| part.len()), [4, 4]);
-    }
-}
-
-#[test]
-fn a_square_beside_another_s_plane_is_cut_only_the_other_way_round() {
-    let wide = corners(&[[-2.0, -1.0, 0.0], [2.0, -1.0, 0.0], [2.0, 1.0, 0.0], [-2.0, 1.0, 0.0]]);
-    let above = corners(&[[0.5, -1.0, 0.5], [0.5, 1.0, 0.5], [0.5, 1.0, 2.5], [0.5, -1.0, 2.5]]);
-    let faces = faces(&[wide, above]);
-    assert_eq!(classify(&faces, PlaneId::face(0), 1), Side::Front);
-    assert_eq!(classify(&faces, PlaneId::face(1), 0), Side::Spanning);
-}
-
-#[test]
-fn nested_squares_in_one_plane_are_coplanar_whichever_way_they_face() {
-    let square = |r: f64| {
-        let around = [[-r, -r], [r, -r], [r, r], [-r, r]];
-        around.map(|[x, y]| DVec3::new(x, y, 0.3 * x + 0.7 * y)).to_vec()
-    };
-    let mut reversed = square(0.2);
-    reversed.reverse();
-    let faces = faces(&[square(1.0), square(0.6), reversed]);
-    for (plane, face) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
-        assert_eq!(classify(&faces, PlaneId::face(plane), face), Side::Coplanar);
-    }
-}
+use testkit::model::Face;
+use testkit::prelude::*;
 
 /// Every edge between corners that the tolerance did not move, by its ends.
 fn edges(faces: &Faces) -> HashMap<[[u64; 3]; 2], (u32, u32)> {
@@ -170,7 +55,7 @@ fn a_moved_corner_elsewhere_does_not_change_the_bits_of_a_common_edge() {
     };
     let polygons: Vec<_> =
         [vec![a, b, c, last], vec![a, last, -c]].into_iter().chain((0..40).map(cutting)).collect();
-    let faces = faces(&polygons);
+    let faces = Faces::new(&polygons, None).expect("finite").0;
     assert!(faces.corners(0).len() == 4 && Face::new(&faces, 0).moved);
     let planes = || (2..42).map(PlaneId::face);
     assert!(planes().filter_map(|plane| cut_edge(&faces, plane, (0, 3))).count() > 20);
@@ -204,32 +89,4 @@ fn neighbours_cut_their_common_edge_in_the_same_bits() {
     });
     let [shared, cuts] = counts;
     enough!(shared > 1500, cuts > 1500; "{shared} edges run both ways, {cuts} cuts");
-}
-
-#[test]
-fn a_vertex_on_an_axis_plane_is_on_it_to_the_last_bit() {
-    let vertices = tally(file!(), 300, hard::scene(), |vertices: &mut usize, scene| {
-        let faces = scene.faces();
-        for face in 0..faces.len() as u32 {
-            let exact = Face::new(&faces, face);
-            for corner in 0..faces.corner_range(faces.len() as u32 - 1).end.min(16) as u32 {
-                let axis = corner as usize % 3;
-                let plane = PlaneId::axis(axis, corner);
-                if classify(&faces, plane, face) != Side::Spanning {
-                    continue;
-                }
-                let (at, by) = (faces.corner(corner)[axis], model::plane(&faces, plane));
-                let [front, back] = parts(&faces, plane, face);
-                for vertex in front.iter().chain(&back) {
-                    let exact = by.at(&exact.resolve(&faces, vertex.vertex_id()));
-                    let corner = matches!(vertex.vertex_id().kind(), VertexKind::Corner(_));
-                    prop_assert!(corner || exact.is_zero());
-                    prop_assert!(corner || vertex.position()[axis] == at);
-                    *vertices += usize::from(!corner);
-                }
-            }
-        }
-        Ok(())
-    });
-    enough!(vertices > 5000; "{vertices} vertices");
 }

@@ -1,17 +1,13 @@
 //! Which polygons preparation drops, keeps whole and counts as duplicates, checked by brute force
 //! in big integers, on polygons with little or no area.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, Lattice};
+use binspace::internals::Lattice;
 use dashu_int::IBig;
-use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::{BTreeSet, HashMap};
-use testkit::dice::Dice;
-use testkit::hard;
-use testkit::shapes::{self, Corners};
-use testkit::tally::tally;
+use testkit::prelude::*;
+use testkit::shapes;
 use testkit::vector::{difference, is_zero, product, scalar};
 
 type Vector = [IBig; 3];

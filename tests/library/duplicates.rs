@@ -1,12 +1,11 @@
 //! Polygons that are given more than once are kept and counted.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Viewpoint};
+use testkit::prelude::*;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// The corners of the square in another order.
-fn named(order: [usize; 4]) -> Vec<[f64; 3]> {
+fn named<const N: usize>(order: [usize; N]) -> Vec<[f64; 3]> {
     order.map(|k| SQUARE[k]).to_vec()
 }
 
@@ -15,42 +14,32 @@ fn duplicates(polygons: &[Vec<[f64; 3]>]) -> usize {
     tree.duplicates()
 }
 
+/// A face given again from any corner in either direction is counted, also with a corner repeated or rounded
+/// to the same place; with other corners, or the same in another order around, it is no duplicate.
 #[test]
-fn a_face_given_again_from_any_corner_in_either_direction_is_counted() {
-    let first = named([0, 1, 2, 3]);
+fn faces_given_again_are_counted() {
+    let first = || named([0, 1, 2, 3]);
     for again in [[0, 1, 2, 3], [2, 3, 0, 1], [3, 2, 1, 0], [1, 0, 3, 2]] {
-        assert_eq!(duplicates(&[first.clone(), named(again)]), 1, "{again:?}");
+        assert_eq!(duplicates(&[first(), named(again)]), 1, "{again:?}");
     }
-    let thrice = [first.clone(), named([1, 2, 3, 0]), first.clone()];
-    assert_eq!(duplicates(&thrice), 2);
-    assert_eq!(duplicates(&[first]), 0);
-}
-
-#[test]
-fn the_same_corners_in_another_order_around_are_no_duplicate() {
-    // A bow tie.
-    assert_eq!(duplicates(&[named([0, 1, 2, 3]), named([0, 2, 1, 3])]), 0);
-    assert_eq!(duplicates(&[named([0, 2, 1, 3]), named([1, 3, 0, 2])]), 1);
-}
-
-#[test]
-fn a_corner_repeated_or_rounded_to_the_same_place_makes_no_difference() {
-    let mut again = named([0, 1, 2, 3]);
-    again.insert(1, SQUARE[0]);
-    again[3][0] += 1e-17;
-    again[0][2] = -0.0;
-    assert_eq!(duplicates(&[named([0, 1, 2, 3]), again]), 1);
-    let mut other = named([0, 1, 2, 3]);
+    let mut rounded = named([0, 0, 1, 2, 3]);
+    (rounded[4][0], rounded[0][2]) = (1e-17, -0.0);
+    let mut other = first();
     other[2][0] = 1.0 + f64::EPSILON * 8.0;
-    assert_eq!(duplicates(&[named([0, 1, 2, 3]), other]), 0);
-}
-
-#[test]
-fn faces_without_area_are_dropped_and_no_duplicates() {
-    let line = vec![SQUARE[0], SQUARE[1], SQUARE[0]];
-    let tree = BspTree::build([line.clone(), line, named([0, 1, 2, 3])]).expect("finite");
-    assert_eq!((tree.preparation().dropped, tree.duplicates()), (2, 0));
-    assert_eq!(tree.dropped().collect::<Vec<_>>(), [0, 1]);
+    // A bow tie.
+    let tie = named([0, 2, 1, 3]);
+    for (polygons, expected) in [
+        (vec![first()], 0),
+        (vec![first(), named([1, 2, 3, 0]), first()], 2),
+        (vec![first(), tie.clone()], 0),
+        (vec![tie, named([1, 3, 0, 2])], 1),
+        (vec![first(), rounded], 1),
+        (vec![first(), other], 0),
+        // What has no area is dropped.
+        (vec![named([0, 1, 0]), named([0, 1, 0]), first()], 0),
+    ] {
+        assert_eq!(duplicates(&polygons), expected, "{polygons:?}");
+    }
 }
 
 #[test]

@@ -1,16 +1,10 @@
 //! The side of a plane on which an eye lies, against exact rationals; and the lattice that eyes and
 //! corners are put on.
 
-use binspace::Viewpoint;
-use binspace::glam::DVec3;
-use binspace::internals::{Eye, Faces, Lattice, PlaneId};
-use num_traits::Signed;
+use binspace::internals::{Eye, Lattice};
 use proptest::prelude::*;
-use std::cmp::Ordering;
-use testkit::effort::cases;
-use testkit::hard;
-use testkit::model;
-use testkit::rational::{self, Plane, Point, Rational};
+use testkit::prelude::*;
+use testkit::rational::{Plane, Point};
 use testkit::views::{in_lattice, power_of_two, rounded_eye};
 
 fn side(faces: &Faces, plane: PlaneId, viewpoint: Viewpoint) -> Ordering {

@@ -1,13 +1,9 @@
 //! Eyes are rounded once: what lies on the grid stays where it is, however many digits its place on the
 //! grid has more than the eye's own coordinates.
 
-use std::cmp::Ordering;
-
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, Lattice};
-use binspace::{BuildOptions, Viewpoint};
-use testkit::dice::Dice;
-use testkit::rational::{self, Plane, Rational};
+use binspace::internals::Lattice;
+use testkit::prelude::*;
+use testkit::rational::Plane;
 use testkit::views::in_lattice;
 
 #[test]

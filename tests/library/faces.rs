@@ -1,16 +1,13 @@
 //! Facts about the faces of any scene: convex, planar, where the input is, and whole if they can be.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, Vertex, split};
-use num_traits::Signed;
+use binspace::internals::{PreparedPlane, Side, Vertex, split};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestCaseError;
 use testkit::checks::{area, assert_convex_and_planar};
-use testkit::effort::cases;
-use testkit::hard::{self, HardScene};
+use testkit::hard::HardScene;
 use testkit::model::Face;
-use testkit::rational::{self, Rational};
+use testkit::prelude::*;
 use testkit::shapes;
 
 /// Corners moved onto a plane moved by little, the others not at all.

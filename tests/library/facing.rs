@@ -1,12 +1,8 @@
 //! Which side of a fragment faces a viewpoint, against exact rationals.
 
-use binspace::glam::DVec3;
-use binspace::internals::PlaneId;
 use binspace::verify::verify_fronts;
-use binspace::{BspTree, BuildOptions, Viewpoint, scene, view};
-use std::cmp::Ordering;
-use testkit::dice::Dice;
-use testkit::model;
+use binspace::view;
+use testkit::prelude::*;
 use testkit::views::View;
 
 /// Viewpoints of every kind: anywhere, on corners, in the planes of faces and along them.

@@ -1,13 +1,7 @@
 //! Bounds tell which side polygons show only where the exact predicate tells the same: eyes far away in
 //! the plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
 
-use std::cmp::Ordering;
-use testkit::effort::seeds;
-use testkit::enough;
-
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Viewpoint};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 
 #[test]
 fn bounds_of_normals_hold_the_exact_normals() {

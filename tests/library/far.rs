@@ -1,9 +1,11 @@
 //! The default tolerance far from the origin, where numbers are coarse.
 
-use binspace::glam::{DVec3, Vec3};
+use binspace::Tolerance;
+use binspace::glam::Vec3;
 use binspace::partition::Extent;
-use binspace::{BspTree, BuildOptions, Polygon, Tolerance};
 use testkit::divided::extent;
+use testkit::prelude::*;
+use testkit::shapes::Claim;
 
 fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-6 * expected, "{found:e}, not {expected:e}");
@@ -60,25 +62,13 @@ fn tolerance_limit() -> f64 {
     options.build(cube(DVec3::ZERO)).unwrap().stats().tolerance
 }
 
-/// A side of a cube that claims a precision.
-struct Claim<'a>(&'a [DVec3; 4], f64);
-
-impl Polygon for Claim<'_> {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.0.iter().copied()
-    }
-
-    fn precision(&self) -> f64 {
-        self.1
-    }
-}
-
 #[test]
 fn what_is_claimed_counts_up_to_a_share_of_the_extent_wherever_it_lies() {
     for at in [0.0, 1e4, 5.4e6] {
         let sides = cube(DVec3::new(at, 0.0, 3.0));
         for (claimed, expected) in [(0.0, 1e-9), (1e-7, 1e-7), (0.04, 1e-5), (1e9, 1e-5)] {
-            near(tolerance(sides.iter().map(|side| Claim(side, claimed))), expected);
+            let claim = |side: &[DVec3; 4]| Claim { corners: side.to_vec(), precision: claimed };
+            near(tolerance(sides.iter().map(claim)), expected);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Inputs that a fuzz target once failed on, and a few to start from, replayed.
 
 use std::path::Path;
-use testkit::enough;
+use testkit::prelude::*;
 use testkit::targets;
 
 type Target = (&'static str, fn(&[u8]));

@@ -1,8 +1,8 @@
 //! Where polygons in exactly one plane keep the order of the input, and where the tolerance may take it from
 //! them.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Fragment, Viewpoint};
+use binspace::Fragment;
+use testkit::prelude::*;
 use testkit::scenes;
 
 type Quad = [[f64; 3]; 4];

@@ -2,12 +2,7 @@
 
 use std::fmt::Debug;
 use std::iter::FusedIterator;
-use testkit::enough;
-
-use binspace::glam::{DVec3, dvec3};
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::shapes::sheet;
 
 const EYES: [Viewpoint; 4] = [

@@ -15,7 +15,6 @@ mod far;
 mod fuzz_regressions;
 mod input_order;
 mod iterators;
-mod many_parts;
 mod modules;
 mod narrow;
 mod odd_viewpoints;

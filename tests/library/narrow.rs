@@ -1,12 +1,9 @@
 //! Rays of narrow views are where the camera says, or there are none.
 
-use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::raster::Rays;
-use binspace::view::{Camera, Projection};
+use binspace::view::Projection;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::rational::{Point, exact, point, product, scalar};
 
 /// The coefficients of a vector as a sum of others.

@@ -1,7 +1,6 @@
 //! Viewpoints of coordinates that are no numbers or infinite, and directions of no length.
 
-use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, Viewpoint};
+use testkit::prelude::*;
 use testkit::snapshot::polygons;
 
 fn square(z: f64) -> [DVec3; 4] {

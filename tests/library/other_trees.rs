@@ -1,17 +1,12 @@
 //! What was made from one tree, beside another of the same size: refused, or right.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::glam::DVec3;
+use binspace::drawing::Drawing;
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
-use binspace::raster::{Order, Painter, Rays, compare, picture, zbuffer};
-use binspace::view::Camera;
-use binspace::{
-    BspTree, BuildOptions, Culling, FrameBuilder, Frustum, Heuristic, Ray, Viewpoint, paint,
-    raster, scene,
-};
+use binspace::raster::{Order, Painter, compare, picture, zbuffer};
+use binspace::{Culling, Frustum, Ray, paint, raster};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use testkit::prelude::*;
 use testkit::shapes::sheet;
 
 /// How many squares a frame has, one above another.

@@ -2,11 +2,10 @@
 //! the program. Each case runs in a process of its own, with limited memory.
 #![allow(clippy::print_stdout, reason = "a process tells another how much memory it took")]
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, FrameBuilder, scene};
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use testkit::prelude::*;
 use testkit::scenes::polygons;
 
 type Polygons = Vec<Vec<DVec3>>;

@@ -1,14 +1,10 @@
 //! A progress callback that panics is not called again by what it was called from.
 
-use std::ops::ControlFlow;
+use binspace::Progress;
+use binspace::drawing::Drawing;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::glam::DVec3;
-use binspace::raster::Rays;
-use binspace::view::Camera;
-use binspace::{BspTree, BuildOptions, Progress, scene};
+use testkit::prelude::*;
 
 /// Runs a call on several threads with a callback that panics at one of its calls, and gives how often it
 /// was called.

@@ -1,10 +1,7 @@
 //! Scenes so large that they are prepared in parts: the result is the same as in one part.
 
-use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::{BspTree, BuildOptions, Preparation};
-use testkit::enough;
-use testkit::shapes::Corners;
+use binspace::Preparation;
+use testkit::prelude::*;
 
 /// More than what is prepared at once, which is sixteen parts of 1024 polygons.
 const COUNT: usize = 20_000;
@@ -142,6 +139,35 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
         let length: f64 = corners.iter().zip(next).map(|(a, b)| a.distance(*b)).sum();
         let expected = if dropped.binary_search(&i).is_ok() { 0.0 } else { length };
         assert!((outline[i] - expected).abs() <= 8.0 * TOLERANCE, "polygon {i}");
+    }
+}
+
+/// The rest follows the faces of a finished tree. A mesh has corners as they were given, also those that were
+/// moved onto a plane.
+#[test]
+fn a_tree_that_is_extended_by_several_parts_is_that_of_all() {
+    let polygons = scene(5000);
+    let options = BuildOptions::DEFAULT.with_tolerance(TOLERANCE);
+    let expected = options.build(&polygons).expect("finite");
+    let mut extended = options.build(&polygons[..1500]).expect("finite");
+    extended.extend(&polygons[1500..]).expect("on the ground");
+    for tree in [&expected, &extended] {
+        assert_eq!(tree.preparation(), expected.preparation());
+        assert!(tree.dropped().eq(expected.dropped()));
+        let (mesh, mut moved) = (tree.mesh().expect("memory"), 0);
+        for fragment in tree.fragments().filter(|fragment| fragment.is_whole()) {
+            let k = fragment.polygon();
+            // The kind that is planar within the tolerance.
+            if polygons[k].len() == 4 && polygons[k][2].z.fract() == 2f64.powi(-11) {
+                let range = mesh.triangles().range(fragment.index());
+                for vertex in &mesh.triangles().indices()[range] {
+                    let found = mesh.positions()[*vertex as usize];
+                    assert!(polygons[k].contains(&found), "{k}: {found} for {:?}", polygons[k]);
+                    moved += 1;
+                }
+            }
+        }
+        enough!(moved > 1500; "{moved} corners");
     }
 }
 

@@ -1,9 +1,8 @@
 //! Trees of convex bodies, which are taken apart piece by piece: valid, uncut, in input order on
 //! each plane, and within their budgets.
 
-use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::{BspTree, BuildOptions};
-use testkit::enough;
+use binspace::glam::{DQuat, EulerRot};
+use testkit::prelude::*;
 
 /// A turned cube, each side a grid of squares that face one way, in no order.
 fn cube(side: usize, inwards: bool) -> Vec<[DVec3; 4]> {

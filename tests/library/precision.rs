@@ -1,10 +1,10 @@
 //! The default tolerance follows the precision of the input, and merges nothing that the input
 //! tells apart.
 
-use binspace::glam::{DVec3, Mat4, Quat, Vec3, vec3};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Polygon, Tolerance, Viewpoint};
-use testkit::dice::Dice;
-use testkit::enough;
+use binspace::Tolerance;
+use binspace::glam::{Mat4, Quat, Vec3, vec3};
+use testkit::prelude::*;
+use testkit::shapes::{Claim, rectangle};
 
 /// How many turns of the cards are tried.
 const TURNS: u64 = 24;
@@ -172,26 +172,10 @@ fn a_polygon_says_its_precision() {
     assert_eq!(double[..].precision(), double.precision());
 }
 
-/// Two squares of side 1, the second so much higher, from a type that claims a precision.
-struct Square {
-    height: f64,
-    precision: f64,
-}
-
-impl Polygon for Square {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-            .into_iter()
-            .map(|[x, y]| DVec3::new(x, y, self.height))
-    }
-
-    fn precision(&self) -> f64 {
-        self.precision
-    }
-}
-
+/// Of two squares of side 1, one a little above the other.
 fn tolerance_of(precision: f64, options: BuildOptions) -> f64 {
-    let squares = [0.0, 1e-3].map(|height| Square { height, precision });
+    let square = |z: f64| Claim { corners: rectangle([0.0; 2], [1.0; 2], z), precision };
+    let squares = [0.0, 1e-3].map(square);
     options.build(squares).unwrap().stats().tolerance
 }
 

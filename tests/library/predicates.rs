@@ -1,13 +1,11 @@
 //! Decisions and cuts against rationals, on scenes that are hard to decide.
 
-use binspace::internals::PlaneId;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use testkit::cut_walk::{Tally, Walk};
-use testkit::enough;
-use testkit::hard::{self, HardScene};
+use testkit::hard::HardScene;
 use testkit::judge::Verdict;
-use testkit::tally::{fail, tally};
+use testkit::prelude::*;
 
 /// Which face to cut, and by what: a face's plane, or perpendicular to an axis through a corner.
 #[derive(Clone, Debug)]

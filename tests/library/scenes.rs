@@ -1,9 +1,9 @@
 //! Facts about the generated scenes: published measurements, counts,
 //! orientation, determinism.
 
-use binspace::glam::{DVec2, DVec3};
-use binspace::scene::{self, Builtin, BuiltinSpec, Scene};
+use binspace::scene::BuiltinSpec;
 use std::collections::{HashMap, HashSet};
+use testkit::prelude::*;
 
 type Bits = [u64; 3];
 

@@ -1,8 +1,8 @@
 //! Public types are `Send` and `Sync`: trees above all, with everything that they return.
 
 use binspace::internals::{
-    EdgeLine, Eye, Faces, Lattice, PlaneId, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex,
-    VertexId, VertexKind,
+    EdgeLine, Eye, Lattice, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex, VertexId,
+    VertexKind,
 };
 use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
@@ -10,14 +10,14 @@ use binspace::mesh::{Mesh, Triangles};
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::{Marker, Overlaid, Overlay, Segment, Shape};
 use binspace::raster::{Comparison, DepthImage, Image};
-use binspace::scene::{Builtin, Material, Scene};
+use binspace::scene::{Material, ObjError, ObjReport};
 use binspace::verify::Verification;
-use binspace::view::{Camera, CameraError, Projection};
+use binspace::view::{CameraError, Projection};
 use binspace::{
-    Bounds, BspTree, BuildOptions, Child, Culling, Error, Fragment, FrameBuilder, Frustum, Grid,
-    Heuristic, Hit, Location, Node, ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
-    Viewpoint,
+    Bounds, Child, Culling, Error, Fragment, Frustum, Grid, Hit, Location, Node,
+    ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
 };
+use testkit::prelude::*;
 
 /// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
 macro_rules! assert_shared {
@@ -29,47 +29,19 @@ macro_rules! assert_shared {
     };
 }
 
-// Trees, and what they hand out.
+// Trees, and what they hand out; building, and what can go wrong.
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
-assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint,);
+assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint);
 assert_shared!(Overlay, Overlaid<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
-
-// Building, and what can go wrong.
-assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, CameraError,);
-
+assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, CameraError);
 // Geometry.
-assert_shared!(
-    Faces,
-    Preparation,
-    Lattice,
-    PreparedPlane,
-    StoredVertex,
-    Vertex,
-    Eye,
-    EdgeLine,
-    PlaneId,
-    PlaneKind,
-    Side,
-    VertexId,
-    VertexKind,
-);
-
+assert_shared!(Faces, Preparation, Lattice, PreparedPlane, StoredVertex, Vertex, Eye, EdgeLine);
+assert_shared!(PlaneId, PlaneKind, Side, VertexId, VertexKind);
 // Scenes, cameras, pictures.
-assert_shared!(
-    Scene,
-    Material,
-    Builtin,
-    Camera,
-    Projection,
-    Image,
-    DepthImage,
-    Comparison,
-    Verification,
-);
-
-assert_shared!(binspace::scene::ObjError, binspace::scene::ObjReport);
+assert_shared!(Scene, Material, Builtin, Camera, Projection, Image, DepthImage, Comparison);
+assert_shared!(Verification, ObjError, ObjReport);
 
 #[test]
 fn a_tree_is_ordered_by_several_threads_at_once() {

@@ -1,12 +1,10 @@
 //! Size hints are hints: an iterator that is wrong about its size is read all the same, wherever one
 //! is taken.
 
-use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::scene::{Material, Scene};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Frustum};
-use std::ops::ControlFlow;
+use binspace::Frustum;
+use binspace::scene::Material;
 use testkit::hinted::{Hint, Hinted};
+use testkit::prelude::*;
 
 const MOST: usize = usize::MAX;
 

@@ -1,15 +1,11 @@
 //! Triangles so thin that rounding takes their normals: the tolerance is a length at their planes too.
 //! Trees are judged by exact distances.
 
+use binspace::Ray;
+use binspace::glam::Vec3;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-use binspace::glam::{DVec3, Vec3};
-use binspace::scene::Scene;
-use binspace::{BspTree, BuildOptions, Heuristic, Ray, Viewpoint};
-use testkit::dice::Dice;
-use testkit::model;
-use testkit::rational::{self, Rational};
+use testkit::prelude::*;
 use testkit::scenes::trees;
 use testkit::slivers::{Point, Sliver, along, whole};
 

@@ -1,10 +1,7 @@
 //! Trees of frames, of the small sets that are divided from a table: squares of a few planes, many on
 //! one plane and many cut.
 
-use binspace::{BuildOptions, FrameBuilder};
-use testkit::dice::Dice;
-use testkit::effort::seeds;
-use testkit::enough;
+use testkit::prelude::*;
 
 type Square = [[f64; 3]; 4];
 

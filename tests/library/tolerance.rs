@@ -1,9 +1,7 @@
 //! Which orders the coplanar tolerance leaves open, and which not: the statements of `docs/guide/exact.md`.
 
-use binspace::glam::{DVec2, DVec3, dvec3};
-use binspace::internals::{Faces, LATTICE_LIMIT};
-use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
-use testkit::enough;
+use binspace::internals::LATTICE_LIMIT;
+use testkit::prelude::*;
 
 /// A rectangle at a height.
 fn layer(low: DVec2, high: DVec2, z: f64) -> [DVec3; 4] {

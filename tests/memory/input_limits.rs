@@ -1,13 +1,12 @@
 //! Wrong size hints, and polygons without end.
 
+use super::{counted, most_bytes};
+use binspace::Error;
+use binspace::internals::MAX_CORNERS;
 use std::cell::Cell;
 use std::iter;
-
-use super::{counted, most_bytes};
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, MAX_CORNERS};
-use binspace::{BspTree, BuildOptions, Error, Polygon};
 use testkit::hinted::Hinted;
+use testkit::prelude::*;
 
 const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 

@@ -2,8 +2,8 @@
 
 use super::{allocations, counted, least_allocations};
 use binspace::layers::{Layer, Layers};
-use testkit::enough;
 use testkit::pages::{Page, SCREEN};
+use testkit::prelude::*;
 
 /// Reads all of a page, so that nothing of it is left out.
 fn read(page: &Layers) -> usize {

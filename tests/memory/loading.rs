@@ -1,8 +1,7 @@
 //! A file asks for memory in proportion to its size, whatever lengths it claims.
 
 use super::{counted, most_bytes};
-use binspace::{BspTree, scene};
-use testkit::enough;
+use testkit::prelude::*;
 
 #[test]
 fn a_false_length_asks_for_little_memory() {

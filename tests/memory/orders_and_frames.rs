@@ -1,7 +1,8 @@
 //! A second order into the same list allocates nothing, nor does a second frame.
 
 use super::{allocations, counted, least_allocations};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Ray, Viewpoint, scene};
+use binspace::Ray;
+use testkit::prelude::*;
 
 #[test]
 fn a_second_order_allocates_nothing() {

@@ -1,11 +1,10 @@
 //! Closed bodies stay closed when they are cut and welded, and do not when they are not welded.
 
 use super::{is_closed_once, open_edges};
-use binspace::glam::{DVec3, vec3};
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Heuristic, Tolerance};
+use binspace::Tolerance;
+use binspace::glam::vec3;
 use std::ops::Range;
-use testkit::enough;
+use testkit::prelude::*;
 use testkit::real_scenes;
 use testkit::scenes::polygons;
 use testkit::shapes::{cuboid, rotation};

@@ -1,18 +1,15 @@
 //! Points, triangles and weights against exact rationals.
 
 use super::open_edges;
-use binspace::BspTree;
-use binspace::glam::DVec3;
 use binspace::internals::{EdgeLine, LATTICE_LIMIT};
 use binspace::mesh::Mesh;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use std::collections::HashMap;
-use testkit::enough;
-use testkit::hard::{self, Tolerance};
+use testkit::hard::Tolerance;
 use testkit::model::{Face, main_axis};
-use testkit::rational::{self, Point, difference, product};
-use testkit::tally::tally;
+use testkit::prelude::*;
+use testkit::rational::{Point, difference, product};
 
 /// What was checked.
 #[derive(Debug, Default)]

@@ -1,11 +1,7 @@
 //! Many polygons that meet in one place: they have one point there.
 
-use binspace::glam::{DVec3, dvec3};
-use binspace::{BuildOptions, Heuristic};
 use std::f64::consts::{SQRT_2, TAU};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use testkit::prelude::*;
 
 /// Integers of up to `bits` bits, most of them with all.
 fn whole(dice: &mut Dice, bits: i32) -> DVec3 {

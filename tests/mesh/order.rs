@@ -1,7 +1,7 @@
 //! Indices written for a viewpoint, against the order of the fragments.
 
 use binspace::mesh::Triangles;
-use binspace::{BspTree, Viewpoint, scene};
+use testkit::prelude::*;
 
 const EYES: [Viewpoint; 3] = [
     Viewpoint::Eye(binspace::glam::dvec3(3.0, 1.0, 2.0)),

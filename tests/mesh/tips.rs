@@ -1,9 +1,8 @@
 //! Tips that a plane cuts off a face as its corners were moved, and not as they were given.
 
 use crate::mesh::exact::{Seen, check_moved};
-use binspace::glam::DVec3;
-use binspace::{BuildOptions, Fragment, Heuristic};
-use testkit::dice::Dice;
+use binspace::Fragment;
+use testkit::prelude::*;
 
 /// How far the topmost corner of a quad is given below the plane of the others: less than the tolerance.
 const OFF: f64 = 1.0 / 64.0;

@@ -1,7 +1,7 @@
 //! Texture coordinates, normals and colours of corners.
 
 use super::{read, with_corners};
-use binspace::glam::{DVec2, DVec3};
+use testkit::prelude::*;
 
 #[test]
 fn corners_keep_what_the_file_gives_them() {

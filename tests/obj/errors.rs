@@ -2,7 +2,7 @@
 
 use crate::obj::{CORNERS, read, with_corners};
 use binspace::internals::MAX_CORNERS;
-use binspace::scene::Scene;
+use testkit::prelude::*;
 
 /// Line, face and message of the error.
 fn refused(text: impl AsRef<[u8]>) -> (Option<usize>, Option<usize>, String) {

@@ -1,9 +1,8 @@
 //! What is kept of faces, and how they may be written.
 
 use crate::obj::{CORNERS, read, sides, with_corners};
-use binspace::glam::{DVec3, dvec3};
-use binspace::scene::{self, ObjReport, Scene};
-use testkit::effort::times;
+use binspace::scene::ObjReport;
+use testkit::prelude::*;
 
 #[test]
 fn polygons_keep_their_sides_order_and_place() {

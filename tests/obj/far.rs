@@ -1,10 +1,9 @@
 //! Files far from the origin, as geodata are: their decimals say how precise they are, wherever they lie.
 
 use std::fmt::Write;
+use testkit::prelude::*;
 
 use super::read;
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 
 /// A ground of 100 m by 100 m at a place, and two slabs on it, a given number of decimal units apart; the ground
 /// is not quite level.

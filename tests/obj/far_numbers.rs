@@ -1,8 +1,9 @@
 //! Faces that name vertices far beyond those of the file: an error, before any memory is asked for.
 
 use std::fs;
+use testkit::prelude::*;
 
-use binspace::scene::{ObjStream, Scene};
+use binspace::scene::ObjStream;
 
 use super::file;
 

@@ -1,8 +1,9 @@
 //! Materials and the libraries they come from.
 
 use crate::obj::{read_with, with_corners};
-use binspace::scene::{Material, Scene};
+use binspace::scene::Material;
 use std::path::Path;
+use testkit::prelude::*;
 
 #[test]
 fn materials_come_from_the_library() {

@@ -13,9 +13,10 @@ mod precision;
 mod real_scenes;
 mod stream;
 
-use binspace::scene::{ObjError, ObjReport, Scene};
+use binspace::scene::{ObjError, ObjReport};
 use std::fs;
 use std::path::{Path, PathBuf};
+use testkit::prelude::*;
 
 fn read(text: impl AsRef<[u8]>) -> Result<(Scene, ObjReport), ObjError> {
     Scene::from_obj("test.obj", text.as_ref(), |_| None)

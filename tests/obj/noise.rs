@@ -1,9 +1,9 @@
 //! Bytes, words and damaged files: anything is read or refused, and nothing panics.
 
 use crate::obj::{read, with_corners};
-use binspace::scene::{ObjError, ObjReport, Scene};
+use binspace::scene::{ObjError, ObjReport};
 use proptest::prelude::*;
-use testkit::effort::cases;
+use testkit::prelude::*;
 
 /// What a scene read from anything must satisfy.
 fn check(result: Result<(Scene, ObjReport), ObjError>) {

@@ -7,8 +7,9 @@ use std::process::Command;
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
+use testkit::prelude::*;
 
-use binspace::scene::{ObjStream, Scene};
+use binspace::scene::ObjStream;
 
 use super::folder;
 

@@ -1,10 +1,7 @@
 //! The last decimal that a file writes is its precision.
 
-use binspace::glam::{DVec2, DVec3};
-use binspace::scene::Scene;
-use binspace::{BspTree, Viewpoint};
 use std::fmt::Write;
-use testkit::enough;
+use testkit::prelude::*;
 
 use super::{read, with_corners};
 

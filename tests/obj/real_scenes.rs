@@ -1,10 +1,8 @@
 //! Real files, where there are any: the folder of them is what `BINSPACE_SCENES` names.
 
 use crate::obj::sides;
-use binspace::glam::DVec3;
-use binspace::scene::{self, Scene};
 use std::path::Path;
-use testkit::enough;
+use testkit::prelude::*;
 use testkit::real_scenes;
 
 /// The manifest's rows: name, faces, triangles, quads, larger, low, high.

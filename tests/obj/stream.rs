@@ -1,11 +1,10 @@
 //! Files read polygon by polygon: the same polygons, materials, precision and errors.
 
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
+use testkit::prelude::*;
 
-use binspace::glam::DVec3;
-use binspace::scene::{ObjStream, Scene};
+use binspace::scene::ObjStream;
 
 /// A file with a material library.
 fn file(test: &str, text: impl AsRef<[u8]>) -> PathBuf {

@@ -1,7 +1,8 @@
 //! A cleared overlay is as one that was never given anything.
 
+use binspace::Preparation;
 use binspace::overlay::{Overlay, Shapes};
-use binspace::{BspTree, Preparation, scene};
+use testkit::prelude::*;
 
 #[test]
 fn nothing_of_what_was_prepared_is_left_in_a_cleared_overlay() {

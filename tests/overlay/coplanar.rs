@@ -1,9 +1,8 @@
 //! What lies in one plane comes in input order: polygons, lines, points. And an overlay of nothing
 //! changes nothing.
 
-use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shape, Shapes};
-use binspace::{BspTree, BuildOptions, Viewpoint, scene};
+use testkit::prelude::*;
 
 fn square(x: f64, z: f64) -> Vec<DVec3> {
     let point = |a: f64, b: f64| dvec3(x + a, b, z);

@@ -1,8 +1,7 @@
 //! What moves is cut where it must be, and no more.
 
-use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::Overlay;
-use binspace::{BspTree, scene};
+use testkit::prelude::*;
 
 /// Small polygons in free air stay whole; one across the whole scene is cut by a few of its planes,
 /// not by all.

@@ -1,9 +1,8 @@
 //! Crowds go to one side of a plane at once, by their boxes: only where each of them would go there.
 
-use binspace::glam::{DMat3, DVec3, dvec3};
+use binspace::glam::DMat3;
 use binspace::overlay::{Overlay, Shape, Shapes};
-use binspace::{BspTree, BuildOptions, Viewpoint};
-use testkit::enough;
+use testkit::prelude::*;
 
 /// Polygons above each other, each tilted a little, and as many lines; so many that their box is
 /// looked at.

@@ -1,11 +1,7 @@
 //! What an overlay refuses, and what is left of it then.
 
-use std::ops::ControlFlow;
-use testkit::enough;
-
-use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shapes};
-use binspace::{BspTree, BuildOptions, Polygon, Viewpoint, scene};
+use testkit::prelude::*;
 
 fn triangle(at: DVec3) -> [DVec3; 3] {
     [at, at + DVec3::X, at + DVec3::Y]

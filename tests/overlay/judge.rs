@@ -2,17 +2,15 @@
 //! all faces.
 
 use std::collections::HashMap;
+use testkit::prelude::*;
 
-use binspace::BspTree;
-use binspace::internals::Faces;
 use binspace::overlay::{Overlay, Shape};
-use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, for_each_run, zbuffer};
-use binspace::view::Camera;
+use binspace::raster::{Order, Outline, Painter, Piece, compare, for_each_run, zbuffer};
 
 use testkit::fragment_pixels::with_piece;
 use testkit::judge::{Verdict, ensure};
 use testkit::model::Face;
-use testkit::rational::{self, Point};
+use testkit::rational::Point;
 
 /// What was compared.
 #[derive(Debug, Default)]

@@ -1,14 +1,10 @@
 //! Lines and points among polygons that stay and polygons that move, judged by rays in rationals.
 
-use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shapes};
-use binspace::{BspTree, BuildOptions, Heuristic};
-use testkit::effort::seeds;
-use testkit::enough;
+use testkit::prelude::*;
 
 use crate::overlay::oracle::{self, Counts};
 use crate::overlay::tiling::{self, Given};
-use testkit::dice::Dice;
 
 type Corners = Vec<DVec3>;
 

@@ -1,13 +1,9 @@
 //! A mark on a curve is painted over the curve: over both segments that meet there.
 
 use std::collections::HashSet;
-use testkit::effort::seeds;
+use testkit::prelude::*;
 
-use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shape, Shapes};
-use binspace::{BspTree, BuildOptions, Viewpoint};
-
-use testkit::dice::Dice;
 
 /// Half the side of the grid.
 const ROOM: f64 = 64.0;

@@ -15,16 +15,13 @@ mod slivers;
 mod tiling;
 mod walks;
 
-use binspace::glam::DVec3;
 use binspace::overlay::Overlay;
-use binspace::view::{Camera, views};
-use binspace::{BspTree, Heuristic};
+use binspace::view::views;
 use judge::Judged;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
-use testkit::dice::Dice;
-use testkit::hard::{self, HardScene, Tolerance};
-use testkit::tally::{fail, tally};
+use testkit::hard::{HardScene, Tolerance};
+use testkit::prelude::*;
 
 type Corners = Vec<DVec3>;
 

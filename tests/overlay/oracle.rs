@@ -2,17 +2,15 @@
 //! It knows the faces, lines and points as they were rounded to the grid, and no plane that divides
 //! them.
 
-use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shape};
-use binspace::{BspTree, Viewpoint};
-use num_traits::{One, Signed};
-use std::cmp::Ordering;
+use num_traits::One;
+use testkit::prelude::*;
 
 use crate::overlay::sight::{
     GRID, between, crossing, hit, may_cross, may_hit, ratio, share_in_line, to_f64,
 };
 use crate::overlay::tiling::Given;
-use testkit::rational::{self, Plane, Point, Rational};
+use testkit::rational::{Plane, Point};
 
 type Verdict = Result<(), String>;
 

@@ -1,10 +1,10 @@
 //! Rays from an eye through segments and faces, in rationals.
 
-use binspace::glam::DVec3;
-use num_traits::{One, Signed, Zero};
+use num_traits::One;
+use testkit::prelude::*;
 
 use testkit::model::Face;
-use testkit::rational::{self, Plane, Point, Rational};
+use testkit::rational::{Plane, Point};
 
 /// Half the grid's side, in its steps.
 pub(crate) const GRID: f64 = (1u64 << 51) as f64;

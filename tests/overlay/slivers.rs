@@ -1,9 +1,8 @@
 //! Lines that are all but straight: the plane through two segments is that of a sliver, and its tolerance is
 //! a length too.
 
-use binspace::glam::{DVec3, dvec3};
 use binspace::overlay::{Overlay, Shape, Shapes};
-use binspace::{BuildOptions, Viewpoint};
+use testkit::prelude::*;
 
 #[test]
 fn a_line_that_is_all_but_straight_does_not_make_lines_coplanar() {

@@ -1,13 +1,12 @@
 //! What an overlay was given, and whether its pieces tile that.
 
-use binspace::BspTree;
-use binspace::glam::DVec3;
 use binspace::overlay::{Overlay, Shape};
+use testkit::prelude::*;
 
 use crate::overlay::oracle::Counts;
 use crate::overlay::sight::{between, to_f64};
 use testkit::model::Face;
-use testkit::rational::{self, Point};
+use testkit::rational::Point;
 
 /// What an overlay was given, on its grid.
 pub(crate) struct Given {

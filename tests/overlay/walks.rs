@@ -1,17 +1,12 @@
 //! Movers on random walks, frame after frame: no pixel is wrong.
 
-use binspace::BuildOptions;
-use binspace::glam::{DMat3, DVec3};
+use binspace::glam::DMat3;
 use binspace::overlay::{Overlay, Shapes};
-use binspace::scene::{self, Scene};
-use binspace::view::Camera;
-use testkit::effort::times;
-use testkit::enough;
+use testkit::prelude::*;
 
 use crate::overlay::judge::{self, Judged};
 use crate::overlay::oracle::{self, Counts};
 use crate::overlay::tiling::{self, Given};
-use testkit::dice::Dice;
 
 /// A polygon that walks and turns.
 struct Mover {

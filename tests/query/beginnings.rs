@@ -1,6 +1,7 @@
 //! Rays in the plane of a polygon that begin on its boundary.
 
-use binspace::{BspTree, Ray};
+use binspace::Ray;
+use testkit::prelude::*;
 
 /// The hit is the ray's own beginning, not a place that an edge defines.
 #[test]

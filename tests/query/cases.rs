@@ -1,9 +1,7 @@
 //! By hand: what the pages of `BspTree::hits` and `BspTree::is_blocked` say.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Ray};
-use std::cmp::Ordering;
-use testkit::enough;
+use binspace::Ray;
+use testkit::prelude::*;
 
 fn square(z: f64) -> Vec<[f64; 3]> {
     vec![[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 4.0, z], [0.0, 4.0, z]]

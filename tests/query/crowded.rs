@@ -1,7 +1,7 @@
 //! Thousands of polygons at one place. Were the time quadratic in their number, these would take minutes.
 
-use binspace::{BspTree, BuildOptions, Heuristic, Ray};
-use testkit::dice::Dice;
+use binspace::Ray;
+use testkit::prelude::*;
 
 fn polygons(tree: &BspTree, ray: Ray) -> Vec<usize> {
     tree.hits(ray).map(|hit| hit.polygon()).collect()

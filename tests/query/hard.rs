@@ -1,13 +1,9 @@
 //! Small scenes full of coincidences.
 
-use binspace::FrameBuilder;
 use proptest::prelude::*;
-use testkit::dice::Dice;
-use testkit::enough;
-use testkit::hard;
 use testkit::hits::{Oracle, Score};
+use testkit::prelude::*;
 use testkit::shots::Shots;
-use testkit::tally::{fail, tally};
 
 #[test]
 fn rays_hit_what_integers_say() {

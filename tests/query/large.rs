@@ -1,13 +1,9 @@
 //! Scenes of hundreds and thousands of faces.
 
-use binspace::glam::{DMat3, DVec3};
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::glam::DMat3;
 use rayon::prelude::*;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
 use testkit::hits::{Oracle, Score};
+use testkit::prelude::*;
 use testkit::scenes::{cells, polygons};
 use testkit::shapes;
 use testkit::shots::Shots;

@@ -1,6 +1,7 @@
 //! How far along a ray is searched for what may come before the nearest hit so far.
 
-use binspace::{BspTree, BuildOptions, Heuristic, Ray};
+use binspace::Ray;
+use testkit::prelude::*;
 
 /// The numbers of the polygons that a ray hits, without boxes and with them.
 fn hits(tree: &BspTree, ray: Ray) -> Vec<usize> {

@@ -1,15 +1,11 @@
 //! Where points are, by planes in rationals.
 
-use binspace::glam::DVec3;
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, Child, Heuristic, Ray};
-use std::cmp::Ordering;
-use testkit::dice::Dice;
-use testkit::enough;
+use binspace::{Child, Ray};
 use testkit::hits::Oracle;
+use testkit::prelude::*;
+use testkit::rational;
 use testkit::shots::Shots;
 use testkit::views::in_lattice;
-use testkit::{model, rational};
 
 #[test]
 fn points_are_where_rationals_say() {

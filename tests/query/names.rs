@@ -1,11 +1,9 @@
 //! From what the library says in public, everything about a hit can be computed exactly.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Grid, Ray, scene};
-use num_traits::{One, Signed, Zero};
-use testkit::dice::Dice;
-use testkit::enough;
-use testkit::rational::{self, Plane, Point, Rational};
+use binspace::{Grid, Ray};
+use num_traits::One;
+use testkit::prelude::*;
+use testkit::rational::{Plane, Point};
 use testkit::shots::Shots;
 
 fn world(grid: Grid, point: [i64; 3]) -> Point {

@@ -6,12 +6,10 @@
 
 #![allow(clippy::print_stderr, reason = "the scores are shown on request")]
 
-use binspace::BspTree;
-use binspace::scene::Scene;
 use rayon::prelude::*;
-use testkit::dice::Dice;
 use testkit::effort::effort;
 use testkit::hits::{Oracle, Score};
+use testkit::prelude::*;
 use testkit::real_scenes;
 use testkit::shots::Shots;
 

@@ -1,19 +1,12 @@
 //! Which fragments meet a region, by clipping every one of them in rationals.
 
-use binspace::glam::DVec3;
-use binspace::scene;
-use binspace::{Bounds, BspTree, BuildOptions, Culling, Frustum, Viewpoint};
+use binspace::{Bounds, Culling, Frustum};
 use proptest::prelude::*;
-use std::cmp::Ordering;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
-use testkit::hard;
 use testkit::hits::Oracle;
-use testkit::rational::{self, Plane, Point};
+use testkit::prelude::*;
+use testkit::rational::{Plane, Point};
 use testkit::shapes::sheet;
 use testkit::shots::Shots;
-use testkit::tally::{fail, tally};
 
 /// What was compared: of all pairs of a fragment and a region.
 #[derive(Clone, Copy, Debug, Default)]

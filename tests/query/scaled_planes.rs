@@ -1,8 +1,8 @@
 //! A region's plane is the same whatever power of two its numbers are multiplied by, down to the least that
 //! there are.
 
-use binspace::glam::{DVec3, dvec3};
-use binspace::{BspTree, Culling, Frustum, Viewpoint};
+use binspace::{Culling, Frustum};
+use testkit::prelude::*;
 
 /// A number times a power of two that may be beyond the range of `f64`.
 fn scaled(value: f64, exponent: i32) -> f64 {

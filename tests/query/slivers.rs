@@ -1,8 +1,7 @@
 //! Rays among slivers, at the default tolerance.
 
-use binspace::BuildOptions;
-use testkit::dice::Dice;
 use testkit::hits::{Oracle, Score};
+use testkit::prelude::*;
 use testkit::scenes::trees;
 use testkit::shots::Shots;
 use testkit::slivers::{Point, Sliver, along, whole};

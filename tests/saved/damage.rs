@@ -1,9 +1,7 @@
 //! Files that are cut short, damaged, forged, or of something else.
 
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, FrameBuilder};
 use testkit::effort::effort;
-use testkit::enough;
+use testkit::prelude::*;
 use testkit::saved::{bytes, checksum, seal};
 use testkit::targets::saved::try_file;
 

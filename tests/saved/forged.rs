@@ -1,15 +1,11 @@
 //! Forged nodes and fragments, in files of right faces: what is read is a right tree, of the planes that the
 //! file names.
 
-use std::time::Instant;
-
-use binspace::{BspTree, BuildOptions, Heuristic, scene};
-use testkit::dice::Dice;
-use testkit::effort::effort;
-use testkit::enough;
-use testkit::saved::bytes;
-
 use super::File;
+use std::time::Instant;
+use testkit::effort::effort;
+use testkit::prelude::*;
+use testkit::saved::bytes;
 
 type Square = [[f64; 3]; 4];
 

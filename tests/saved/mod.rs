@@ -8,7 +8,7 @@ mod scenes;
 mod threads;
 mod values;
 
-use binspace::BspTree;
+use testkit::prelude::*;
 use testkit::saved::{bytes, seal};
 
 /// A tree's file, which is changed in places.

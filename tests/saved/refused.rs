@@ -1,8 +1,7 @@
 //! Each check of a file of a tree: a file that is wrong in that alone is refused, and says so.
 
-use binspace::{BspTree, BuildOptions};
-
 use super::File;
+use testkit::prelude::*;
 
 /// Where the parts of the file are; `BspTree::write` describes the layout.
 const TOLERANCE: usize = 72;

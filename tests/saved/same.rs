@@ -1,18 +1,12 @@
 //! What is read is what was written, bit for bit.
 
-use std::io;
-
-use binspace::glam::DVec3;
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
 use proptest::prelude::*;
-use testkit::dice::Dice;
-use testkit::effort::cases;
-use testkit::enough;
+use std::io;
+use testkit::prelude::*;
 use testkit::rays::Rays;
 use testkit::saved::{bytes, use_all};
 use testkit::snapshot::{Snapshot, order};
-use testkit::{hard, views};
+use testkit::views;
 
 fn again(tree: &BspTree) -> BspTree {
     let file = bytes(tree);

@@ -1,9 +1,7 @@
 //! Scenes that are written and read back.
 
-use binspace::BspTree;
-use binspace::glam::DVec3;
-use binspace::scene::{self, Material, Scene};
-use testkit::enough;
+use binspace::scene::Material;
+use testkit::prelude::*;
 use testkit::saved::seal;
 
 fn bytes(scene: &Scene) -> Vec<u8> {

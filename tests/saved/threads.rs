@@ -1,11 +1,8 @@
 //! What is read, and which fault is found, on any number of threads.
 
-use binspace::BspTree;
-use binspace::scene;
-use testkit::enough;
-use testkit::saved::bytes;
-
 use super::File;
+use testkit::prelude::*;
+use testkit::saved::bytes;
 
 /// Where the faces begin; each is 12 bytes.
 const FACES: usize = 88;

@@ -1,10 +1,9 @@
 //! Numbers of a file that no tree has: each is refused, and the message says which it is.
 
-use binspace::partition::Extent;
-use binspace::{BspTree, BuildOptions};
-use testkit::shapes::sheet;
-
 use super::File;
+use binspace::partition::Extent;
+use testkit::prelude::*;
+use testkit::shapes::sheet;
 
 /// Where the number of faces is; `BspTree::write` describes the layout.
 const FACES: usize = 80;

@@ -1,8 +1,7 @@
 //! Cases from the tests of other libraries, re-expressed.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 use testkit::judge::judge;
+use testkit::prelude::*;
 use testkit::snapshot::polygons;
 
 type Square = Vec<DVec3>;

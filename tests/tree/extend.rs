@@ -1,15 +1,7 @@
 //! Polygons added to a finished tree.
 
-use std::ops::ControlFlow;
-use testkit::effort::seeds;
-use testkit::enough;
-
-use binspace::glam::DVec3;
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Heuristic};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::scenes::polygons;
-use testkit::shapes::Corners;
 use testkit::snapshot::Snapshot;
 
 /// Options under which a part of a scene has the grid and the tolerance of all of it.

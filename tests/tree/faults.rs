@@ -1,8 +1,7 @@
 //! Faults that were found once, reduced.
 
-use binspace::BuildOptions;
-use binspace::glam::DVec3;
 use testkit::judge::judge;
+use testkit::prelude::*;
 
 /// Convexity was tested along one of two axes in which the plane is equally steep, and the corners
 /// moved onto the plane along the other.

@@ -1,28 +1,16 @@
 //! One builder, scene after scene, against trees that are built alone.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, Tuning, tree_of};
-use binspace::{BspTree, BuildOptions, Error, Fragment, FrameBuilder, Polygon, Viewpoint};
-use proptest::prelude::*;
-use testkit::enough;
-
 use crate::tree::{heuristic, shoot};
-use testkit::dice::Dice;
-use testkit::hard;
+use binspace::Error;
+use binspace::internals::{Tuning, tree_of};
+use proptest::prelude::*;
+use testkit::prelude::*;
 use testkit::rays::Rays;
-use testkit::snapshot::order;
-use testkit::tally::{fail, tally};
+use testkit::snapshot::{Snapshot, order};
 use testkit::{orders, views};
 
-fn of(fragment: &Fragment<'_>) -> impl PartialEq + std::fmt::Debug + use<> {
-    let vertices: Vec<_> = fragment.vertices().map(|v| v.to_array().map(f64::to_bits)).collect();
-    let edges: Vec<_> = fragment.edges().collect();
-    (fragment.index(), fragment.polygon(), fragment.is_whole(), vertices, edges)
-}
-
 fn assert_same(one: &BspTree, other: &BspTree, viewpoint: Viewpoint) {
-    assert_eq!(one.len(), other.len());
-    assert!(one.fragments().map(|f| of(&f)).eq(other.fragments().map(|f| of(&f))));
+    assert_eq!(Snapshot::of(one), Snapshot::of(other));
     assert_eq!(order(one, viewpoint), order(other, viewpoint));
 }
 

@@ -1,8 +1,7 @@
 //! Input with little or nothing in it, and viewpoints that are nowhere: stated results, no panics.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Heuristic, Polygon, Viewpoint};
 use testkit::orders;
+use testkit::prelude::*;
 use testkit::snapshot::polygons;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

@@ -14,14 +14,10 @@ mod same;
 mod scale;
 mod tilted;
 
-use binspace::{BspTree, Heuristic};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
-use testkit::dice::Dice;
-use testkit::enough;
-use testkit::hard;
+use testkit::prelude::*;
 use testkit::rays::Rays;
-use testkit::tally::{fail, tally};
 use testkit::{judge, orders, views};
 
 fn heuristic() -> impl Strategy<Value = Heuristic> {

@@ -1,15 +1,11 @@
 //! Small cards of one plane, whose corners are rounded by less than the tolerance: by no heuristic is a
 //! card cut by the plane of one that lies within the tolerance of its own.
 
+use binspace::glam::{DQuat, EulerRot};
+use binspace::internals::PlaneKind;
 use std::collections::HashMap;
-
-use binspace::glam::{DQuat, DVec2, DVec3, EulerRot};
-use binspace::internals::{Faces, PlaneId, PlaneKind};
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
-
-use testkit::dice::Dice;
-use testkit::model;
-use testkit::rational::{Rational, exact, scalar};
+use testkit::prelude::*;
+use testkit::rational::{exact, scalar};
 use testkit::scenes::trees;
 
 /// About four steps of `f32`.

@@ -1,20 +1,13 @@
 //! Orders against the tree's planes, of which exact rationals say on which side the eye is.
 
-use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, Heuristic, Node};
+use binspace::Node;
 use proptest::prelude::*;
-use std::cmp::Ordering;
 use std::ops::Range;
-use testkit::dice::Dice;
-use testkit::effort::cases;
-use testkit::hard;
 use testkit::judge::{Verdict, ensure};
+use testkit::orders;
+use testkit::prelude::*;
 use testkit::rational::Plane;
-use testkit::tally::fail;
 use testkit::views::View;
-use testkit::{model, orders};
 
 /// A tree with its planes in rationals.
 struct Sides<'t> {

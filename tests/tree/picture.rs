@@ -1,19 +1,14 @@
 //! The painter's picture of a hard scene against the depth buffer's, which knows no tree.
 
-use binspace::glam::DVec3;
 use binspace::paint::paint_tree;
 use binspace::raster::{Image, Verdict, zbuffer};
 use binspace::verify::{Verification, verify};
-use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::view::views;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
-use testkit::enough;
-
-use testkit::dice::Dice;
-use testkit::hard::{self, HardScene, Tolerance};
+use testkit::hard::{HardScene, Tolerance};
+use testkit::prelude::*;
 use testkit::rays::Rays;
-use testkit::tally::{fail, tally};
 use testkit::views::some_view;
 
 const SIZE: [u32; 2] = [40, 30];

@@ -1,10 +1,7 @@
 //! Builds that say how far they are, and can be cancelled.
 
-use std::ops::ControlFlow;
-use testkit::enough;
-
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Error, Heuristic, Progress};
+use binspace::{Error, Progress};
+use testkit::prelude::*;
 use testkit::snapshot::Snapshot;
 
 const BY: [Heuristic; 3] =

@@ -1,11 +1,7 @@
 //! What must give the same tree, bit for bit.
 
-use binspace::glam::DVec3;
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
 use proptest::prelude::*;
-use testkit::effort::cases;
-use testkit::hard;
+use testkit::prelude::*;
 use testkit::snapshot::{Snapshot, order};
 
 #[test]

@@ -1,12 +1,11 @@
 //! Large and deep: no recursion, no quadratic work, budgets that hold.
 
-use binspace::glam::DVec3;
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Error, Heuristic, Viewpoint};
+use binspace::Error;
 use std::thread;
-use testkit::dice::Dice;
+use testkit::orders;
+use testkit::prelude::*;
 use testkit::scenes::scene_of;
-use testkit::{enough, orders};
+use testkit::shapes::rectangle;
 
 const LARGE: u32 = 100_000;
 
@@ -87,24 +86,17 @@ fn a_convex_sphere_by_its_own_planes_is_a_list_that_needs_a_small_stack() {
 
 /// Squares in one plane, side by side.
 pub(crate) fn mosaic(across: u32) -> Scene {
-    let mut scene = Scene::new("mosaic", DVec3::Z);
-    for i in 0..across * across {
-        let (x, y) = (f64::from(i % across), f64::from(i / across));
-        let corner = |u: f64, v: f64| DVec3::new(x + u, y + v, 0.5);
-        scene.push([corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], 0);
-    }
-    scene
+    let square = |i: u32| {
+        let at = [f64::from(i % across), f64::from(i / across)];
+        rectangle(at, at.map(|c| c + 1.0), 0.5)
+    };
+    scene_of("mosaic", (0..across * across).map(square))
 }
 
 /// Squares in one plane, each inside the one before.
 fn nested(count: u32) -> Scene {
-    let mut scene = Scene::new("nested", DVec3::Z);
-    for i in 0..count {
-        let half = f64::from(count - i);
-        let corner = |u: f64, v: f64| DVec3::new(u * half, v * half, 1.0);
-        scene.push([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], 0);
-    }
-    scene
+    let half = |i: u32| f64::from(count - i);
+    scene_of("nested", (0..count).map(|i| rectangle([-half(i); 2], [half(i); 2], 1.0)))
 }
 
 /// Squares that overlap, or triangles, at random in a tilted plane that all corners are in exactly.
@@ -153,10 +145,7 @@ fn coplanar_polygons_share_one_node() {
 
 #[test]
 fn a_hundred_thousand_duplicates_share_one_node() {
-    let mut scene = Scene::new("duplicates", DVec3::Z);
-    for _ in 0..LARGE {
-        scene.push([DVec3::ZERO, DVec3::X, DVec3::ONE], 0);
-    }
+    let scene = scene_of("duplicates", (0..LARGE).map(|_| [DVec3::ZERO, DVec3::X, DVec3::ONE]));
     for &heuristic in Heuristic::ALL {
         let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).unwrap();
         assert_eq!((tree.len(), tree.stats().nodes), (LARGE as usize, 1), "{heuristic}");

@@ -1,14 +1,11 @@
 //! Scenes turned off the axes, where free planes cut and own planes have to help.
 
-use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
-
-use binspace::glam::{DQuat, DVec3};
-use binspace::scene::{self, Scene, ScenePolygon};
-use binspace::{BspTree, BuildOptions, Viewpoint};
-
 use super::scale::{mosaic, with_a_small_stack};
+use binspace::glam::DQuat;
+use binspace::scene::ScenePolygon;
+use std::f64::consts::{PI, TAU};
 use testkit::orders;
+use testkit::prelude::*;
 use testkit::scenes::scene_of;
 
 /// The same turned away from all axes, where every free plane cuts.

@@ -1,13 +1,9 @@
 //! Boxes against exact vertices.
 
 use crate::walk::trees;
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Heuristic};
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
 use testkit::model::Face;
-use testkit::rational::{self, Point, Rational};
+use testkit::prelude::*;
+use testkit::rational::Point;
 
 /// The exact vertices of each fragment, in the world.
 fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {

@@ -1,32 +1,17 @@
 //! What culled orders leave out, against brute force in rationals and against exact pictures.
 
 use crate::walk::{trees, viewpoints};
-use binspace::glam::DVec3;
-use binspace::internals::PlaneId;
 use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
-use binspace::raster::Rays;
-use binspace::view::{self, Camera};
-use binspace::{
-    Bounds, BspTree, BuildOptions, Culling, Frustum, Heuristic, Sides, Viewpoint, scene,
-};
-use num_traits::Zero;
+use binspace::view;
+use binspace::{Bounds, Culling, Frustum, Sides};
 use proptest::prelude::*;
-use std::cmp::Ordering;
-use testkit::dice::Dice;
-use testkit::effort::cases;
-use testkit::enough;
-use testkit::model;
-use testkit::rational::{self, Plane, Rational};
+use testkit::prelude::*;
+use testkit::rational::Plane;
 use testkit::scenes::cells;
 use testkit::shapes;
+use testkit::snapshot::order;
 use testkit::views::View;
-
-fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
-    let mut order = Vec::new();
-    tree.back_to_front_into(viewpoint, &mut order);
-    order
-}
 
 /// A culled order, after checks that it is a part of the whole order, from both ends.
 fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling<'_>) -> Vec<u32> {

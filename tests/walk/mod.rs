@@ -7,10 +7,7 @@ mod occlusion;
 mod order;
 mod sides;
 
-use binspace::glam::DVec3;
-use binspace::scene;
-use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Viewpoint};
-use testkit::dice::Dice;
+use testkit::prelude::*;
 use testkit::scenes::{cells, polygons};
 
 /// Polygons with area of many kinds: cut, moved by the tolerance, far out, in one plane, walls of cells.

@@ -1,11 +1,9 @@
 //! Nodes and their planes.
 
 use crate::walk::{scenes, trees};
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Child, Heuristic, Node};
-use num_traits::Signed;
-use testkit::enough;
-use testkit::rational::{self, Plane};
+use binspace::{Child, Node};
+use testkit::prelude::*;
+use testkit::rational::Plane;
 
 /// All nodes below a node, depth first, by its children.
 fn below(root: Node<'_>) -> Vec<Node<'_>> {

@@ -1,14 +1,12 @@
 //! Coverage masks against exact pictures.
 
 use crate::walk::trees;
-use binspace::glam::DVec3;
 use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
-use binspace::raster::Rays;
-use binspace::view::{self, Camera};
-use binspace::{BspTree, Flow, Part};
-use testkit::dice::Dice;
+use binspace::view;
+use binspace::{Flow, Part};
+use testkit::prelude::*;
 use testkit::scenes::cells;
 
 /// The fragments that a mask lets through, back to front, and how many parts were visited.

@@ -1,10 +1,8 @@
 //! Walks against whole orders.
 
 use crate::walk::{trees, viewpoints};
-use binspace::{BspTree, Flow, Node, Part, Viewpoint};
-use std::ops::ControlFlow;
-use testkit::dice::Dice;
-use testkit::enough;
+use binspace::{Flow, Node, Part};
+use testkit::prelude::*;
 
 /// The fragments and nodes that a walk comes to.
 fn walked(

@@ -1,13 +1,8 @@
 //! Back faces for eyes so far away, and so nearly in the polygons' planes, that rounded normals show the
 //! wrong side.
 
-use binspace::glam::DVec3;
-use binspace::internals::PlaneId;
-use binspace::{BspTree, Culling, Sides};
-use std::cmp::Ordering;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::model;
+use binspace::{Culling, Sides};
+use testkit::prelude::*;
 use testkit::rational::Plane;
 use testkit::views::View;
 

@@ -19,12 +19,20 @@ fn sampled(view: &View, fills: &HashMap<usize, [u8; 3]>) -> Vec<[f64; 3]> {
     let rays = Rays::sampled(&camera, tree.faces(), SAMPLES as u32).unwrap();
     let image = paint_tree(&tree, camera.viewpoint(), &rays);
     let width = view.pixels[0] as usize;
+    let faces = tree.faces();
+    let fill = |face: u32| if face == NONE { WHITE } else { fills[&faces.polygon(face)] };
     let mut sums = vec![[0.0; 3]; width * view.pixels[1] as usize];
-    for (at, &face) in image.faces().iter().enumerate() {
-        let (x, y) = (at % (width * SAMPLES) / SAMPLES, at / (width * SAMPLES) / SAMPLES);
-        let fill = if face == NONE { WHITE } else { fills[&tree.faces().polygon(face)] };
-        let sum: &mut [f64; 3] = &mut sums[y * width + x];
-        (0..3).for_each(|i| sum[i] += f64::from(fill[i]) / (SAMPLES * SAMPLES) as f64);
+    let mut add = |pixel: usize, face: u32, samples: usize| {
+        let (sum, fill) = (&mut sums[pixel], fill(face).map(f64::from));
+        (0..3).for_each(|i| sum[i] += fill[i] * samples as f64 / (SAMPLES * SAMPLES) as f64);
+    };
+    for (at, row) in image.faces().chunks_exact(SAMPLES).enumerate() {
+        let pixel = at / (width * SAMPLES) * width + at % width;
+        if row == [row[0]; SAMPLES] {
+            add(pixel, row[0], SAMPLES);
+        } else {
+            row.iter().for_each(|&face| add(pixel, face, 1));
+        }
     }
     sums
 }

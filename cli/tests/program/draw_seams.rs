@@ -43,48 +43,57 @@ impl Sampled {
         let rays = Rays::sampled(camera, tree.faces(), SAMPLES as u32).unwrap();
         let size = camera.size().map(|side| side as usize);
         let across = size[0] * SAMPLES;
-        let white = WHITE.map(f32::from);
-        let mut samples: Vec<([f32; 3], u64)> = vec![(white, 0); across * size[1] * SAMPLES];
+        // Lists of polygons, one behind the other, have numbers; that of the background alone is 0.
+        let mut colours = vec![WHITE.map(f32::from)];
+        let mut longer: HashMap<(u32, usize), u32> = HashMap::new();
+        let mut samples = vec![0; across * size[1] * SAMPLES];
         for fragment in tree.back_to_front(camera.viewpoint()) {
             let polygon = fragment.polygon();
             let opacity = (look.opacity)(polygon) as f32;
             // Of what is seen edge-on, and hidden in the drawing, there is no sample.
             let Some(fill) = look.fills.get(&polygon) else { continue };
+            let mut last = (u32::MAX, 0);
             for_each_pixel(tree, &fragment, &rays, |sample| {
-                let (colour, kind) = &mut samples[sample];
-                for (old, &new) in colour.iter_mut().zip(fill) {
-                    *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
+                let list = samples[sample];
+                if list != last.0 {
+                    let below = if opacity == 1.0 { 0 } else { list };
+                    let number = longer.entry((below, polygon)).or_insert_with(|| {
+                        let old = colours[below as usize];
+                        let blend = |i| old[i] * (1.0 - opacity) + f32::from(fill[i]) * opacity;
+                        colours.push([0, 1, 2].map(blend));
+                        colours.len() as u32 - 1
+                    });
+                    last = (list, *number);
                 }
-                let below = if opacity == 1.0 { 0 } else { *kind };
-                *kind = (below ^ (polygon as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                samples[sample] = last.1;
             });
         }
         let mut sampled =
             Self { size, means: vec![], kinds: vec![], is_open: vec![], contrasts: vec![] };
         for pixel in 0..size[0] * size[1] {
             let start = pixel / size[0] * SAMPLES * across + pixel % size[0] * SAMPLES;
-            let own =
-                (0..SAMPLES * SAMPLES).map(|k| samples[start + k / SAMPLES * across + k % SAMPLES]);
-            // Of one list of polygons, all samples have one colour.
+            let rows = (0..SAMPLES).map(|y| &samples[start + y * across..][..SAMPLES]);
             let first = samples[start];
-            if own.clone().all(|(_, kind)| kind == first.1) {
+            if rows.clone().all(|row| row == [first; SAMPLES]) {
                 sampled.contrasts.push(0.0);
-                sampled.means.push(first.0.map(f64::from));
-                sampled.is_open.push(first.1 == 0);
+                sampled.means.push(colours[first as usize].map(f64::from));
+                sampled.is_open.push(first == 0);
                 sampled.kinds.push(1);
                 continue;
             }
-            let kinds: HashSet<u64> = own.clone().map(|(_, kind)| kind).collect();
+            let kinds: HashSet<u32> = rows.clone().flatten().copied().collect();
             let span = |i: usize| {
-                let channel = own.clone().map(|(colour, _)| colour[i]);
+                let channel = kinds.iter().map(|&kind| colours[kind as usize][i]);
                 let ends = channel.fold([f32::MAX, f32::MIN], |[l, h], c| [l.min(c), h.max(c)]);
                 f64::from(ends[1] - ends[0])
             };
             sampled.contrasts.push((0..3).map(span).fold(0.0, f64::max));
-            let mean = own.fold([0.0; 3], |sum, (colour, _)| {
-                [0, 1, 2].map(|i: usize| sum[i] + f64::from(colour[i]))
-            });
-            sampled.means.push(mean.map(|sum| sum / (SAMPLES * SAMPLES) as f64));
+            let mut sum = [0.0; 3];
+            for &kind in rows.flatten() {
+                let colour = colours[kind as usize];
+                sum = [0, 1, 2].map(|i: usize| sum[i] + f64::from(colour[i]));
+            }
+            sampled.means.push(sum.map(|sum| sum / (SAMPLES * SAMPLES) as f64));
             sampled.is_open.push(kinds.contains(&0));
             sampled.kinds.push(kinds.len());
         }

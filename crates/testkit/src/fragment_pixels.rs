@@ -16,6 +16,16 @@ pub fn for_each_pixel(
     rays: &Rays,
     mut see: impl FnMut(usize),
 ) {
+    for_each_number(tree, fragment, rays, &mut see);
+}
+
+/// Not generic, so that it is compiled with the optimization of this crate.
+fn for_each_number(
+    tree: &BspTree,
+    fragment: &Fragment<'_>,
+    rays: &Rays,
+    see: &mut dyn FnMut(usize),
+) {
     let width = rays.size()[0] as usize;
     with_piece(fragment, |piece| {
         for_each_run(rays, tree.faces(), piece, |y, columns| {

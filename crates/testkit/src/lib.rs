@@ -1,6 +1,7 @@
 //! The test kit: exact oracles to judge the library by, scenes that are hard to decide, choices from
 //! a seed, and the bodies of the fuzz targets. Tests, benches and fuzzing share it.
 
+pub mod as_given;
 pub mod browser;
 pub mod cell_cover;
 pub mod cell_orders;
@@ -20,6 +21,7 @@ pub mod layered;
 pub mod model;
 pub mod orders;
 pub mod pages;
+pub mod prelude;
 pub mod rational;
 pub mod rays;
 pub mod real_scenes;

@@ -1,8 +1,26 @@
 //! Polygons with one difficulty each, from plain parameters.
 
+use binspace::Polygon;
 use binspace::glam::{DMat3, DQuat, DVec3};
 
 pub type Corners = Vec<DVec3>;
+
+/// A polygon that claims a precision.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    pub corners: Corners,
+    pub precision: f64,
+}
+
+impl Polygon for Claim {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.corners.iter().copied()
+    }
+
+    fn precision(&self) -> f64 {
+        self.precision
+    }
+}
 
 /// A rotation from any three numbers.
 pub fn rotation([a, b, c]: [f64; 3]) -> DMat3 {

@@ -310,7 +310,7 @@ fn sides_that_cross_near_their_ends_are_joined_there() {
 
 #[test]
 fn a_cancel_is_heard_within_one_polygon() {
-    for (name, corners) in large(300_000) {
+    for (name, corners) in large(120_000) {
         let (_, all) = steps(&corners);
         for share in [0, 1, 3, 5] {
             let callback = |watch: &Watch<'_>| match watch.examined() * 8 > all * share {

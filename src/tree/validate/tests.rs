@@ -153,7 +153,7 @@ fn trees_as_they_are_built_are_valid_and_their_cuts_are_those_counted() {
 
 #[test]
 fn cuts_are_counted_over_all_jobs_of_a_build() {
-    let tree = build(&scene::random_triangles(6000, 5), Heuristic::default());
+    let tree = build(&scene::random_triangles(4000, 5), Heuristic::default());
     let stats = tree.stats();
     assert!(stats.splits > 5000, "{stats:?}");
     assert_eq!((stats.fragments, verdict(&tree)), (stats.faces + stats.splits, String::new()));

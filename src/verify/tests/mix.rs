@@ -122,22 +122,26 @@ fn scenes() -> [Scene; 3] {
 fn opaque_by_depth_and_translucent_in_tree_order_is_the_exact_picture() {
     let (mut pixels, mut deep, mut wrong_unsorted) = (0, 0, 0);
     for scene in scenes() {
-        for heuristic in [Heuristic::Auto, Heuristic::Random { seed: 4 }] {
+        let trees = [Heuristic::Auto, Heuristic::Random { seed: 4 }].map(|heuristic| {
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic).with_tolerance(0.0);
-            let tree = options.build(scene.polygons()).unwrap();
-            for camera in cameras(&scene, 2) {
-                let rays = Rays::new(&camera, tree.faces()).unwrap();
-                let hits = hits(&rays, tree.faces());
-                let truth = sorted_picture(tree.faces(), &hits);
-                let order = written(&tree, camera.viewpoint());
-                let mixed = mixed_picture(&tree, &rays, &hits, &order);
+            (heuristic, options.build(scene.polygons()).unwrap())
+        });
+        // Both have the same faces.
+        let faces = trees[0].1.faces();
+        for camera in cameras(&scene, 2) {
+            let rays = Rays::new(&camera, faces).unwrap();
+            let hits = hits(&rays, faces);
+            let truth = sorted_picture(faces, &hits);
+            for (heuristic, tree) in &trees {
+                let order = written(tree, camera.viewpoint());
+                let mixed = mixed_picture(tree, &rays, &hits, &order);
                 let differ = truth.iter().zip(&mixed).filter(|(a, b)| a != b).count();
                 assert_eq!(differ, 0, "{} by {heuristic} from {camera:?}", scene.name());
                 pixels += hits.iter().filter(|hits| !hits.is_empty()).count();
                 deep += hits.iter().filter(|hits| hits.len() > 2).count();
                 let mut unsorted = order;
                 unsorted.sort_unstable();
-                let unsorted = mixed_picture(&tree, &rays, &hits, &unsorted);
+                let unsorted = mixed_picture(tree, &rays, &hits, &unsorted);
                 wrong_unsorted += truth.iter().zip(&unsorted).filter(|(a, b)| a != b).count();
             }
         }

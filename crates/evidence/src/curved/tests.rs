@@ -1,13 +1,12 @@
 //! Curved surfaces against exact rays.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use testkit::prelude::*;
 
 use super::{Cast, Patch, Shared, Sphere, Surfaces, mesh, nearest};
 use crate::panes::{panes, world_polygons};
 use crate::plain::PlainView;
-use binspace::internals::Faces;
-use binspace::raster::{NONE, Rays};
+use binspace::raster::NONE;
 
 const SIZE: [u32; 2] = [120, 90];
 

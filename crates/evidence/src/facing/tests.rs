@@ -1,11 +1,9 @@
 //! Back-face detection on convex bodies, and on others.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, cuboid};
-use binspace::raster::{Rays, compare, zbuffer};
-use binspace::scene;
-use binspace::view::Camera;
+use binspace::internals::cuboid;
+use binspace::raster::{compare, zbuffer};
 use proptest::prelude::*;
+use testkit::prelude::*;
 
 use super::Facing;
 use crate::method::{FrontFaces, InputOrder, Method, Newell};

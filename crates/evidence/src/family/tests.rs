@@ -1,6 +1,5 @@
 use super::Family;
-use binspace::scene::Scene;
-use glam::DVec3;
+use testkit::prelude::*;
 
 fn normal(polygon: &[DVec3]) -> DVec3 {
     (polygon[1] - polygon[0]).cross(polygon[2] - polygon[0]).normalize()

@@ -1,16 +1,14 @@
 //! Who hides whom against rays, permutations and pictures.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Eye, Faces, SplitMix64};
-use binspace::raster::{Order, Outline, Painter, Piece, Rays, compare, zbuffer};
-use binspace::scene::{self, Scene};
-use binspace::view::Camera;
-use binspace::{BspTree, Viewpoint};
+use binspace::internals::{Eye, SplitMix64};
+use binspace::raster::{Order, Outline, Painter, Piece, compare, zbuffer};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use num_traits::{One, Signed};
+use num_traits::One;
+use testkit::prelude::*;
 
-use testkit::vector::{difference, product, scalar};
+use testkit::model::Face;
+use testkit::vector::{difference, scalar};
 
 use super::cone::Seen;
 use super::{Hiding, overlaps_in_depth};
@@ -30,25 +28,16 @@ fn camera(scene: &Scene, from: DVec3) -> Camera {
 
 type Vector = [RBig; 3];
 
-/// How far along a ray a face is met inside of its edges, in rationals: the plane by the cross
-/// product of two edges, each edge by the point's side of it in the plane.
+/// How far along a ray a face is met inside of its edges, in rationals.
 fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> {
-    let exact = |c: &[f64; 3]| -> Vector { c.map(|c| RBig::from(IBig::from(c as i64))) };
-    let corners: Vec<Vector> = faces.corners(face).iter().map(exact).collect();
-    let triangle = faces.reference_triangle(face).map(|c| exact(&faces.corner(c)));
-    let normal =
-        product(&difference(&triangle[1], &triangle[0]), &difference(&triangle[2], &triangle[0]));
-    let speed = scalar(&normal, along);
+    let face = Face::new(faces, face);
+    let speed = scalar(&face.plane.normal, along);
     if speed.is_zero() {
         return None;
     }
-    let t = scalar(&normal, &difference(&triangle[0], from)) / speed;
+    let t = -face.plane.at(from) / speed;
     let at: Vector = std::array::from_fn(|i| &from[i] + &along[i] * &t);
-    let inside = (0..corners.len()).all(|k| {
-        let (a, b) = (&corners[k], &corners[(k + 1) % corners.len()]);
-        scalar(&product(&difference(b, a), &difference(&at, a)), &normal).is_positive()
-    });
-    (inside && t.is_positive()).then_some(t)
+    (face.place(&at).is_gt() && t.is_positive()).then_some(t)
 }
 
 /// Every pair that is found has a ray that says so: the one through the middle of the part where

@@ -1,11 +1,10 @@
 //! Form factors against closed formulas and sums of small parts.
 
 use std::f64::consts::PI;
+use testkit::prelude::*;
 
 use super::{FormFactors, Patch, patches, seen};
 use crate::rectangles::{above_a_point, facing, in_a_corner};
-use binspace::BspTree;
-use binspace::glam::{DVec3, dvec3};
 use binspace::internals::{SplitMix64, cuboid};
 
 /// A room of 4 by 4 by 4, seen from inside, and a body in it.

@@ -4,11 +4,9 @@ use super::Cells;
 use super::outline::{Plane, apart, clip, hull, split, without};
 use super::sight::{NEAREST, SLACK};
 use crate::interior;
-use binspace::BspTree;
-use binspace::glam::{DVec3, dvec3};
 use binspace::internals::SplitMix64;
-use binspace::raster::{NONE, Rays, zbuffer};
-use binspace::view::Camera;
+use binspace::raster::{NONE, zbuffer};
+use testkit::prelude::*;
 
 /// The polygons that own a pixel in a picture.
 fn owners(tree: &BspTree, camera: &Camera) -> Vec<usize> {

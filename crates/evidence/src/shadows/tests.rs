@@ -2,10 +2,10 @@
 
 use super::pieces::pieces_by;
 use super::{Piece, Pieces, courtyard, lamp, pieces};
-use binspace::glam::DVec3;
+use binspace::Bounds;
 use binspace::internals::{SplitMix64, cuboid};
-use binspace::scene::{Scene, random_triangles};
-use binspace::{Bounds, BspTree, BuildOptions};
+use binspace::scene::random_triangles;
+use testkit::prelude::*;
 
 /// A floor with `side`² posts of random heights.
 fn posts(side: u32) -> Scene {

@@ -1,9 +1,8 @@
 //! The examples against what was worked by hand, and against other methods.
 
-use binspace::internals::Faces;
-use binspace::raster::{NONE, Rays, zbuffer};
+use binspace::raster::{NONE, zbuffer};
 use binspace::verify::verify;
-use binspace::{BspTree, BuildOptions, Heuristic};
+use testkit::prelude::*;
 
 use super::{
     EIGHT, EIGHT_ORDER, EYE_OF_EIGHT, GRID_OF_SIX, eight, eye_on_eight, letters, six_by_six,

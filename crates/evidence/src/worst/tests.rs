@@ -1,10 +1,8 @@
 //! Fragments counted against the formulas, and against growth by a factor.
 
-use binspace::internals::Faces;
-use binspace::{BspTree, BuildOptions, Heuristic, Viewpoint};
-
 use super::Worst;
 use crate::Hiding;
+use testkit::prelude::*;
 
 /// The heuristics that take the polygons' own planes only.
 const OWN: [Heuristic; 6] = [

@@ -1,20 +1,14 @@
 //! What trees say of their own accuracy, against rationals: every figure computed anew from the
 //! definitions of vertices and planes.
 
-use binspace::glam::DVec3;
-use binspace::internals::{Faces, PlaneId, Side, Tuning, VertexId, VertexKind, tree_of};
-use binspace::scene;
-use binspace::{BuildOptions, Heuristic, Preparation};
+use binspace::Preparation;
+use binspace::internals::{Side, Tuning, VertexId, VertexKind, tree_of};
 use binspace_evidence::{Family, Precision, Tree, accuracy};
-use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use std::cmp::Ordering;
-use testkit::effort::times;
-use testkit::enough;
-use testkit::hard;
-use testkit::model::{self, Face};
-use testkit::rational::{self, Plane, Point, Rational};
+use testkit::model::Face;
+use testkit::prelude::*;
+use testkit::rational::{Plane, Point};
 use testkit::scenes::polygons;
 
 /// The figures of a tree.

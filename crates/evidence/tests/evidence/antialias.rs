@@ -1,20 +1,12 @@
 //! Areas in pixels against rational numbers, and what is known of sums.
 
 use std::array::from_fn;
-use testkit::dice::Dice;
-use testkit::effort::times;
-use testkit::enough;
+use testkit::prelude::*;
 
-use binspace::drawing::VisibilityMap;
-use binspace::glam::{DVec3, dvec3};
-use binspace::raster::Rays;
-use binspace::scene::{self, Scene};
-use binspace::view::{Camera, views};
-use binspace::{BspTree, BuildOptions};
+use binspace::view::views;
 use binspace_evidence::antialias::{Areas, blended, distance, supersampled};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use num_traits::Zero;
 
 type Point = [RBig; 2];
 

@@ -1,14 +1,9 @@
 //! The measures of error, against pictures and trees with known faults.
 
-use binspace::BuildOptions;
-use binspace::glam::DVec3;
-use binspace::internals::Faces;
-use binspace::raster::{Order, Outline, Painter, Piece, Rays, zbuffer};
-use binspace::scene::Scene;
-use binspace::view::Camera;
+use binspace::raster::{Order, Outline, Painter, Piece, zbuffer};
 use binspace_evidence::measure::{PictureError, area_error, extent};
 use binspace_evidence::{Accuracy, Family, Tree, accuracy};
-use testkit::enough;
+use testkit::prelude::*;
 
 /// A square of side 2 around the z axis.
 fn square(z: f64) -> [[f64; 3]; 4] {

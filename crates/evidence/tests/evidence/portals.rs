@@ -2,14 +2,10 @@
 
 #![allow(clippy::print_stderr, reason = "the figures are shown on request")]
 
-use binspace::BspTree;
-use binspace::glam::DVec3;
-use binspace::raster::{NONE, Rays, zbuffer};
-use binspace::scene::Scene;
-use binspace::view::Camera;
+use binspace::raster::{NONE, zbuffer};
 use binspace_evidence::portals::{Cells, Seen};
 use std::collections::BTreeSet;
-use testkit::enough;
+use testkit::prelude::*;
 
 /// The height of eyes over the floor.
 const HEIGHT: f64 = 41.0;

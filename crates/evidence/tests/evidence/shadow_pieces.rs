@@ -1,15 +1,10 @@
 //! Lit and shadowed pieces of polygons, against sight lines in rational numbers.
 
-use binspace::glam::{DVec3, dvec3};
-use binspace::internals::{Eye, Faces};
-use binspace::scene::{self, Scene};
-use binspace::{BspTree, BuildOptions, Viewpoint};
+use binspace::internals::Eye;
 use binspace_evidence::shadows::{Piece, Zone, courtyard, lamp, pieces};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use std::cmp::Ordering;
-use testkit::dice::Dice;
-use testkit::enough;
+use testkit::prelude::*;
 use testkit::vector::{Plane, scalar};
 
 type Point = [IBig; 3];

@@ -1,12 +1,8 @@
 //! Sight lines between points of surfaces and a lamp, against whole numbers of 128 bits.
 
-use binspace::BuildOptions;
-use binspace::glam::{DVec3, dvec3};
-use binspace::scene::Scene;
-use binspace::{BspTree, Ray};
+use binspace::Ray;
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, zone};
-use testkit::dice::Dice;
-use testkit::effort::times;
+use testkit::prelude::*;
 use testkit::vector::{Plane, difference, product, scalar};
 
 type Point = [i128; 3];
@@ -16,9 +12,21 @@ fn whole(p: DVec3) -> Point {
     p.to_array().map(|c| c as i128)
 }
 
-/// Whether a convex polygon has a point between two that are not both in its plane.
-fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
-    let plane = Plane::through([&polygon[0], &polygon[1], &polygon[2]]);
+/// A convex polygon, and its plane.
+struct Wall {
+    corners: Vec<Point>,
+    plane: Plane<i128>,
+}
+
+impl Wall {
+    fn new(corners: Vec<Point>) -> Self {
+        let plane = Plane::through([&corners[0], &corners[1], &corners[2]]);
+        Self { corners, plane }
+    }
+}
+
+/// Whether a polygon has a point between two that are not both in its plane.
+fn blocks(Wall { corners, plane }: &Wall, a: Point, b: Point) -> bool {
     let [at_a, at_b] = [a, b].map(|p| plane.at(&p));
     assert!(at_a != 0 || at_b != 0, "no sight line is in a plane");
     if at_a.signum() * at_b.signum() >= 0 {
@@ -27,19 +35,19 @@ fn blocks(polygon: &[Point], a: Point, b: Point) -> bool {
     // Where they meet is met / by.
     let (by, sign) = (at_a - at_b, (at_a - at_b).signum());
     let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
-    (0..polygon.len()).all(|k| {
-        let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
+    (0..corners.len()).all(|k| {
+        let (p, q) = (corners[k], corners[(k + 1) % corners.len()]);
         let arm = difference(&met, &p.map(|c| c * by));
         sign * scalar(&plane.normal, &product(&difference(&q, &p), &arm)) >= 0
     })
 }
 
-fn setting() -> (Scene, BspTree, Vec<Vec<Point>>) {
+fn setting() -> (Scene, BspTree, Vec<Wall>) {
     let scene = courtyard();
     let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap();
-    let polygons = (0..scene.len()).map(|k| scene.polygon(k).iter().map(|&p| whole(p)).collect());
-    let polygons = polygons.collect();
-    (scene, tree, polygons)
+    let corners = |k: usize| scene.polygon(k).iter().map(|&p| whole(p)).collect();
+    let walls = (0..scene.len()).map(|k| Wall::new(corners(k))).collect();
+    (scene, tree, walls)
 }
 
 /// A point of a surface in whole numbers; often on a rim or in line with one.
@@ -86,7 +94,7 @@ fn compare_sight_lines(count: usize) {
 
 #[test]
 fn a_shadow_that_breaks_the_rule_is_noticed() {
-    let wall = [[0, 0, 0], [4, 0, 0], [4, 0, 3], [0, 0, 3]];
+    let wall = Wall::new(vec![[0, 0, 0], [4, 0, 0], [4, 0, 3], [0, 0, 3]]);
     assert!(blocks(&wall, [1, -2, 1], [1, 2, 1]));
     assert!(blocks(&wall, [4, -2, 1], [4, 2, 1]), "along a rim");
     assert!(!blocks(&wall, [5, -2, 1], [5, 2, 1]));
@@ -102,11 +110,14 @@ fn zones_are_those_of_many_more_points_but_for_a_rim() {
     let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
     for _ in 0..times(1500) {
         let point = point(&scene, &mut dice);
-        let hidden = |at: &DVec3| polygons.iter().any(|p| blocks(p, whole(point), whole(*at)));
-        let truth = match many.iter().filter(|at| hidden(at)).count() {
-            0 => Zone::Lit,
-            n if n == many.len() => Zone::Umbra,
-            _ => Zone::Penumbra,
+        let from = whole(point);
+        let is_hidden = |at: &DVec3| polygons.iter().any(|wall| blocks(wall, from, whole(*at)));
+        // The rest of the lamp is asked as long as it is all hidden, or all seen.
+        let first = is_hidden(&many[0]);
+        let truth = match many.iter().all(|at| is_hidden(at) == first) {
+            true if first => Zone::Umbra,
+            true => Zone::Lit,
+            false => Zone::Penumbra,
         };
         counts[truth as usize] += 1;
         if is_umbra(&tree, &bounds, point, &corners) {

@@ -1,13 +1,10 @@
 //! What depth buffers of limited precision can and cannot tell apart.
 
-use glam::DVec3;
-
 use super::oracle::{Meeting, meet};
 use super::{Polygons, cameras, disjoint, faces, judge, polygons_of, show};
 use crate::method::{DepthBuffer, DepthFormat, Interpolation, Method};
-use binspace::raster::{NONE, Rays};
-use binspace::scene;
-use binspace::view::Camera;
+use binspace::raster::NONE;
+use testkit::prelude::*;
 
 use DepthFormat::{Float, FloatReversed, Integer, LinearFloat, LinearInteger};
 

@@ -1,17 +1,12 @@
 //! The whole field on the same scenes.
 
 use std::collections::HashSet;
-
-use glam::DVec3;
+use testkit::prelude::*;
 
 use super::{
     cameras, covers_by_itself, cycle_that_no_plane_cuts, disjoint, faces, judge, polygons_of, show,
 };
 use crate::method::{Bsp, Centroid, Method, Options, Space, all};
-use binspace::BuildOptions;
-use binspace::raster::Rays;
-use binspace::scene;
-use binspace::view::Camera;
 
 #[test]
 fn names_are_unique() {

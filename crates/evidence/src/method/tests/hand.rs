@@ -1,14 +1,12 @@
 //! Pictures of six by six pixels, and depths, worked out by hand.
 
-use glam::DVec3;
-
 use super::{Polygons, faces, show};
 use crate::method::{
     Centroid, DepthBuffer, DepthFormat, FrontFaces, InputOrder, Interpolation, Method, Newell,
     Options, all,
 };
 use binspace::raster::NONE;
-use binspace::view::Camera;
+use testkit::prelude::*;
 
 /// Looks down the z axis at the square from 0 to 6, so that pixel (x, y) is the world's
 /// (x + ½, 5½ − y), and depth is −z.

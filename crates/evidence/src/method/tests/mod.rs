@@ -10,14 +10,11 @@ mod oracle;
 mod rounded;
 mod rules;
 
-use glam::DVec3;
-
 use super::{Method, Painted};
-use binspace::internals::Faces;
 use binspace::internals::SplitMix64;
-use binspace::raster::{Comparison, Rays, compare, zbuffer};
-use binspace::scene::Scene;
-use binspace::view::{Camera, views};
+use binspace::raster::{Comparison, compare, zbuffer};
+use binspace::view::views;
+use testkit::prelude::*;
 
 type Polygons = Vec<Vec<DVec3>>;
 

@@ -1,13 +1,10 @@
 //! Views from which much is exactly, or all but, in line.
 
-use glam::DVec3;
-
 use super::{
     Polygons, covers_by_itself, cycle_that_no_plane_cuts, disjoint, faces, judge, polygons_of,
 };
 use crate::method::{Options, all};
-use binspace::view::Camera;
-use binspace::{BuildOptions, Heuristic, scene};
+use testkit::prelude::*;
 
 /// Eyes at corners, in planes, a hair's breadth off them, and far away; and, marked so, those that
 /// touch a face but for their rounding. These may see it all over the picture at no distance, and

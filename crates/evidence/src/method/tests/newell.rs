@@ -1,14 +1,13 @@
 //! Newell's algorithm against brute force, and its cycles.
 
-use glam::{DQuat, DVec3};
+use glam::DQuat;
+use testkit::prelude::*;
 
 use super::oracle::nearest;
 use super::{Polygons, cameras, cycle_that_no_plane_cuts, disjoint, faces, polygons_of, show};
 use crate::method::{Method, Newell};
 use binspace::internals::SplitMix64;
-use binspace::raster::{NONE, Rays};
-use binspace::scene;
-use binspace::view::Camera;
+use binspace::raster::NONE;
 
 /// Asserts that every pixel that brute force is sure of shows what it says; and gives back the
 /// pieces of all views together.
@@ -30,6 +29,11 @@ fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     }
     assert!(certain * 100 > all * 97, "{name}: {certain} of {all} pixels are certain");
     pieces
+}
+
+/// A square around the origin, of which each corner is put somewhere.
+fn square(half: f64, place: impl Fn(f64, f64) -> DVec3) -> Vec<DVec3> {
+    [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| place(x, y)).to_vec()
 }
 
 #[test]
@@ -57,12 +61,10 @@ fn thin_layers_come_out_as_brute_force_has_them() {
     let layer = |i: u32| {
         let height = 1e-3 * f64::from(i * 7 % 20);
         let (tilt, reach) = (2e-4 * f64::from(i % 3) - 2e-4, 0.3 + 0.03 * f64::from(i * 3 % 20));
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let corner = |(x, y): (f64, f64)| {
-            let (x, y) = (x * reach, y * reach + 0.1 * f64::from(i % 4));
+        square(reach, |x, y| {
+            let y = y + 0.1 * f64::from(i % 4);
             DVec3::new(x, y, height + tilt * (x + y) + 0.3 * x)
-        };
-        corners.map(corner).to_vec()
+        })
     };
     let polygons: Polygons = (0..20).map(layer).collect();
     let views = cameras(&polygons, [48, 36], 11);
@@ -73,8 +75,7 @@ fn thin_layers_come_out_as_brute_force_has_them() {
 #[test]
 fn what_lies_just_behind_the_nearest_corner_is_not_forgotten() {
     // A slope that reaches far down, and a small square just below its upper end.
-    let slope = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    let slope = slope.map(|(x, y)| DVec3::new(x, y, x)).to_vec();
+    let slope = square(1.0, |x, y| DVec3::new(x, y, x));
     let square = [(0.994, -0.01), (1.005, -0.01), (1.005, 0.01), (0.994, 0.01)];
     let square = square.map(|(x, y)| DVec3::new(x, y, 0.994)).to_vec();
     let (down, centre) = (DVec3::NEG_Z, DVec3::new(1.0, 0.0, 0.0));
@@ -139,15 +140,17 @@ fn random_ring(random: &mut SplitMix64) -> Polygons {
     (0..count as usize).map(&mut spike).collect()
 }
 
+fn any_turn(random: &mut SplitMix64) -> DQuat {
+    let axis = random.point(-1.0, 1.0).normalize();
+    DQuat::from_axis_angle(axis, 3.0 * random.range(-1.0, 1.0))
+}
+
 #[test]
 fn random_cycles_come_out_as_brute_force_has_them() {
     let mut random = SplitMix64::new(17);
     for number in 0..24 {
         let ring = random_ring(&mut random);
-        let turn = DQuat::from_axis_angle(
-            random.point(-1.0, 1.0).normalize(),
-            3.0 * random.range(-1.0, 1.0),
-        );
+        let turn = any_turn(&mut random);
         let (scale, shift) = (10f64.powf(random.range(-1.0, 1.0)), 4.0 * random.point(-1.0, 1.0));
         let place = |point: DVec3| turn * point * scale + shift;
         let polygons: Polygons =
@@ -170,10 +173,7 @@ fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
     for number in 0..8 {
         let mut polygons = Polygons::new();
         for _ in 0..3 {
-            let turn = DQuat::from_axis_angle(
-                random.point(-1.0, 1.0).normalize(),
-                3.0 * random.range(-1.0, 1.0),
-            );
+            let turn = any_turn(&mut random);
             let shift = 0.3 * random.point(-1.0, 1.0);
             let place = |spike: Vec<DVec3>| spike.iter().map(|&c| turn * c + shift).collect();
             polygons.extend(random_ring(&mut random).into_iter().map(place));
@@ -185,12 +185,9 @@ fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
 
 #[test]
 fn two_that_cross_are_three_pieces() {
-    let square = |tilt: f64| {
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        corners.map(|(x, y)| DVec3::new(x, y, tilt * x)).to_vec()
-    };
+    let tilted = |tilt: f64| square(1.0, |x, y| DVec3::new(x, y, tilt * x));
     for camera in from_above(2.5, [40, 40]) {
-        assert_eq!(assert_right("a cross", &vec![square(0.5), square(-0.4)], &[camera]), 3);
+        assert_eq!(assert_right("a cross", &vec![tilted(0.5), tilted(-0.4)], &[camera]), 3);
     }
 }
 
@@ -205,11 +202,8 @@ fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
 /// The upper one reaches further down the slope, so that its depth alone would have it painted first.
 #[test]
 fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
-    let square = |half: f64, lift: f64| {
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        corners.map(|(x, y)| DVec3::new(half * x, half * y, half * x + lift)).to_vec()
-    };
-    let polygons = vec![square(1.0, 1e-8), square(0.5, 0.0)];
+    let slope = |half, lift: f64| square(half, |x, y| DVec3::new(x, y, x + lift));
+    let polygons = vec![slope(1.0, 1e-8), slope(0.5, 0.0)];
     let faces = faces(&polygons, Some(0.0));
     for camera in from_above(2.5, [40, 40]) {
         let painted = show(&Newell::DEFAULT, &faces, &camera);

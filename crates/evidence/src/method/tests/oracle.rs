@@ -1,10 +1,9 @@
 //! What is nearest along a ray, found polygon by polygon in world coordinates and plain `f64`,
 //! without anything of the library but the camera's vectors.
 
-use glam::DVec3;
-
 use super::Polygons;
-use binspace::view::{Camera, Projection};
+use binspace::view::Projection;
+use testkit::prelude::*;
 
 /// A ray's start and direction.
 fn ray(camera: &Camera, x: u32, y: u32) -> (DVec3, DVec3) {

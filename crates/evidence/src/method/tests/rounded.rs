@@ -1,13 +1,10 @@
 //! Rounded planes and an epsilon against exact decisions.
 
-use glam::DVec3;
-
 use super::{cameras, disjoint, faces, judge};
 use crate::method::Bsp;
 use crate::{Precision, RoundedPiece, RoundedPlane};
-use binspace::BuildOptions;
-use binspace::internals::{Faces, PlaneId, PreparedPlane, Side, SplitMix64, Vertex, split};
-use binspace::scene;
+use binspace::internals::{PreparedPlane, Side, SplitMix64, Vertex, split};
+use testkit::prelude::*;
 
 /// The least distance of positions from the plane of a face, as a share of half the extent and of
 /// up to four times that: what an epsilon is a share of.
@@ -28,29 +25,6 @@ fn reach(faces: &Faces, plane: u32) -> f64 {
     2f64.powi(53) / width
 }
 
-/// Asserts that rounded sides are the exact ones wherever no distance is within the epsilon and the
-/// plane's rounding. Returns how many of the others differ.
-fn disagreements<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
-    let (mut agreed, mut differ) = (0, 0);
-    for plane in 0..faces.len() as u32 {
-        let slack = epsilon + rounding * reach(faces, plane);
-        let exact = PreparedPlane::new(faces, PlaneId::face(plane));
-        let rounded = RoundedPlane::<T>::new(faces, plane, epsilon);
-        for face in (0..faces.len() as u32).filter(|&face| face != plane) {
-            let piece = RoundedPiece::whole::<T>(faces, face);
-            let same = rounded.classify(&piece) == exact.classify(faces, face, None);
-            if least_distance(faces, faces.corners(face), plane) > slack {
-                assert!(same, "face {face} against {plane}");
-                agreed += 1;
-            } else if !same {
-                differ += 1;
-            }
-        }
-    }
-    assert!(agreed > faces.len(), "only {agreed} pairs are far enough apart");
-    differ
-}
-
 /// Crossing and disjoint triangles, and such as lie but for a little in the plane of another.
 fn with_close_calls() -> Faces {
     let mut random = SplitMix64::new(3);
@@ -64,18 +38,6 @@ fn with_close_calls() -> Faces {
         polygons.push((0..3).map(|k| base[k] + lift(k)).collect());
     }
     faces(&polygons, Some(0.0))
-}
-
-#[test]
-fn beyond_the_epsilon_rounded_sides_are_the_exact_ones() {
-    let faces = with_close_calls();
-    for epsilon in [1e-3, 1e-6, 1e-9, 1e-12] {
-        let count = disagreements::<f64>(epsilon, 1e-15, &faces);
-        assert_eq!(count > 0, epsilon > 1e-11, "{epsilon:e}: {count}");
-    }
-    for epsilon in [1e-3, 1e-4, 1e-5, 1e-6] {
-        assert!(disagreements::<f32>(epsilon, 4e-7, &faces) > 0);
-    }
 }
 
 /// A piece of a face, by exact and by rounded arithmetic, as the same planes cut it.
@@ -118,26 +80,30 @@ impl Twins {
     }
 }
 
-/// Cuts every face several times, and asserts that rounded sides are the exact ones of each piece
-/// wherever none of its vertices is within the epsilon, its drift and the plane's rounding. Returns
-/// how many of the others differ.
-fn disagreements_on_pieces<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
+/// Holds every face against all planes, cuts it several times, and asserts that rounded sides are the
+/// exact ones of each piece wherever none of its vertices is within the epsilon, its drift and the
+/// plane's rounding. Returns how many of the others differ.
+fn disagreements<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
     let mut random = SplitMix64::new(5);
     let count = faces.len() as u32;
     let (mut agreed, mut differ) = ([0; 7], 0);
     for face in 0..count {
         let mut twins = Twins::new::<T>(faces, face);
-        for _ in 0..60 {
-            let plane = (random.next() % u64::from(count)) as u32;
+        let some: Vec<u32> = (0..60).map(|_| (random.next() % u64::from(count)) as u32).collect();
+        let planes = (0..count).map(|plane| (plane, false));
+        for (plane, may_cut) in planes.chain(some.into_iter().map(|plane| (plane, true))) {
             if plane == face || twins.cuts == 6 {
                 continue;
             }
             let positions: Vec<[f64; 3]> = twins.exact.iter().map(Vertex::position).collect();
             let least = least_distance(faces, &positions, plane);
-            let slack = epsilon + rounding * reach(faces, plane) + twins.drift();
+            let is_whole = twins.cuts == 0;
+            let drift = if is_whole { 0.0 } else { twins.drift() };
+            let slack = epsilon + rounding * reach(faces, plane) + drift;
             let exact = PreparedPlane::new(faces, PlaneId::face(plane));
             let rounded = RoundedPlane::<T>::new(faces, plane, epsilon);
-            let side = exact.classify(faces, face, Some(&twins.exact));
+            let vertices = if is_whole { None } else { Some(&twins.exact[..]) };
+            let side = exact.classify(faces, face, vertices);
             let rounded_side = rounded.classify(&twins.rounded);
             if least <= slack {
                 differ += usize::from(side != rounded_side);
@@ -145,7 +111,7 @@ fn disagreements_on_pieces<T: Precision>(epsilon: f64, rounding: f64, faces: &Fa
             }
             assert_eq!(side, rounded_side, "face {face} against {plane}, {} cuts", twins.cuts);
             agreed[twins.cuts] += 1;
-            if side == Side::Spanning {
+            if side == Side::Spanning && may_cut {
                 let in_front = random.range(-1.0, 1.0) > 0.0;
                 twins.cut(faces, &exact, &rounded, in_front);
             }
@@ -156,14 +122,14 @@ fn disagreements_on_pieces<T: Precision>(epsilon: f64, rounding: f64, faces: &Fa
 }
 
 #[test]
-fn beyond_the_epsilon_rounded_sides_of_cut_pieces_are_the_exact_ones() {
+fn beyond_the_epsilon_rounded_sides_of_faces_and_pieces_are_the_exact_ones() {
     let faces = with_close_calls();
     for epsilon in [1e-3, 1e-6, 1e-9, 1e-12] {
-        let count = disagreements_on_pieces::<f64>(epsilon, 1e-15, &faces);
+        let count = disagreements::<f64>(epsilon, 1e-15, &faces);
         assert_eq!(count > 0, epsilon > 1e-11, "{epsilon:e}: {count}");
     }
     for epsilon in [1e-3, 1e-4, 1e-5, 1e-6] {
-        assert!(disagreements_on_pieces::<f32>(epsilon, 4e-7, &faces) > 0, "{epsilon:e}");
+        assert!(disagreements::<f32>(epsilon, 4e-7, &faces) > 0, "{epsilon:e}");
     }
 }
 

@@ -1,16 +1,12 @@
 //! Conventions of depth buffers, sections, and translucent polygons over opaque ones.
 
-use glam::DVec3;
-
 use super::{cameras, faces, polygons_of, show};
 use crate::method::{Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, Interpolation};
 use crate::method::{Layered, Method, Nearer};
 use crate::panes::{panes, world_polygons};
 use crate::plain::PlainView;
-use binspace::BuildOptions;
-use binspace::raster::{NONE, Rays};
-use binspace::scene;
-use binspace::view::Camera;
+use binspace::raster::NONE;
+use testkit::prelude::*;
 
 use DepthFormat::{Float, FloatReversed, Integer, LinearFloat, LinearInteger};
 

@@ -1,12 +1,11 @@
 //! A tree's fragments as they are drawn: by their rounded vertices, and by nothing else.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, Fragment};
-
 use super::exact::Plane;
 use super::ray::Targets;
 use super::scene::world;
-use testkit::judge::{Verdict, ensure};
+use crate::judge::{Verdict, ensure};
+use crate::prelude::*;
+use binspace::Fragment;
 
 /// How far a vertex may be off its exact place, as a share of the scene's size: the roundings of a
 /// vertex are 2⁻⁵² of that each.
@@ -14,7 +13,7 @@ const OFF: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// Whether a point is in a fragment, as far as rounded vertices can tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Within {
+pub enum Within {
     Surely,
     Perhaps,
     No,
@@ -27,7 +26,7 @@ struct Outline {
 }
 
 /// The fragments of each polygon.
-pub(crate) struct Drawing<'t> {
+pub struct Drawing<'t> {
     targets: &'t Targets<'t>,
     outlines: Vec<Vec<Outline>>,
     /// How far a coordinate of a vertex may be off.
@@ -35,7 +34,7 @@ pub(crate) struct Drawing<'t> {
 }
 
 impl<'t> Drawing<'t> {
-    pub(crate) fn new(targets: &'t Targets<'t>, tree: &BspTree) -> Self {
+    pub fn new(targets: &'t Targets<'t>, tree: &BspTree) -> Self {
         let mut outlines: Vec<Vec<Outline>> = targets.planes.iter().map(|_| Vec::new()).collect();
         for fragment in tree.fragments() {
             let polygon = fragment.polygon();
@@ -48,7 +47,7 @@ impl<'t> Drawing<'t> {
     }
 
     /// The fragments of a polygon that a point may be in; of those it surely is in, that alone.
-    pub(crate) fn fragments_at(&self, polygon: usize, point: [f64; 3]) -> Vec<(u32, Within)> {
+    pub fn fragments_at(&self, polygon: usize, point: [f64; 3]) -> Vec<(u32, Within)> {
         let at = flat(&self.targets.planes[polygon], DVec3::from(point));
         let within = |outline: &Outline| (outline.fragment, self.within(outline, at));
         let found = self.outlines[polygon].iter().map(within);
@@ -83,7 +82,7 @@ impl<'t> Drawing<'t> {
 
     /// The fragments of every polygon have its area, lie on its plane and within it, on the sides
     /// of the planes that are said to bound them, and on the edges.
-    pub(crate) fn check(&self, tree: &BspTree) -> Verdict {
+    pub fn check(&self, tree: &BspTree) -> Verdict {
         for (polygon, outlines) in self.outlines.iter().enumerate() {
             let plane = &self.targets.planes[polygon];
             let corners: Vec<[f64; 2]> = self.targets.scene.polygons[polygon]

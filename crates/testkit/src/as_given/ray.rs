@@ -1,28 +1,25 @@
 //! Rays against the polygons as they were given: what is hit, exactly sorted.
 
-use dashu_int::IBig;
-use std::cmp::Ordering;
-
 use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
 use super::scene::{Point, Scene, minus, world};
-use binspace::BspTree;
-use binspace::glam::DVec3;
-use binspace::internals::{PlaneId, PlaneKind};
+use crate::prelude::*;
+use binspace::internals::PlaneKind;
+use dashu_int::IBig;
 
 /// The points (origin / below) + s · direction, s above 0, or, if it is endless, any.
 #[derive(Clone, Debug)]
-pub(crate) struct Ray {
-    pub(crate) origin: Vector,
-    pub(crate) below: i128,
-    pub(crate) direction: Vector,
-    pub(crate) endless: bool,
+pub struct Ray {
+    pub origin: Vector,
+    pub below: i128,
+    pub direction: Vector,
+    pub endless: bool,
 }
 
 /// Where a ray meets a polygon.
 #[derive(Clone, Debug)]
-pub(crate) struct Hit {
-    pub(crate) polygon: usize,
-    pub(crate) spot: Spot,
+pub struct Hit {
+    pub polygon: usize,
+    pub spot: Spot,
     /// How far along the ray: a fraction, the denominator above 0.
     depth: [IBig; 2],
     rounded: f64,
@@ -39,16 +36,16 @@ impl Hit {
 }
 
 /// A scene made ready for rays.
-pub(crate) struct Targets<'s> {
-    pub(crate) scene: &'s Scene,
-    pub(crate) planes: Vec<Plane>,
+pub struct Targets<'s> {
+    pub scene: &'s Scene,
+    pub planes: Vec<Plane>,
     /// Centres and radii of balls around the polygons, generous.
     balls: Vec<(DVec3, f64)>,
 }
 
 impl<'s> Targets<'s> {
     /// Panics unless all polygons are planar and have area: the judge's own claim.
-    pub(crate) fn new(scene: &'s Scene) -> Self {
+    pub fn new(scene: &'s Scene) -> Self {
         let planes: Vec<Plane> = scene.polygons.iter().map(|p| Plane::of(p)).collect();
         for (polygon, plane) in scene.polygons.iter().zip(&planes) {
             assert!(plane.is_proper(), "{}: {polygon:?} has no area", scene.name);
@@ -70,7 +67,7 @@ impl<'s> Targets<'s> {
     }
 
     /// A plane by its name, from the corners as they were given.
-    pub(crate) fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
+    pub fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
         let faces = tree.faces();
         match id.kind() {
             PlaneKind::Face(face) => self.planes[faces.polygon(face)].clone(),
@@ -82,7 +79,7 @@ impl<'s> Targets<'s> {
     }
 
     /// What a ray meets, the furthest first; what is met at the same place stands together.
-    pub(crate) fn hits(&self, ray: &Ray) -> Vec<Vec<Hit>> {
+    pub fn hits(&self, ray: &Ray) -> Vec<Vec<Hit>> {
         let origin = DVec3::from_array(ray.origin.map(|c| c as f64 / ray.below as f64));
         let along = DVec3::from_array(ray.direction.map(|c| c as f64)).normalize();
         let mut hits = Vec::new();
@@ -156,13 +153,13 @@ fn is_convex(polygon: &[Point], plane: &Plane) -> bool {
 
 impl Ray {
     /// Whether all of it lies in a plane.
-    pub(crate) fn is_in(&self, plane: &Plane) -> bool {
+    pub fn is_in(&self, plane: &Plane) -> bool {
         let start = scalar(&plane.normal, &big(self.origin)) - &plane.offset * self.below;
         sign(&start).is_eq() && sign(&scalar(&plane.normal, &big(self.direction))).is_eq()
     }
 
     /// How far from a plane it begins; nowhere if it is endless.
-    pub(crate) fn start_from(&self, plane: &Plane) -> Option<f64> {
+    pub fn start_from(&self, plane: &Plane) -> Option<f64> {
         let eye = Spot::new(big(self.origin), self.below.into());
         (!self.endless).then(|| plane.distance(&eye))
     }

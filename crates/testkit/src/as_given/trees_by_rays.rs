@@ -1,47 +1,44 @@
 //! Trees held against rays: far before near, input order where polygons are in one plane, and
 //! every polygon covered once.
 
-use binspace::{BspTree, Viewpoint};
-
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
 use super::exact::Plane;
 use super::ray::{Hit, Ray, Targets};
 use super::scene::world;
 use super::view::{self, Place, View};
-use testkit::dice::Dice;
-use testkit::judge::{Verdict, ensure};
-use testkit::orders;
-use testkit::rational;
+use crate::judge::{Verdict, ensure};
+use crate::orders;
+use crate::prelude::*;
 
 /// What has been compared.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Score {
-    pub(crate) trees: usize,
+pub struct Score {
+    pub trees: usize,
     /// Trees that would have had more fragments than allowed.
-    pub(crate) given_up: usize,
-    pub(crate) faces: usize,
-    pub(crate) fragments: usize,
-    pub(crate) rays: usize,
+    pub given_up: usize,
+    pub faces: usize,
+    pub fragments: usize,
+    pub rays: usize,
     /// Pairs of polygons that a ray meets one behind the other, or in one plane.
-    pub(crate) pairs: usize,
+    pub pairs: usize,
     /// Of these, in one plane.
-    pub(crate) coplanar: usize,
+    pub coplanar: usize,
     /// Points on the border of a fragment, whose cells were asked in big integers; with a
     /// tolerance, these hits are left out.
-    pub(crate) borders: usize,
+    pub borders: usize,
     /// Pairs met on both borders by a ray that lies in the plane between: either may come first.
-    pub(crate) grazing: usize,
+    pub grazing: usize,
     /// Pairs that come out the wrong way within the tolerance.
-    pub(crate) excused: usize,
+    pub excused: usize,
 }
 
 impl Score {
-    pub(crate) fn total(scores: &[(String, Self)]) -> Self {
-        scores.iter().map(|(_, score)| *score).fold(Self::default(), Self::add)
+    pub fn total(scores: &[(String, Self)]) -> Self {
+        scores.iter().map(|(_, score)| *score).fold(Self::default(), Self::plus)
     }
 
-    pub(crate) fn add(mut self, other: Self) -> Self {
+    pub fn plus(mut self, other: Self) -> Self {
         self.trees += other.trees;
         self.given_up += other.given_up;
         self.faces += other.faces;
@@ -57,17 +54,13 @@ impl Score {
 }
 
 /// A viewpoint, and what the rays from there meet: found once, for all trees of a scene.
-pub(crate) struct Shot {
+pub struct Shot {
     view: View,
     rays: Vec<(Ray, Vec<Vec<Hit>>)>,
 }
 
 /// Rays from `views` viewpoints, of all kinds in turn.
-pub(crate) fn shots(
-    targets: &Targets<'_>,
-    [views, rays]: [usize; 2],
-    dice: &mut Dice,
-) -> Vec<Shot> {
+pub fn shots(targets: &Targets<'_>, [views, rays]: [usize; 2], dice: &mut Dice) -> Vec<Shot> {
     let scene = targets.scene;
     // With a tolerance, rays that run along edges say nothing.
     let generic = scene.tolerance > 0.0;
@@ -88,7 +81,7 @@ pub(crate) fn shots(
 }
 
 /// A tree on trial.
-pub(crate) struct Court<'t> {
+pub struct Court<'t> {
     targets: &'t Targets<'t>,
     tree: &'t BspTree,
     drawing: Drawing<'t>,
@@ -105,7 +98,7 @@ struct Found<'h> {
 }
 
 impl<'t> Court<'t> {
-    pub(crate) fn new(targets: &'t Targets<'t>, tree: &'t BspTree) -> Self {
+    pub fn new(targets: &'t Targets<'t>, tree: &'t BspTree) -> Self {
         let drawing = Drawing::new(targets, tree);
         let cells = Cells::new(targets, tree);
         let score = Score {
@@ -118,7 +111,7 @@ impl<'t> Court<'t> {
     }
 
     /// Everything there is to check.
-    pub(crate) fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
+    pub fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
         self.input_has_not_moved()?;
         self.drawing.check(self.tree)?;
         for shot in shots {
@@ -131,7 +124,7 @@ impl<'t> Court<'t> {
     /// What the judge takes for granted: faces are the polygons, with the very corners.
     fn input_has_not_moved(&self) -> Verdict {
         let (scene, faces) = (self.targets.scene, self.tree.faces());
-        ensure(faces.len() == scene.len(), || format!("{} faces", faces.len()))?;
+        ensure(faces.len() == scene.polygons.len(), || format!("{} faces", faces.len()))?;
         for (face, polygon) in scene.polygons.iter().enumerate() {
             let corners = faces.corners(face as u32);
             let same = corners.len() == polygon.len()

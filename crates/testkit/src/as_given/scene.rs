@@ -1,49 +1,39 @@
 //! Scenes of whole numbers: what the judge knows, and what the library is given.
 
-use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Error, FrameBuilder, Heuristic};
+use crate::prelude::*;
+use binspace::Error;
 
-use testkit::dice::Dice;
-
-pub(crate) type Point = [i64; 3];
+pub type Point = [i64; 3];
 
 /// Convex, planar polygons with whole corners, so that the lattice moves none of them.
 #[derive(Clone, Debug)]
-pub(crate) struct Scene {
-    pub(crate) name: String,
-    pub(crate) polygons: Vec<Vec<Point>>,
+pub struct Scene {
+    pub name: String,
+    pub polygons: Vec<Vec<Point>>,
     /// The coplanar tolerance to build with, in the polygons' unit.
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
 }
 
 impl Scene {
-    pub(crate) fn new(name: &str, polygons: Vec<Vec<Point>>) -> Self {
+    pub fn new(name: &str, polygons: Vec<Vec<Point>>) -> Self {
         Self { name: name.to_owned(), polygons, tolerance: 0.0 }
     }
 
-    pub(crate) fn with_tolerance(self, tolerance: f64) -> Self {
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.polygons.len()
-    }
-
     /// The largest magnitude of a coordinate.
-    pub(crate) fn size(&self) -> i64 {
+    pub fn size(&self) -> i64 {
         self.polygons.iter().flatten().flatten().map(|c| c.abs()).max().unwrap_or(1)
     }
 
-    pub(crate) fn build(
-        &self,
-        heuristic: Heuristic,
-        max_fragments: usize,
-    ) -> Result<BspTree, Error> {
+    pub fn build(&self, heuristic: Heuristic, max_fragments: usize) -> Result<BspTree, Error> {
         self.options(heuristic, max_fragments).build(self.corners())
     }
 
     /// The tree of a frame, whose planes are chosen in another way.
-    pub(crate) fn frame(&self, max_fragments: usize) -> Result<BspTree, Error> {
+    pub fn frame(&self, max_fragments: usize) -> Result<BspTree, Error> {
         let options = self.options(Heuristic::Auto, max_fragments);
         FrameBuilder::new(options).build(self.corners()).cloned()
     }
@@ -61,7 +51,7 @@ impl Scene {
 
     /// Turns polygons that face other ways into any order: some start at another corner, some run
     /// the other way round, and their numbers are drawn by chance.
-    pub(crate) fn shuffled(mut self, dice: &mut Dice) -> Self {
+    pub fn shuffled(mut self, dice: &mut Dice) -> Self {
         for polygon in &mut self.polygons {
             let by = dice.below(polygon.len());
             polygon.rotate_left(by);
@@ -75,45 +65,45 @@ impl Scene {
 }
 
 /// A point as the library takes it; exact.
-pub(crate) fn world(p: Point) -> DVec3 {
+pub fn world(p: Point) -> DVec3 {
     DVec3::from_array(p.map(|c| c as f64))
 }
 
-pub(crate) fn add(a: Point, b: Point) -> Point {
+pub fn add(a: Point, b: Point) -> Point {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-pub(crate) fn minus(a: Point, b: Point) -> Point {
+pub fn minus(a: Point, b: Point) -> Point {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
-pub(crate) fn times(k: i64, p: Point) -> Point {
+pub fn times(k: i64, p: Point) -> Point {
     p.map(|c| k * c)
 }
 
 /// Seven times a turn away from all axes, in whole numbers.
-pub(crate) fn tilt([x, y, z]: Point) -> Point {
+pub fn tilt([x, y, z]: Point) -> Point {
     add(add(times(x, [2, 3, 6]), times(y, [3, -6, 2])), times(z, [6, 2, -3]))
 }
 
 /// One of the 48 turns and reflections that take the axes to the axes.
-pub(crate) fn turned(p: Point, which: usize) -> Point {
+pub fn turned(p: Point, which: usize) -> Point {
     const ORDERS: [[usize; 3]; 6] =
         [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
     let order = ORDERS[which / 8 % 6];
     std::array::from_fn(|i| if which >> i & 1 == 1 { -p[order[i]] } else { p[order[i]] })
 }
 
-pub(crate) fn each(polygons: Vec<Vec<Point>>, go: impl Fn(Point) -> Point) -> Vec<Vec<Point>> {
+pub fn each(polygons: Vec<Vec<Point>>, go: impl Fn(Point) -> Point) -> Vec<Vec<Point>> {
     polygons.into_iter().map(|polygon| polygon.into_iter().map(&go).collect()).collect()
 }
 
 /// A whole number from `low` to `high`.
-pub(crate) fn between(dice: &mut Dice, low: i64, high: i64) -> i64 {
+pub fn between(dice: &mut Dice, low: i64, high: i64) -> i64 {
     low + dice.below((high - low + 1) as usize) as i64
 }
 
 /// A point with coordinates from 0 to `n`.
-pub(crate) fn point_within(dice: &mut Dice, n: i64) -> Point {
+pub fn point_within(dice: &mut Dice, n: i64) -> Point {
     [0; 3].map(|_| between(dice, 0, n))
 }

@@ -1,25 +1,22 @@
 //! Viewpoints that are known exactly, most of them where it is hard to tell sides.
 
-use binspace::Viewpoint;
-use binspace::glam::DVec3;
-
 use super::exact::{Vector, wide};
 use super::ray::Ray;
 use super::scene::{Point, Scene, add, between, minus, times};
-use testkit::dice::Dice;
+use crate::prelude::*;
 
 /// Where the viewer is: whole numbers over a power of two, or a direction whose largest component
 /// is a power of two, so that the library rounds neither.
 #[derive(Clone, Debug)]
-pub(crate) enum Place {
+pub enum Place {
     Eye(Vector, i128),
     Direction(Vector),
 }
 
 /// A viewpoint, and what to look at from there.
 #[derive(Clone, Debug)]
-pub(crate) struct View {
-    pub(crate) place: Place,
+pub struct View {
+    pub place: Place,
     /// The polygons that most rays aim at; all, if there are none.
     about: Vec<usize>,
     /// A point that the first ray aims at: numerators over a number.
@@ -50,7 +47,7 @@ impl View {
         Self { about, ..self }
     }
 
-    pub(crate) fn viewpoint(&self) -> Viewpoint {
+    pub fn viewpoint(&self) -> Viewpoint {
         match self.place {
             Place::Eye(numerators, below) => {
                 Viewpoint::Eye(DVec3::from_array(numerators.map(|c| c as f64 / below as f64)))
@@ -63,10 +60,13 @@ impl View {
 
     /// A ray to a corner, a point of an edge or a point inside of a polygon; `None` if the eye is
     /// there.
-    pub(crate) fn some_ray(&self, scene: &Scene, generic: bool, dice: &mut Dice) -> Option<Ray> {
+    pub fn some_ray(&self, scene: &Scene, generic: bool, dice: &mut Dice) -> Option<Ray> {
         let all = self.about.is_empty() || dice.below(4) == 0;
-        let polygon =
-            if all { dice.below(scene.len()) } else { self.about[dice.below(self.about.len())] };
+        let polygon = if all {
+            dice.below(scene.polygons.len())
+        } else {
+            self.about[dice.below(self.about.len())]
+        };
         let corners = &scene.polygons[polygon];
         let first = dice.below(corners.len());
         let corner = |k: usize| corners[(first + k) % corners.len()];
@@ -84,7 +84,7 @@ impl View {
     }
 
     /// The ray to the point that the view was chosen for, if it was chosen for one.
-    pub(crate) fn first_ray(&self) -> Option<Ray> {
+    pub fn first_ray(&self) -> Option<Ray> {
         self.target.and_then(|(target, total)| self.ray_to(target, total))
     }
 
@@ -103,7 +103,7 @@ impl View {
 }
 
 fn some_corner(scene: &Scene, dice: &mut Dice) -> (usize, Point) {
-    let polygon = dice.below(scene.len());
+    let polygon = dice.below(scene.polygons.len());
     let corners = &scene.polygons[polygon];
     (polygon, corners[dice.below(corners.len())])
 }
@@ -119,10 +119,10 @@ fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
 /// A viewpoint around, within, on a corner or a plane of the scene, a hair off a plane, far out at
 /// the height of a corner, in line with two corners; or a direction, along an edge or a plane or
 /// next to that.
-pub(crate) fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
+pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     let size = scene.size();
     let anywhere = |dice: &mut Dice, n: i64| [0; 3].map(|_| between(dice, -n, n));
-    let polygon = dice.below(scene.len());
+    let polygon = dice.below(scene.polygons.len());
     match kind % KINDS {
         0 => View::eye(anywhere(dice, 4 * size)),
         1 => View::eye(anywhere(dice, size)),
@@ -156,13 +156,13 @@ pub(crate) fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
 }
 
 /// How many kinds of views there are.
-pub(crate) const KINDS: usize = 10;
+pub const KINDS: usize = 10;
 
 /// An eye in line with two polygons that follow one another, and may be near each other; to look
 /// at them both.
-pub(crate) fn in_line(scene: &Scene, dice: &mut Dice) -> View {
-    let first = dice.below(scene.len());
-    let second = (first + 1 + dice.below(3)) % scene.len();
+pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
+    let first = dice.below(scene.polygons.len());
+    let second = (first + 1 + dice.below(3)) % scene.polygons.len();
     // A quarter of the sum of four corners, one of them twice in a triangle.
     let mut inside = |polygon: usize| {
         let corners = &scene.polygons[polygon];

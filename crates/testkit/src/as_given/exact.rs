@@ -1,28 +1,27 @@
 //! Planes and signs in big integers.
 
+use crate::prelude::*;
+use crate::vector::main_axis;
 use dashu_int::IBig;
-use num_traits::Zero;
-use std::cmp::Ordering;
-use testkit::vector::main_axis;
 
-pub(crate) use testkit::vector::{product, scalar, sign};
+pub use crate::vector::{product, scalar, sign};
 
 use super::scene::{Point, minus};
 
 /// A vector of whole numbers below 2¹²⁰.
-pub(crate) type Vector = [i128; 3];
+pub type Vector = [i128; 3];
 
-pub(crate) type Big = [IBig; 3];
+pub type Big = [IBig; 3];
 
-pub(crate) fn big(v: Vector) -> Big {
+pub fn big(v: Vector) -> Big {
     v.map(IBig::from)
 }
 
-pub(crate) fn wide(p: Point) -> Vector {
+pub fn wide(p: Point) -> Vector {
     p.map(i128::from)
 }
 
-pub(crate) fn float(value: &IBig) -> f64 {
+pub fn float(value: &IBig) -> f64 {
     value.to_f64().value()
 }
 
@@ -31,7 +30,7 @@ pub(crate) fn float(value: &IBig) -> f64 {
 const BELIEVED: f64 = 1e-13;
 
 /// The sign of the determinant of three rows.
-pub(crate) fn turn(rows: [&Vector; 3]) -> Ordering {
+pub fn turn(rows: [&Vector; 3]) -> Ordering {
     let [a, b, c] = rows.map(|row| row.map(|x| x as f64));
     let (mut value, mut size) = (0.0, 0.0);
     for (i, x) in a.iter().enumerate() {
@@ -49,15 +48,15 @@ pub(crate) fn turn(rows: [&Vector; 3]) -> Ordering {
 
 /// A plane: normal · x = offset.
 #[derive(Clone, Debug)]
-pub(crate) struct Plane {
-    pub(crate) normal: Big,
-    pub(crate) offset: IBig,
+pub struct Plane {
+    pub normal: Big,
+    pub offset: IBig,
     /// The same, rounded.
-    pub(crate) rounded: [f64; 4],
+    pub rounded: [f64; 4],
 }
 
 impl Plane {
-    pub(crate) fn new(normal: Big, point: Point) -> Self {
+    pub fn new(normal: Big, point: Point) -> Self {
         let offset = scalar(&normal, &big(wide(point)));
         let [x, y, z] = normal.each_ref().map(float);
         let rounded = [x, y, z, float(&offset)];
@@ -65,7 +64,7 @@ impl Plane {
     }
 
     /// The plane of a polygon: twice its area vector is the normal.
-    pub(crate) fn of(polygon: &[Point]) -> Self {
+    pub fn of(polygon: &[Point]) -> Self {
         let first = polygon[0];
         let from_first = |p: Point| big(wide(minus(p, first)));
         let mut normal = [0, 0, 0].map(IBig::from);
@@ -76,39 +75,39 @@ impl Plane {
         Self::new(normal, first)
     }
 
-    pub(crate) fn across(axis: usize, at: i64) -> Self {
+    pub fn across(axis: usize, at: i64) -> Self {
         let mut normal = [0, 0, 0].map(IBig::from);
         normal[axis] = 1.into();
         Self::new(normal, [at; 3])
     }
 
     /// Whether it has a direction.
-    pub(crate) fn is_proper(&self) -> bool {
+    pub fn is_proper(&self) -> bool {
         self.normal.iter().any(|c| !c.is_zero())
     }
 
-    pub(crate) fn at(&self, p: Point) -> IBig {
+    pub fn at(&self, p: Point) -> IBig {
         scalar(&self.normal, &big(wide(p))) - &self.offset
     }
 
     /// The first of the axes along which the normal is longest.
-    pub(crate) fn main_axis(&self) -> usize {
+    pub fn main_axis(&self) -> usize {
         main_axis(&self.normal)
     }
 
-    pub(crate) fn length(&self) -> f64 {
+    pub fn length(&self) -> f64 {
         let [x, y, z, _] = self.rounded;
         (x * x + y * y + z * z).sqrt()
     }
 
-    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+    pub fn is_same_as(&self, other: &Self) -> bool {
         let parallel = product(&self.normal, &other.normal).iter().all(Zero::is_zero);
         let axis = self.main_axis();
         parallel && &self.offset * &other.normal[axis] == &other.offset * &self.normal[axis]
     }
 
     /// On which side a point is.
-    pub(crate) fn side(&self, spot: &Spot) -> Ordering {
+    pub fn side(&self, spot: &Spot) -> Ordering {
         let ([a, b, c, d], [x, y, z]) = (self.rounded, spot.rounded);
         let (value, size) =
             (a * x + b * y + c * z - d, (a * x).abs() + (b * y).abs() + (c * z).abs() + d.abs());
@@ -119,7 +118,7 @@ impl Plane {
     }
 
     /// How far from it a point is, rounded; of the sign of its side.
-    pub(crate) fn distance(&self, spot: &Spot) -> f64 {
+    pub fn distance(&self, spot: &Spot) -> f64 {
         let value = scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator;
         float(&value) / float(&spot.denominator) / self.length()
     }
@@ -127,14 +126,14 @@ impl Plane {
 
 /// A point of fractions: numerators over a denominator above 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Spot {
-    pub(crate) numerators: Big,
-    pub(crate) denominator: IBig,
-    pub(crate) rounded: [f64; 3],
+pub struct Spot {
+    pub numerators: Big,
+    pub denominator: IBig,
+    pub rounded: [f64; 3],
 }
 
 impl Spot {
-    pub(crate) fn new(numerators: Big, denominator: IBig) -> Self {
+    pub fn new(numerators: Big, denominator: IBig) -> Self {
         let below = float(&denominator);
         let rounded = numerators.each_ref().map(|c| float(c) / below);
         Self { numerators, denominator, rounded }

@@ -1,12 +1,10 @@
 //! The cells of a tree: which side of each plane a fragment is said to be on, and whether a point
 //! is there, exactly.
 
-use binspace::BspTree;
-use std::cmp::Ordering;
-use std::ops::Range;
-
 use super::exact::{Plane, Spot};
 use super::ray::Targets;
+use crate::prelude::*;
+use std::ops::Range;
 
 /// A partition plane and the fragments around it.
 struct Node {
@@ -17,14 +15,14 @@ struct Node {
     back: Range<u32>,
 }
 
-pub(crate) struct Cells {
+pub struct Cells {
     nodes: Vec<Node>,
     /// The last node above each fragment.
     above: Vec<Option<usize>>,
 }
 
 impl Cells {
-    pub(crate) fn new(targets: &Targets<'_>, tree: &BspTree) -> Self {
+    pub fn new(targets: &Targets<'_>, tree: &BspTree) -> Self {
         let mut nodes: Vec<Node> = Vec::new();
         let mut above = vec![None; tree.len()];
         // The last node seen at each depth.
@@ -44,7 +42,7 @@ impl Cells {
     }
 
     /// Whether two fragments are said to lie on one plane.
-    pub(crate) fn share_a_plane(&self, a: u32, b: u32) -> bool {
+    pub fn share_a_plane(&self, a: u32, b: u32) -> bool {
         let [above, other] = [a, b].map(|fragment| self.above[fragment as usize]);
         above.is_some_and(|node| {
             self.nodes[node].on.contains(&a) && self.nodes[node].on.contains(&b)
@@ -54,7 +52,7 @@ impl Cells {
     /// Whether a point of a fragment's polygon is in the cell of the fragment: inside, on its
     /// border, or (`None`) not; an error if the fragment is said to lie on a plane that is not
     /// where the point is.
-    pub(crate) fn within(&self, fragment: u32, spot: &Spot) -> Result<Option<Border>, String> {
+    pub fn within(&self, fragment: u32, spot: &Spot) -> Result<Option<Border>, String> {
         let mut border = Border::Inside;
         let mut next = self.above[fragment as usize];
         while let Some(index) = next {
@@ -82,7 +80,7 @@ impl Cells {
 
 /// Where in a cell a point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Border {
+pub enum Border {
     Inside,
     On,
 }
