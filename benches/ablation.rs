@@ -10,7 +10,7 @@
 
 use binspace::BuildOptions;
 use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::internals::{Faces, Quick, Tuning, tree_of};
+use binspace::internals::{Faces, FrameTuning, Tuning, tree_of};
 use binspace::scene::Scene;
 use std::time::{Duration, Instant};
 use support::{SEED, Table, boxes, check, print_head, random_quads, scene, small_triangles};
@@ -65,8 +65,8 @@ macro_rules! changes {
 const MOST: usize = usize::MAX;
 
 const CHANGES: [Change; 31] = changes! {
-    quick: "table alone" => Some(Quick { crossings: 0, probes: 0, ..Quick::FRAMES }),
-        "probes alone" => Some(Quick { table: 0, crossings: 0, ..Quick::FRAMES });
+    quick: "table alone" => Some(FrameTuning { crossings: 0, probes: 0, ..FrameTuning::FRAMES }),
+        "probes alone" => Some(FrameTuning { table: 0, crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
@@ -81,17 +81,25 @@ const CHANGES: [Change; 31] = changes! {
 
 /// Those that frames have of their own.
 const OF_FRAMES: [Change; 11] = [
-    ("table", "0", |t| t.quick = Some(Quick { table: 0, ..Quick::FRAMES })),
-    ("table", "½", |t| t.quick = Some(Quick { table: 16, ..Quick::FRAMES })),
-    ("crossings", "0", |t| t.quick = Some(Quick { crossings: 0, ..Quick::FRAMES })),
-    ("crossings", "½", |t| t.quick = Some(Quick { crossings: 1, ..Quick::FRAMES })),
-    ("crossings", "all", |t| t.quick = Some(Quick { crossings: MOST, ..Quick::FRAMES })),
-    ("probes", "0", |t| t.quick = Some(Quick { probes: 0, ..Quick::FRAMES })),
-    ("probes", "×2", |t| t.quick = Some(Quick { probes: 8, ..Quick::FRAMES })),
-    ("trusted_share", "½", |t| t.quick = Some(Quick { trusted_share: 0.125, ..Quick::FRAMES })),
-    ("trusted_share", "×2", |t| t.quick = Some(Quick { trusted_share: 0.5, ..Quick::FRAMES })),
-    ("coarse", "0", |t| t.quick = Some(Quick { coarse: 0.0, ..Quick::FRAMES })),
-    ("coarse", "∞", |t| t.quick = Some(Quick { coarse: f64::INFINITY, ..Quick::FRAMES })),
+    ("table", "0", |t| t.quick = Some(FrameTuning { table: 0, ..FrameTuning::FRAMES })),
+    ("table", "½", |t| t.quick = Some(FrameTuning { table: 16, ..FrameTuning::FRAMES })),
+    ("crossings", "0", |t| t.quick = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
+    ("crossings", "½", |t| t.quick = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
+    ("crossings", "all", |t| {
+        t.quick = Some(FrameTuning { crossings: MOST, ..FrameTuning::FRAMES })
+    }),
+    ("probes", "0", |t| t.quick = Some(FrameTuning { probes: 0, ..FrameTuning::FRAMES })),
+    ("probes", "×2", |t| t.quick = Some(FrameTuning { probes: 8, ..FrameTuning::FRAMES })),
+    ("trusted_share", "½", |t| {
+        t.quick = Some(FrameTuning { trusted_share: 0.125, ..FrameTuning::FRAMES })
+    }),
+    ("trusted_share", "×2", |t| {
+        t.quick = Some(FrameTuning { trusted_share: 0.5, ..FrameTuning::FRAMES })
+    }),
+    ("coarse", "0", |t| t.quick = Some(FrameTuning { coarse: 0.0, ..FrameTuning::FRAMES })),
+    ("coarse", "∞", |t| {
+        t.quick = Some(FrameTuning { coarse: f64::INFINITY, ..FrameTuning::FRAMES })
+    }),
 ];
 
 fn main() {

@@ -112,7 +112,7 @@ pub mod iter {
 /// any release.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::build::choose::{Quick, Tuning};
+    pub use crate::build::choose::{FrameTuning, Tuning};
     pub use crate::build::driver::tree_of;
     pub use crate::exact::{
         EdgeLine, Eye, Faces, LATTICE_LIMIT, Lattice, PlaneId, PlaneKind, PreparedPlane, Side,

@@ -3,7 +3,7 @@
 use super::subtree::{Builder, Pending, Shared, is_leaf_of_table};
 use crate::Error;
 use crate::bits::bits;
-use crate::build::choose::{Best, ChooseContext, MOST_IN_TABLE, Quick, Set, crosses};
+use crate::build::choose::{Best, ChooseContext, FrameTuning, MOST_IN_TABLE, Set, crosses};
 use crate::build::piece::Piece;
 use crate::exact::{PlaneId, PreparedPlane, Side};
 use crate::tree::parts::{RawChild, RawNode};
@@ -76,7 +76,7 @@ impl Builder<'_> {
         &mut self,
         start: usize,
         depth: usize,
-        quick: &Quick,
+        quick: &FrameTuning,
     ) -> Result<(), Error> {
         self.fill_table(start);
         let all = u64::MAX >> (SLOTS - self.table.slots.len());
@@ -135,7 +135,7 @@ impl Builder<'_> {
     /// cuts few pieces, all of which cross its own piece; else the best of those that cut nothing, a
     /// free plane that cuts nothing, or the best of its own. (Where an own plane cannot be trusted, free
     /// planes come first.)
-    fn best_of_table(&mut self, set: u64, quick: &Quick) -> Result<Row, Error> {
+    fn best_of_table(&mut self, set: u64, quick: &FrameTuning) -> Result<Row, Error> {
         let (slot, ends_search) = self.best_own_of_table(set, quick)?;
         if !ends_search && let Some(free) = self.free_of_table(set) {
             return Ok(free);
@@ -144,7 +144,7 @@ impl Builder<'_> {
     }
 
     /// The slot of the best own plane of a set, and whether no free plane is better.
-    fn best_own_of_table(&mut self, set: u64, quick: &Quick) -> Result<(usize, bool), Error> {
+    fn best_own_of_table(&mut self, set: u64, quick: &FrameTuning) -> Result<(usize, bool), Error> {
         let Shared { faces, rules: ChooseContext { tuning, .. }, .. } = self.shared;
         let mut best: Option<Best> = None;
         for slot in bits(set) {

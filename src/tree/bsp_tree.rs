@@ -243,7 +243,7 @@ pub struct BspTree {
     pub(crate) nodes: Vec<NodeRecord>,
     pub(crate) planes: Planes,
     /// None in a tree for one view.
-    pub(super) schedule: Option<OrderLayout>,
+    pub(super) layout: Option<OrderLayout>,
     pub(crate) records: Vec<Record>,
     pub(super) vertices: Vec<StoredVertex>,
     /// Rounded positions of the vertices, in lattice units; only in a tree for one view.
@@ -268,7 +268,7 @@ impl BspTree {
             preparation: Preparation::default(),
             nodes: vec![],
             planes: Planes::default(),
-            schedule: None,
+            layout: None,
             records: vec![],
             vertices: vec![],
             positions: vec![],
@@ -318,7 +318,7 @@ impl BspTree {
         tree.nodes.shrink_to_fit();
         tree.records.shrink_to_fit();
         tree.vertices.shrink_to_fit();
-        tree.schedule = Some(OrderLayout::new(&tree.nodes, tree.records.len() as u32)?);
+        tree.layout = Some(OrderLayout::new(&tree.nodes, tree.records.len() as u32)?);
         Ok(tree)
     }
 
@@ -464,7 +464,7 @@ impl BspTree {
             + self.faces.bytes()
             + size_of_val(&*self.nodes)
             + self.planes.bytes()
-            + self.schedule.as_ref().map_or(0, |schedule| schedule.bytes())
+            + self.layout.as_ref().map_or(0, |layout| layout.bytes())
             + size_of_val(&*self.records)
             + size_of_val(&*self.vertices)
             + size_of_val(&*self.positions)

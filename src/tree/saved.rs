@@ -74,7 +74,7 @@ impl BspTree {
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         let of_cell = if self.faces.corners_of_cell() > 0 { OF_CELL } else { 0 };
-        file.u32(of_cell + if self.schedule.is_none() { FOR_ONE_VIEW } else { 0 })?;
+        file.u32(of_cell + if self.layout.is_none() { FOR_ONE_VIEW } else { 0 })?;
         self.faces.write(&mut file)?;
         self.write_preparation(&mut file)?;
         file.u64(self.nodes.len() as u64)?;
@@ -129,15 +129,15 @@ impl BspTree {
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
             let nodes = read_nodes(&nodes, listed.len(), &faces)?;
-            let schedule = || OrderLayout::new(&nodes, listed.len() as u32);
-            let schedule = (!for_one_view).then(schedule).transpose();
-            Ok((schedule.map_err(|_| LoadError::out_of_memory())?, nodes))
+            let layout = || OrderLayout::new(&nodes, listed.len() as u32);
+            let layout = (!for_one_view).then(layout).transpose();
+            Ok((layout.map_err(|_| LoadError::out_of_memory())?, nodes))
         };
         let is_worth_it = listed.len() > WORTH_A_THREAD;
         let checked = parallel_map::beside(is_worth_it, || laid_out = lay_out(), || faces.check());
         checked?;
         check_preparation(&mut preparation, &dropped, &faces)?;
-        let (schedule, nodes) = laid_out?;
+        let (layout, nodes) = laid_out?;
         let parts = replay::replay(&faces, &nodes, &listed, for_one_view)?;
         let mut planes = Planes::default();
         planes.fill(&faces, &nodes).map_err(|_| LoadError::out_of_memory())?;
@@ -148,7 +148,7 @@ impl BspTree {
             preparation,
             nodes,
             planes,
-            schedule,
+            layout,
             records,
             vertices,
             positions,

@@ -226,9 +226,9 @@ impl BspTree {
         if self.planes != planes {
             return Err(fault(0, "the rounded planes are not those of the nodes"));
         }
-        if let Some(schedule) = &self.schedule {
+        if let Some(layout) = &self.layout {
             let expected = OrderLayout::new(&self.nodes, self.records.len() as u32);
-            if *schedule != expected.map_err(out_of_memory)? {
+            if *layout != expected.map_err(out_of_memory)? {
                 return Err(fault(0, "the layout for orders does not match the nodes"));
             }
         }

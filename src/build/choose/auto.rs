@@ -1,10 +1,10 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
 use super::axis_planes::FreePlanes;
-use super::cost::{Candidate, CostModel, Quick, Tuning};
-use super::own::{Contest, Sample};
+use super::cost::{CostModel, FrameTuning, PricedPlane, Tuning};
+use super::frame_planes::{Middle, even_plane};
+use super::own::{Candidates, Sample};
 use super::peel::{Peeler, arrange};
-use super::quick::{Middle, even_plane};
 use super::set::{LANES, Set};
 use super::{Choice, ChooseContext};
 use crate::Error;
@@ -17,7 +17,7 @@ use crate::progress::PIECES_AT_ONCE;
 pub(super) struct Auto {
     pub(super) free: FreePlanes,
     sample: Sample,
-    contest: Contest,
+    candidates: Candidates,
     peeler: Peeler,
 }
 
@@ -75,7 +75,7 @@ impl Auto {
         &mut self,
         set: &Set<'_>,
         tuning: &Tuning,
-        quick: &Quick,
+        quick: &FrameTuning,
     ) -> Option<PlaneId> {
         if quick.probes == 0 {
             return None;
@@ -118,20 +118,20 @@ impl Auto {
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
-        free: Option<Candidate>,
+        free: Option<PricedPlane>,
         is_peeled: bool,
     ) -> Choice {
         let ChooseContext { tuning, watch, .. } = *rules;
         let terms = CostModel::small(set, tuning);
         self.sample.restart(set, set.len());
-        self.contest.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
-        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
+        self.candidates.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
+        let own = self.candidates.best(set, &mut self.sample, &terms, tuning);
         if let Some(own) = own
             && own.cost.divides_evenly(set.len(), tuning.uneven)
         {
             return Choice::Split(own.plane);
         }
-        let places = self.contest.one_sided();
+        let places = self.candidates.one_sided();
         if !is_peeled
             && !places.is_empty()
             && let Some(peeled) =
@@ -146,7 +146,7 @@ impl Auto {
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
-        free: Option<Candidate>,
+        free: Option<PricedPlane>,
     ) -> Result<Choice, Error> {
         let ChooseContext { tuning, watch, .. } = *rules;
         let terms = CostModel::large(set, tuning);
@@ -154,7 +154,7 @@ impl Auto {
         watch.work(set.len())?;
         self.begin_large(set, &terms, tuning);
         watch.work(set.len())?;
-        if self.contest.one_sided().len() >= tuning.one_sided_needed {
+        if self.candidates.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
             let arranged = arrange(set, tuning.groups_per_box);
@@ -170,7 +170,7 @@ impl Auto {
             self.begin_large(set, &terms, tuning);
             watch.work(set.len())?;
         }
-        let own = self.contest.best(set, &mut self.sample, &terms, tuning);
+        let own = self.candidates.best(set, &mut self.sample, &terms, tuning);
         Ok(better(set, &terms, own, free))
     }
 
@@ -178,7 +178,7 @@ impl Auto {
     fn begin_large(&mut self, set: &Set<'_>, terms: &CostModel, tuning: &Tuning) {
         let count = tuning.few_own_planes;
         self.sample.restart(set, count.next_multiple_of(LANES));
-        self.contest.begin(set, &mut self.sample, count, terms, tuning);
+        self.candidates.begin(set, &mut self.sample, count, terms, tuning);
     }
 }
 
@@ -195,8 +195,8 @@ fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
 fn better(
     set: &Set<'_>,
     terms: &CostModel,
-    own: Option<Candidate>,
-    free: Option<Candidate>,
+    own: Option<PricedPlane>,
+    free: Option<PricedPlane>,
 ) -> Choice {
     Choice::Split(match (own, free) {
         (Some(own), Some(free)) if terms.compared(free.cost).is_less(&own.cost) => free.plane,

@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-use super::cost::{Candidate, Cost, Counts, Tuning};
+use super::cost::{Cost, Counts, PricedPlane, Tuning};
 use super::set::Set;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId};
@@ -31,7 +31,7 @@ impl FreePlanes {
     /// bounding volume hierarchies”, 2007). Compares the borders of bins, and the places inside bins at
     /// which all of the bin's ends come before its first beginning: rows of vertices, and gaps. The
     /// corner nearest the best of these names the plane. Takes O(n) time.
-    pub(super) fn best(&mut self, set: &Set<'_>, watch: &Watch<'_>) -> Option<Candidate> {
+    pub(super) fn best(&mut self, set: &Set<'_>, watch: &Watch<'_>) -> Option<PricedPlane> {
         let n = set.len();
         watch.work(n * SWEEP).ok()?;
         let count = (n / PER_BIN).clamp(16, MOST_BINS);
@@ -73,7 +73,7 @@ impl FreePlanes {
     }
 
     /// The plane through the corner nearest a coordinate.
-    fn through_nearest_corner(set: &Set<'_>, axis: usize, at: f64) -> Option<Candidate> {
+    fn through_nearest_corner(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
         let mut nearest: Option<(f64, f64, &Piece)> = None;
         for piece in set.pieces {
             let ends = [
@@ -97,12 +97,12 @@ impl FreePlanes {
             on += u32::from(end <= coordinate && coordinate <= begin);
         }
         let cost = cost(set.len(), begun, ended, on);
-        cost.is_less(&Cost::MOST).then(|| Candidate { plane: PlaneId::axis(axis, corner), cost })
+        cost.is_less(&Cost::MOST).then(|| PricedPlane { plane: PlaneId::axis(axis, corner), cost })
     }
 
     /// The free plane of least cost among those that cut nothing. It sorts the set, which for a small one
     /// takes less time than counting by bins.
-    pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<Candidate> {
+    pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis) && set.may_have_gap(axis))
@@ -270,11 +270,11 @@ enum Through {
 
 impl FreePlane {
     /// The plane by the name of a corner on it.
-    fn with_corner(&self, set: &Set<'_>) -> Option<Candidate> {
+    fn with_corner(&self, set: &Set<'_>) -> Option<PricedPlane> {
         let Self { cost, axis, through } = *self;
         let coordinate = match through {
             Through::Corner(corner) => {
-                return Some(Candidate { plane: PlaneId::axis(axis, corner), cost });
+                return Some(PricedPlane { plane: PlaneId::axis(axis, corner), cost });
             }
             Through::Coordinate(coordinate) => coordinate,
         };
@@ -284,7 +284,7 @@ impl FreePlane {
         };
         let piece = set.pieces.iter().find(touches)?;
         let corner = piece.corner_at(set.faces, axis, coordinate)?;
-        Some(Candidate { plane: PlaneId::axis(axis, corner), cost })
+        Some(PricedPlane { plane: PlaneId::axis(axis, corner), cost })
     }
 }
 

@@ -124,7 +124,7 @@ impl CostModel {
 
 /// A plane with what it costs to divide a set by it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
+pub(super) struct PricedPlane {
     pub(super) plane: PlaneId,
     pub(super) cost: Cost,
 }
@@ -203,7 +203,7 @@ pub struct Tuning {
     /// pieces): their groups are not near one another.
     pub groups_per_box: usize,
     /// How small sets are divided quickly; `None` in trees that stay. With it, orders take a fifth longer.
-    pub quick: Option<Quick>,
+    pub quick: Option<FrameTuning>,
 }
 
 impl Tuning {
@@ -223,12 +223,12 @@ impl Tuning {
     };
 
     /// What frames are built with, of which each is ordered once or twice.
-    pub const FRAMES: Self = Self { quick: Some(Quick::FRAMES), ..Self::DEFAULT };
+    pub const FRAMES: Self = Self { quick: Some(FrameTuning::FRAMES), ..Self::DEFAULT };
 }
 
 /// What decides how small sets are divided quickly, in numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct Quick {
+pub struct FrameTuning {
     /// Sets of at most so many pieces, 32 at most, are divided down to the leaves from a table of
     /// where each piece lies against each plane. Larger: the table takes longer than it saves;
     /// smaller: planes are chosen anew for every set. Own planes come first in it, which makes trees
@@ -254,7 +254,7 @@ pub struct Quick {
     pub coarse: f64,
 }
 
-impl Quick {
+impl FrameTuning {
     /// That of frames.
     pub const FRAMES: Self =
         Self { table: 32, crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };

@@ -1,16 +1,16 @@
 //! Choosing the plane that divides a set of pieces.
 //!
 //! `auto` is the default heuristic; `own` has those that only try the pieces' own planes, and the contest of
-//! these planes. `axis_planes` finds planes perpendicular to the axes, `quick` in frames an own plane of a
+//! these planes. `axis_planes` finds planes perpendicular to the axes, `frame_planes` in frames an own plane of a
 //! small set that is good enough, `peel` pieces that planes at the border of a set take off without a cut.
 //! `cost` compares planes and has the numbers of all this; `set` has a set's pieces, exact and rounded.
 
 mod auto;
 mod axis_planes;
 mod cost;
+mod frame_planes;
 mod own;
 mod peel;
-mod quick;
 mod set;
 
 use super::options::{DEFAULT_WEIGHTS, Heuristic};
@@ -21,9 +21,9 @@ use crate::random::mix;
 use auto::Auto;
 use own::Scored;
 
-pub use cost::{Quick, Tuning};
+pub use cost::{FrameTuning, Tuning};
+pub(super) use frame_planes::{Best, crosses};
 pub(super) use peel::Peeled;
-pub(super) use quick::{Best, crosses};
 pub(super) use set::Set;
 
 /// Chooses splitters; its lists are kept to be used again.
@@ -124,7 +124,7 @@ pub(in crate::build) struct ChooseContext<'a> {
 
 impl<'a> ChooseContext<'a> {
     /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
-    pub(in crate::build) fn tabled(&self, pieces: usize) -> Option<&'a Quick> {
+    pub(in crate::build) fn tabled(&self, pieces: usize) -> Option<&'a FrameTuning> {
         let quick = self.tuning.quick.as_ref()?;
         let is_tabled =
             self.heuristic == Heuristic::Auto && pieces <= quick.table.min(MOST_IN_TABLE);

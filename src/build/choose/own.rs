@@ -1,7 +1,7 @@
 //! The best plane among the pieces' own planes: by counting all pieces, or by successive halving of the
 //! candidates over growing samples.
 
-use super::cost::{Candidate, Cost, CostModel, Counts, Tuning};
+use super::cost::{Cost, CostModel, Counts, PricedPlane, Tuning};
 use super::set::{LANES, PackedPieces, PackedPlane, Set};
 use crate::build::piece::Piece;
 use crate::exact::PlaneId;
@@ -9,7 +9,7 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// A piece whose plane is tried.
 #[derive(Clone, Copy, Debug)]
-struct Entrant {
+struct Candidate {
     /// The piece, by its number in the set.
     piece: usize,
     /// What its plane costs, as far as is known.
@@ -47,8 +47,8 @@ impl Shares {
 /// Compares candidates with more and more pieces, and keeps the best of them (successive halving:
 /// Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
-pub(super) struct Contest {
-    field: Vec<Entrant>,
+pub(super) struct Candidates {
+    field: Vec<Candidate>,
     /// How many groups of the packed pieces they were compared with.
     seen: usize,
     /// The costs of the field, by their places in it.
@@ -58,7 +58,7 @@ pub(super) struct Contest {
     one_sided: Vec<usize>,
 }
 
-impl Contest {
+impl Candidates {
     /// Replaces the field by the first `count` pieces of the sample, and compares them with the first
     /// pieces of it.
     pub(super) fn begin(
@@ -74,7 +74,7 @@ impl Contest {
         self.seen = 0;
         let pieces = (0..count.min(sketch.len())).map(|place| sketch.number(place));
         self.field.clear();
-        self.field.extend(pieces.map(|piece| Entrant {
+        self.field.extend(pieces.map(|piece| Candidate {
             piece,
             share: shares.get(&set.pieces[piece]),
             plane: sketch.plane(set, piece),
@@ -83,8 +83,8 @@ impl Contest {
         }));
         self.look(set, sample, tuning.first_sample, terms);
         let is_one_sided =
-            |c: &Entrant| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
-        let found = self.field.iter().enumerate().filter(|(_, entrant)| is_one_sided(entrant));
+            |c: &Candidate| c.counts.splits == 0 && c.counts.front.min(c.counts.back) == 0;
+        let found = self.field.iter().enumerate().filter(|(_, candidate)| is_one_sided(candidate));
         self.one_sided.clear();
         self.one_sided.extend(found.map(|(place, _)| place));
     }
@@ -102,7 +102,7 @@ impl Contest {
         sample: &mut Sample,
         terms: &CostModel,
         tuning: &Tuning,
-    ) -> Option<Candidate> {
+    ) -> Option<PricedPlane> {
         let mut pieces = tuning.first_sample;
         while pieces < set.len() {
             self.halve(tuning.rate);
@@ -110,7 +110,8 @@ impl Contest {
             self.look(set, sample, pieces, terms);
         }
         let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost));
-        let own = |best: &Entrant| Candidate { plane: set.own_plane(best.piece), cost: best.cost };
+        let own =
+            |best: &Candidate| PricedPlane { plane: set.own_plane(best.piece), cost: best.cost };
         best.map(own)
     }
 
@@ -121,7 +122,7 @@ impl Contest {
             return;
         }
         self.ranks.clear();
-        self.ranks.extend(self.field.iter().zip(0..).map(|(entrant, i)| (entrant.cost, i)));
+        self.ranks.extend(self.field.iter().zip(0..).map(|(candidate, i)| (candidate.cost, i)));
         let by_cost = |a: &(Cost, u32), b: &(Cost, u32)| a.0.cmp(&b.0).then(a.1.cmp(&b.1));
         self.ranks.select_nth_unstable_by(left, by_cost);
         self.ranks.truncate(left);
@@ -140,9 +141,9 @@ impl Contest {
         self.seen = groups.end;
         let looked = sketch.len().min(groups.end * LANES);
         let terms = if looked == set.len() { *terms } else { terms.of_sample(looked, set.len()) };
-        for entrant in &mut self.field {
-            entrant.counts += sketch.count(&entrant.plane, groups.clone());
-            entrant.cost = terms.cost(&entrant.counts, entrant.share);
+        for candidate in &mut self.field {
+            candidate.counts += sketch.count(&candidate.plane, groups.clone());
+            candidate.cost = terms.cost(&candidate.counts, candidate.share);
         }
     }
 }

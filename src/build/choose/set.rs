@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::cost::Counts;
-use super::quick::crosses;
+use super::frame_planes::crosses;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
 

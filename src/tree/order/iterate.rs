@@ -6,7 +6,7 @@ use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
 use super::eye::View;
-use super::layout::{Branch, FRAGMENTS, List, NEXT, NODES, OrderLayout, ROOT, Run};
+use super::layout::{Chain, FRAGMENTS, Inner, NEXT, NODES, OrderLayout, ROOT, Span};
 use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
 
@@ -251,7 +251,7 @@ impl BspTree {
     }
 }
 
-/// Spare places behind an order: a twig always writes as many numbers as the largest has.
+/// Spare places behind an order: a block always writes as many numbers as the largest has.
 const ROOM: usize = FRAGMENTS;
 
 impl BspTree {
@@ -265,12 +265,12 @@ impl BspTree {
     /// written to its final place.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         let view = View::new(self, viewpoint);
-        let Some(schedule) = &self.schedule else {
+        let Some(layout) = &self.layout else {
             order.clear();
             let (nodes, fragments) = (self.nodes.len() as u32, self.len() as u32);
             return write_from_nodes(self, &view, 0..nodes, 0..fragments, order);
         };
-        write_order(schedule, self.records.len(), self.planes.words(), order, |signs| {
+        write_order(layout, self.records.len(), self.planes.words(), order, |signs| {
             view.write_signs(self, signs);
         });
     }
@@ -335,39 +335,39 @@ pub(in crate::tree) fn write_from_nodes(
 /// `write_signs` fills `words` words with a bit for each node, 1 if the eye is in front.
 #[inline]
 fn write_order(
-    schedule: &OrderLayout,
+    layout: &OrderLayout,
     fragments: usize,
     words: usize,
     order: &mut Vec<u32>,
     write_signs: impl FnOnce(&mut [u32]),
 ) {
     // One buffer for all: the caller's, so that a frame allocates nothing.
-    order.resize(fragments + ROOM + schedule.parts() + words, 0);
+    order.resize(fragments + ROOM + layout.parts() + words, 0);
     let (numbers, rest) = order.split_at_mut(fragments + ROOM);
     // Where each part begins in the order.
-    let (begins, signs) = rest.split_at_mut(schedule.parts());
+    let (begins, signs) = rest.split_at_mut(layout.parts());
     if let Some(root) = begins.get_mut(ROOT as usize) {
         *root = 0;
     }
     write_signs(signs);
-    write_branches(&schedule.branches, signs, begins, numbers);
-    let begins = &begins[ROOT as usize + schedule.branches.len()..];
-    let (of_twigs, of_runs) = begins.split_at(schedule.twigs.len());
-    write_twigs(schedule, signs, of_twigs, numbers);
-    write_runs(&schedule.runs, of_runs, numbers);
+    write_inner(&layout.inner, signs, begins, numbers);
+    let begins = &begins[ROOT as usize + layout.inner.len()..];
+    let (of_blocks, of_spans) = begins.split_at(layout.blocks.len());
+    write_blocks(layout, signs, of_blocks, numbers);
+    write_spans(&layout.spans, of_spans, numbers);
     order.truncate(fragments);
 }
 
-/// Writes the fragments on the planes of branches, and notes where the parts on their sides begin.
+/// Writes the fragments on the planes of inner nodes, and notes where the parts on their sides begin.
 ///
 /// The loop has no branch on the eye's side, which no processor can predict; missing parts and
 /// fragments write to dummy slots.
-fn write_branches(branches: &[Branch], signs: &[u32], begins: &mut [u32], numbers: &mut [u32]) {
+fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut [u32]) {
     let nowhere = numbers.len() - 1;
     let mut begin = 0;
-    for (branch, next) in branches.iter().zip(ROOT as usize + 1..) {
-        let &Branch { own, front, back, .. } = branch;
-        let is_in_front = is_in_front(signs, branch.node);
+    for (inner, next) in inner.iter().zip(ROOT as usize + 1..) {
+        let &Inner { own, front, back, .. } = inner;
+        let is_in_front = is_in_front(signs, inner.node);
         // The order is: far side, own, near side. The far side is the back if the eye is in front.
         let mut to_front = select_unpredictable(is_in_front, back + own, 0);
         let mut to_back = select_unpredictable(is_in_front, 0, front + own);
@@ -376,58 +376,58 @@ fn write_branches(branches: &[Branch], signs: &[u32], begins: &mut [u32], number
             let place = select_unpredictable(own == 1, (begin + to_own) as usize, nowhere);
             // Without an own fragment, the write goes to a spare place behind the order. That is
             // cheaper than a branch that is taken for every other node.
-            numbers[place] = branch.own_first;
-        } else if let Some(list) = branch.list() {
-            let to_rest = write_list(&list, signs, begin, numbers);
-            // One of the two sides is `NOBODY`; the other is what the list leaves.
+            numbers[place] = inner.own_first;
+        } else if let Some(chain) = inner.chain() {
+            let to_rest = write_chain(&chain, signs, begin, numbers);
+            // One of the two sides is `NOBODY`; the other is what the chain leaves.
             (to_front, to_back) = (to_rest, to_rest);
         } else {
-            begins[branch.own_first as usize] = begin + to_own;
+            begins[inner.own_first as usize] = begin + to_own;
         }
-        begins[branch.front_part as usize] = begin + to_front;
-        begins[branch.back_part as usize] = begin + to_back;
-        // The next branch mostly is a child of this one, and then its place has just been computed.
+        begins[inner.front_part as usize] = begin + to_front;
+        begins[inner.back_part as usize] = begin + to_back;
+        // The next inner node mostly is a child of this one, and then its place has just been computed.
         // Passing it on in a register saves the loop from waiting for a store to be read back.
         let stored = begins[next];
-        let from_back = select_unpredictable(branch.back_part == NEXT, begin + to_back, stored);
-        begin = select_unpredictable(branch.front_part == NEXT, begin + to_front, from_back);
+        let from_back = select_unpredictable(inner.back_part == NEXT, begin + to_back, stored);
+        begin = select_unpredictable(inner.front_part == NEXT, begin + to_front, from_back);
     }
 }
 
 /// Writes subtrees of up to four fragments, each by one look into a table.
-fn write_twigs(schedule: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
-    for (twig, &begin) in schedule.twigs.iter().zip(begins) {
-        let word = twig.node as usize / 32;
-        // The bits of a twig's nodes may lie across two words; `signs` has one word more than it needs.
+fn write_blocks(layout: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
+    for (block, &begin) in layout.blocks.iter().zip(begins) {
+        let word = block.node as usize / 32;
+        // The bits of a block's nodes may lie across two words; `signs` has one word more than it needs.
         let words = u64::from(signs[word]) | u64::from(signs[word + 1]) << 32;
-        let signs = (words >> (twig.node % 32)) as usize % (1 << NODES);
-        let places = schedule.permutations[twig.row as usize][signs] as usize;
+        let signs = (words >> (block.node % 32)) as usize % (1 << NODES);
+        let places = layout.permutations[block.row as usize][signs] as usize;
         let room = numbers[begin as usize..].first_chunk_mut::<FRAGMENTS>();
         let Some(numbers) = room else { continue };
-        // Always four writes. A fragment that the twig does not have shares the place of the first
+        // Always four writes. A fragment that the block does not have shares the place of the first
         // one, which is written last.
-        numbers[places >> 6] = twig.first + 3;
-        numbers[places >> 4 & 3] = twig.first + 2;
-        numbers[places >> 2 & 3] = twig.first + 1;
-        numbers[places & 3] = twig.first;
+        numbers[places >> 6] = block.first + 3;
+        numbers[places >> 4 & 3] = block.first + 2;
+        numbers[places >> 2 & 3] = block.first + 1;
+        numbers[places & 3] = block.first;
     }
 }
 
-fn write_runs(runs: &[Run], begins: &[u32], numbers: &mut [u32]) {
-    for (run, &begin) in runs.iter().zip(begins) {
+fn write_spans(spans: &[Span], begins: &[u32], numbers: &mut [u32]) {
+    for (run, &begin) in spans.iter().zip(begins) {
         let places = &mut numbers[begin as usize..][..run.len as usize];
         places.iter_mut().zip(run.first..).for_each(|(place, number)| *place = number);
     }
 }
 
-/// Writes the fragments of a list from both ends inwards. Returns how many of them come before the
+/// Writes the fragments of a chain from both ends inwards. Returns how many of them come before the
 /// rest, which lies behind or in front of the last node.
-fn write_list(list: &List, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u32 {
-    let places = &mut numbers[begin as usize..][..(list.nodes + list.rest) as usize];
+fn write_chain(chain: &Chain, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u32 {
+    let places = &mut numbers[begin as usize..][..(chain.nodes + chain.rest) as usize];
     let (mut far, mut near) = (0, places.len() - 1);
-    for (node, number) in (list.first_node..).zip(list.first..).take(list.nodes as usize) {
+    for (node, number) in (chain.first_node..).zip(chain.first..).take(chain.nodes as usize) {
         // The node's fragment is further than the rest if the rest and the eye are on one side.
-        let is_far = is_in_front(signs, node) == list.rest_is_front;
+        let is_far = is_in_front(signs, node) == chain.rest_is_front;
         places[select_unpredictable(is_far, far, near)] = number;
         far += usize::from(is_far);
         near -= usize::from(!is_far);

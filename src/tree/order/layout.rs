@@ -1,5 +1,5 @@
-//! Where the fragments of a tree stand in memory, for orders to be written from: branches, twigs that a table
-//! puts in order, and runs.
+//! Where the fragments of a tree stand in memory, for orders to be written from: inner nodes, blocks that a table
+//! puts in order, and spans.
 
 use std::collections::HashMap;
 
@@ -7,34 +7,35 @@ use crate::Error;
 use crate::memory::push;
 use crate::tree::node::NodeRecord;
 
-/// Shorter lists are stored as ordinary branches: to branch on a list costs more than a short one
+/// Shorter chains are stored as ordinary inner nodes: to branch on a chain costs more than a short one
 /// saves.
-const SHORTEST_LIST: usize = 8;
+const SHORTEST_CHAIN: usize = 8;
 
 impl OrderLayout {
     /// Lays out a tree. O(nodes).
     pub(in crate::tree) fn new(nodes: &[NodeRecord], fragments: u32) -> Result<Self, Error> {
-        let mut layout = Layout { nodes, schedule: Self::default(), rows: HashMap::new(), next: 0 };
+        let mut layout =
+            LayoutBuilder { nodes, layout: Self::default(), rows: HashMap::new(), next: 0 };
         layout.fill(fragments)?;
-        let mut schedule = layout.schedule;
-        schedule.number();
-        schedule.branches.shrink_to_fit();
-        schedule.twigs.shrink_to_fit();
-        schedule.runs.shrink_to_fit();
-        Ok(schedule)
+        let mut layout = layout.layout;
+        layout.number();
+        layout.inner.shrink_to_fit();
+        layout.blocks.shrink_to_fit();
+        layout.spans.shrink_to_fit();
+        Ok(layout)
     }
 
     /// Replaces numbers within a kind by part numbers, once the size of each kind is known.
     fn number(&mut self) {
-        let twigs = ROOT + self.branches.len() as u32;
-        let runs = twigs + self.twigs.len() as u32;
-        for branch in &mut self.branches {
-            let parts = [&mut branch.front_part, &mut branch.back_part];
-            let own = (branch.own > 1 && branch.own & LIST == 0).then_some(&mut branch.own_first);
+        let blocks = ROOT + self.inner.len() as u32;
+        let spans = blocks + self.blocks.len() as u32;
+        for inner in &mut self.inner {
+            let parts = [&mut inner.front_part, &mut inner.back_part];
+            let own = (inner.own > 1 && inner.own & CHAIN == 0).then_some(&mut inner.own_first);
             for part in parts.into_iter().chain(own) {
                 *part = match *part & KIND {
-                    TWIG => twigs + (*part & !KIND),
-                    RUN => runs + (*part & !KIND),
+                    BLOCK => blocks + (*part & !KIND),
+                    SPAN => spans + (*part & !KIND),
                     _ => *part,
                 };
             }
@@ -44,20 +45,20 @@ impl OrderLayout {
 
 /// The bits that tell the kind of a part while parts are numbered within their kind. They are free
 /// because a tree has fewer than 2²⁹ fragments.
-const KIND: u32 = TWIG | RUN;
-const TWIG: u32 = 1 << 31;
-const RUN: u32 = 1 << 30;
+const KIND: u32 = BLOCK | SPAN;
+const BLOCK: u32 = 1 << 31;
+const SPAN: u32 = 1 << 30;
 
-/// A side of a branch.
-enum BranchSide {
+/// A side of an inner node.
+enum InnerSide {
     Front,
     Back,
 }
 
-struct Layout<'a> {
+struct LayoutBuilder<'a> {
     nodes: &'a [NodeRecord],
-    schedule: OrderLayout,
-    rows: HashMap<TwigShape, u32>,
+    layout: OrderLayout,
+    rows: HashMap<BlockShape, u32>,
     /// The first fragment that is not yet in a part.
     next: u32,
 }
@@ -67,43 +68,47 @@ struct Unplaced {
     node: usize,
     nodes: usize,
     fragments: u32,
-    /// The branch above it, and on which side of that it is.
-    parent: Option<(usize, BranchSide)>,
+    /// The inner node above it, and on which side of that it is.
+    parent: Option<(usize, InnerSide)>,
 }
 
-impl Layout<'_> {
+impl LayoutBuilder<'_> {
     fn fill(&mut self, fragments: u32) -> Result<(), Error> {
         let all = Unplaced { node: 0, nodes: self.nodes.len(), fragments, parent: None };
         let mut stack = if self.nodes.is_empty() { vec![] } else { vec![all] };
         while let Some(subtree) = stack.pop() {
-            let is_twig = subtree.nodes <= NODES && subtree.fragments as usize <= FRAGMENTS;
-            let part = if is_twig {
+            let is_block = subtree.nodes <= NODES && subtree.fragments as usize <= FRAGMENTS;
+            let part = if is_block {
                 let nodes = &self.nodes[subtree.node..][..subtree.nodes];
-                self.twig(subtree.node, TwigShape::of(nodes, subtree.fragments), subtree.fragments)?
+                self.block(
+                    subtree.node,
+                    BlockShape::of(nodes, subtree.fragments),
+                    subtree.fragments,
+                )?
             } else {
-                self.branch(&subtree, &mut stack)?
+                self.inner(&subtree, &mut stack)?
             };
-            if let Some((branch, side)) = subtree.parent {
+            if let Some((inner, side)) = subtree.parent {
                 // Parents are laid out before their children, so the parent learns the number here.
                 // A child right behind its parent gets `NEXT`, which the writing loop can recognise
                 // without reading memory.
-                let part = if part == ROOT + branch as u32 + 1 { NEXT } else { part };
-                let branch = &mut self.schedule.branches[branch];
+                let part = if part == ROOT + inner as u32 + 1 { NEXT } else { part };
+                let inner = &mut self.layout.inner[inner];
                 match side {
-                    BranchSide::Front => branch.front_part = part,
-                    BranchSide::Back => branch.back_part = part,
+                    InnerSide::Front => inner.front_part = part,
+                    InnerSide::Back => inner.back_part = part,
                 }
             }
         }
         Ok(())
     }
 
-    fn branch(&mut self, subtree: &Unplaced, stack: &mut Vec<Unplaced>) -> Result<u32, Error> {
-        let index = self.schedule.branches.len();
+    fn inner(&mut self, subtree: &Unplaced, stack: &mut Vec<Unplaced>) -> Result<u32, Error> {
+        let index = self.layout.inner.len();
         let mut links = self.links(subtree);
         let first = self.next;
-        if links >= SHORTEST_LIST {
-            // A list looks like its last node to everything below. The other nodes each have one
+        if links >= SHORTEST_CHAIN {
+            // A chain looks like its last node to everything below. The other nodes each have one
             // fragment, and these follow each other, so it is enough to count them.
             self.next += links as u32 - 1;
         } else {
@@ -117,28 +122,28 @@ impl Layout<'_> {
         let front_nodes = node.front_nodes as usize;
         let front_part = if front_nodes == 0 { self.leaf(front)? } else { NOBODY };
         let back_part = if node.back_is_node() { NOBODY } else { self.leaf(back)? };
-        // The back goes on the stack first, so that the front comes off first: branches, twigs and
+        // The back goes on the stack first, so that the front comes off first: inner nodes, blocks and
         // fragments must be numbered depth first, as they stand in memory.
         if node.back_is_node() {
-            let parent = Some((index, BranchSide::Back));
+            let parent = Some((index, InnerSide::Back));
             let nodes = subtree.nodes - links - front_nodes;
             let node = node_index + 1 + front_nodes;
             push(stack, Unplaced { node, nodes, fragments: back, parent })?;
         }
         if front_nodes > 0 {
-            let parent = Some((index, BranchSide::Front));
+            let parent = Some((index, InnerSide::Front));
             let node = node_index + 1;
             push(stack, Unplaced { node, nodes: front_nodes, fragments: front, parent })?;
         }
         let (own, own_first) =
-            if links > 1 { (LIST | links as u32, first) } else { (own, own_first) };
+            if links > 1 { (CHAIN | links as u32, first) } else { (own, own_first) };
         let node = subtree.node as u32;
-        let branch = Branch { node, own, front, back, front_part, back_part, own_first };
-        push(&mut self.schedule.branches, branch)?;
+        let inner = Inner { node, own, front, back, front_part, back_part, own_first };
+        push(&mut self.layout.inner, inner)?;
         Ok(ROOT + index as u32)
     }
 
-    /// How many nodes at the top of a subtree form a list.
+    /// How many nodes at the top of a subtree form a chain.
     fn links(&self, subtree: &Unplaced) -> usize {
         let mut fragments = subtree.fragments;
         let side = |node: &NodeRecord, fragments: u32| {
@@ -165,27 +170,27 @@ impl Layout<'_> {
         match fragments {
             0 => Ok(NOBODY),
             _ if fragments as usize <= FRAGMENTS => {
-                self.twig(0, TwigShape::leaf(fragments), fragments)
+                self.block(0, BlockShape::leaf(fragments), fragments)
             }
             _ => {
                 let first = self.take(fragments);
-                push(&mut self.schedule.runs, Run { first, len: fragments })?;
-                Ok(RUN | (self.schedule.runs.len() as u32 - 1))
+                push(&mut self.layout.spans, Span { first, len: fragments })?;
+                Ok(SPAN | (self.layout.spans.len() as u32 - 1))
             }
         }
     }
 
-    /// Makes a twig; twigs of one shape share a row of the table.
-    fn twig(&mut self, node: usize, shape: TwigShape, fragments: u32) -> Result<u32, Error> {
+    /// Makes a block; blocks of one shape share a row of the table.
+    fn block(&mut self, node: usize, shape: BlockShape, fragments: u32) -> Result<u32, Error> {
         // The table has a row for each shape, of which there is a fixed number.
-        let permutations = &mut self.schedule.permutations;
+        let permutations = &mut self.layout.permutations;
         let row = *self.rows.entry(shape).or_insert_with(|| {
             permutations.push(shape.permutations());
             permutations.len() as u32 - 1
         });
         let first = self.take(fragments);
-        push(&mut self.schedule.twigs, Twig { node: node as u32, first, row })?;
-        Ok(TWIG | (self.schedule.twigs.len() as u32 - 1))
+        push(&mut self.layout.blocks, Block { node: node as u32, first, row })?;
+        Ok(BLOCK | (self.layout.blocks.len() as u32 - 1))
     }
 
     /// Assigns the next fragments to a part, and returns the number of the first.
@@ -198,37 +203,37 @@ impl Layout<'_> {
 
 /// Part number for "none".
 pub(in crate::tree) const NOBODY: u32 = 0;
-/// Part number for "the branch that follows in memory".
+/// Part number for "the inner node that follows in memory".
 pub(in crate::tree) const NEXT: u32 = 1;
 /// Part number of the whole tree.
 pub(in crate::tree) const ROOT: u32 = 2;
 
 /// A tree's fragments, divided into *parts*. The fragments of a part are contiguous in every order.
 ///
-/// - A *branch* is a node with everything on its sides.
-/// - A *twig* is a subtree or leaf of at most [`FRAGMENTS`](FRAGMENTS) fragments and
+/// - An *inner node* is a node with everything on its sides.
+/// - A *block* is a subtree or leaf of at most [`FRAGMENTS`](FRAGMENTS) fragments and
 ///   [`NODES`](NODES) nodes.
-/// - A *run* is a longer sequence of fragments that always come in the order of their numbers, such
+/// - A *span* is a longer sequence of fragments that always come in the order of their numbers, such
 ///   as many on one plane.
 ///
-/// Parts are numbered from [`ROOT`]: branches first, then twigs, then runs, each depth first.
+/// Parts are numbered from [`ROOT`]: inner nodes first, then blocks, then spans, each depth first.
 ///
-/// There are fewer than two parts per fragment. Proof: call *ends* the twigs, the runs, and the
-/// fragments that are alone on the plane of a branch. Each end has a fragment of its own, so there
+/// There are fewer than two parts per fragment. Proof: call *ends* the blocks, the spans, and the
+/// fragments that are alone on the plane of an inner node. Each end has a fragment of its own, so there
 /// are at most as many ends as fragments. A node has fragments on its plane or on both sides, so a
-/// branch contains at least two ends or branches, and there are fewer branches than ends. The
-/// exception is a branch with nothing beside its plane; it contains one run, which has more than
+/// inner node contains at least two ends or inner nodes, and there are fewer inner nodes than ends. The
+/// exception is an inner node with nothing beside its plane; it contains one span, which has more than
 /// [`FRAGMENTS`](FRAGMENTS) fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::tree) struct OrderLayout {
-    pub(in crate::tree) branches: Vec<Branch>,
-    pub(in crate::tree) twigs: Vec<Twig>,
-    pub(in crate::tree) runs: Vec<Run>,
-    /// For each shape of twig: how the signs of its nodes permute its fragments.
+    pub(in crate::tree) inner: Vec<Inner>,
+    pub(in crate::tree) blocks: Vec<Block>,
+    pub(in crate::tree) spans: Vec<Span>,
+    /// For each shape of block: how the signs of its nodes permute its fragments.
     pub(in crate::tree) permutations: Vec<Permutations>,
 }
 
-/// A node whose subtree is too large for a twig, or several such nodes in a row; see [`List`].
+/// A node whose subtree is too large for a block, or several such nodes in a row; see [`Chain`].
 ///
 /// The value of `own` decides what `own` and `own_first` mean:
 ///
@@ -236,29 +241,29 @@ pub(in crate::tree) struct OrderLayout {
 /// |---|---|---|
 /// | 0 | no fragment on the plane | unused |
 /// | 1 | one fragment on the plane | its number |
-/// | 2 or more, below [`LIST`] | that many fragments on the plane | their part number |
-/// | [`LIST`] + n | a list of n nodes | the number of the first node's fragment |
+/// | 2 or more, below [`CHAIN`] | that many fragments on the plane | their part number |
+/// | [`CHAIN`] + n | a chain of n nodes | the number of the first node's fragment |
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::tree) struct Branch {
-    /// The node, or the first of a list.
+pub(in crate::tree) struct Inner {
+    /// The node, or the first of a chain.
     pub(in crate::tree) node: u32,
     pub(in crate::tree) own: u32,
-    /// How many fragments are in front and behind, at all levels below; for a list, those of its last
+    /// How many fragments are in front and behind, at all levels below; for a chain, those of its last
     /// node.
     pub(in crate::tree) front: u32,
     pub(in crate::tree) back: u32,
-    /// Their part numbers. For a list, one is [`NOBODY`].
+    /// Their part numbers. For a chain, one is [`NOBODY`].
     pub(in crate::tree) front_part: u32,
     pub(in crate::tree) back_part: u32,
     pub(in crate::tree) own_first: u32,
 }
 
-/// Marks a [`Branch`] that is a list.
-pub(super) const LIST: u32 = 1 << 31;
+/// Marks an [`Inner`] that is a chain.
+pub(super) const CHAIN: u32 = 1 << 31;
 
 /// Nodes in a row, each with one fragment on its plane and all others below a single child, always
 /// on the same side. The order is written from both ends inwards; the rest comes in between.
-pub(in crate::tree) struct List {
+pub(in crate::tree) struct Chain {
     pub(in crate::tree) first_node: u32,
     pub(in crate::tree) nodes: u32,
     /// The fragment of the first node; the others follow.
@@ -268,13 +273,13 @@ pub(in crate::tree) struct List {
     pub(in crate::tree) rest_is_front: bool,
 }
 
-impl Branch {
-    /// The list, if it is one.
+impl Inner {
+    /// The chain, if it is one.
     #[inline]
-    pub(in crate::tree) fn list(&self) -> Option<List> {
-        (self.own & LIST != 0).then(|| List {
+    pub(in crate::tree) fn chain(&self) -> Option<Chain> {
+        (self.own & CHAIN != 0).then(|| Chain {
             first_node: self.node,
-            nodes: self.own & !LIST,
+            nodes: self.own & !CHAIN,
             first: self.own_first,
             rest: self.front + self.back,
             rest_is_front: self.front > 0,
@@ -284,7 +289,7 @@ impl Branch {
 
 /// A subtree or a leaf of few fragments.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::tree) struct Twig {
+pub(in crate::tree) struct Block {
     /// Its first node; any, if it is a leaf.
     pub(in crate::tree) node: u32,
     /// Its first fragment.
@@ -295,7 +300,7 @@ pub(in crate::tree) struct Twig {
 
 /// Fragments in the order of their numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::tree) struct Run {
+pub(in crate::tree) struct Span {
     pub(in crate::tree) first: u32,
     pub(in crate::tree) len: u32,
 }
@@ -303,37 +308,37 @@ pub(in crate::tree) struct Run {
 impl OrderLayout {
     /// How many parts there are, [`NOBODY`] and [`NEXT`] included.
     pub(in crate::tree) fn parts(&self) -> usize {
-        ROOT as usize + self.branches.len() + self.twigs.len() + self.runs.len()
+        ROOT as usize + self.inner.len() + self.blocks.len() + self.spans.len()
     }
 
     /// The resident size in bytes, apart from its own.
     pub(in crate::tree) fn bytes(&self) -> usize {
-        size_of_val(&*self.branches)
-            + size_of_val(&*self.twigs)
-            + size_of_val(&*self.runs)
+        size_of_val(&*self.inner)
+            + size_of_val(&*self.blocks)
+            + size_of_val(&*self.spans)
             + size_of_val(&*self.permutations)
     }
 }
 
-/// The most fragments of a twig: four places of two bits each fit a byte.
+/// The most fragments of a block: four places of two bits each fit a byte.
 pub(in crate::tree) const FRAGMENTS: usize = 4;
-/// The most nodes of a twig: the builder divides only sets of two pieces or more.
+/// The most nodes of a block: the builder divides only sets of two pieces or more.
 pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 
-/// The places of a twig's fragments for every combination of signs of its nodes.
+/// The places of a block's fragments for every combination of signs of its nodes.
 ///
 /// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the
-/// place of fragment k. Fragments that the twig does not have share the place of the first.
+/// place of fragment k. Fragments that the block does not have share the place of the first.
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
-/// Everything but the signs that decides the places of a twig's fragments: for each node, how many
+/// Everything but the signs that decides the places of a block's fragments: for each node, how many
 /// fragments are on its plane and in front, how many nodes are in front, and whether the back is one;
-/// how many nodes there are, none for a leaf; and how many fragments. Twigs of the same shape share a
+/// how many nodes there are, none for a leaf; and how many fragments. Blocks of the same shape share a
 /// row of the table.
 ///
-/// Packed, as there is one to look up for each twig.
+/// Packed, as there is one to look up for each block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(in crate::tree) struct TwigShape(u32);
+pub(in crate::tree) struct BlockShape(u32);
 
 /// The bits of a node in a shape. Numbers up to [`FRAGMENTS`] take three, up to [`NODES`] two.
 const NODE_BITS: u32 = 3 + 3 + 2 + 1;
@@ -352,7 +357,7 @@ struct ShapeNode {
     back_is_node: bool,
 }
 
-impl TwigShape {
+impl BlockShape {
     /// The shape of a leaf.
     pub(in crate::tree) fn leaf(fragments: u32) -> Self {
         Self(fragments << FRAGMENTS_AT)

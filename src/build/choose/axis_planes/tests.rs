@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Candidate, Cost, work};
+use super::super::cost::{Cost, PricedPlane, work};
 use super::super::tests::Fixture;
 use super::FreePlanes;
 use crate::build::choose::cost::Tuning;
@@ -47,7 +47,7 @@ fn assert_good(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
     let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
     assert_eq!(clean.is_some(), !best.cuts, "{name}: {clean:?}, {best:?}");
-    let cost_of = |found: &Candidate| {
+    let cost_of = |found: &PricedPlane| {
         let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
         at(&pieces, axis, faces.corner(corner)[axis], faces.tolerance())
     };
@@ -134,7 +134,7 @@ fn reaching([begin, end]: [f64; 2], axis: usize) -> [DVec3; 3] {
     })
 }
 
-fn axis_of(found: &Candidate) -> usize {
+fn axis_of(found: &PricedPlane) -> usize {
     let PlaneKind::Axis(axis, _) = found.plane.kind() else { panic!("{found:?}") };
     axis
 }

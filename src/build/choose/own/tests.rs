@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Candidate, Cost, work};
+use super::super::cost::{Cost, PricedPlane, work};
 use super::super::tests::{Fixture, triangles};
-use super::{Contest, CostModel, Sample};
+use super::{Candidates, CostModel, Sample};
 use crate::build::choose::cost::Tuning;
 use crate::build::choose::set::Set;
 use crate::exact::{PlaneKind, Side};
@@ -14,17 +14,17 @@ use crate::random::SplitMix64;
 const ALL: Tuning =
     Tuning { own_planes: usize::MAX, first_sample: usize::MAX >> 1, ..Tuning::DEFAULT };
 
-fn best(set: &Set<'_>, tuning: &Tuning) -> Candidate {
-    let (mut sample, mut contest) = (Sample::default(), Contest::default());
+fn best(set: &Set<'_>, tuning: &Tuning) -> PricedPlane {
+    let (mut sample, mut candidates) = (Sample::default(), Candidates::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len());
     let terms = CostModel::small(set, tuning);
-    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
-    contest.best(set, &mut sample, &terms, tuning).unwrap()
+    candidates.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
+    candidates.best(set, &mut sample, &terms, tuning).unwrap()
 }
 
 /// The whole face whose plane a candidate is.
-fn piece(found: &Candidate) -> usize {
+fn piece(found: &PricedPlane) -> usize {
     let PlaneKind::Face(face) = found.plane.kind() else { panic!("{found:?}") };
     face as usize
 }
@@ -85,13 +85,13 @@ fn halving_finds_a_good_plane() {
 }
 
 /// A contest in which all candidates are compared with the first sample.
-fn begun(set: &Set<'_>, tuning: &Tuning) -> Contest {
-    let (mut sample, mut contest) = (Sample::default(), Contest::default());
+fn begun(set: &Set<'_>, tuning: &Tuning) -> Candidates {
+    let (mut sample, mut candidates) = (Sample::default(), Candidates::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len());
     let terms = CostModel::small(set, tuning);
-    contest.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
-    contest
+    candidates.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
+    candidates
 }
 
 #[test]
@@ -99,15 +99,15 @@ fn halving_keeps_the_best_in_their_order() {
     let mut random = SplitMix64::new(3);
     for n in [5, 60, 121] {
         let fixture = Fixture::new(&triangles(&mut random, n, 0.5), 0.0);
-        let mut contest = begun(&fixture.set(), &Tuning::DEFAULT);
-        let field = contest.field.clone();
+        let mut candidates = begun(&fixture.set(), &Tuning::DEFAULT);
+        let field = candidates.field.clone();
         let mut best: Vec<usize> = (0..field.len()).collect();
         best.sort_by(|&a, &b| field[a].cost.cmp(&field[b].cost));
         best.truncate(field.len().div_ceil(4));
         best.sort_unstable();
-        contest.halve(4);
+        candidates.halve(4);
         let expected = best.into_iter().map(|place| field[place].piece);
-        assert!(contest.field.iter().map(|c| c.piece).eq(expected), "{n}");
+        assert!(candidates.field.iter().map(|c| c.piece).eq(expected), "{n}");
     }
 }
 
@@ -127,8 +127,8 @@ fn one_sided_are_those_with_all_others_on_one_side() {
                     .any(|side| sides.iter().all(|other| [*side, Side::Coplanar].contains(other)))
             };
             let expected: Vec<_> = (0..n).filter(is_one_sided).collect();
-            let contest = begun(&set, &ALL);
-            assert_eq!(contest.one_sided(), expected, "{n} of {size}");
+            let candidates = begun(&set, &ALL);
+            assert_eq!(candidates.one_sided(), expected, "{n} of {size}");
             found += expected.len();
         }
     }

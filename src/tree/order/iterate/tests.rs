@@ -95,17 +95,17 @@ struct Checker<'a> {
     tree: &'a Tree,
     nodes: usize,
     fragments: u32,
-    schedule: OrderLayout,
+    layout: OrderLayout,
     buffer: Vec<u32>,
 }
 
 impl<'a> Checker<'a> {
     fn new(tree: &'a Tree) -> Self {
         let (nodes, fragments) = (tree.nodes(), tree.fragments());
-        let schedule = OrderLayout::new(&nodes, fragments).unwrap();
-        let parts = schedule.parts() - ROOT as usize;
+        let layout = OrderLayout::new(&nodes, fragments).unwrap();
+        let parts = layout.parts() - ROOT as usize;
         assert!(parts < 2 * fragments as usize, "{parts} parts of {tree:?}");
-        Self { tree, nodes: nodes.len(), fragments, schedule, buffer: vec![] }
+        Self { tree, nodes: nodes.len(), fragments, layout, buffer: vec![] }
     }
 
     fn words(&self) -> usize {
@@ -119,7 +119,7 @@ impl<'a> Checker<'a> {
             self.buffer.clear();
             self.buffer.resize(junk, u32::MAX);
             let write = |words: &mut [u32]| words.copy_from_slice(signs);
-            write_order(&self.schedule, fragments, words, &mut self.buffer, write);
+            write_order(&self.layout, fragments, words, &mut self.buffer, write);
             assert_eq!(self.buffer, expected, "{:?} by {signs:?}", self.tree);
         }
     }
@@ -179,7 +179,7 @@ fn trees_of_up_to_five_fragments_come_by_every_sign() {
     assert_eq!(counts, [1, 9, 69, 589, 5529]);
 }
 
-/// What a list may leave: runs on a plane, beside it, and on both sides, and twigs of every size.
+/// What a list may leave: spans on a plane, beside it, and on both sides, and blocks of every size.
 fn rests() -> Vec<Tree> {
     let run = Tree::new(7, Leaf(0), Leaf(0));
     let mut rests = vec![
@@ -199,7 +199,7 @@ fn list(rest: Tree, nodes: usize, rest_is_front: bool) -> Tree {
 }
 
 #[test]
-fn lists_of_any_length_are_followed_by_twigs_and_runs() {
+fn chains_of_any_length_are_followed_by_blocks_and_spans() {
     let mut random = SplitMix64::new(1);
     for rest in rests() {
         for nodes in [1, 2, 6, 7, 8, 9, 15, 31, 32, 33, 70] {
@@ -283,7 +283,7 @@ fn trees_by_chance_come_by_any_signs() {
     }
 }
 
-/// Each plane has nothing on it and one fragment on a side: a branch and a twig for each.
+/// Each plane has nothing on it and one fragment on a side: an inner node and a block for each.
 #[test]
 fn the_most_parts_are_nearly_two_to_a_fragment() {
     let mut tree = Tree::new(0, Leaf(1), Leaf(1));

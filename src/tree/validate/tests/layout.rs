@@ -4,7 +4,7 @@ use super::{trees, verdict};
 use crate::exact::StoredVertex;
 use crate::tree::BspTree;
 
-const SCHEDULE: &str = "the layout for orders does not match the nodes";
+const LAYOUT: &str = "the layout for orders does not match the nodes";
 const POSITIONS: &str = "node 0: the positions are not those of the vertices";
 const ROUNDED: &str = "the rounded planes are not those of the nodes";
 
@@ -24,47 +24,37 @@ fn assert_all(fault: &str, edit: impl Fn(&mut BspTree) -> Option<()>) -> usize {
 #[test]
 fn a_change_of_a_branch_is_found() {
     let broken = [
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.branches.pop().map(drop)),
-        assert_all(SCHEDULE, |tree| {
-            tree.schedule.as_mut()?.branches.last_mut().map(|b| b.node += 1)
-        }),
-        assert_all(SCHEDULE, |tree| {
-            tree.schedule.as_mut()?.branches.last_mut().map(|b| b.own ^= 1)
-        }),
-        assert_all(SCHEDULE, |tree| {
-            tree.schedule.as_mut()?.branches.first_mut().map(|b| b.front += 1)
-        }),
-        assert_all(SCHEDULE, |tree| {
-            tree.schedule.as_mut()?.branches.first_mut().map(|b| b.back += 1)
-        }),
-        assert_all(SCHEDULE, |tree| {
-            let branch = tree.schedule.as_mut()?.branches.first_mut()?;
-            branch.front_part ^= branch.back_part ^ 7;
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.pop().map(drop)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.last_mut().map(|b| b.node += 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.last_mut().map(|b| b.own ^= 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.first_mut().map(|b| b.front += 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.first_mut().map(|b| b.back += 1)),
+        assert_all(LAYOUT, |tree| {
+            let inner = tree.layout.as_mut()?.inner.first_mut()?;
+            inner.front_part ^= inner.back_part ^ 7;
             Some(())
         }),
-        assert_all(SCHEDULE, |tree| {
-            tree.schedule.as_mut()?.branches.first_mut().map(|b| b.back_part += 1)
+        assert_all(LAYOUT, |tree| {
+            tree.layout.as_mut()?.inner.first_mut().map(|b| b.back_part += 1)
         }),
-        assert_all(SCHEDULE, |tree| {
-            let branches = &mut tree.schedule.as_mut()?.branches;
-            branches.iter_mut().find(|b| b.own > 0).map(|b| b.own_first += 1)
+        assert_all(LAYOUT, |tree| {
+            let inner = &mut tree.layout.as_mut()?.inner;
+            inner.iter_mut().find(|b| b.own > 0).map(|b| b.own_first += 1)
         }),
     ];
     assert!(broken.iter().all(|&broken| broken >= 20), "{broken:?}");
 }
 
 #[test]
-fn a_change_of_a_twig_or_a_run_or_a_permutation_is_found() {
-    let twigs = [
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.pop().map(drop)),
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.first_mut().map(|t| t.node += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.last_mut().map(|t| t.first += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.twigs.last_mut().map(|t| t.row ^= 1)),
-        assert_all(SCHEDULE, |tree| {
-            tree.schedule.as_mut()?.permutations.last_mut().map(|p| p[5] ^= 1)
-        }),
-        assert_all(SCHEDULE, |tree| {
-            let [first, .., last] = &mut tree.schedule.as_mut()?.permutations[..] else {
+fn a_change_of_a_block_or_a_span_or_a_permutation_is_found() {
+    let blocks = [
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.blocks.pop().map(drop)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.blocks.first_mut().map(|t| t.node += 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.blocks.last_mut().map(|t| t.first += 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.blocks.last_mut().map(|t| t.row ^= 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.permutations.last_mut().map(|p| p[5] ^= 1)),
+        assert_all(LAYOUT, |tree| {
+            let [first, .., last] = &mut tree.layout.as_mut()?.permutations[..] else {
                 return None;
             };
             let distinct = first != last;
@@ -72,11 +62,11 @@ fn a_change_of_a_twig_or_a_run_or_a_permutation_is_found() {
             distinct.then_some(())
         }),
     ];
-    assert!(twigs.iter().all(|&broken| broken >= 15), "{twigs:?}");
+    assert!(blocks.iter().all(|&broken| broken >= 15), "{blocks:?}");
     let runs = [
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.runs.pop().map(drop)),
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.runs.first_mut().map(|r| r.first += 1)),
-        assert_all(SCHEDULE, |tree| tree.schedule.as_mut()?.runs.last_mut().map(|r| r.len -= 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.spans.pop().map(drop)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.spans.first_mut().map(|r| r.first += 1)),
+        assert_all(LAYOUT, |tree| tree.layout.as_mut()?.spans.last_mut().map(|r| r.len -= 1)),
     ];
     assert!(runs.iter().all(|&broken| broken >= 2), "{runs:?}");
 }

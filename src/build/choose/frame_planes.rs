@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::cost::{Cost, CostModel, Counts, Quick, Tuning};
+use super::cost::{Cost, CostModel, Counts, FrameTuning, Tuning};
 use super::own::Shares;
 use super::set::Set;
 use crate::build::piece::Piece;
@@ -16,11 +16,11 @@ use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 /// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have planes of
 /// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
 /// others that belong together.
-fn trusted_share(faces: &Faces, quick: &Quick) -> f64 {
+fn trusted_share(faces: &Faces, quick: &FrameTuning) -> f64 {
     if quick.is_coarse(faces) { quick.trusted_share } else { 0.0 }
 }
 
-impl Quick {
+impl FrameTuning {
     /// Whether planes of small pieces cannot be trusted.
     pub(in crate::build) fn is_coarse(&self, faces: &Faces) -> bool {
         faces.tolerance() > self.coarse * LATTICE_LIMIT
@@ -46,7 +46,7 @@ impl Best {
         pieces: impl Iterator<Item = &'a Piece>,
         faces: &Faces,
         tuning: &Tuning,
-        quick: &Quick,
+        quick: &FrameTuning,
     ) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let (mut count, mut cuts) = (0, 0);
@@ -115,7 +115,7 @@ impl Best {
 
 /// An own plane that cuts nothing and divides the set evenly, among those of a few pieces. Layers of a
 /// stack have such planes; in other sets a few pieces are enough to see that one is cut.
-pub(super) fn even_plane(set: &Set<'_>, tuning: &Tuning, quick: &Quick) -> Option<PlaneId> {
+pub(super) fn even_plane(set: &Set<'_>, tuning: &Tuning, quick: &FrameTuning) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
     let shares = Shares::of(set.size());
     let least_trusted = trusted_share(set.faces, quick);
@@ -147,7 +147,7 @@ pub(super) enum Middle {
 }
 
 impl Middle {
-    pub(super) fn of(set: &Set<'_>, quick: &Quick) -> Self {
+    pub(super) fn of(set: &Set<'_>, quick: &FrameTuning) -> Self {
         let (axis, middle) = set.middle();
         let is_there = |&own: &usize| {
             let piece = &set.pieces[own];
