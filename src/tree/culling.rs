@@ -9,7 +9,7 @@ use super::BspTree;
 use super::bounds::{Arms, BLOCK, Bounds, HalfSpace};
 use super::node::Ranges;
 use super::order::eye::View;
-use super::order::iterate::write_from_nodes;
+use super::order::write_from_nodes;
 use crate::bits::bits;
 use crate::exact::{Eye, Lattice, PlaneId};
 use crate::viewpoint::{Frustum, Viewpoint};

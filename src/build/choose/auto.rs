@@ -1,11 +1,12 @@
 //! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
 
 use super::axis_planes::FreePlanes;
-use super::cost::{CostModel, FrameTuning, PricedPlane, Tuning};
+use super::cost::{CostModel, PricedPlane};
 use super::frame_planes::{Middle, even_plane};
 use super::own::{Candidates, Sample};
 use super::peel::{Peeler, arrange};
 use super::set::{LANES, Set};
+use super::tuning::{FrameTuning, Tuning};
 use super::{Choice, ChooseContext};
 use crate::Error;
 use crate::build::piece::Piece;
@@ -209,7 +210,7 @@ fn better(
 mod tests {
     use super::super::tests::{Fixture, grid, triangles};
     use super::{Auto, plane_of_pair};
-    use crate::build::choose::cost::Tuning;
+    use crate::build::choose::tuning::Tuning;
     use crate::exact::Side;
     use crate::random::SplitMix64;
 

@@ -3,8 +3,9 @@
 
 use std::cmp::Ordering;
 
-use super::cost::{Cost, Counts, PricedPlane, Tuning};
+use super::cost::{Cost, Counts, PricedPlane};
 use super::set::Set;
+use super::tuning::Tuning;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::{SWEEP, Watch};

@@ -5,9 +5,10 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::cost::{Cost, CostModel, Counts, FrameTuning, Tuning};
+use super::cost::{Cost, CostModel, Counts};
 use super::own::Shares;
 use super::set::Set;
+use super::tuning::{FrameTuning, Tuning};
 use crate::build::piece::Piece;
 use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 

@@ -3,7 +3,7 @@
 //! `auto` is the default heuristic; `own` has those that only try the pieces' own planes, and the contest of
 //! these planes. `axis_planes` finds planes perpendicular to the axes, `frame_planes` in frames an own plane of a
 //! small set that is good enough, `peel` pieces that planes at the border of a set take off without a cut.
-//! `cost` compares planes and has the numbers of all this; `set` has a set's pieces, exact and rounded.
+//! `cost` compares planes, `tuning` has the numbers of all this; `set` has a set's pieces, exact and rounded.
 
 mod auto;
 mod axis_planes;
@@ -12,6 +12,7 @@ mod frame_planes;
 mod own;
 mod peel;
 mod set;
+mod tuning;
 
 use super::options::{DEFAULT_WEIGHTS, Heuristic};
 use crate::Error;
@@ -21,10 +22,10 @@ use crate::random::mix;
 use auto::Auto;
 use own::Scored;
 
-pub use cost::{FrameTuning, Tuning};
 pub(super) use frame_planes::{Best, crosses};
 pub(super) use peel::Peeled;
 pub(super) use set::Set;
+pub use tuning::{FrameTuning, Tuning};
 
 /// Chooses splitters; its lists are kept to be used again.
 #[derive(Debug, Default)]

@@ -1,8 +1,9 @@
 //! The best plane among the pieces' own planes: by counting all pieces, or by successive halving of the
 //! candidates over growing samples.
 
-use super::cost::{Cost, CostModel, Counts, PricedPlane, Tuning};
+use super::cost::{Cost, CostModel, Counts, PricedPlane};
 use super::set::{LANES, PackedPieces, PackedPlane, Set};
+use super::tuning::Tuning;
 use crate::build::piece::Piece;
 use crate::exact::PlaneId;
 use crate::progress::{PIECES_AT_ONCE, Watch};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::cost::Tuning;
 use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
+use super::tuning::Tuning;
 use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::cost::Tuning;
 use super::set::Set;
+use super::tuning::Tuning;
 use super::{Choice, ChooseContext, Chooser};
 use crate::build::piece::{Piece, Splitter};
 use crate::build::{BuildOptions, FrameBuilder, Heuristic};

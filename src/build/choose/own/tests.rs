@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::super::cost::{Cost, PricedPlane, work};
 use super::super::tests::{Fixture, triangles};
 use super::{Candidates, CostModel, Sample};
-use crate::build::choose::cost::Tuning;
 use crate::build::choose::set::Set;
+use crate::build::choose::tuning::Tuning;
 use crate::exact::{PlaneKind, Side};
 use crate::random::SplitMix64;
 

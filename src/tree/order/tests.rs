@@ -3,7 +3,7 @@
 use crate::exact::PlaneId;
 use crate::random::SplitMix64;
 use crate::tree::node::{NodeRecord, finish};
-use crate::tree::order::iterate::{OrderLayout, ROOT, write_order};
+use crate::tree::order::{OrderLayout, ROOT, write_order};
 use crate::tree::parts::{RawChild, RawNode};
 
 /// A node: how many fragments are on its plane, and what is in front and behind.
