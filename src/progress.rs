@@ -14,7 +14,7 @@ pub(crate) const PULSE: usize = 1 << 16;
 /// How many pieces (or polygons, corners and edges while polygons are prepared) are processed between two
 /// polls for cancellation. Too small: polling takes time; too large: cancelling takes longer.
 pub(crate) const PIECES_AT_ONCE: usize = 4096;
-/// A search for free planes along an axis takes about as long as examining each piece so many times.
+/// A search for axis planes takes about as long as examining each piece this many times.
 pub(crate) const SWEEP: usize = 10;
 
 /// What a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so

@@ -140,7 +140,7 @@ fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
             push(&mut kept, face)?;
         }
     }
-    faces.keep(&kept);
+    faces.keep(&kept)?;
     faces.shrink_to_fit();
     Ok(Job { pieces, arena, depth: 0 })
 }

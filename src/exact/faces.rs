@@ -15,7 +15,7 @@ use super::names::PlaneKind;
 use super::{Flattener, cross, have_area, is_convex};
 use super::{Lattice, PlaneId};
 use crate::error::{Error, Kind};
-use crate::memory::{collect, reserve};
+use crate::memory::{collect, push, reserve};
 
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
 /// polygon.
@@ -336,7 +336,9 @@ impl Faces {
         }
         let first = self.faces.len() as u32;
         let numbered = next.numbered.iter();
+        reserve(&mut self.numbered, numbered.len())?;
         self.numbered.extend(numbered.map(|&(face, at)| (first + face, numbers + at)));
+        reserve(&mut self.numbers, next.numbers.len())?;
         self.numbers.extend(next.numbers);
         reserve(&mut self.corners, next.corners.len())?;
         self.corners.extend(next.corners);
@@ -344,6 +346,7 @@ impl Faces {
         let moved = |face: Face| Face { start: face.start + corners as u32, ..face };
         self.faces.extend(next.faces.into_iter().map(moved));
         let moved = next.moved.into_iter();
+        reserve(&mut self.moved, moved.len())?;
         self.moved.extend(moved.map(|(corner, given)| (corner + corners as u32, given)));
         Ok(())
     }
@@ -427,7 +430,7 @@ impl Faces {
     }
 
     /// Removes all faces but those listed, in ascending order.
-    pub(crate) fn keep(&mut self, kept: &[u32]) {
+    pub(crate) fn keep(&mut self, kept: &[u32]) -> Result<(), Error> {
         let (mut numbered, mut numbers, mut moved) = (vec![], vec![], vec![]);
         let mut start = self.corners_of_cell();
         // Faces and corners are moved down in place, so none is overwritten before it is read.
@@ -435,12 +438,14 @@ impl Faces {
             let range = self.corner_range(face);
             if let Ok(at) = self.numbered.binary_search_by_key(&face, |&(face, _)| face) {
                 let first = self.numbered[at].1 as usize;
-                numbered.push((new as u32, numbers.len() as u32));
+                push(&mut numbered, (new as u32, numbers.len() as u32))?;
+                reserve(&mut numbers, range.len())?;
                 numbers.extend_from_slice(&self.numbers[first..first + range.len()]);
             }
             let [first, end] = [range.start, range.end]
                 .map(|end| self.moved.partition_point(|&(corner, _)| (corner as usize) < end));
             let down = (range.start - start) as u32;
+            reserve(&mut moved, end - first)?;
             moved.extend(self.moved[first..end].iter().map(|&(corner, p)| (corner - down, p)));
             self.faces[new] = Face { start: start as u32, ..self.faces[face as usize] };
             self.corners.copy_within(range.clone(), start);
@@ -449,6 +454,7 @@ impl Faces {
         self.faces.truncate(kept.len());
         self.corners.truncate(start);
         (self.numbered, self.numbers, self.moved) = (numbered, numbers, moved);
+        Ok(())
     }
 }
 

@@ -176,6 +176,9 @@ impl Faces {
     /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
     /// and its weight. The weights sum to 1.
     pub(crate) fn barycentric(&self, face: u32, vertex: VertexId) -> SmallVec<[(u32, f64); 3]> {
+        if let VertexKind::Corner(k) = vertex.kind() {
+            return smallvec![(k, 1.0)];
+        }
         let len = self.corners(face).len() as u32;
         let weights = self.weights(face, vertex);
         match vertex.kind() {

@@ -16,6 +16,7 @@ use crate::exact::faces::{Frame, INNER};
 use crate::exact::{
     Faces, Flattener, Lattice, Off, Plane, cross, have_area, integers, is_convex, turns_one_way,
 };
+use crate::memory::{push, reserve};
 use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// Adds the faces of polygons, one after the other.
@@ -77,6 +78,7 @@ impl FaceBuilder<'_> {
                 let (start, axis) = (self.faces.corners.len(), flattener.axis);
                 let frame = Frame::new(second, third, (off > 0.0).then_some(axis));
                 self.push(polygon, 0..count, frame)?;
+                reserve(&mut self.faces.moved, moves.len())?;
                 for (k, steps) in moves {
                     let corner = &mut self.faces.corners[start + k];
                     self.faces.moved.push(((start + k) as u32, *corner));
@@ -128,7 +130,7 @@ impl FaceBuilder<'_> {
         let frame = Frame::new(second, third, (distance > 0.0).then_some(axis));
         self.faces.push(polygon, corners.into_iter(), frame)?;
         if steps != 0.0 {
-            self.faces.moved.push((corner as u32, given));
+            push(&mut self.faces.moved, (corner as u32, given))?;
         }
         self.report_flat(distance);
         Ok(true)
@@ -167,14 +169,14 @@ impl FaceBuilder<'_> {
         self.faces.push(polygon, corners, frame)?;
         // Most polygons become one face with the same corners, which needs no numbers.
         if kept.len() < self.corners.given {
-            self.number_last(kept);
+            self.number_last(kept)?;
         }
         Ok(())
     }
 
     /// Numbers the corners of the last face, unless they are the polygon's first corners in order and all
     /// edges of the face are edges of the polygon.
-    fn number_last(&mut self, kept: impl Iterator<Item = usize> + Clone) {
+    fn number_last(&mut self, kept: impl Iterator<Item = usize> + Clone) -> Result<(), Error> {
         let number = |(from, to): (usize, usize)| {
             self.corners.kept[from].1 | if self.corners.is_outline(from, to) { 0 } else { INNER }
         };
@@ -182,9 +184,11 @@ impl FaceBuilder<'_> {
         let numbers: SmallVec<[u32; 8]> = kept.zip(ends).map(number).collect();
         if (0..).zip(&numbers).any(|(k, &number)| number != k) {
             let faces = &mut *self.faces;
-            faces.numbered.push((faces.faces.len() as u32 - 1, faces.numbers.len() as u32));
+            push(&mut faces.numbered, (faces.faces.len() as u32 - 1, faces.numbers.len() as u32))?;
+            reserve(&mut faces.numbers, numbers.len())?;
             faces.numbers.extend(numbers);
         }
+        Ok(())
     }
 }
 

@@ -225,6 +225,8 @@ impl Overlay {
     /// comes later. What has a number below the tree's [`len`](BspTree::len) is a fragment of the
     /// tree.
     ///
+    /// Computes the whole order before the first item.
+    ///
     /// # Errors
     ///
     /// If the tree is neither the one that the overlay was made for nor a clone of it.

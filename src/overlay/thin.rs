@@ -16,13 +16,13 @@ const SAMPLE: usize = 64;
 /// How many planes of segments are tried. More: time; fewer: more cuts where lines cross each other in
 /// a tangle.
 const OWN: usize = 6;
-/// A cut costs as much as this many pieces more on one side. Smaller: more pieces; larger: trees that
-/// are lists, and take the square of the time.
+/// A cut costs as much as this many pieces more on one side. Too small: more pieces. Too large:
+/// trees degenerate to lists, which take quadratic time.
 const CUT: usize = 4;
 
 type Sample<'a> = SmallVec<[&'a Piece; SAMPLE]>;
 
-/// Chooses the plane that divides a set of pieces, not none, without area. On either side there are
+/// Chooses the plane that divides a non-empty set of lines and points. On either side there are
 /// fewer pieces than in the set.
 pub(super) fn between(
     faces: &Faces,

@@ -321,7 +321,7 @@ impl HitQueue {
         Some(first)
     }
 
-    /// Moves a interval up before those that it comes before.
+    /// Moves an interval up before those that it comes before.
     fn rise(&mut self, mut at: usize, query: &RayQuery, faces: &Faces) {
         while at > 0 {
             let above = (at - 1) / 2;

@@ -42,6 +42,8 @@ struct Pending {
     end: u32,
     from: f64,
     to: f64,
+    /// Neither this part nor those below it on the stack are met before this.
+    floor: f64,
 }
 
 const LEAF: u32 = u32::MAX;
@@ -88,7 +90,7 @@ impl<'t> Walk<'t> {
             if next.is_some() {
                 return next;
             }
-            if !self.reaches(limit) {
+            if self.floor() > limit {
                 return None;
             }
             let part = self.pending.pop()?;
@@ -96,14 +98,14 @@ impl<'t> Walk<'t> {
         }
     }
 
-    /// Whether some pending part is met at a limit or before.
-    fn reaches(&self, limit: f64) -> bool {
-        self.pending.iter().rev().any(|part| part.from <= limit)
+    /// No pending part is met before this.
+    fn floor(&self) -> f64 {
+        self.pending.last().map_or(f64::INFINITY, |part| part.floor)
     }
 
     /// Goes down the near side of a subtree to the first fragments, and leaves the rest on the stack.
     fn descend(&mut self, part: Pending, limit: f64) {
-        let Pending { mut node, first, end, mut from, mut to } = part;
+        let Pending { mut node, first, end, mut from, mut to, .. } = part;
         let mut all = first..end;
         // How many fragments the last box that was compared has; at first none was.
         let mut boxed = u32::MAX;
@@ -118,7 +120,7 @@ impl<'t> Walk<'t> {
                 if from > to {
                     return;
                 }
-                if from > limit && !self.reaches(limit) {
+                if from > limit && self.floor() > limit {
                     return self.push(node, all, [from, to]);
                 }
             }
@@ -167,7 +169,8 @@ impl<'t> Walk<'t> {
     fn push(&mut self, node: u32, fragments: Range<u32>, [from, to]: [f64; 2]) {
         if !fragments.is_empty() {
             let Range { start: first, end } = fragments;
-            self.pending.push(Pending { node, first, end, from, to });
+            let floor = from.min(self.floor());
+            self.pending.push(Pending { node, first, end, from, to, floor });
         }
     }
 

@@ -92,7 +92,7 @@ pub fn verify_fronts(tree: &BspTree, camera: &Camera) -> Result<Verification, Ca
 /// Like [`verify`], for orders that need not be the tree's.
 fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let faces = tree.faces();
-    let (far_first, near_first) = (&orders.0[0], &orders.0[FAR_FIRST]);
+    let (far_first, near_first) = (&orders.0[0], &orders.0[FIRST_NEAR]);
     let mut layers = Layers::new(&rays);
     let painted = paint_list(tree, far_first, Order::BackToFront, &rays, Some(&mut layers));
     let (truth, all) = zbuffer_layers(&rays, faces);
@@ -152,7 +152,8 @@ const FORMS: [&str; 6] = [
     "front_to_back_into",
     "visit_front_to_back",
 ];
-const FAR_FIRST: usize = 3;
+/// Where the forms of front-to-back orders begin among these.
+const FIRST_NEAR: usize = 3;
 
 /// What is wrong with an order; see [`check_orders`].
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -220,7 +221,7 @@ impl Orders {
         let [first, ..] = &self.0;
         for (i, (form, list)) in forms() {
             let expected =
-                |place| if i < FAR_FIRST { first[place] } else { first[fragments - 1 - place] };
+                |place| if i < FIRST_NEAR { first[place] } else { first[fragments - 1 - place] };
             if let Some(place) = (0..fragments).find(|&place| list[place] != expected(place)) {
                 let fault = format!("contradicts {} at place {place} of the order", FORMS[0]);
                 return Err(OrderFault { form, fault });

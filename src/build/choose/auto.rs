@@ -51,7 +51,7 @@ impl Auto {
         let free = if set.len() < tuning.clean_below {
             self.free.clean(set, tuning)
         } else {
-            self.free.best(set, watch)
+            self.free.best(set, watch)?
         };
         if let Some(free) = free
             && !free.cost.cuts

@@ -3,16 +3,21 @@
 
 use std::cmp::Ordering;
 
+use smallvec::SmallVec;
+
 use super::cost::{Cost, Counts, PricedPlane};
 use super::set::Set;
 use super::tuning::Tuning;
+use crate::Error;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId};
-use crate::progress::{SWEEP, Watch};
+use crate::progress::{PIECES_AT_ONCE, SWEEP, Watch};
 
 /// Mean number of pieces per bin. Too small: bins take longer to compare than pieces to count. Too large:
 /// narrow gaps are not found.
 const PER_BIN: usize = 4;
+/// The fewest bins. Too small: of a few pieces, none is found to be separated from the others.
+const FEWEST_BINS: usize = 16;
 /// The most bins. Too small: large sets are cut more often. Too large: bins no longer fit the processor's
 /// first cache.
 const MOST_BINS: usize = 256;
@@ -32,14 +37,51 @@ impl FreePlanes {
     /// bounding volume hierarchies”, 2007). Compares the borders of bins, and the places inside bins at
     /// which all of the bin's ends come before its first beginning: rows of vertices, and gaps. The
     /// corner nearest the best of these names the plane. Takes O(n) time.
-    pub(super) fn best(&mut self, set: &Set<'_>, watch: &Watch<'_>) -> Option<PricedPlane> {
+    pub(super) fn best(
+        &mut self,
+        set: &Set<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<PricedPlane>, Error> {
         let n = set.len();
-        watch.work(n * SWEEP).ok()?;
-        let count = (n / PER_BIN).clamp(16, MOST_BINS);
+        let count = (n / PER_BIN).clamp(FEWEST_BINS, MOST_BINS);
         let (bins, tolerance) = (Bins::new(set, count), set.faces.tolerance());
         self.bins.clear();
         self.bins.resize(count, Bin::EMPTY);
-        for piece in set.pieces {
+        for pieces in set.pieces.chunks(PIECES_AT_ONCE) {
+            watch.work(pieces.len() * SWEEP)?;
+            self.count(pieces, &bins, tolerance);
+        }
+        let mut places: SmallVec<[(Cost, usize, f64); 3]> = SmallVec::new();
+        for axis in axes(set) {
+            let (mut begun, mut ended) = (0, 0);
+            let mut best = (Cost::MOST, axis, 0.0);
+            let mut see = |begun, ended, on, at| {
+                let cost = cost(n, begun, ended, on);
+                if cost.is_less(&best.0) {
+                    best = (cost, axis, at);
+                }
+            };
+            for (next, bin) in (1..).zip(&self.bins) {
+                ended += bin.ended[axis];
+                if bin.end[axis] <= bin.begin[axis] {
+                    see(begun, ended, bin.flat[axis], bin.end[axis]);
+                }
+                begun += bin.begun[axis];
+                see(begun, ended, 0, bins.border(axis, next));
+            }
+            if best.0.is_less(&Cost::MOST) {
+                places.push(best);
+            }
+        }
+        // Where many ends are cuts, the nearest corner may be so far that its plane separates nothing.
+        places.sort_by(|a, b| a.0.cmp(&b.0));
+        let mut planes = places.into_iter().filter_map(|(_, axis, at)| through(set, axis, at));
+        Ok(planes.next())
+    }
+
+    /// Adds pieces to the bins in which they begin and end.
+    fn count(&mut self, pieces: &[Piece], bins: &Bins, tolerance: f64) {
+        for piece in pieces {
             for axis in 0..3 {
                 let [begin, end] = span(piece, axis, tolerance);
                 let bin = &mut self.bins[bins.of(axis, begin)];
@@ -51,54 +93,6 @@ impl FreePlanes {
                 bin.flat[axis] += u32::from(begin == end);
             }
         }
-        let mut best = (Cost::MOST, None);
-        for (axis, _) in axes(set) {
-            let (mut begun, mut ended) = (0, 0);
-            let mut see = |begun, ended, on, at| {
-                let cost = cost(n, begun, ended, on);
-                if cost.is_less(&best.0) {
-                    best = (cost, Some((axis, at)));
-                }
-            };
-            for (next, bin) in (1..).zip(&self.bins) {
-                ended += bin.ended[axis];
-                if bin.end[axis] <= bin.begin[axis] {
-                    see(begun, ended, bin.flat[axis], bin.end[axis]);
-                }
-                begun += bin.begun[axis];
-                see(begun, ended, 0, bins.border(axis, next));
-            }
-        }
-        let (axis, at) = best.1?;
-        Self::through_nearest_corner(set, axis, at)
-    }
-
-    /// The plane through the corner nearest a coordinate.
-    fn through_nearest_corner(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
-        let mut nearest: Option<(f64, f64, &Piece)> = None;
-        for piece in set.pieces {
-            let ends = [
-                (piece.min[axis], piece.min_is_corner(axis)),
-                (piece.max[axis], piece.max_is_corner(axis)),
-            ];
-            for (coordinate, is_corner) in ends {
-                let distance = (coordinate - at).abs();
-                if is_corner && nearest.is_none_or(|(least, ..)| distance < least) {
-                    nearest = Some((distance, coordinate, piece));
-                }
-            }
-        }
-        let (_, coordinate, piece) = nearest?;
-        let corner = piece.corner_at(set.faces, axis, coordinate)?;
-        let (mut begun, mut ended, mut on) = (0, 0, 0);
-        for piece in set.pieces {
-            let [begin, end] = span(piece, axis, set.faces.tolerance());
-            begun += u32::from(begin < coordinate);
-            ended += u32::from(end <= coordinate);
-            on += u32::from(end <= coordinate && coordinate <= begin);
-        }
-        let cost = cost(set.len(), begun, ended, on);
-        cost.is_less(&Cost::MOST).then(|| PricedPlane { plane: PlaneId::axis(axis, corner), cost })
     }
 
     /// The free plane of least cost among those that cut nothing. It sorts the set, which for a small one
@@ -106,8 +100,7 @@ impl FreePlanes {
     pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
-        for (axis, _) in axes(set).filter(|&(axis, _)| set.may_part(axis) && set.may_have_gap(axis))
-        {
+        for axis in axes(set).filter(|&axis| set.may_part(axis) && set.may_have_gap(axis)) {
             if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven)) {
                 break;
             }
@@ -138,6 +131,34 @@ impl FreePlanes {
     }
 }
 
+/// The plane through the corner nearest a coordinate.
+fn through(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
+    let mut nearest: Option<(f64, f64, &Piece)> = None;
+    for piece in set.pieces {
+        let ends = [
+            (piece.min[axis], piece.min_is_corner(axis)),
+            (piece.max[axis], piece.max_is_corner(axis)),
+        ];
+        for (coordinate, is_corner) in ends {
+            let distance = (coordinate - at).abs();
+            if is_corner && nearest.is_none_or(|(least, ..)| distance < least) {
+                nearest = Some((distance, coordinate, piece));
+            }
+        }
+    }
+    let (_, coordinate, piece) = nearest?;
+    let corner = piece.corner_at(set.faces, axis, coordinate)?;
+    let (mut begun, mut ended, mut on) = (0, 0, 0);
+    for piece in set.pieces {
+        let [begin, end] = span(piece, axis, set.faces.tolerance());
+        begun += u32::from(begin < coordinate);
+        ended += u32::from(end <= coordinate);
+        on += u32::from(end <= coordinate && coordinate <= begin);
+    }
+    let cost = cost(set.len(), begun, ended, on);
+    cost.is_less(&Cost::MOST).then(|| PricedPlane { plane: PlaneId::axis(axis, corner), cost })
+}
+
 /// A plane between two pieces, the first of which ends before the other begins: at the end of one of
 /// them, or else through a corner of their faces that was cut off.
 fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Through> {
@@ -152,15 +173,12 @@ fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Thr
     corner(next).or_else(|| corner(first)).map(Through::Corner)
 }
 
-/// The axes along which a set has an extent, with its ends: those first along which it may part,
-/// and the longest of them.
-fn axes(set: &Set<'_>) -> impl Iterator<Item = (usize, [f64; 2])> + use<> {
-    let mut axes = [0, 1, 2].map(|axis| (axis, [set.min[axis], set.max[axis]]));
-    let extent = |&(_, [low, high]): &(usize, [f64; 2])| high - low;
-    axes.sort_by(|a, b| {
-        set.may_part(b.0).cmp(&set.may_part(a.0)).then(extent(b).total_cmp(&extent(a)))
-    });
-    axes.into_iter().filter(move |ends| extent(ends) > 0.0)
+/// The axes along which a set has an extent: those first along which it may part, and the longest of them.
+fn axes(set: &Set<'_>) -> impl Iterator<Item = usize> + use<> {
+    let size = set.size();
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|&a, &b| set.may_part(b).cmp(&set.may_part(a)).then(size[b].total_cmp(&size[a])));
+    axes.into_iter().filter(move |&axis| size[axis] > 0.0)
 }
 
 /// The order of numbers, none of them NaN: less work than a total one.

@@ -73,7 +73,10 @@ impl Chooser {
                 let clean = (set.len() < rules.tuning.clean_below)
                     .then(|| free.clean(set, rules.tuning))
                     .flatten();
-                let free = clean.or_else(|| free.best(set, rules.watch));
+                let free = match clean {
+                    Some(clean) => Some(clean),
+                    None => free.best(set, rules.watch)?,
+                };
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
             Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),

@@ -1,11 +1,12 @@
 //! The numbers of choosing: how many planes are tried on how many pieces, and from which sizes on.
 
-/// What decides how planes are chosen, in numbers, but for the exponent in `cost.rs`.
-/// `benches/ABLATION.md` says what each is worth.
+/// The numbers that decide how planes are chosen. (The exponent of the cost is in `cost.rs`, the numbers of
+/// bins in `axis_planes.rs`.) `benches/ABLATION.md` says what each is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
-    /// Sets of fewer pieces try only free planes that cut nothing, found by sorting. Larger: fewer
-    /// free planes to choose from; smaller: time, as counting by bins costs more than sorting.
+    /// Sets of fewer pieces sort their pieces to find an axis plane that cuts nothing; `Auto` tries no other
+    /// axis planes on them. Too large: fewer axis planes to choose from. Too small: time, as counting by bins
+    /// takes longer than sorting.
     pub clean_below: usize,
     /// Sets of fewer pieces try more own planes, and pieces that need no cut are peeled off them.
     /// Larger: slightly fewer fragments, but more time and deeper trees; smaller: more fragments on

@@ -37,7 +37,7 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
 }
 
 /// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's
-/// normal); exact, in O(n log n). The triangles face the way the polygon does.
+/// normal); exact, with O(n log n) comparisons. The triangles face the way the polygon does.
 ///
 /// The triangles cover everything that the outline winds around, once. A polygon that crosses itself is
 /// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their

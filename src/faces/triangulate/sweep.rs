@@ -11,7 +11,7 @@ use std::ops::Range;
 use super::Outline;
 use super::region::{ChainSide, Region, Triangles, Vertex};
 use crate::Error;
-use crate::progress::Watch;
+use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// A point in lattice units. Points are numbered in the order in which the sweep meets them: by x,
 /// then by y.
@@ -103,13 +103,14 @@ pub(super) struct Sweep<'a> {
     unmerged: Vec<Edge>,
     /// The edges through the current point.
     ended: Vec<u32>,
-    /// Pairs of edges that cross. They have been taken off the line. There are no triangles then.
+    /// Pairs of edges that cross. They have been taken off the line. `triangles` is
+    /// incomplete then.
     pub(super) crossings: Vec<[Edge; 2]>,
     /// The triangles of the inside, counter-clockwise.
     pub(super) triangles: Triangles,
     /// The smallest and the largest winding number met, 0 included.
     windings: [i32; 2],
-    /// Work done at the current point, in edges looked at.
+    /// Work done since the last poll, in points and edges looked at.
     steps: usize,
 }
 
@@ -156,14 +157,17 @@ impl<'a> Sweep<'a> {
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.outline.points.len() as u32 {
-            self.steps = 1;
+            self.steps += 1;
             self.visit(point);
-            watch.work(self.steps)?;
+            if self.steps >= PIECES_AT_ONCE {
+                watch.work(std::mem::take(&mut self.steps))?;
+            }
             let crosses = self.rule == Rule::Signed && !self.crossings.is_empty();
             if crosses || self.waiting.len() > most {
                 return Ok(None);
             }
         }
+        watch.work(self.steps)?;
         Ok(Some(self))
     }
 
@@ -420,8 +424,8 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// The edges on the sweep line, from the lowest to the highest, in blocks: so few are moved where one is
-/// inserted.
+/// The edges on the sweep line, from the lowest to the highest, in blocks of bounded length, so that an
+/// insertion moves few of them. Blocks are split but never merged.
 struct SweepLine {
     /// None of them is empty.
     blocks: Vec<Vec<u32>>,

@@ -213,7 +213,8 @@ fn in_order(names: &Names) -> Vec<&[u8]> {
 pub(super) fn index(word: &str, count: usize) -> Option<usize> {
     let number: i64 = word.parse().ok()?;
     let from_0 = if number < 0 { number.checked_add_unsigned(count as u64)? } else { number - 1 };
-    usize::try_from(from_0).ok()
+    // The number after it is one, too.
+    usize::try_from(from_0).ok().filter(|&index| index < usize::MAX)
 }
 
 /// The problem of a word that names no vertex.

@@ -116,7 +116,7 @@ impl View {
             let distances = self.distances(group);
             let bound = Vec4::splat(self.bound);
             // No early exit for doubtful planes: they are rare, and a word at a time can be decided
-            // without a inner.
+            // without a branch.
             front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
             sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
         }

@@ -42,7 +42,7 @@ fn assert_good(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
         (0..faces.len() as u32).map(|face| Piece::whole(&faces, face)).collect();
     let watch = Watch::default();
     let set = Set::new(&faces, &pieces, &[]);
-    let found = FreePlanes::default().best(&set, &watch);
+    let found = FreePlanes::default().best(&set, &watch).unwrap();
     let costs = [0, 1, 2].map(|axis| least(&pieces, axis, faces.tolerance()));
     let best = costs.into_iter().min_by(Cost::cmp).unwrap_or(Cost::MOST);
     let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
@@ -103,7 +103,7 @@ fn planes_go_through_rows_of_vertices() {
             })
             .collect();
         let fixture = Fixture::new(&polygons, 0.0);
-        let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap();
+        let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap().unwrap();
         assert!(!found.cost.cuts && found.cost.amount < 1.01 * 2.0 * work(81), "{found:?}");
     }
 }
@@ -156,7 +156,7 @@ fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
         assert_eq!(clean.map(|clean| (axis_of(&clean), clean.cost)), Some((axis, even)));
         // On either side of a plane by less than that.
         let fixture = Fixture::new(&of([7e-4, 0.0], [-7e-4, 0.0]), TOLERANCE);
-        let found = FreePlanes::default().best(&fixture.set(), &Watch::default());
+        let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap();
         assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((axis, even)));
     }
 }
@@ -171,7 +171,7 @@ fn a_plane_is_found_where_pieces_only_end() {
     polygons.extend([[ending; 4], [beginning; 4]].concat());
     let mut fixture = Fixture::new(&polygons, 0.0);
     fixture.keep(PlaneId::face(0), Side::Front);
-    let found = FreePlanes::default().best(&fixture.set(), &Watch::default());
+    let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap();
     let even = Cost { cuts: false, amount: 2.0 * work(4) };
     assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((0, even)));
 }
@@ -180,7 +180,7 @@ fn a_plane_is_found_where_pieces_only_end() {
 fn a_tolerance_may_be_wider_than_bins() {
     let mut random = SplitMix64::new(4);
     let fixture = Fixture::new(&triangles(&mut random, 3000, 1e-3, 1.0), 0.01);
-    let found = FreePlanes::default().best(&fixture.set(), &Watch::default());
+    let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap();
     assert!(found.is_some());
 }
 
@@ -198,7 +198,7 @@ fn planes_go_through_the_corners_that_name_them() {
         }
         let set = fixture.set();
         let clean = FreePlanes::default().clean(&set, &Tuning::DEFAULT);
-        let best = FreePlanes::default().best(&set, &Watch::default());
+        let best = FreePlanes::default().best(&set, &Watch::default()).unwrap();
         for found in [clean, best].into_iter().flatten() {
             let PlaneKind::Axis(axis, corner) = found.plane.kind() else { panic!("{found:?}") };
             let coordinate = fixture.faces.corner(corner)[axis];

@@ -22,7 +22,7 @@ fn assert_all(fault: &str, edit: impl Fn(&mut BspTree) -> Option<()>) -> usize {
 }
 
 #[test]
-fn a_change_of_a_branch_is_found() {
+fn a_change_of_an_inner_node_is_found() {
     let broken = [
         assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.pop().map(drop)),
         assert_all(LAYOUT, |tree| tree.layout.as_mut()?.inner.last_mut().map(|b| b.node += 1)),
