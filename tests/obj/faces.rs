@@ -57,6 +57,7 @@ fn line_ends_continuations_and_comments_do_not_matter() {
         with_corners("f 1 2 \\\n 3 4"),
         with_corners("f 1 2 3 4 # the floor"),
         with_corners("# a path: C:\\\nf 1 2 3 4"),
+        with_corners("  # a path: C:\\\nf 1 2 3 4"),
         with_corners("\tf\t1\t2  3 4  "),
         with_corners("f 1 2 3 4").trim_end().to_owned(),
         with_corners("f -5 -4 -3 -2"),

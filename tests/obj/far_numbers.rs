@@ -52,3 +52,20 @@ fn vertices_that_come_later_are_corners() {
     let stream = ObjStream::open(file("later_vertices_but_one", &text)).unwrap();
     assert!(stream.corners().map(|corner| corner.x).eq((0..600).map(f64::from)));
 }
+
+/// Whatever faces came before: the number is one more than the highest so far, or than the vertices.
+#[test]
+fn a_number_one_past_the_last_vertex_is_an_error() {
+    for (name, vertices, faces) in
+        [("past_two", 2, "f 1 2 3\n"), ("past_five", 5, "f 1 2 3\nf 3 4 5 6\n")]
+    {
+        let text = "v 0 1 2\n".repeat(vertices) + faces;
+        let line = text.lines().count();
+        let whole = crate::obj::read(&text).map(|_| ()).unwrap_err().to_string();
+        let streamed = ObjStream::open(file(name, &text)).map(|_| ()).unwrap_err().to_string();
+        for error in [whole, streamed] {
+            assert!(error.contains(&format!("line {line}")), "{error}");
+            assert!(error.contains(&format!("{}", vertices + 1)), "{error}");
+        }
+    }
+}

@@ -13,11 +13,11 @@ use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::{PIECES_AT_ONCE, SWEEP, Watch};
 
-/// Mean number of pieces per bin. Too small: bins take longer to compare than pieces to count. Too large:
-/// narrow gaps are not found.
+/// Mean number of pieces per bin in large sets. Too small: bins take longer to compare than pieces to count.
+/// Too large: narrow gaps are not found.
 const PER_BIN: usize = 4;
-/// The fewest bins. Too small: of a few pieces, none is found to be separated from the others.
-const FEWEST_BINS: usize = 16;
+/// The fewest bins. Too small: small sets are cut more often. Too large: as above.
+const FEWEST_BINS: usize = 64;
 /// The most bins. Too small: large sets are cut more often. Too large: bins no longer fit the processor's
 /// first cache.
 const MOST_BINS: usize = 256;
