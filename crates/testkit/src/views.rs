@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 #[derive(Clone, Debug)]
 pub struct View {
     pub viewpoint: Viewpoint,
-    /// The eye in lattice units; or the direction of view, in integers.
+    /// The eye in lattice units, rounded; or the direction of view, in integers.
     lattice: DVec3,
     /// The eye as the library rounds it; `None` for a direction, and for an eye too far to be a point.
     eye: Option<Point>,
@@ -50,13 +50,16 @@ impl View {
 
     /// The line of sight through a point: where it begins, and where it goes.
     pub fn ray_to(&self, target: DVec3) -> (Vector, Vector) {
-        let lattice = vector(self.lattice.to_array());
+        let lattice = || vector(self.lattice.to_array());
         match self.viewpoint {
             Viewpoint::Eye(_) => {
                 let direction = ((target - self.lattice) * 256.0).round();
-                (lattice, vector(direction.to_array()))
+                // A whole number, but not always one that `f64` holds.
+                let exact = |eye: &Point| eye.each_ref().map(|c| c.numerator().clone());
+                let origin = self.eye.as_ref().map_or_else(lattice, exact);
+                (origin, vector(direction.to_array()))
             }
-            Viewpoint::Direction(_) => (vector(target.round().to_array()), lattice),
+            Viewpoint::Direction(_) => (vector(target.round().to_array()), lattice()),
         }
     }
 }
