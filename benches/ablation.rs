@@ -65,7 +65,7 @@ macro_rules! changes {
 const MOST: usize = usize::MAX;
 
 const CHANGES: [Change; 31] = changes! {
-    quick: "table alone" => Some(FrameTuning { crossings: 0, probes: 0, ..FrameTuning::FRAMES }),
+    frames: "table alone" => Some(FrameTuning { crossings: 0, probes: 0, ..FrameTuning::FRAMES }),
         "probes alone" => Some(FrameTuning { table: 0, crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
@@ -81,24 +81,24 @@ const CHANGES: [Change; 31] = changes! {
 
 /// Those that frames have of their own.
 const OF_FRAMES: [Change; 11] = [
-    ("table", "0", |t| t.quick = Some(FrameTuning { table: 0, ..FrameTuning::FRAMES })),
-    ("table", "½", |t| t.quick = Some(FrameTuning { table: 16, ..FrameTuning::FRAMES })),
-    ("crossings", "0", |t| t.quick = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
-    ("crossings", "½", |t| t.quick = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
+    ("table", "0", |t| t.frames = Some(FrameTuning { table: 0, ..FrameTuning::FRAMES })),
+    ("table", "½", |t| t.frames = Some(FrameTuning { table: 16, ..FrameTuning::FRAMES })),
+    ("crossings", "0", |t| t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
+    ("crossings", "½", |t| t.frames = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
     ("crossings", "all", |t| {
-        t.quick = Some(FrameTuning { crossings: MOST, ..FrameTuning::FRAMES })
+        t.frames = Some(FrameTuning { crossings: MOST, ..FrameTuning::FRAMES })
     }),
-    ("probes", "0", |t| t.quick = Some(FrameTuning { probes: 0, ..FrameTuning::FRAMES })),
-    ("probes", "×2", |t| t.quick = Some(FrameTuning { probes: 8, ..FrameTuning::FRAMES })),
+    ("probes", "0", |t| t.frames = Some(FrameTuning { probes: 0, ..FrameTuning::FRAMES })),
+    ("probes", "×2", |t| t.frames = Some(FrameTuning { probes: 8, ..FrameTuning::FRAMES })),
     ("trusted_share", "½", |t| {
-        t.quick = Some(FrameTuning { trusted_share: 0.125, ..FrameTuning::FRAMES })
+        t.frames = Some(FrameTuning { trusted_share: 0.125, ..FrameTuning::FRAMES })
     }),
     ("trusted_share", "×2", |t| {
-        t.quick = Some(FrameTuning { trusted_share: 0.5, ..FrameTuning::FRAMES })
+        t.frames = Some(FrameTuning { trusted_share: 0.5, ..FrameTuning::FRAMES })
     }),
-    ("coarse", "0", |t| t.quick = Some(FrameTuning { coarse: 0.0, ..FrameTuning::FRAMES })),
+    ("coarse", "0", |t| t.frames = Some(FrameTuning { coarse: 0.0, ..FrameTuning::FRAMES })),
     ("coarse", "∞", |t| {
-        t.quick = Some(FrameTuning { coarse: f64::INFINITY, ..FrameTuning::FRAMES })
+        t.frames = Some(FrameTuning { coarse: f64::INFINITY, ..FrameTuning::FRAMES })
     }),
 ];
 

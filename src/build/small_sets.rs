@@ -76,13 +76,13 @@ impl Builder<'_> {
         &mut self,
         start: usize,
         depth: usize,
-        quick: &FrameTuning,
+        frames: &FrameTuning,
     ) -> Result<(), Error> {
         self.fill_table(start);
         let all = u64::MAX >> (SLOTS - self.table.slots.len());
         self.table.sets.push(Open { set: all, depth });
         while let Some(Open { set, depth }) = self.table.sets.pop() {
-            let row = self.best_of_table(set, quick)?;
+            let row = self.best_of_table(set, frames)?;
             let spanning = set & row.front & row.back;
             if spanning.count_ones() > self.table.free.count_ones() {
                 // There are not enough slots, so smaller sets get tables of their own.
@@ -135,8 +135,8 @@ impl Builder<'_> {
     /// cuts few pieces, all of which cross its own piece; else the best of those that cut nothing, a
     /// free plane that cuts nothing, or the best of its own. (Where an own plane cannot be trusted, free
     /// planes come first.)
-    fn best_of_table(&mut self, set: u64, quick: &FrameTuning) -> Result<Row, Error> {
-        let (slot, ends_search) = self.best_own_of_table(set, quick)?;
+    fn best_of_table(&mut self, set: u64, frames: &FrameTuning) -> Result<Row, Error> {
+        let (slot, ends_search) = self.best_own_of_table(set, frames)?;
         if !ends_search && let Some(free) = self.free_of_table(set) {
             return Ok(free);
         }
@@ -144,7 +144,11 @@ impl Builder<'_> {
     }
 
     /// The slot of the best own plane of a set, and whether no free plane is better.
-    fn best_own_of_table(&mut self, set: u64, quick: &FrameTuning) -> Result<(usize, bool), Error> {
+    fn best_own_of_table(
+        &mut self,
+        set: u64,
+        frames: &FrameTuning,
+    ) -> Result<(usize, bool), Error> {
         let Shared { faces, rules: ChooseContext { tuning, .. }, .. } = self.shared;
         let mut best: Option<Best> = None;
         for slot in bits(set) {
@@ -154,14 +158,14 @@ impl Builder<'_> {
             let cut = set & front & back;
             // What crosses the piece has to be cut anyway, or the piece.
             let is_needed = cut != 0
-                && cut.count_ones() as usize <= quick.crossings
+                && cut.count_ones() as usize <= frames.crossings
                 && self.cuts_what_crosses(slot, cut)?;
             let slots = &self.table.slots;
-            if is_needed && !quick.is_coarse(faces) {
+            if is_needed && !frames.is_coarse(faces) {
                 return Ok((slot, true));
             }
             let best = best.get_or_insert_with(|| {
-                Best::new(bits(set).map(|slot| &slots[slot].piece), faces, tuning, quick)
+                Best::new(bits(set).map(|slot| &slots[slot].piece), faces, tuning, frames)
             });
             let piece = &slots[slot].piece;
             if is_needed && best.is_trusted(piece) {

@@ -162,9 +162,9 @@ impl Builder<'_> {
             self.shared.budget.check_depth(depth)?;
         }
         if !is_leaf(set)
-            && let Some(quick) = self.shared.rules.tabled(set.len())
+            && let Some(frames) = self.shared.rules.tabled(set.len())
         {
-            return self.divide_tabled(start, pending.depth, quick);
+            return self.divide_tabled(start, pending.depth, frames);
         }
         let plane = if is_leaf(set) {
             // Only the root can be a leaf here: other leaves were stored with their parents.
@@ -445,7 +445,7 @@ impl Builder<'_> {
             tried.push(face);
             let pieces = &self.pieces[start..];
             // The plane may not pass beside a piece that is larger than its own: outside of frames it may.
-            let least = match self.shared.rules.tuning.quick {
+            let least = match self.shared.rules.tuning.frames {
                 Some(_) => {
                     let own = pieces.iter().filter(|piece| piece.face == face);
                     own.map(size).fold(0.0, f64::max)

@@ -24,7 +24,7 @@ impl Lattice {
     /// Reads a lattice, which has to be checked.
     pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, LoadError> {
         let exponent = file.u32("grid")? as i32;
-        // So that every step is a number; `check` refuses what lies beyond.
+        // Clamped, so that the step is a finite number. `check` refuses exponents outside of the range.
         let steps = PowerOfTwo::new(exponent.clamp(EXPONENTS.start() - 1, EXPONENTS.end() + 1));
         let (mut origin, mut far) = ([0.0; 3], [0.0; 3]);
         for number in origin.iter_mut().chain(&mut far) {

@@ -322,7 +322,7 @@ impl Faces {
 
 /// Bits that are kept of a number, the sign aside.
 const KEPT: u32 = 124;
-/// Numbers are multiplied by halves of so many bits, whose products fit 128.
+/// The bits of half a number. The product of two halves fits 128 bits.
 const HALF: u32 = KEPT / 2;
 const LOW_HALF: i128 = (1 << HALF) - 1;
 /// 1 in numbers of which a half is below it.
@@ -373,7 +373,7 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     let values = ends.map(|end| at(plane, end));
     let dropped = (bits_of(values.map(|value| value.high)) + LOW_BITS).saturating_sub(HALF);
     let [mut a, mut b] = values.map(|value| value.without(dropped) as i64);
-    // What is cut off is less than 1.
+    // Truncation loses less than 1.
     let mut error = u64::from(dropped > 0);
     let mut moves = [0.0; 2];
     if let Some(Moved { axis, offs, slope }) = moved {
@@ -532,6 +532,7 @@ fn nearest(high: i128, low: u64) -> f64 {
     }
     ((high << HALF | i128::from(low)) as f64) / (1u64 << HALF) as f64
 }
+
 #[cfg(test)]
 mod tests;
 

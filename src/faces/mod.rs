@@ -49,7 +49,7 @@ pub struct Preparation {
     /// exactly. If the polygon's edges meet at corners only, the triangles cover everything that it
     /// winds around. Otherwise each two edges that cross are first replaced by two edges between
     /// the same four ends that do not cross: of the two ways to do so, the one that changes less
-    /// area. Then the triangles cover what is inside by the even-odd rule. If that takes too long,
+    /// area. Then the triangles cover the inside by the even-odd rule. If that takes too long,
     /// or nothing is left, the triangles fan out from the first corner.
     pub crossing: usize,
     /// Polygons with a corner off the plane of the others, but within the tolerance: they are kept

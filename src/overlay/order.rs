@@ -43,7 +43,7 @@ pub(super) struct Branch {
     pub(super) back: SlotSide,
 }
 
-/// What is on one side of a plane.
+/// The fragments and pieces on one side of a plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlotSide {
     /// Where an order notes its beginning. While the tree grows: 2k for branch k, 2k + 1 for group k, both

@@ -36,10 +36,13 @@ const SPEED_BITS: i32 = 52;
 ///
 /// The grid of a segment's ends has steps of up to 2⁻¹²² of that coordinate, and each end is off by half a
 /// step: together 2⁻¹²², where a thousandth of a rounding is 2⁻⁶³ of the length. So 2⁻⁵⁹ is enough, and this is
-/// its double. (Where the places half way between two floats are on that grid, down to 2⁻⁶⁹, rounding to it
-/// leads to the same float, so that nothing is lost. An origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. Its rounding is
-/// 2⁻⁵³ of the reach, which is 2⁵¹ or more, and no lattice at all is further than 2¹¹⁰ from the world's origin:
-/// so that is less than a thousandth, however far out it is.)
+/// its double. (Down to 2⁻⁶⁹ the grid holds the places half way between two floats. Then rounding to the grid
+/// leads to the same float, and nothing is lost.)
+///
+/// The origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. Its rounding is 2⁻⁵³ of the
+/// reach, which is at least 2⁵¹, and no lattice is further than 2¹¹⁰ from the world's origin. So the loss is
+/// below a thousandth of the rounding, however far out the origin is.
+///
 /// Too small: floats decide wrongly. Too large: more is decided by integers.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
 

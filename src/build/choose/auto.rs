@@ -42,9 +42,9 @@ impl Auto {
         {
             return Ok(Choice::Split(plane));
         }
-        let quick = tuning.quick.filter(|_| set.len() < tuning.small);
-        if let Some(quick) = quick
-            && let Some(plane) = even_plane(set, tuning, &quick)
+        let frames = tuning.frames.filter(|_| set.len() < tuning.small);
+        if let Some(frames) = frames
+            && let Some(plane) = even_plane(set, tuning, &frames)
         {
             return Ok(Choice::Split(plane));
         }
@@ -58,8 +58,8 @@ impl Auto {
         {
             return Ok(Choice::Split(free.plane));
         }
-        if let Some(quick) = quick
-            && let Some(plane) = self.plane_in_the_middle(set, tuning, &quick)
+        if let Some(frames) = frames
+            && let Some(plane) = self.plane_in_the_middle(set, tuning, &frames)
         {
             return Ok(Choice::Split(plane));
         }
@@ -76,12 +76,12 @@ impl Auto {
         &mut self,
         set: &Set<'_>,
         tuning: &Tuning,
-        quick: &FrameTuning,
+        frames: &FrameTuning,
     ) -> Option<PlaneId> {
-        if quick.probes == 0 {
+        if frames.probes == 0 {
             return None;
         }
-        let middle = Middle::of(set, quick);
+        let middle = Middle::of(set, frames);
         if !matches!(middle, Middle::Taken)
             && set.len() >= tuning.clean_below
             && let Some(gap) = self.free.clean(set, tuning)

@@ -17,8 +17,8 @@ use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 /// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have planes of
 /// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
 /// others that belong together.
-fn trusted_share(faces: &Faces, quick: &FrameTuning) -> f64 {
-    if quick.is_coarse(faces) { quick.trusted_share } else { 0.0 }
+fn trusted_share(faces: &Faces, frames: &FrameTuning) -> f64 {
+    if frames.is_coarse(faces) { frames.trusted_share } else { 0.0 }
 }
 
 impl FrameTuning {
@@ -47,7 +47,7 @@ impl Best {
         pieces: impl Iterator<Item = &'a Piece>,
         faces: &Faces,
         tuning: &Tuning,
-        quick: &FrameTuning,
+        frames: &FrameTuning,
     ) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let (mut count, mut cuts) = (0, 0);
@@ -67,7 +67,7 @@ impl Best {
             terms,
             pieces: count,
             shares,
-            trusted_share: trusted_share(faces, quick),
+            trusted_share: trusted_share(faces, frames),
             cost: Cost::MOST,
             slot: 0,
             is_trusted: false,
@@ -116,12 +116,12 @@ impl Best {
 
 /// An own plane that cuts nothing and divides the set evenly, among those of a few pieces. Layers of a
 /// stack have such planes; in other sets a few pieces are enough to see that one is cut.
-pub(super) fn even_plane(set: &Set<'_>, tuning: &Tuning, quick: &FrameTuning) -> Option<PlaneId> {
+pub(super) fn even_plane(set: &Set<'_>, tuning: &Tuning, frames: &FrameTuning) -> Option<PlaneId> {
     let least = set.len() / tuning.uneven;
     let shares = Shares::of(set.size());
-    let least_trusted = trusted_share(set.faces, quick);
+    let least_trusted = trusted_share(set.faces, frames);
     let is_trusted = |&piece: &usize| shares.get(&set.pieces[piece]) >= least_trusted;
-    let mut planes = set.sample(quick.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
+    let mut planes = set.sample(frames.probes).filter(is_trusted).map(|piece| set.own_plane(piece));
     planes.find(|&plane| {
         let prepared = set.prepare(plane);
         let (mut front, mut back) = (0, 0);
@@ -148,13 +148,13 @@ pub(super) enum Middle {
 }
 
 impl Middle {
-    pub(super) fn of(set: &Set<'_>, quick: &FrameTuning) -> Self {
+    pub(super) fn of(set: &Set<'_>, frames: &FrameTuning) -> Self {
         let (axis, middle) = set.middle();
         let is_there = |&own: &usize| {
             let piece = &set.pieces[own];
             piece.min[axis] < middle && middle < piece.max[axis]
         };
-        let (shares, least_trusted) = (Shares::of(set.size()), trusted_share(set.faces, quick));
+        let (shares, least_trusted) = (Shares::of(set.size()), trusted_share(set.faces, frames));
         let cuts_what_crosses = |&own: &usize| {
             let prepared = set.prepare(set.own_plane(own));
             let mut cuts = 0;
@@ -165,7 +165,7 @@ impl Middle {
             });
             is_needed && cuts > 0
         };
-        let mut there = (0..set.len()).filter(is_there).take(quick.probes).peekable();
+        let mut there = (0..set.len()).filter(is_there).take(frames.probes).peekable();
         if there.peek().is_none() {
             return Self::Gap;
         }

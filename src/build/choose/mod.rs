@@ -129,10 +129,10 @@ pub(in crate::build) struct ChooseContext<'a> {
 impl<'a> ChooseContext<'a> {
     /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
     pub(in crate::build) fn tabled(&self, pieces: usize) -> Option<&'a FrameTuning> {
-        let quick = self.tuning.quick.as_ref()?;
+        let frames = self.tuning.frames.as_ref()?;
         let is_tabled =
-            self.heuristic == Heuristic::Auto && pieces <= quick.table.min(MOST_IN_TABLE);
-        is_tabled.then_some(quick)
+            self.heuristic == Heuristic::Auto && pieces <= frames.table.min(MOST_IN_TABLE);
+        is_tabled.then_some(frames)
     }
 }
 

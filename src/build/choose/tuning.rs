@@ -41,7 +41,7 @@ pub struct Tuning {
     /// pieces): their groups are not near one another.
     pub groups_per_box: usize,
     /// How small sets are divided quickly; `None` in trees that stay. With it, orders take a fifth longer.
-    pub quick: Option<FrameTuning>,
+    pub frames: Option<FrameTuning>,
 }
 
 impl Tuning {
@@ -57,24 +57,25 @@ impl Tuning {
         rate: 4,
         reward: 0.35,
         groups_per_box: 64,
-        quick: None,
+        frames: None,
     };
 
     /// What frames are built with, of which each is ordered once or twice.
-    pub const FRAMES: Self = Self { quick: Some(FrameTuning::FRAMES), ..Self::DEFAULT };
+    pub const FRAMES: Self = Self { frames: Some(FrameTuning::FRAMES), ..Self::DEFAULT };
 }
 
-/// What decides how small sets are divided quickly, in numbers.
+/// The numbers that decide how frames divide small sets quickly.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTuning {
-    /// Sets of at most so many pieces, 32 at most, are divided down to the leaves from a table of
-    /// where each piece lies against each plane. Larger: the table takes longer than it saves;
-    /// smaller: planes are chosen anew for every set. Own planes come first in it, which makes trees
-    /// quickly; trees by free planes are laid out in fewer parts, which makes orders quick.
+    /// The most pieces of a set that is divided down to the leaves from a table of each piece against each
+    /// plane; 32 at most. Too large: the table takes longer than it saves. Too small: planes are chosen
+    /// again for every set. The table tries own planes first, so trees are built faster. Trees of axis
+    /// planes have fewer parts in their layout, so they are ordered faster.
     pub table: usize,
-    /// The plane of a piece in a table is taken at once if it cuts at most so many pieces, at least one,
-    /// and each of them crosses the piece: any tree has to cut them, or it. More: polygons that
-    /// cross at random are cut by worse planes; fewer: all planes of rings are compared again and again.
+    /// The most pieces that a plane may cut to be taken from a table at once. It must cut at least one, and
+    /// each of them must cross the plane's own piece: any tree has to cut one of the two. Too large:
+    /// polygons that cross at random are cut by worse planes. Too small: all planes of rings are compared
+    /// again and again.
     pub crossings: usize,
     /// Own planes of a small set that are tried first, and taken at once if they cut nothing and
     /// divide the set evenly. More: time where each plane cuts something; fewer: stacks of layers are

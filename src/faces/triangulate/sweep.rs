@@ -70,7 +70,7 @@ fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
     best.map_or(NONE, |edge| edge.corners[end])
 }
 
-/// How overlapping edges count, and what is inside.
+/// The fill rule, which also decides how overlapping edges are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
     /// By direction: opposite edges cancel, two of the same direction count 2. Everything that the
@@ -114,7 +114,7 @@ pub(super) struct Sweep<'a> {
     steps: usize,
 }
 
-/// An edge on the line, and what lies above it.
+/// An edge on the line, and the region above it.
 struct SweptEdge {
     edge: Edge,
     /// The winding number of the region up to the next edge.
@@ -487,7 +487,7 @@ mod tests {
     use super::{NONE, SweepLine};
     use crate::random::SplitMix64;
 
-    /// Against a sorted list that grows and then shrinks: what is found, and who is next to whom.
+    /// Searches and neighbours are those of a plain sorted list that grows and then shrinks.
     #[test]
     fn the_line_is_a_sorted_list() {
         let mut random = SplitMix64::new(3);
