@@ -155,7 +155,9 @@ impl<'a> Sight<'a> {
             }
             let part = within(outline, planes);
             let (known, growths) = &mut self.parts[number][side];
-            if part.is_empty() || holds(known, plane, &part, noise) {
+            // The whole portal holds every part of it, though rounding may deny that for a thin one.
+            let is_whole = *growths > GROWTHS;
+            if part.is_empty() || is_whole || holds(known, plane, &part, noise) {
                 continue;
             }
             let has_part = !known.is_empty();

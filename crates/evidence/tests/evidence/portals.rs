@@ -45,9 +45,7 @@ fn nothing_that_owns_a_pixel_of_levels_among_the_real_scenes_is_left_out() {
         [("doom_e1m1.obj", 2, Some(8)), ("doom_map12_big.obj", 35, None)]
     {
         let (scene, _) = Scene::read_obj(folder.join(name)).unwrap();
-        // With few large cells: sets of cells take long where planes of walls are cut into small portals.
-        let fewest = BuildOptions::DEFAULT.with_heuristic(Heuristic::FewestSplits);
-        let tree = fewest.build(scene.polygons()).unwrap();
+        let tree = BspTree::build(scene.polygons()).unwrap();
         let cells = Cells::new(&tree, scene.len());
         let (mut owned, mut kept, mut eyes) = (0, 0, 0);
         for (k, (eye, camera)) in cameras(&scene, step).into_iter().enumerate() {
